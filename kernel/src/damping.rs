@@ -1,0 +1,241 @@
+//! Dampers as pairwise exact impulses: unconditionally stable, momentum kept, energy never added.
+//!
+//! `(pose, velocities, h) => velocities`. For each damper along a direction u with rate `u·v_rel`
+//! and effective mass μ, `1/μ = Σ_bodies (1/m + (r×u)ᵀ·I⁻¹·(r×u))`, the impulse
+//! `p = μ·(1 − exp(−h·c/μ))·(u·v_rel)` pulls the two points together (compare Shardlow 2003).
+//! One sweep goes through all dampers in ascending order before the conservative part of a step,
+//! one in descending order after it, half a step each: second order. `exp(−x)` is replaced by
+//! `1/(1 + x + x²/2)`: in (0, 1], second order, plain arithmetic.
+//! A TSDA damps along its line, a torsion spring along its gradient, a point bushing along the
+//! world's axes one after the other.
+
+use crate::elements::torsion_spring::TorsionSpring;
+use crate::forces::End;
+use crate::geometry::Geometry;
+use crate::model::{Body, Group, Law, ModelRef, Terms};
+use crate::real::Real;
+use crate::state::BodyState;
+use crate::vector::Vec3;
+
+/// The fraction of a relative velocity that a damper removes, in \[0, 1), for `x = h·c/μ`.
+#[inline(always)]
+fn removed<R: Real>(x: R) -> R {
+    R::ONE - R::ONE / (R::ONE + x + R::HALF * (x * x))
+}
+
+/// What a unit impulse does to one body: `u/m` and `I⁻¹·n`, n its moment in body axes.
+struct Lever<R> {
+    row: usize,
+    linear: Vec3<R>,
+    moment: Vec3<R>,
+    inverse_mass: R,
+    inverse_inertia: Vec3<R>,
+}
+
+impl<R: Real> Lever<R> {
+    #[inline(always)]
+    fn new(row: usize, body: Option<&Body<R>>, linear: Vec3<R>, moment: Vec3<R>) -> Option<Self> {
+        body.map(|body| Self {
+            row,
+            linear,
+            moment,
+            inverse_mass: body.inverse_mass,
+            inverse_inertia: body.inverse_inertia,
+        })
+    }
+
+    /// `u·u/m + n·I⁻¹·n`.
+    #[inline(always)]
+    fn inverse_effective_mass(&self) -> R {
+        self.linear.dot(self.linear) * self.inverse_mass
+            + self.moment.dot(self.moment.scale(self.inverse_inertia))
+    }
+
+    /// `u·v + n·ω`.
+    #[inline(always)]
+    fn rate<P: Geometry<Real = R>>(&self, bodies: &[BodyState<P>]) -> R {
+        match bodies.get(self.row) {
+            Some(state) => {
+                self.linear.dot(P::velocity(&state.velocity))
+                    + self.moment.dot(P::velocity(&state.angular_velocity))
+            }
+            None => R::ZERO,
+        }
+    }
+
+    #[inline(always)]
+    fn push<P: Geometry<Real = R>>(&self, bodies: &mut [BodyState<P>], impulse: R) {
+        if let Some(state) = bodies.get_mut(self.row) {
+            let linear = self.linear * (impulse * self.inverse_mass);
+            let angular = self.moment.scale(self.inverse_inertia) * impulse;
+            P::accelerate(&mut state.velocity, linear);
+            P::accelerate(&mut state.angular_velocity, angular);
+        }
+    }
+}
+
+/// The impulse of one damper between two levers over the time `h`.
+#[inline(always)]
+fn damp<P: Geometry>(
+    bodies: &mut [BodyState<P>],
+    a: Option<Lever<P::Real>>,
+    b: Option<Lever<P::Real>>,
+    damping: P::Real,
+    h: P::Real,
+) {
+    let zero = P::Real::ZERO;
+    let inverse = a.as_ref().map_or(zero, Lever::inverse_effective_mass)
+        + b.as_ref().map_or(zero, Lever::inverse_effective_mass);
+    // Without a direction (coincident points) nothing can be pushed.
+    if inverse == zero {
+        return;
+    }
+    let rate =
+        b.as_ref().map_or(zero, |b| b.rate(bodies)) - a.as_ref().map_or(zero, |a| a.rate(bodies));
+    let impulse = removed(h * damping * inverse) / inverse * rate;
+    if let Some(a) = a {
+        a.push(bodies, impulse);
+    }
+    if let Some(b) = b {
+        b.push(bodies, -impulse);
+    }
+}
+
+/// One pass over all dampers for the time `h`, ascending, or descending with `REVERSE`; groups
+/// come before torsion springs in ascending order.
+#[inline]
+pub(crate) fn sweep<P: Geometry, T: Terms, const REVERSE: bool>(
+    model: &ModelRef<'_, P, T>,
+    h: P::Real,
+    frames: &[P::Frame],
+    bodies: &mut [BodyState<P>],
+    turns: &[i32],
+) {
+    if REVERSE {
+        if T::TORSIONS {
+            for (spring, &turns) in model.torsions.iter().zip(turns).rev() {
+                torsion(model, spring, turns, h, frames, bodies);
+            }
+        }
+        for group in model.groups.iter().rev() {
+            sweep_group::<P, T, true>(model, group, h, frames, bodies);
+        }
+    } else {
+        for group in model.groups {
+            sweep_group::<P, T, false>(model, group, h, frames, bodies);
+        }
+        if T::TORSIONS {
+            for (spring, &turns) in model.torsions.iter().zip(turns) {
+                torsion(model, spring, turns, h, frames, bodies);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
+    model: &ModelRef<'_, P, T>,
+    group: &Group,
+    h: P::Real,
+    frames: &[P::Frame],
+    bodies: &mut [BodyState<P>],
+) {
+    let Some(dampers) = group.damper.row().and_then(|row| model.dampers.get(row..)) else {
+        return;
+    };
+    let elements = group.elements();
+    let (stars, arms) = (group.stars as usize, group.arms as usize);
+    for i in 0..elements {
+        let i = if REVERSE { elements - 1 - i } else { i };
+        let (star, arm) = (i / arms.max(1), i % arms.max(1));
+        let first = group.point as usize;
+        let tip = first + stars + if group.shared { arm } else { i };
+        let (Some(a), Some(b), Some(&damping)) =
+            (model.points.get(first + star), model.points.get(tip), dampers.get(i))
+        else {
+            continue;
+        };
+        match group.law {
+            Law::Tsda if T::TSDAS => {
+                line::<P, T, REVERSE>(model, group, (a, b), false, (damping, h), frames, bodies);
+            }
+            Law::PointBushing if T::BUSHINGS => {
+                line::<P, T, REVERSE>(model, group, (a, b), true, (damping, h), frames, bodies);
+            }
+            _ => {}
+        }
+    }
+}
+
+/// A damper between two points: along their line, or along the world's axes in turn.
+#[inline(always)]
+fn line<P: Geometry, T: Terms, const REVERSE: bool>(
+    model: &ModelRef<'_, P, T>,
+    group: &Group,
+    (a, b): (&P::Local, &P::Local),
+    along_axes: bool,
+    (damping, h): (P::Real, P::Real),
+    frames: &[P::Frame],
+    bodies: &mut [BodyState<P>],
+) {
+    let (row_a, row_b) = (group.a.row(), group.b.row());
+    let (frame_a, frame_b) = (frames.get(row_a), frames.get(row_b));
+    let (a, arm_a) = End::<P>::new(frame_a, None, false).place(a);
+    let (b, arm_b) = End::<P>::new(frame_b, None, false).place(b);
+    let lever = |row: usize, frame: Option<&P::Frame>, arm: Vec3<P::Real>, u: Vec3<P::Real>| {
+        frame.and_then(|f| Lever::new(row, model.bodies.get(row), u, P::to_body(f, arm.cross(u))))
+    };
+    let (zero, one) = (P::Real::ZERO, P::Real::ONE);
+    if !along_axes {
+        let d = P::displacement(&a, &b);
+        let u = d * d.dot(d).sqrt().reciprocal_or_zero();
+        let (lever_a, lever_b) = (lever(row_a, frame_a, arm_a, u), lever(row_b, frame_b, arm_b, u));
+        damp(bodies, lever_a, lever_b, damping, h);
+    } else {
+        let mut axes =
+            [Vec3::new(one, zero, zero), Vec3::new(zero, one, zero), Vec3::new(zero, zero, one)];
+        if REVERSE {
+            axes.reverse();
+        }
+        for u in axes {
+            let lever_a = lever(row_a, frame_a, arm_a, u);
+            let lever_b = lever(row_b, frame_b, arm_b, u);
+            damp(bodies, lever_a, lever_b, damping, h);
+        }
+    }
+}
+
+/// A torsion spring's damper, along the gradient of its twist. An undefined twist is left to the
+/// next evaluation, which reports it.
+#[inline(always)]
+fn torsion<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    spring: &TorsionSpring<P::Real>,
+    mut turns: i32,
+    h: P::Real,
+    frames: &[P::Frame],
+    bodies: &mut [BodyState<P>],
+) {
+    let Some(&damping) = spring.damper.row().and_then(|row| model.dampers.get(row)) else {
+        return;
+    };
+    let (row_a, row_b) = (spring.a.row(), spring.b.row());
+    let relative = P::relative(
+        bodies.get(row_a).map(|s| &s.orientation),
+        bodies.get(row_b).map(|s| &s.orientation),
+    );
+    let Some(twist) = spring.twist(relative, &mut turns, false) else {
+        return;
+    };
+    let (frame_a, frame_b) = (frames.get(row_a), frames.get(row_b));
+    let world = match frame_a {
+        Some(frame) => P::to_world(frame, twist.gradient),
+        None => twist.gradient,
+    };
+    let lever = |row: usize, frame: Option<&P::Frame>| {
+        frame.and_then(|f| {
+            Lever::new(row, model.bodies.get(row), Vec3::ZERO, P::to_body(f, world))
+        })
+    };
+    damp(bodies, lever(row_a, frame_a), lever(row_b, frame_b), damping, h);
+}

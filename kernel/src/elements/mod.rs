@@ -1,0 +1,10 @@
+//! The element laws, one per file: the law, its sign, its energy.
+//!
+//! A law sees displacements, velocities and arms, never a body or an index; grouping and summing
+//! is [`crate::forces`]' work.
+
+pub mod gravity;
+pub mod load;
+pub mod point_bushing;
+pub mod torsion_spring;
+pub mod tsda;

@@ -1,0 +1,60 @@
+//! Point bushing: a TSDA of zero free length, isotropic, without a root or a division.
+//!
+//! `(d, v_rel) => force on A = k·d + c·v_rel`; the force on B is the opposite.
+//! Energy `½·k·d·d`. Smooth where the points coincide.
+
+use crate::real::Real;
+use crate::vector::Vec3;
+
+/// The constants of a point bushing.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PointBushing<R> {
+    /// \[N/m\] stiffness in every direction, ≥ 0.
+    pub stiffness: R,
+}
+
+impl<R: Real> PointBushing<R> {
+    /// The constant rounded once from double precision.
+    pub fn from_f64(stiffness: f64) -> Self {
+        Self { stiffness: R::from_f64(stiffness) }
+    }
+
+    /// The same constant in another precision.
+    pub fn convert<Q: Real>(&self) -> PointBushing<Q> {
+        PointBushing::from_f64(self.stiffness.to_f64())
+    }
+
+    /// Force on A \[N\] without damping.
+    #[inline(always)]
+    pub fn force(&self, d: Vec3<R>) -> Vec3<R> {
+        d * self.stiffness
+    }
+
+    /// Force on A \[N\] with the damper's share, `damping` in N·s/m.
+    #[inline(always)]
+    pub fn damped_force(&self, damping: R, d: Vec3<R>, v_rel: Vec3<R>) -> Vec3<R> {
+        d * self.stiffness + v_rel * damping
+    }
+
+    /// Stored energy \[J\].
+    #[inline]
+    pub fn energy(&self, d: Vec3<R>) -> R {
+        R::HALF * self.stiffness * d.dot(d)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_law_is_linear_in_displacement_and_rate() {
+        let bushing = PointBushing { stiffness: 40.0 };
+        let d = Vec3::new(0.1, -0.2, 0.3);
+        assert_eq!(bushing.force(d), Vec3::new(4.0, -8.0, 12.0));
+        let f = bushing.damped_force(2.0, d, Vec3::new(1.0, 0.0, -1.0));
+        assert_eq!(f, Vec3::new(6.0, -8.0, 10.0));
+        assert!((bushing.energy(d) - 0.5 * 40.0 * 0.14).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,205 @@
+//! Torsion spring about an axis of its first body, with preload and damping.
+//!
+//! `(relative rotation, turn count) => twist θ, gradient g`; energy `½·k·θ² − preload·θ`;
+//! torque on B `−U′(θ)·g − c·(ω_rel·g)·g` in A's axes, on A the opposite.
+//!
+//! With the rotation (w, v) of B in A since t = 0 and the axis n: `θ = 2·atan2(v·n, w)`, the twist
+//! of the swing–twist decomposition; `ω_rel·g = θ̇`, hence
+//! `g = (w²·n + w·v×n + (v·n)·v)/(w² + (v·n)²)`, which is n while B turns about n.
+//!
+//! The twist is unwrapped by an integer per spring: with m half windings, `θ = 2π·m + 2·atan2(σs,
+//! σw)`, `σ = (−1)^m`. The branch cut lies half a winding away from where m is updated, so no
+//! stage of a step ever meets it.
+
+use crate::arctangent::atan2;
+use crate::model::{BodyIndex, DamperIndex};
+use crate::real::Real;
+use crate::vector::{Quaternion, Vec3};
+
+/// The constants of a torsion spring.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct TorsionSpring<R> {
+    /// First body; the axis is fixed in it.
+    pub a: BodyIndex,
+    /// Second body; its twist is measured.
+    pub b: BodyIndex,
+    /// Unit axis in A's axes.
+    pub axis: Vec3<R>,
+    /// Inverse of B's orientation in A at t = 0.
+    pub reference: Quaternion<R>,
+    /// \[N·m/rad\] stiffness k, ≥ 0.
+    pub stiffness: R,
+    /// \[N·m\] torque on B at θ = 0.
+    pub preload: R,
+    /// Its damping coefficient \[N·m·s/rad\] among the model's dampers, if it has one.
+    pub damper: DamperIndex,
+}
+
+/// A twist and its gradient.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Twist<R> {
+    /// \[rad\] unwrapped twist θ of B in A since t = 0.
+    pub angle: R,
+    /// Gradient g of the twist with respect to a rotation of B, A's axes.
+    pub gradient: Vec3<R>,
+}
+
+/// The least `w² + (v·n)²` at which a twist is defined: B has then turned by almost half a turn
+/// about an axis normal to n, and the twist's gradient has grown to a thousand.
+pub const LEAST_TWIST_NORM: f64 = 1e-6;
+
+impl<R: Real> TorsionSpring<R> {
+    /// The same spring in another precision.
+    pub fn convert<Q: Real>(&self) -> TorsionSpring<Q> {
+        TorsionSpring {
+            a: self.a,
+            b: self.b,
+            axis: Vec3::from_f64(self.axis.to_f64()),
+            reference: Quaternion::from_f64(self.reference.to_f64()),
+            stiffness: Q::from_f64(self.stiffness.to_f64()),
+            preload: Q::from_f64(self.preload.to_f64()),
+            damper: self.damper,
+        }
+    }
+
+    /// The twist for B's orientation `relative` in A's axes, or `None` where it is undefined.
+    ///
+    /// With `settle` the turn count is first brought to the half winding nearest the pose, which
+    /// a step does once, at its boundary.
+    #[inline(always)]
+    pub fn twist(
+        &self,
+        relative: Quaternion<R>,
+        turns: &mut i32,
+        settle: bool,
+    ) -> Option<Twist<R>> {
+        let since = relative.product(self.reference);
+        let n = self.axis;
+        let s = since.v.dot(n);
+        let norm = since.w * since.w + s * s;
+        // Written so that NaN counts as undefined, too.
+        let defined = norm >= R::from_f64(LEAST_TWIST_NORM);
+        if !defined {
+            return None;
+        }
+        let odd = *turns & 1 != 0;
+        let (mut signed_w, mut signed_s) = if odd { (-since.w, -s) } else { (since.w, s) };
+        if settle && signed_w < R::ZERO {
+            *turns = if signed_s > R::ZERO {
+                turns.wrapping_add(1)
+            } else {
+                turns.wrapping_sub(1)
+            };
+            signed_w = -signed_w;
+            signed_s = -signed_s;
+        }
+        let principal = R::TWO * atan2(signed_s, signed_w);
+        let angle = if *turns == 0 {
+            principal
+        } else {
+            R::from_i32(*turns) * (R::TWO * R::PI) + principal
+        };
+        let along = n * (since.w * since.w) + since.v.cross(n) * since.w + since.v * s;
+        Some(Twist { angle, gradient: along * (R::ONE / norm) })
+    }
+
+    /// Torque on B \[N·m\] in A's axes without damping.
+    #[inline(always)]
+    pub fn torque(&self, twist: &Twist<R>) -> Vec3<R> {
+        twist.gradient * (self.preload - self.stiffness * twist.angle)
+    }
+
+    /// Torque on B \[N·m\] in A's axes with the damper's share; `rate` is `ω_B − ω_A` in A's axes.
+    #[inline(always)]
+    pub fn damped_torque(&self, damping: R, twist: &Twist<R>, rate: Vec3<R>) -> Vec3<R> {
+        let spring = self.preload - self.stiffness * twist.angle;
+        twist.gradient * (spring - damping * rate.dot(twist.gradient))
+    }
+
+    /// Stored energy \[J\]; 0 at θ = 0.
+    #[inline]
+    pub fn energy(&self, angle: R) -> R {
+        R::HALF * self.stiffness * angle * angle - self.preload * angle
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spring(axis: [f64; 3]) -> TorsionSpring<f64> {
+        TorsionSpring {
+            a: BodyIndex::WORLD,
+            b: BodyIndex(0),
+            axis: Vec3::from_f64(axis),
+            reference: Quaternion::IDENTITY,
+            stiffness: 3.0,
+            preload: 0.5,
+            damper: DamperIndex::NONE,
+        }
+    }
+
+    fn turned(axis: [f64; 3], angle: f64) -> Quaternion<f64> {
+        let (s, c) = libm::sincos(angle / 2.0);
+        Quaternion::new(c, s * axis[0], s * axis[1], s * axis[2])
+    }
+
+    #[test]
+    fn many_turns_are_counted_both_ways() {
+        let spring = spring([0.0, 0.0, 1.0]);
+        for direction in [1.0, -1.0] {
+            let mut turns = 0;
+            for i in 0..4_000 {
+                let angle = direction * 0.01 * f64::from(i);
+                // Between two settled poses a stage may look well ahead without meeting the cut.
+                let mut ahead = turns;
+                let stage = turned([0.0, 0.0, 1.0], angle + direction * 2.5);
+                let looked = spring.twist(stage, &mut ahead, false).unwrap();
+                assert!((looked.angle - angle - direction * 2.5).abs() < 1e-12);
+                let twist = spring.twist(turned([0.0, 0.0, 1.0], angle), &mut turns, true).unwrap();
+                assert!((twist.angle - angle).abs() < 1e-12, "{} {angle}", twist.angle);
+                assert!((twist.gradient.z - 1.0).abs() < 1e-12);
+            }
+            assert_eq!(turns, if direction > 0.0 { 6 } else { -6 });
+        }
+    }
+
+    #[test]
+    fn the_gradient_is_the_rate_of_the_twist() {
+        let n = [0.6, 0.0, 0.8];
+        let spring = spring(n);
+        let pose = turned([0.6, 0.64, 0.48], 1.1).product(turned(n, 0.4));
+        let twist = spring.twist(pose, &mut 0, true).unwrap();
+        for axis in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
+            // A rotation of B by a small vector in A's axes multiplies from the left.
+            let at = |e: f64| {
+                spring.twist(turned(axis, e).product(pose), &mut 0, true).unwrap().angle
+            };
+            let rate = (at(1e-5) - at(-1e-5)) / 2e-5;
+            let along = Vec3::from_f64(axis).dot(twist.gradient);
+            assert!((rate - along).abs() < 1e-9, "{rate} {along}");
+        }
+    }
+
+    #[test]
+    fn half_a_turn_about_a_normal_axis_has_no_twist() {
+        let spring = spring([0.0, 0.0, 1.0]);
+        let flipped = turned([1.0, 0.0, 0.0], core::f64::consts::PI);
+        assert_eq!(spring.twist(flipped, &mut 0, true), None);
+        let broken = Quaternion::new(f64::NAN, 0.0, 0.0, 0.0);
+        assert_eq!(spring.twist(broken, &mut 0, true), None);
+    }
+
+    #[test]
+    fn torque_and_energy_agree() {
+        let spring = spring([0.0, 0.0, 1.0]);
+        let mut turns = 0;
+        let twist = spring.twist(turned([0.0, 0.0, 1.0], 0.7), &mut turns, true).unwrap();
+        let slope = (spring.energy(0.7 + 1e-6) - spring.energy(0.7 - 1e-6)) / 2e-6;
+        assert!((spring.torque(&twist).z + slope).abs() < 1e-8);
+        let damped = spring.damped_torque(2.0, &twist, Vec3::new(9.0, 9.0, 0.25));
+        assert!((damped.z - (spring.torque(&twist).z - 0.5)).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,105 @@
+//! Translational spring-damper (TSDA; Shabana 2010; Franco & Degani 2026, section 2.4).
+//!
+//! `(d, v_rel) => force on A`, with `d = x_b − x_a` and `v_rel` the rate of `d`:
+//! tension `k·(L − L0) + c·(d·v_rel)/L` along `d/L`; the force on B is the opposite.
+//! Energy `½·k·(L − L0)²`. Where the points coincide the direction is undefined and the force 0.
+
+use crate::real::Real;
+use crate::vector::Vec3;
+
+/// The constants of a TSDA with a free length.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Tsda<R> {
+    /// \[N/m\] axial stiffness, ≥ 0.
+    pub stiffness: R,
+    /// \[m\] free length L0, > 0.
+    pub free_length: R,
+}
+
+impl<R: Real> Tsda<R> {
+    /// Each constant rounded once from double precision.
+    pub fn from_f64(stiffness: f64, free_length: f64) -> Self {
+        Self { stiffness: R::from_f64(stiffness), free_length: R::from_f64(free_length) }
+    }
+
+    /// The same constants in another precision.
+    pub fn convert<Q: Real>(&self) -> Tsda<Q> {
+        Tsda::from_f64(self.stiffness.to_f64(), self.free_length.to_f64())
+    }
+
+    /// Force on A \[N\] without damping.
+    #[inline(always)]
+    pub fn force(&self, d: Vec3<R>) -> Vec3<R> {
+        let length = d.dot(d).sqrt();
+        let inverse = length.reciprocal_or_zero();
+        let tension = self.stiffness * (length - self.free_length);
+        d * (tension * inverse)
+    }
+
+    /// Force on A \[N\] with the damper's share, `damping` in N·s/m.
+    #[inline(always)]
+    pub fn damped_force(&self, damping: R, d: Vec3<R>, v_rel: Vec3<R>) -> Vec3<R> {
+        let length = d.dot(d).sqrt();
+        let inverse = length.reciprocal_or_zero();
+        let rate = d.dot(v_rel) * inverse;
+        let tension = self.stiffness * (length - self.free_length) + damping * rate;
+        d * (tension * inverse)
+    }
+
+    /// `L − L0` \[m\].
+    #[inline]
+    pub fn extension(&self, d: Vec3<R>) -> R {
+        d.dot(d).sqrt() - self.free_length
+    }
+
+    /// Stored energy \[J\].
+    #[inline]
+    pub fn energy(&self, d: Vec3<R>) -> R {
+        let extension = self.extension(d);
+        R::HALF * self.stiffness * extension * extension
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SPRING: Tsda<f64> = Tsda { stiffness: 250.0, free_length: 0.5 };
+
+    #[test]
+    fn a_stretched_spring_pulls_a_towards_b() {
+        let f = SPRING.force(Vec3::new(0.0, 0.7, 0.0));
+        assert!(f.x == 0.0 && f.z == 0.0);
+        assert!((f.y - 250.0 * 0.2).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_force_is_minus_the_gradient_of_the_energy() {
+        let d = Vec3::new(0.3, -0.4, 0.25);
+        let f = SPRING.force(d).to_f64();
+        for (axis, force) in f.into_iter().enumerate() {
+            let at = |s: f64| {
+                let mut p = d.to_f64();
+                p[axis] += s;
+                SPRING.energy(Vec3::from_f64(p))
+            };
+            // The force on A is +dU/dd, since d grows when A moves against it.
+            let gradient = (at(1e-6) - at(-1e-6)) / 2e-6;
+            assert!((gradient - force).abs() < 1e-6, "{gradient} {force}");
+        }
+    }
+
+    #[test]
+    fn a_separating_pair_is_damped_along_the_line_only() {
+        let d = Vec3::new(0.5, 0.0, 0.0);
+        let f = SPRING.damped_force(3.0, d, Vec3::new(2.0, 5.0, 0.0));
+        assert_eq!((f.x, f.y, f.z), (6.0, 0.0, 0.0));
+    }
+
+    #[test]
+    fn coincident_points_give_no_force() {
+        assert_eq!(SPRING.force(Vec3::ZERO), Vec3::ZERO);
+        assert_eq!(SPRING.damped_force(1.0, Vec3::ZERO, Vec3::new(1.0, 0.0, 0.0)), Vec3::ZERO);
+    }
+}

@@ -1,0 +1,330 @@
+//! One force evaluation: every element once, every body's wrench.
+//!
+//! `(model, pose, velocities, turn counts, step) => wrenches`. The order of sums, which is part
+//! of the bits: a body starts from its weight, then adds its loads in ascending order, then the
+//! records of its groups in ascending order, then its torsion springs' in ascending order.
+//! Within a TSDA group each distinct point is placed once; the pulls on a point are added in
+//! the order of its elements; the record's force and torque on A add star by star, the torque
+//! on B arm by arm. Forces and torques are in world axes; a body's torque is turned into body
+//! axes once, at the end.
+
+use crate::elements::gravity;
+use crate::elements::load::{LoadFrame, LoadWindow};
+use crate::geometry::Geometry;
+use crate::model::{Group, Law, ModelRef, Terms};
+use crate::real::Real;
+use crate::state::BodyState;
+use crate::vector::Vec3;
+
+/// The force on a body and its torque.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Wrench<R> {
+    /// \[N\] force, world axes.
+    pub force: Vec3<R>,
+    /// \[N·m\] torque about the centre of mass, body axes once the evaluation is complete.
+    pub torque: Vec3<R>,
+}
+
+/// What a group does to its two bodies, world axes; the force on B is the opposite of A's.
+#[derive(Clone, Copy)]
+pub(crate) struct Record<R> {
+    pub(crate) force: Vec3<R>,
+    pub(crate) torque_a: Vec3<R>,
+    pub(crate) torque_b: Vec3<R>,
+}
+
+impl<R: Real> Record<R> {
+    const ZERO: Self = Self { force: Vec3::ZERO, torque_a: Vec3::ZERO, torque_b: Vec3::ZERO };
+}
+
+/// One body as a group sees it: where it places points and how they move. The world is an end
+/// without a frame.
+pub(crate) struct End<'s, P: Geometry> {
+    frame: Option<&'s P::Frame>,
+    velocity: Vec3<P::Real>,
+    spin: Vec3<P::Real>,
+}
+
+impl<'s, P: Geometry> End<'s, P> {
+    #[inline(always)]
+    pub(crate) fn new(
+        frame: Option<&'s P::Frame>,
+        state: Option<&BodyState<P>>,
+        moving: bool,
+    ) -> Self {
+        let (mut velocity, mut spin) = (Vec3::ZERO, Vec3::ZERO);
+        if let (true, Some(frame), Some(state)) = (moving, frame, state) {
+            velocity = P::velocity(&state.velocity);
+            spin = P::to_world(frame, P::velocity(&state.angular_velocity));
+        }
+        Self { frame, velocity, spin }
+    }
+
+    /// The point's location and its arm, 0 for the ground's.
+    #[inline(always)]
+    pub(crate) fn place(&self, local: &P::Local) -> (P::Location, Vec3<P::Real>) {
+        match self.frame {
+            Some(frame) => P::place(frame, local),
+            None => (P::ground(local), Vec3::ZERO),
+        }
+    }
+
+    /// `v + ω × r`.
+    #[inline(always)]
+    fn point_velocity(&self, arm: Vec3<P::Real>) -> Vec3<P::Real> {
+        self.velocity + self.spin.cross(arm)
+    }
+}
+
+/// Computes the frames of all bodies.
+#[inline]
+pub(crate) fn place_bodies<P: Geometry>(bodies: &[BodyState<P>], frames: &mut [P::Frame]) {
+    for (state, frame) in bodies.iter().zip(frames) {
+        *frame = P::frame(&state.position, &state.orientation);
+    }
+}
+
+/// One force evaluation; `frames` are those of the pose. `EXPLICIT` includes the dampers' forces
+/// at the velocities of `bodies`; `settle` brings turn counts up to date (a step's boundary).
+///
+/// # Errors
+/// The index of the first torsion spring whose twist is undefined.
+// Slices of one plant's memory, each read or written as a whole; a struct would only rename them.
+#[allow(clippy::too_many_arguments)]
+#[inline]
+pub(crate) fn evaluate<P: Geometry, T: Terms, const EXPLICIT: bool>(
+    model: &ModelRef<'_, P, T>,
+    windows: &[LoadWindow],
+    bodies: &[BodyState<P>],
+    turns: &mut [i32],
+    step: u64,
+    settle: bool,
+    frames: &mut [P::Frame],
+    wrenches: &mut [Wrench<P::Real>],
+) -> Result<(), u16> {
+    place_bodies(bodies, frames);
+    start(model, windows, step, frames, wrenches);
+    if T::TSDAS || T::BUSHINGS {
+        for group in model.groups {
+            let (a, b) = (group.a.row(), group.b.row());
+            let moving = EXPLICIT && T::DAMPERS && group.damper.row().is_some();
+            let end_a = End::<P>::new(frames.get(a), bodies.get(a), moving);
+            let end_b = End::<P>::new(frames.get(b), bodies.get(b), moving);
+            let record = match group.law {
+                Law::Tsda if T::TSDAS && group.arms == 3 => {
+                    stars::<P, T, EXPLICIT, 3>(model, group, &end_a, &end_b)
+                }
+                Law::Tsda if T::TSDAS => stars::<P, T, EXPLICIT, 1>(model, group, &end_a, &end_b),
+                Law::PointBushing if T::BUSHINGS => {
+                    bushing::<P, T, EXPLICIT>(model, group, &end_a, &end_b)
+                }
+                _ => Record::ZERO,
+            };
+            apply(wrenches, a, b, &record);
+        }
+    }
+    if T::TORSIONS {
+        torsions::<P, T, EXPLICIT>(model, bodies, turns, settle, frames, wrenches)?;
+    }
+    for (wrench, frame) in wrenches.iter_mut().zip(frames.iter()) {
+        wrench.torque = P::to_body(frame, wrench.torque);
+    }
+    Ok(())
+}
+
+/// Weight and loads.
+#[inline(always)]
+fn start<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    windows: &[LoadWindow],
+    step: u64,
+    frames: &[P::Frame],
+    wrenches: &mut [Wrench<P::Real>],
+) {
+    let field = if T::GRAVITY { model.gravity.first() } else { None };
+    for (body, wrench) in model.bodies.iter().zip(wrenches.iter_mut()) {
+        let force = match field {
+            Some(gravity) => gravity::weight(body.mass, *gravity),
+            None => Vec3::ZERO,
+        };
+        *wrench = Wrench { force, torque: Vec3::ZERO };
+    }
+    if T::LOADS {
+        for (load, window) in model.loads.iter().zip(windows) {
+            let row = load.body.row();
+            if !window.contains(step) {
+                continue;
+            }
+            if let (Some(wrench), Some(frame)) = (wrenches.get_mut(row), frames.get(row)) {
+                let (force, torque) = match load.frame {
+                    LoadFrame::World => (load.force, load.torque),
+                    LoadFrame::Body => {
+                        (P::to_world(frame, load.force), P::to_world(frame, load.torque))
+                    }
+                };
+                wrench.force = wrench.force + force;
+                wrench.torque = wrench.torque + torque;
+            }
+        }
+    }
+}
+
+/// Adds a record to its two bodies; the world takes none.
+#[inline(always)]
+fn apply<R: Real>(wrenches: &mut [Wrench<R>], a: usize, b: usize, record: &Record<R>) {
+    if let Some(wrench) = wrenches.get_mut(a) {
+        wrench.force = wrench.force + record.force;
+        wrench.torque = wrench.torque + record.torque_a;
+    }
+    if let Some(wrench) = wrenches.get_mut(b) {
+        wrench.force = wrench.force - record.force;
+        wrench.torque = wrench.torque + record.torque_b;
+    }
+}
+
+/// A group of TSDA stars with `ARMS` arms each.
+#[inline(always)]
+fn stars<P: Geometry, T: Terms, const EXPLICIT: bool, const ARMS: usize>(
+    model: &ModelRef<'_, P, T>,
+    group: &Group,
+    end_a: &End<'_, P>,
+    end_b: &End<'_, P>,
+) -> Record<P::Real> {
+    let mut record = Record::ZERO;
+    let stars = group.stars as usize;
+    let (Some(points), Some(tsdas)) =
+        (model.points.get(group.point as usize..), model.tsdas.get(group.element as usize..))
+    else {
+        return record;
+    };
+    let Some((centres, arm_points)) = points.split_at_checked(stars) else {
+        return record;
+    };
+    let (arm_points, _) = arm_points.as_chunks::<ARMS>();
+    let (tsdas, _) = tsdas.as_chunks::<ARMS>();
+    let dampers = match group.damper.row() {
+        Some(row) if EXPLICIT && T::DAMPERS => model.dampers.get(row..),
+        _ => None,
+    }
+    .map(|dampers| dampers.as_chunks::<ARMS>().0);
+    let stars_per_block = if group.shared { stars } else { 1 };
+
+    let mut tsdas = tsdas.iter();
+    let mut dampers = dampers.map(<[_]>::iter);
+    for (centres, arm_points) in centres.chunks(stars_per_block.max(1)).zip(arm_points) {
+        let tips: [_; ARMS] = core::array::from_fn(|j| end_b.place(&arm_points[j]));
+        let mut pulls = [Vec3::ZERO; ARMS];
+        for (centre, springs) in centres.iter().zip(&mut tsdas) {
+            let (centre, arm) = end_a.place(centre);
+            let coefficients = dampers.as_mut().and_then(Iterator::next);
+            let mut pull_a = Vec3::ZERO;
+            for j in 0..ARMS {
+                let (tip, tip_arm) = &tips[j];
+                let d = P::displacement(&centre, tip);
+                let pull = match coefficients {
+                    Some(coefficients) => {
+                        let v_rel = end_b.point_velocity(*tip_arm) - end_a.point_velocity(arm);
+                        springs[j].damped_force(coefficients[j], d, v_rel)
+                    }
+                    None => springs[j].force(d),
+                };
+                pull_a = pull_a + pull;
+                pulls[j] = pulls[j] + pull;
+            }
+            record.force = record.force + pull_a;
+            record.torque_a = record.torque_a + arm.cross(pull_a);
+        }
+        for j in 0..ARMS {
+            record.torque_b = record.torque_b - tips[j].1.cross(pulls[j]);
+        }
+    }
+    record
+}
+
+/// A point bushing.
+#[inline(always)]
+fn bushing<P: Geometry, T: Terms, const EXPLICIT: bool>(
+    model: &ModelRef<'_, P, T>,
+    group: &Group,
+    end_a: &End<'_, P>,
+    end_b: &End<'_, P>,
+) -> Record<P::Real> {
+    let first = group.point as usize;
+    let (Some(a), Some(b), Some(bushing)) = (
+        model.points.get(first),
+        model.points.get(first + 1),
+        model.bushings.get(group.element as usize),
+    ) else {
+        return Record::ZERO;
+    };
+    let ((a, arm_a), (b, arm_b)) = (end_a.place(a), end_b.place(b));
+    let d = P::displacement(&a, &b);
+    let damper = match group.damper.row() {
+        Some(row) if EXPLICIT && T::DAMPERS => model.dampers.get(row),
+        _ => None,
+    };
+    let force = match damper {
+        Some(&damping) => {
+            let v_rel = end_b.point_velocity(arm_b) - end_a.point_velocity(arm_a);
+            bushing.damped_force(damping, d, v_rel)
+        }
+        None => bushing.force(d),
+    };
+    Record { force, torque_a: arm_a.cross(force), torque_b: -arm_b.cross(force) }
+}
+
+/// The torsion springs.
+#[inline(always)]
+fn torsions<P: Geometry, T: Terms, const EXPLICIT: bool>(
+    model: &ModelRef<'_, P, T>,
+    bodies: &[BodyState<P>],
+    turns: &mut [i32],
+    settle: bool,
+    frames: &[P::Frame],
+    wrenches: &mut [Wrench<P::Real>],
+) -> Result<(), u16> {
+    for (i, (spring, turns)) in model.torsions.iter().zip(turns).enumerate() {
+        let (a, b) = (bodies.get(spring.a.row()), bodies.get(spring.b.row()));
+        let relative = P::relative(a.map(|s| &s.orientation), b.map(|s| &s.orientation));
+        let Some(twist) = spring.twist(relative, turns, settle) else {
+            return Err(i as u16);
+        };
+        let (frame_a, frame_b) = (frames.get(spring.a.row()), frames.get(spring.b.row()));
+        let damper = match spring.damper.row() {
+            Some(row) if EXPLICIT && T::DAMPERS => model.dampers.get(row),
+            _ => None,
+        };
+        let torque = match damper {
+            Some(&damping) => {
+                let rate = spin_in_a::<P>(frame_a, frame_b, a, b);
+                spring.damped_torque(damping, &twist, rate)
+            }
+            None => spring.torque(&twist),
+        };
+        let torque = match frame_a {
+            Some(frame) => P::to_world(frame, torque),
+            None => torque,
+        };
+        let record = Record { force: Vec3::ZERO, torque_a: -torque, torque_b: torque };
+        apply(wrenches, spring.a.row(), spring.b.row(), &record);
+    }
+    Ok(())
+}
+
+/// `ω_B − ω_A` in A's axes.
+#[inline(always)]
+fn spin_in_a<P: Geometry>(
+    frame_a: Option<&P::Frame>,
+    frame_b: Option<&P::Frame>,
+    a: Option<&BodyState<P>>,
+    b: Option<&BodyState<P>>,
+) -> Vec3<P::Real> {
+    let spin_a = End::<P>::new(frame_a, a, true).spin;
+    let spin_b = End::<P>::new(frame_b, b, true).spin;
+    let relative = spin_b - spin_a;
+    match frame_a {
+        Some(frame) => P::to_body(frame, relative),
+        None => relative,
+    }
+}

@@ -1,0 +1,324 @@
+//! How fast a model can vibrate at a pose: a guaranteed bound and an estimate.
+//!
+//! `(model, state) => ω` \[rad/s\]. The bound is block Gershgorin on the mass-scaled tangent
+//! stiffness: for a spring κ with rows `j_a`, `j_b` over its two bodies,
+//! `(j_a·x_a + j_b·x_b)² ≤ 2·(j_a·x_a)² + 2·(j_b·x_b)²`, so `ω² ≤ max_b λ_max(Σ φ·κ·j·jᵀ)` with
+//! φ = 2, or 1 where the other end is the world (Feingold & Varga 1962). A spring under the
+//! tension T adds |T|/L along both normals of its line and |T|·|r| on each body's rotation.
+//! The estimate is power iteration on differences of forces, one pair of evaluations each.
+//! Both speak for the pose, not for the future.
+
+use crate::energy::{each_element, twist_of};
+use crate::forces::{self, Wrench, place_bodies};
+use crate::geometry::{FrameOf, Geometry, RealOf};
+use crate::model::{Body, BodyIndex, Law, ModelOwner};
+use crate::real::Real;
+use crate::rotation;
+use crate::state::{BodyState, State};
+use crate::step::Increment;
+use crate::vector::Vec3;
+
+/// A symmetric 6×6 matrix over (linear, angular), in full.
+type Block<R> = [[R; 6]; 6];
+
+/// Squarings of the block: `λ_max ≤ trace(S^n)^(1/n)`, n = 2^8, exceeds it by 6^(1/256) at most.
+const SQUARINGS: usize = 8;
+
+/// What rounding may take from a bound, in either precision, is given back.
+const ROUNDING_MARGIN: f64 = 1.0 + 1e-6;
+
+/// An upper bound of the highest angular frequency \[rad/s\] at the pose of `state`; 0 for a model
+/// without springs. At most 0.4 % above the exact block bound.
+pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
+    let view = model.view();
+    let bodies = state.bodies.as_ref();
+    let mut frames = model.per_body(FrameOf::<M>::default());
+    place_bodies::<M::Precision>(bodies, frames.as_mut());
+    let frames = frames.as_ref();
+    let zero = RealOf::<M>::ZERO;
+    let mut largest = zero;
+    for (row, (body, frame)) in view.bodies.iter().zip(frames).enumerate() {
+        let here = BodyIndex(row as u16);
+        let mut block = [[zero; 6]; 6];
+        let mut add = |stiffness: RealOf<M>, other: BodyIndex, u: Vec3<_>, moment: Vec3<_>| {
+            let share = if other.is_world() { RealOf::<M>::ONE } else { RealOf::<M>::TWO };
+            let n = M::Precision::to_body(frame, moment);
+            add_row(&mut block, share * stiffness, scaled(body, u, n));
+        };
+        let mut turning = zero;
+        each_element(&view, frames, |e| {
+            let (other, arm) = if e.group.a == here {
+                (e.group.b, e.arm_a)
+            } else if e.group.b == here {
+                (e.group.a, e.arm_b)
+            } else {
+                return;
+            };
+            match e.group.law {
+                Law::Tsda => {
+                    let Some(tsda) = view.tsdas.get(e.index) else { return };
+                    let d = e.displacement;
+                    let inverse = d.dot(d).sqrt().reciprocal_or_zero();
+                    let u = d * inverse;
+                    add(tsda.stiffness, other, u, arm.cross(u));
+                    let tension = (tsda.stiffness * tsda.extension(d)).abs();
+                    if tension > zero {
+                        for n in normals(u) {
+                            add(tension * inverse, other, n, arm.cross(n));
+                        }
+                        turning = turning + tension * arm.dot(arm).sqrt();
+                    }
+                }
+                Law::PointBushing => {
+                    let Some(bushing) = view.bushings.get(e.index) else { return };
+                    for u in axes() {
+                        add(bushing.stiffness, other, u, arm.cross(u));
+                    }
+                    let d = e.displacement;
+                    let force = bushing.stiffness * d.dot(d).sqrt();
+                    turning = turning + force * arm.dot(arm).sqrt();
+                }
+            }
+        });
+        for (spring, &turns) in view.torsions.iter().zip(state.turns.as_ref()) {
+            let other = if spring.a == here {
+                spring.b
+            } else if spring.b == here {
+                spring.a
+            } else {
+                continue;
+            };
+            let Some(twist) = twist_of::<M::Precision>(spring, bodies, turns) else { continue };
+            let gradient = match frames.get(spring.a.row()) {
+                Some(frame) => M::Precision::to_world(frame, twist.gradient),
+                None => twist.gradient,
+            };
+            add(spring.stiffness, other, Vec3::ZERO, gradient);
+            let torque = (spring.preload - spring.stiffness * twist.angle).abs();
+            turning = turning + RealOf::<M>::HALF * torque * gradient.dot(gradient);
+        }
+        for axis in axes() {
+            add_row(&mut block, turning, scaled(body, Vec3::ZERO, axis));
+        }
+        let eigenvalue = largest_eigenvalue(block);
+        if eigenvalue > largest {
+            largest = eigenvalue;
+        }
+    }
+    largest.sqrt()
+}
+
+fn axes<R: Real>() -> [Vec3<R>; 3] {
+    let (o, i) = (R::ZERO, R::ONE);
+    [Vec3::new(i, o, o), Vec3::new(o, i, o), Vec3::new(o, o, i)]
+}
+
+/// Two unit vectors normal to the unit vector `u` and to each other.
+fn normals<R: Real>(u: Vec3<R>) -> [Vec3<R>; 2] {
+    let [x, y, z] = axes();
+    // The axis least aligned with u.
+    let axis = if u.x.abs() <= u.y.abs() && u.x.abs() <= u.z.abs() {
+        x
+    } else if u.y.abs() <= u.z.abs() {
+        y
+    } else {
+        z
+    };
+    let n = u.cross(axis);
+    let n = n * n.dot(n).sqrt().reciprocal_or_zero();
+    [n, u.cross(n)]
+}
+
+/// `M^-1/2·(u, n)`.
+fn scaled<R: Real>(body: &Body<R>, u: Vec3<R>, n: Vec3<R>) -> [R; 6] {
+    let m = body.inverse_mass.sqrt();
+    let i = body.inverse_inertia;
+    [u.x * m, u.y * m, u.z * m, n.x * i.x.sqrt(), n.y * i.y.sqrt(), n.z * i.z.sqrt()]
+}
+
+/// Adds `stiffness·j·jᵀ`.
+fn add_row<R: Real>(block: &mut Block<R>, stiffness: R, j: [R; 6]) {
+    for (row, a) in block.iter_mut().zip(j) {
+        for (entry, b) in row.iter_mut().zip(j) {
+            *entry = *entry + stiffness * a * b;
+        }
+    }
+}
+
+/// An upper bound of the largest eigenvalue of a positive semidefinite block.
+fn largest_eigenvalue<R: Real>(mut block: Block<R>) -> R {
+    let mut traces = [R::ZERO; SQUARINGS + 1];
+    for (k, slot) in traces.iter_mut().enumerate() {
+        let mut trace = R::ZERO;
+        for (i, row) in block.iter().enumerate() {
+            trace = trace + row[i];
+        }
+        *slot = trace;
+        if trace == R::ZERO || k == SQUARINGS {
+            break;
+        }
+        let inverse = R::ONE / trace;
+        for row in &mut block {
+            for entry in row {
+                *entry = *entry * inverse;
+            }
+        }
+        let s = block;
+        for (i, row) in block.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry = s[i].iter().zip(&s).fold(R::ZERO, |sum, (a, b)| sum + *a * b[j]);
+            }
+        }
+    }
+    // S = t0·S1 with trace 1, S1² = t1·S2, …: λ ≤ t0·√(t1·√(t2·…)).
+    let mut eigenvalue = R::ONE;
+    for trace in traces.iter().rev() {
+        eigenvalue = *trace * eigenvalue.sqrt();
+    }
+    eigenvalue * R::from_f64(ROUNDING_MARGIN)
+}
+
+/// Largest displacement \[m\] and turn \[rad\] of the estimate's differences.
+const PROBE: f64 = 1e-6;
+
+/// A lower estimate of the highest angular frequency \[rad/s\] at the pose of `state`, by
+/// `iterations` power iterations on `M^-1/2·K·M^-1/2`; each takes two force evaluations. Meant
+/// for double precision: forces are differenced over 1e-6 m.
+pub fn estimate<M: ModelOwner>(model: &M, state: &State<M>, iterations: u32) -> f64 {
+    let view = model.view();
+    let mut direction = model.per_body(Increment::default());
+    start_direction(direction.as_mut());
+    let mut response = model.per_body(Increment::default());
+    let mut frames = model.per_body(FrameOf::<M>::default());
+    let mut wrenches = model.per_body(Wrench::default());
+    let mut moved = state.clone();
+    let windows = model.per_load();
+    let mut square = 0.0;
+    for _ in 0..iterations {
+        let scale = PROBE / largest_move(view.bodies, direction.as_ref());
+        if !scale.is_finite() {
+            return 0.0;
+        }
+        for (i, sign) in [1.0, -1.0].into_iter().enumerate() {
+            displace::<M>(
+                view.bodies,
+                state.bodies.as_ref(),
+                direction.as_ref(),
+                sign * scale,
+                moved.bodies.as_mut(),
+            );
+            let turned = forces::evaluate::<M::Precision, M::Terms, false>(
+                &view,
+                windows.as_ref(),
+                moved.bodies.as_ref(),
+                moved.turns.as_mut(),
+                0,
+                false,
+                frames.as_mut(),
+                wrenches.as_mut(),
+            );
+            if turned.is_err() {
+                return 0.0;
+            }
+            let rows = response.as_mut().iter_mut().zip(wrenches.as_ref()).zip(view.bodies);
+            for ((out, wrench), body) in rows {
+                let s = RealOf::<M>::from_f64(-0.5 * sign / scale);
+                let m = body.inverse_mass.sqrt();
+                let linear = wrench.force * (s * m);
+                let angular = wrench.torque.scale(root(body.inverse_inertia)) * s;
+                let base = if i == 0 { Increment::default() } else { *out };
+                *out = Increment { linear: base.linear + linear, angular: base.angular + angular };
+            }
+        }
+        let (mut along, mut norm) = (0.0, 0.0);
+        for (x, y) in direction.as_ref().iter().zip(response.as_ref()) {
+            along += x.linear.dot(y.linear).to_f64() + x.angular.dot(y.angular).to_f64();
+            norm += y.linear.dot(y.linear).to_f64() + y.angular.dot(y.angular).to_f64();
+        }
+        square = along;
+        let norm = libm::sqrt(norm);
+        if !(norm > 0.0 && norm.is_finite()) {
+            return 0.0;
+        }
+        let inverse = RealOf::<M>::from_f64(1.0 / norm);
+        for (x, y) in direction.as_mut().iter_mut().zip(response.as_ref()) {
+            *x = Increment { linear: y.linear * inverse, angular: y.angular * inverse };
+        }
+    }
+    libm::sqrt(if square > 0.0 { square } else { 0.0 })
+}
+
+fn root<R: Real>(v: Vec3<R>) -> Vec3<R> {
+    Vec3::new(v.x.sqrt(), v.y.sqrt(), v.z.sqrt())
+}
+
+/// A fixed unit vector without symmetry: multiples of the golden ratio, modulo 1, less a half.
+fn start_direction<R: Real>(direction: &mut [Increment<R>]) {
+    let mut golden = 0.0;
+    let mut next = || {
+        golden += 0.618_033_988_749_894_9;
+        if golden >= 1.0 {
+            golden -= 1.0;
+        }
+        golden - 0.5
+    };
+    let mut norm = 0.0;
+    for x in direction.iter_mut() {
+        let linear = [next(), next(), next()];
+        let angular = [next(), next(), next()];
+        norm += linear.iter().chain(&angular).map(|c| c * c).sum::<f64>();
+        *x = Increment { linear: Vec3::from_f64(linear), angular: Vec3::from_f64(angular) };
+    }
+    let inverse = R::from_f64(1.0 / libm::sqrt(norm));
+    for x in direction {
+        *x = Increment { linear: x.linear * inverse, angular: x.angular * inverse };
+    }
+}
+
+/// The largest component of `M^-1/2·x`.
+fn largest_move<R: Real>(bodies: &[Body<R>], direction: &[Increment<R>]) -> f64 {
+    let mut largest = 0.0_f64;
+    for (body, x) in bodies.iter().zip(direction) {
+        let linear = x.linear * body.inverse_mass.sqrt();
+        let angular = x.angular.scale(root(body.inverse_inertia));
+        for component in linear.to_f64().into_iter().chain(angular.to_f64()) {
+            largest = if component.abs() > largest { component.abs() } else { largest };
+        }
+    }
+    largest
+}
+
+/// `moved = state + scale·M^-1/2·direction`.
+fn displace<M: ModelOwner>(
+    bodies: &[Body<RealOf<M>>],
+    state: &[BodyState<M::Precision>],
+    direction: &[Increment<RealOf<M>>],
+    scale: f64,
+    moved: &mut [BodyState<M::Precision>],
+) {
+    let scale = RealOf::<M>::from_f64(scale);
+    for (((body, state), x), moved) in bodies.iter().zip(state).zip(direction).zip(moved) {
+        *moved = *state;
+        let linear = x.linear * (scale * body.inverse_mass.sqrt());
+        let angular = x.angular.scale(root(body.inverse_inertia)) * scale;
+        M::Precision::translate(&mut moved.position, linear);
+        let half = angular * RealOf::<M>::HALF;
+        rotation::turn_by::<M::Precision>(&mut moved.orientation, half);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_eigenvalue_bound_is_tight_and_above() {
+        let mut block = [[0.0; 6]; 6];
+        add_row(&mut block, 3.0, [1.0, 2.0, 0.0, 0.0, 0.0, 1.0]);
+        add_row(&mut block, 1.0, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
+        let exact = 3.0 * 6.0;
+        let bound = largest_eigenvalue(block);
+        assert!(bound >= exact && bound < exact * 1.008, "{bound}");
+        assert_eq!(largest_eigenvalue([[0.0_f64; 6]; 6]), 0.0);
+    }
+}

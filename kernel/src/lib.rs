@@ -1,0 +1,97 @@
+//! Discrete Body Dynamics for firmware: `no_std`, allocation-free, deterministic.
+//!
+//! A mechanism is rigid bodies joined by translational spring-dampers (TSDAs); there are no
+//! constraints and no matrices (Franco & Degani, Appl. Sci. 2026, 16, 2297). The same scene,
+//! scheme, precision and step give the same bits on every target.
+//!
+//! The modules in the order in which a step uses them:
+//!
+//! - [`real`], [`geometry`], [`vector`]: the arithmetic. A precision is a type: [`F64`], [`F32`].
+//! - [`model`]: constants of bodies and elements; [`elements`]: their laws, one per file.
+//! - [`state`]: plain data and its hash; [`words`]: its words in order.
+//! - [`forces`]: one evaluation; [`step`]: kick and drift; [`rotation`], [`damping`].
+//! - [`schemes`]: how they make a step; [`plant`]: model, scheme, step and state together.
+//! - [`energy`], [`frequency`]: what a state holds, how fast it can vibrate.
+//!
+//! ```
+//! use dbd_kernel::model::{Body, BodyIndex, DamperIndex, Group, Law, Model};
+//! use dbd_kernel::schemes::Leapfrog;
+//! use dbd_kernel::state::BodyState;
+//! use dbd_kernel::{F64, Plant, Tsda, Vec3};
+//!
+//! // A mass of 2 kg on a spring of 50 N/m, 0.1 m beyond its free length of 1 m.
+//! type Oscillator = Model<F64, 1, 1, 2, 1>;
+//! let model: Oscillator = Model {
+//!     bodies: [Body::from_f64(2.0, [0.1, 0.1, 0.1])],
+//!     initial: [BodyState::from_f64([1.1, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0; 3], [0.0; 3])],
+//!     gravity: [],
+//!     groups: [Group {
+//!         law: Law::Tsda,
+//!         a: BodyIndex::WORLD,
+//!         b: BodyIndex(0),
+//!         stars: 1,
+//!         arms: 1,
+//!         shared: false,
+//!         point: 0,
+//!         element: 0,
+//!         damper: DamperIndex::NONE,
+//!     }],
+//!     points: [Vec3::new(0.0, 0.0, 0.0); 2],
+//!     tsdas: [Tsda { stiffness: 50.0, free_length: 1.0 }],
+//!     bushings: [],
+//!     dampers: [],
+//!     torsions: [],
+//!     loads: [],
+//! }
+//! .checked();
+//! let mut plant = Plant::new(&model, Leapfrog, 1e-3)?;
+//! while plant.time() < 1.0 {
+//!     plant.step().ok()?;
+//! }
+//! // x = 1 + 0.1·cos(ω·t), ω = 5 rad/s.
+//! let x = plant.state().bodies[0].position.x;
+//! assert!((x - 1.0 - 0.1 * 5.0_f64.cos()).abs() < 1e-5);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+#![no_std]
+
+#[cfg(test)]
+extern crate std;
+
+mod arctangent;
+#[cfg(feature = "heapless")]
+pub mod builder;
+#[cfg(feature = "nalgebra")]
+mod convert;
+pub mod damping;
+pub mod elements;
+pub mod energy;
+pub mod forces;
+#[cfg(feature = "defmt")]
+mod format;
+pub mod frequency;
+pub mod geometry;
+pub mod model;
+pub mod plant;
+pub mod real;
+pub mod rotation;
+pub mod schemes;
+pub mod state;
+pub mod status;
+pub mod step;
+pub mod vector;
+pub mod words;
+
+pub use elements::load::{Load, LoadFrame};
+pub use elements::point_bushing::PointBushing;
+pub use elements::torsion_spring::TorsionSpring;
+pub use elements::tsda::Tsda;
+pub use energy::Energy;
+pub use geometry::{F32, F64, Geometry};
+pub use model::{Body, BodyIndex, Model, ModelOwner};
+pub use plant::Plant;
+pub use real::Real;
+pub use schemes::{Dbd, Leapfrog, Scheme};
+pub use state::{BodyState, State};
+pub use status::{Failure, Status};
+pub use vector::{Quaternion, Vec3};

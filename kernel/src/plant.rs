@@ -1,0 +1,165 @@
+//! A plant: a model, a scheme, a step and the state they drive.
+//!
+//! `(model, scheme, h) => plant; step: state => state`. Nothing is allocated; all memory lies in
+//! the plant, in the shape of its model.
+
+use crate::elements::load::LoadWindow;
+use crate::forces::Wrench;
+use crate::geometry::{FrameOf, Geometry, RealOf};
+use crate::model::ModelOwner;
+use crate::real::Real;
+use crate::schemes::Scheme;
+use crate::state::{BodyState, State};
+use crate::status::{Cause, Failure, Status};
+use crate::step::{Diagonal, Ledger, Stepper};
+
+/// A model stepped by a scheme at a fixed step.
+pub struct Plant<'m, M: ModelOwner, S: Scheme> {
+    model: &'m M,
+    scheme: S,
+    step_size: f64,
+    h: RealOf<M>,
+    diagonals: M::PerBody<Diagonal<RealOf<M>>>,
+    windows: M::PerLoad,
+    state: State<M>,
+    frames: M::PerBody<FrameOf<M>>,
+    wrenches: M::PerBody<Wrench<RealOf<M>>>,
+    memory: M::PerBody<S::Memory<M::Precision>>,
+    ledger: Ledger,
+    status: Status,
+}
+
+/// Why a plant could not be made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum PlantError {
+    /// The step is not a positive finite number in the model's precision.
+    Step(f64),
+}
+
+impl core::fmt::Display for PlantError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let PlantError::Step(step) = self;
+        write!(f, "the step must be a positive finite time, not {step} s")
+    }
+}
+
+impl core::error::Error for PlantError {}
+
+impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
+    /// A plant at its model's initial state, with the step `step_size` \[s\], which is rounded
+    /// once to the precision. The diagonals of the inverse Jacobian are computed here.
+    ///
+    /// # Errors
+    /// [`PlantError::Step`] where the rounded step is not positive and finite.
+    pub fn new(model: &'m M, scheme: S, step_size: f64) -> Result<Self, PlantError> {
+        let h = RealOf::<M>::from_f64(step_size);
+        if !(h > RealOf::<M>::ZERO && h.is_finite()) {
+            return Err(PlantError::Step(step_size));
+        }
+        let view = model.view();
+        let mut diagonals = model.per_body(Diagonal::default());
+        for (diagonal, body) in diagonals.as_mut().iter_mut().zip(view.bodies) {
+            *diagonal = Diagonal::new(body, h);
+        }
+        let mut windows = model.per_load();
+        for (window, load) in windows.as_mut().iter_mut().zip(view.loads) {
+            *window = LoadWindow::new(load.from, load.until, step_size);
+        }
+        Ok(Self {
+            model,
+            scheme,
+            step_size,
+            h,
+            diagonals,
+            windows,
+            state: State::initial(model),
+            frames: model.per_body(FrameOf::<M>::default()),
+            wrenches: model.per_body(Wrench::default()),
+            memory: model.per_body(S::Memory::default()),
+            ledger: Ledger::default(),
+            status: Status::Running,
+        })
+    }
+
+    /// One step. A failure latches: the state stays as the failed step left it, and later calls
+    /// change nothing and return the same failure.
+    #[inline]
+    pub fn step(&mut self) -> Status {
+        if !self.status.is_running() {
+            return self.status;
+        }
+        let step = self.state.step;
+        let mut stepper = Stepper {
+            model: self.model.view(),
+            h: self.h,
+            diagonals: self.diagonals.as_ref(),
+            windows: self.windows.as_ref(),
+            bodies: self.state.bodies.as_mut(),
+            turns: self.state.turns.as_mut(),
+            step,
+            frames: self.frames.as_mut(),
+            wrenches: self.wrenches.as_mut(),
+            memory: self.memory.as_mut(),
+            ledger: &mut self.ledger,
+        };
+        let cause = match self.scheme.step(&mut stepper) {
+            Ok(()) => first_non_finite::<M::Precision>(stepper.bodies),
+            Err(cause) => Some(cause),
+        };
+        self.state.step = step.wrapping_add(1);
+        if let Some(cause) = cause {
+            self.ledger.fresh = false;
+            self.status = Status::Failed(Failure { cause, step: self.state.step });
+        }
+        self.status
+    }
+
+    /// The status of the last step.
+    pub fn status(&self) -> Status {
+        self.status
+    }
+
+    /// The model.
+    pub fn model(&self) -> &'m M {
+        self.model
+    }
+
+    /// The state.
+    pub fn state(&self) -> &State<M> {
+        &self.state
+    }
+
+    /// The step \[s\] as given.
+    pub fn step_size(&self) -> f64 {
+        self.step_size
+    }
+
+    /// The present time \[s\]: the number of steps times the step, never accumulated.
+    pub fn time(&self) -> f64 {
+        self.state.step as f64 * self.step_size
+    }
+
+    /// Force evaluations performed since t = 0.
+    pub fn evaluations(&self) -> u64 {
+        self.ledger.evaluations
+    }
+
+    /// FNV-1a 64 over the state's words.
+    pub fn hash(&self) -> u64 {
+        self.state.hash()
+    }
+}
+
+/// The first body with a velocity that is infinite or NaN. A position or an orientation becomes
+/// non-finite only through a velocity, at the latest one step later.
+#[inline]
+fn first_non_finite<P: Geometry>(bodies: &[BodyState<P>]) -> Option<Cause> {
+    for (i, state) in bodies.iter().enumerate() {
+        let (v, w) = (P::velocity(&state.velocity), P::velocity(&state.angular_velocity));
+        if !(v.is_finite() && w.is_finite()) {
+            return Some(Cause::NonFinite { body: crate::model::BodyIndex(i as u16) });
+        }
+    }
+    None
+}

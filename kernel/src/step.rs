@@ -1,0 +1,184 @@
+//! What schemes are made of: evaluation, kick, drift, on the memory of one plant.
+//!
+//! [`Stepper`] borrows model, state and scratch for one step. A kick changes velocities by
+//! `(h·D⁻¹)·Q`, a drift changes poses; the diagonal h·D⁻¹ is computed once per (model, step),
+//! D the diagonal of masses and principal inertias (Franco & Degani 2026, eq. 7–8).
+
+use crate::damping;
+use crate::elements::load::LoadWindow;
+use crate::forces::{self, Wrench};
+use crate::geometry::Geometry;
+use crate::model::{Body, ModelRef, Terms};
+use crate::real::Real;
+use crate::rotation;
+use crate::state::BodyState;
+use crate::status::Cause;
+use crate::vector::Vec3;
+
+/// h·D⁻¹ of one body: the step over its mass and its principal inertias.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Diagonal<R> {
+    /// \[s/kg\].
+    pub mass: R,
+    /// \[s/(kg·m²)\].
+    pub inertia: Vec3<R>,
+}
+
+impl<R: Real> Diagonal<R> {
+    /// The diagonal of a body for the step `h` \[s\]: one division each.
+    pub fn new(body: &Body<R>, h: R) -> Self {
+        let i = body.inertia;
+        Self { mass: h / body.mass, inertia: Vec3::new(h / i.x, h / i.y, h / i.z) }
+    }
+}
+
+/// A change of velocity \[m/s\] (world) and of angular velocity \[rad/s\] (body axes).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Increment<R> {
+    /// \[m/s\] world axes.
+    pub linear: Vec3<R>,
+    /// \[rad/s\] body axes.
+    pub angular: Vec3<R>,
+}
+
+/// The wrenches that a plant keeps between steps, and what they are worth.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Ledger {
+    /// Force evaluations performed since t = 0.
+    pub evaluations: u64,
+    /// Whether frames and wrenches are those of the present state, without dampers: a scheme
+    /// that ends on an evaluation need not begin with one. Never part of the state: evaluating
+    /// anew gives the same bits.
+    pub fresh: bool,
+}
+
+/// Model, state and scratch of one plant, lent for one step. `S` is the scheme's memory per body.
+pub struct Stepper<'s, 'm, P: Geometry, T, S> {
+    /// The model.
+    pub model: ModelRef<'m, P, T>,
+    /// \[s\] the step size, rounded to the precision.
+    pub h: P::Real,
+    /// h·D⁻¹ per body.
+    pub diagonals: &'s [Diagonal<P::Real>],
+    /// The loads' windows.
+    pub windows: &'s [LoadWindow],
+    /// The bodies' states.
+    pub bodies: &'s mut [BodyState<P>],
+    /// The torsion springs' turn counts.
+    pub turns: &'s mut [i32],
+    /// The number of this step, from 0.
+    pub step: u64,
+    /// The bodies' frames.
+    pub frames: &'s mut [P::Frame],
+    /// The bodies' wrenches.
+    pub wrenches: &'s mut [Wrench<P::Real>],
+    /// The scheme's memory per body.
+    pub memory: &'s mut [S],
+    /// Evaluations and the freshness of the wrenches.
+    pub ledger: &'s mut Ledger,
+}
+
+impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
+    /// A force evaluation at the present pose; with `EXPLICIT` dampers act at the present
+    /// velocities, otherwise they are left to [`Self::sweep_forward`] and its reverse. `settle`
+    /// at a step's boundary brings turn counts up to date.
+    ///
+    /// # Errors
+    /// The torsion spring whose twist is undefined.
+    pub fn evaluate<const EXPLICIT: bool>(&mut self, settle: bool) -> Result<(), Cause> {
+        self.ledger.evaluations += 1;
+        self.ledger.fresh = false;
+        forces::evaluate::<P, T, EXPLICIT>(
+            &self.model,
+            self.windows,
+            self.bodies,
+            self.turns,
+            self.step,
+            settle,
+            self.frames,
+            self.wrenches,
+        )
+        .map_err(|spring| Cause::UndefinedTwist { spring })
+    }
+
+    /// Whether the wrenches are those of the present state and this step's loads.
+    #[inline]
+    #[must_use]
+    pub fn is_fresh(&self) -> bool {
+        let step = self.step;
+        self.ledger.fresh && !(T::LOADS && self.windows.iter().any(|w| w.changes_at(step)))
+    }
+
+    /// Adds `scale·(h·D⁻¹)·Q` to the velocities, without the gyroscopic term.
+    #[inline]
+    pub fn kick(&mut self, scale: P::Real) {
+        let rows = self.bodies.iter_mut().zip(self.wrenches.iter()).zip(self.diagonals);
+        for ((state, wrench), diagonal) in rows {
+            let linear = wrench.force * (scale * diagonal.mass);
+            let angular = wrench.torque.scale(diagonal.inertia * scale);
+            P::accelerate(&mut state.velocity, linear);
+            P::accelerate(&mut state.angular_velocity, angular);
+        }
+    }
+
+    /// Moves every body freely for `time` \[s\]: straight on, and as a free rotor (second order).
+    #[inline]
+    pub fn drift(&mut self, time: P::Real) {
+        for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
+            P::translate(&mut state.position, P::velocity(&state.velocity) * time);
+            rotation::free_rotor::<P>(
+                body,
+                &mut state.orientation,
+                &mut state.angular_velocity,
+                time,
+            );
+        }
+    }
+
+    /// Half a step of the dampers in ascending order; frames are those of the present pose.
+    #[inline]
+    pub fn sweep_forward(&mut self) {
+        if T::DAMPERS {
+            damping::sweep::<P, T, false>(
+                &self.model,
+                P::Real::HALF * self.h,
+                self.frames,
+                self.bodies,
+                self.turns,
+            );
+        }
+    }
+
+    /// Half a step of the dampers in descending order; frames are those of the present pose.
+    #[inline]
+    pub fn sweep_reverse(&mut self) {
+        if T::DAMPERS {
+            damping::sweep::<P, T, true>(
+                &self.model,
+                P::Real::HALF * self.h,
+                self.frames,
+                self.bodies,
+                self.turns,
+            );
+        }
+    }
+
+    /// `(h·D⁻¹)·Q` of body `row` with the gyroscopic term `−ω × (I·ω)` at its present rate.
+    #[inline(always)]
+    pub(crate) fn increment(
+        body: &Body<P::Real>,
+        state: &BodyState<P>,
+        wrench: &Wrench<P::Real>,
+        diagonal: &Diagonal<P::Real>,
+    ) -> Increment<P::Real> {
+        let w = P::velocity(&state.angular_velocity);
+        let torque = wrench.torque - w.cross(body.inertia.scale(w));
+        Increment {
+            linear: wrench.force * diagonal.mass,
+            angular: torque.scale(diagonal.inertia),
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! A model whose sizes are known at run time: vectors behind the kernel's slices.
+//!
+//! `assembly => model in any precision`. Steps through the very code and bits of a const model.
+
+use std::marker::PhantomData;
+
+use dbd_kernel::elements::load::LoadWindow;
+use dbd_kernel::model::{AllTerms, Body, Group, ModelOwner, ModelRef};
+use dbd_kernel::{
+    BodyState, F64, Geometry, Load, PointBushing, Real, State, TorsionSpring, Tsda, Vec3,
+};
+
+/// A model on the heap, see [`dbd_kernel::Model`] for the fields.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SceneModel<P: Geometry> {
+    /// Bodies in scene order, spiders after them.
+    pub bodies: Vec<Body<P::Real>>,
+    /// The bodies' states at t = 0.
+    pub initial: Vec<BodyState<P>>,
+    /// \[m/s²\] the field of gravity, or nothing.
+    pub gravity: Vec<Vec3<P::Real>>,
+    /// Groups in the order of their records' sums.
+    pub groups: Vec<Group>,
+    /// Points of the groups.
+    pub points: Vec<P::Local>,
+    /// TSDAs of the groups.
+    pub tsdas: Vec<Tsda<P::Real>>,
+    /// Point bushings of the groups.
+    pub bushings: Vec<PointBushing<P::Real>>,
+    /// Damping coefficients of groups and torsion springs.
+    pub dampers: Vec<P::Real>,
+    /// Torsion springs.
+    pub torsions: Vec<TorsionSpring<P::Real>>,
+    /// Loads.
+    pub loads: Vec<Load<P::Real>>,
+}
+
+impl<P: Geometry> SceneModel<P> {
+    /// The same model in another precision: stored constants rounded once, derived ones anew.
+    #[must_use]
+    pub fn convert<Q: Geometry>(&self) -> SceneModel<Q> {
+        SceneModel {
+            bodies: self.bodies.iter().map(Body::convert).collect(),
+            initial: self.initial.iter().map(BodyState::convert).collect(),
+            gravity: self.gravity.iter().map(|g| Vec3::from_f64(g.to_f64())).collect(),
+            groups: self.groups.clone(),
+            points: self.points.iter().map(|p| Q::local_from_f64(P::local_to_f64(p))).collect(),
+            tsdas: self.tsdas.iter().map(Tsda::convert).collect(),
+            bushings: self.bushings.iter().map(PointBushing::convert).collect(),
+            dampers: self.dampers.iter().map(|c| Q::Real::from_f64(c.to_f64())).collect(),
+            torsions: self.torsions.iter().map(TorsionSpring::convert).collect(),
+            loads: self.loads.iter().map(Load::convert).collect(),
+        }
+    }
+
+    /// The number of elements that count as a TSDA (Franco & Degani 2026, Table 7b).
+    #[must_use]
+    pub fn tsda_count(&self) -> usize {
+        self.tsdas.len() + self.bushings.len()
+    }
+}
+
+/// A state of any owner and precision, as the state of the double-precision model of the scene.
+#[must_use]
+pub fn widen<M: ModelOwner>(state: &State<M>) -> State<SceneModel<F64>> {
+    State {
+        bodies: state.bodies.as_ref().iter().map(BodyState::convert).collect(),
+        turns: state.turns.as_ref().to_vec(),
+        step: state.step,
+    }
+}
+
+impl<P: Geometry> ModelOwner for SceneModel<P> {
+    type Precision = P;
+    type Terms = AllTerms;
+    type PerBody<T: Copy> = Vec<T>;
+    type PerTorsion = Vec<i32>;
+    type PerLoad = Vec<LoadWindow>;
+
+    fn view(&self) -> ModelRef<'_, P, AllTerms> {
+        ModelRef {
+            bodies: &self.bodies,
+            gravity: &self.gravity,
+            groups: &self.groups,
+            points: &self.points,
+            tsdas: &self.tsdas,
+            bushings: &self.bushings,
+            dampers: &self.dampers,
+            torsions: &self.torsions,
+            loads: &self.loads,
+            terms: PhantomData,
+        }
+    }
+
+    fn initial(&self) -> &[BodyState<P>] {
+        &self.initial
+    }
+
+    fn per_body<T: Copy>(&self, value: T) -> Vec<T> {
+        vec![value; self.bodies.len()]
+    }
+
+    fn per_torsion(&self) -> Vec<i32> {
+        vec![0; self.torsions.len()]
+    }
+
+    fn per_load(&self) -> Vec<LoadWindow> {
+        vec![LoadWindow::default(); self.loads.len()]
+    }
+}
