@@ -10,10 +10,10 @@
 
 use crate::elements::gravity;
 use crate::elements::load::{LoadFrame, LoadWindow};
-use crate::geometry::Geometry;
-use crate::model::{Group, Law, ModelRef, Terms};
+use crate::geometry::{FrameOf, Geometry, RealOf};
+use crate::model::{Group, Law, ModelOwner, ModelRef, Terms};
 use crate::real::Real;
-use crate::state::BodyState;
+use crate::state::{BodyState, State};
 use crate::vector::Vec3;
 
 /// The force on a body and its torque.
@@ -75,6 +75,37 @@ impl<'s, P: Geometry> End<'s, P> {
     fn point_velocity(&self, arm: Vec3<P::Real>) -> Vec3<P::Real> {
         self.velocity + self.spin.cross(arm)
     }
+}
+
+/// The wrenches on all bodies in a state, dampers and loads included, for steps of `step_size`
+/// \[s\] (loads act in whole steps).
+///
+/// # Errors
+/// The index of the first torsion spring whose twist is undefined.
+pub fn wrenches<M: ModelOwner>(
+    model: &M,
+    state: &State<M>,
+    step_size: f64,
+) -> Result<M::PerBody<Wrench<RealOf<M>>>, u16> {
+    let view = model.view();
+    let mut windows = model.per_load();
+    for (window, load) in windows.as_mut().iter_mut().zip(view.loads) {
+        *window = LoadWindow::new(load.from, load.until, step_size);
+    }
+    let mut frames = model.per_body(FrameOf::<M>::default());
+    let mut wrenches = model.per_body(Wrench::default());
+    let mut turns = state.turns.clone();
+    evaluate::<M::Precision, M::Terms, true>(
+        &view,
+        windows.as_ref(),
+        state.bodies.as_ref(),
+        turns.as_mut(),
+        state.step,
+        false,
+        frames.as_mut(),
+        wrenches.as_mut(),
+    )?;
+    Ok(wrenches)
 }
 
 /// Computes the frames of all bodies.

@@ -1,0 +1,433 @@
+//! Models assembled at run time in fixed capacity (feature `heapless`).
+//!
+//! `bodies, elements => model`, in double precision on the way in, each constant rounded once.
+//! The builder is the model: lend it to a [`crate::Plant`] when it is complete. It steps through
+//! the same code and bits as a const model with the same elements in the same order.
+
+use core::marker::PhantomData;
+
+use heapless::Vec;
+
+use crate::elements::load::{Load, LoadWindow};
+use crate::elements::point_bushing::PointBushing;
+use crate::elements::torsion_spring::TorsionSpring;
+use crate::elements::tsda::Tsda;
+use crate::geometry::Geometry;
+use crate::model::{AllTerms, Body, BodyIndex, DamperIndex, Group, Law, ModelOwner, ModelRef};
+use crate::real::Real;
+use crate::state::BodyState;
+use crate::vector::{Quaternion, Vec3};
+
+/// Why an element could not be added; the builder is then as it was.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum BuildError {
+    /// The capacity for this part is used up.
+    Full(Part),
+    /// A body that was not added.
+    UnknownBody(BodyIndex),
+    /// An element between a body and itself.
+    SameBody(BodyIndex),
+    /// A quantity outside of its range, or not finite.
+    OutOfRange(Quantity),
+}
+
+/// What a builder has room for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Part {
+    /// Bodies.
+    Bodies,
+    /// Groups.
+    Groups,
+    /// Points.
+    Points,
+    /// TSDAs.
+    Tsdas,
+    /// Point bushings.
+    Bushings,
+    /// Damping coefficients.
+    Dampers,
+    /// Torsion springs.
+    Torsions,
+    /// Loads.
+    Loads,
+}
+
+/// What can be out of range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Quantity {
+    /// Mass: positive.
+    Mass,
+    /// Principal inertia: positive, none above the sum of the other two.
+    Inertia,
+    /// A position, orientation or velocity: finite.
+    State,
+    /// Gravity: finite.
+    Gravity,
+    /// A point: finite.
+    Point,
+    /// Stiffness: finite, not negative.
+    Stiffness,
+    /// Damping: finite, not negative.
+    Damping,
+    /// Free length: finite, not negative.
+    FreeLength,
+    /// An axis: finite and not 0.
+    Axis,
+    /// A preload, force or torque: finite.
+    Load,
+    /// A window of time that ends before it begins, or NaN.
+    Window,
+    /// A joint's points: one or more centres, each with one arm or three, shared or its own.
+    Arms,
+}
+
+impl core::fmt::Display for BuildError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            BuildError::Full(part) => write!(f, "no room for more {part:?}"),
+            BuildError::UnknownBody(body) => write!(f, "body {} was not added", body.0),
+            BuildError::SameBody(body) => write!(f, "body {} joined to itself", body.0),
+            BuildError::OutOfRange(quantity) => write!(f, "{quantity:?} out of range"),
+        }
+    }
+}
+
+impl core::error::Error for BuildError {}
+
+/// Stars of TSDAs between two bodies: what a joint expands into.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Stars<'p> {
+    /// First and second body.
+    pub between: [BodyIndex; 2],
+    /// \[m\] one point of the first body per star, its body axes (world for the ground).
+    pub centres: &'p [[f64; 3]],
+    /// \[m\] points of the second body: 1 or 3 shared by all stars, or as many for each star.
+    pub arms: &'p [[f64; 3]],
+    /// \[N/m\] stiffness of each TSDA, ≥ 0.
+    pub stiffness: f64,
+    /// \[N·s/m\] damping of each TSDA, ≥ 0.
+    pub damping: f64,
+    /// \[m\] free length of each TSDA, ≥ 0; 0 makes point bushings, of one star and one arm.
+    pub free_length: f64,
+}
+
+/// A model under construction, and the model itself once complete.
+#[derive(Clone, Debug, Default)]
+pub struct ModelBuilder<
+    P: Geometry,
+    const BODIES: usize,
+    const GROUPS: usize = 0,
+    const POINTS: usize = 0,
+    const TSDAS: usize = 0,
+    const BUSHINGS: usize = 0,
+    const DAMPERS: usize = 0,
+    const TORSIONS: usize = 0,
+    const LOADS: usize = 0,
+> {
+    bodies: Vec<Body<P::Real>, BODIES>,
+    initial: Vec<BodyState<P>, BODIES>,
+    gravity: Vec<Vec3<P::Real>, 1>,
+    groups: Vec<Group, GROUPS>,
+    points: Vec<P::Local, POINTS>,
+    tsdas: Vec<Tsda<P::Real>, TSDAS>,
+    bushings: Vec<PointBushing<P::Real>, BUSHINGS>,
+    dampers: Vec<P::Real, DAMPERS>,
+    torsions: Vec<TorsionSpring<P::Real>, TORSIONS>,
+    loads: Vec<Load<P::Real>, LOADS>,
+}
+
+impl<
+    P: Geometry,
+    const BODIES: usize,
+    const GROUPS: usize,
+    const POINTS: usize,
+    const TSDAS: usize,
+    const BUSHINGS: usize,
+    const DAMPERS: usize,
+    const TORSIONS: usize,
+    const LOADS: usize,
+> ModelBuilder<P, BODIES, GROUPS, POINTS, TSDAS, BUSHINGS, DAMPERS, TORSIONS, LOADS>
+{
+    /// An empty model.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            bodies: Vec::new(),
+            initial: Vec::new(),
+            gravity: Vec::new(),
+            groups: Vec::new(),
+            points: Vec::new(),
+            tsdas: Vec::new(),
+            bushings: Vec::new(),
+            dampers: Vec::new(),
+            torsions: Vec::new(),
+            loads: Vec::new(),
+        }
+    }
+
+    /// Sets the field of gravity \[m/s²\], world.
+    ///
+    /// # Errors
+    /// [`Quantity::Gravity`] where it is not finite.
+    pub fn set_gravity(&mut self, gravity: [f64; 3]) -> Result<(), BuildError> {
+        check(finite(&gravity), Quantity::Gravity)?;
+        self.gravity.clear();
+        // A capacity of 1 holds one field.
+        let _ = self.gravity.push(Vec3::from_f64(gravity));
+        Ok(())
+    }
+
+    /// Adds a body of mass \[kg\] and principal inertia \[kg·m²\] in its initial state.
+    ///
+    /// # Errors
+    /// [`BuildError::Full`], or a mass, inertia or state out of range.
+    pub fn add_body(
+        &mut self,
+        mass: f64,
+        inertia: [f64; 3],
+        state: BodyState<P>,
+    ) -> Result<BodyIndex, BuildError> {
+        check(mass > 0.0 && mass.is_finite(), Quantity::Mass)?;
+        let [x, y, z] = inertia;
+        let plausible = |i: f64, j: f64, k: f64| i > 0.0 && i <= (j + k) * (1.0 + 1e-9);
+        let triangle = plausible(x, y, z) && plausible(y, z, x) && plausible(z, x, y);
+        check(finite(&inertia) && triangle, Quantity::Inertia)?;
+        let known = P::position(&state.position).is_finite()
+            && finite(&P::orientation_to_f64(&state.orientation))
+            && P::velocity(&state.velocity).is_finite()
+            && P::velocity(&state.angular_velocity).is_finite();
+        check(known, Quantity::State)?;
+        let index = BodyIndex(self.bodies.len() as u16);
+        self.bodies
+            .push(Body::from_f64(mass, inertia))
+            .map_err(|_| BuildError::Full(Part::Bodies))?;
+        self.initial.push(state).map_err(|_| BuildError::Full(Part::Bodies))?;
+        Ok(index)
+    }
+
+    /// Adds one raw TSDA; points \[m\] in body axes, world for the ground. A free length of 0
+    /// makes it a point bushing.
+    ///
+    /// # Errors
+    /// As [`Self::add_stars`].
+    pub fn add_tsda(
+        &mut self,
+        between: [BodyIndex; 2],
+        points: [[f64; 3]; 2],
+        stiffness: f64,
+        damping: f64,
+        free_length: f64,
+    ) -> Result<(), BuildError> {
+        let [a, b] = points;
+        let (centres, arms) = ([a], [b]);
+        self.add_stars(Stars {
+            between,
+            centres: &centres,
+            arms: &arms,
+            stiffness,
+            damping,
+            free_length,
+        })
+    }
+
+    /// Adds the stars of one joint as one group.
+    ///
+    /// # Errors
+    /// [`BuildError::Full`] for a capacity, a body that is not there, a quantity out of range.
+    pub fn add_stars(&mut self, stars: Stars<'_>) -> Result<(), BuildError> {
+        self.check_pair(stars.between)?;
+        let not_negative = |x: f64| x >= 0.0 && x.is_finite();
+        check(not_negative(stars.stiffness), Quantity::Stiffness)?;
+        check(not_negative(stars.damping), Quantity::Damping)?;
+        check(not_negative(stars.free_length), Quantity::FreeLength)?;
+        let points = stars.centres.iter().chain(stars.arms);
+        check(points.clone().flatten().all(|c| c.is_finite()), Quantity::Point)?;
+        let (count, arms) = (stars.centres.len(), stars.arms.len());
+        let shared = count > 1 && (arms == 1 || arms == 3);
+        let per_star = if shared { arms } else { arms / count.max(1) };
+        let whole = shared || per_star * count == arms;
+        check(count <= 255 && whole && (per_star == 1 || per_star == 3), Quantity::Arms)?;
+        let elements = count * per_star;
+        let bushing = stars.free_length == 0.0;
+        check(!bushing || elements == 1, Quantity::Arms)?;
+
+        room(&self.groups, 1, Part::Groups)?;
+        room(&self.points, count + arms, Part::Points)?;
+        if bushing {
+            room(&self.bushings, 1, Part::Bushings)?;
+        } else {
+            room(&self.tsdas, elements, Part::Tsdas)?;
+        }
+        let damper = self.add_dampers(stars.damping, elements)?;
+        let element = if bushing { self.bushings.len() } else { self.tsdas.len() } as u16;
+        let group = Group {
+            law: if bushing { Law::PointBushing } else { Law::Tsda },
+            a: stars.between[0],
+            b: stars.between[1],
+            stars: count as u8,
+            arms: per_star as u8,
+            shared,
+            point: self.points.len() as u16,
+            element,
+            damper,
+        };
+        // Room was made sure of above.
+        let _ = self.groups.push(group);
+        for point in points {
+            let _ = self.points.push(P::local_from_f64(*point));
+        }
+        for _ in 0..elements {
+            if bushing {
+                let _ = self.bushings.push(PointBushing::from_f64(stars.stiffness));
+            } else {
+                let _ = self.tsdas.push(Tsda::from_f64(stars.stiffness, stars.free_length));
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds a torsion spring about `axis` (first body's axes), at twist 0 in the initial pose;
+    /// stiffness \[N·m/rad\], damping \[N·m·s/rad\], preload \[N·m\] on the second body.
+    ///
+    /// # Errors
+    /// [`BuildError::Full`], a body that is not there, a quantity out of range.
+    pub fn add_torsion_spring(
+        &mut self,
+        between: [BodyIndex; 2],
+        axis: [f64; 3],
+        stiffness: f64,
+        damping: f64,
+        preload: f64,
+    ) -> Result<(), BuildError> {
+        self.check_pair(between)?;
+        let norm = libm::sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+        check(norm > 0.0 && norm.is_finite(), Quantity::Axis)?;
+        check(stiffness >= 0.0 && stiffness.is_finite(), Quantity::Stiffness)?;
+        check(damping >= 0.0 && damping.is_finite(), Quantity::Damping)?;
+        check(preload.is_finite(), Quantity::Load)?;
+        room(&self.torsions, 1, Part::Torsions)?;
+        let orientation = |body: BodyIndex| match self.initial.get(body.row()) {
+            Some(state) => Quaternion::<f64>::from_f64(P::orientation_to_f64(&state.orientation)),
+            None => Quaternion::IDENTITY,
+        };
+        let [a, b] = between;
+        let reference = orientation(b).conjugate().product(orientation(a));
+        let damper = self.add_dampers(damping, 1)?;
+        let _ = self.torsions.push(TorsionSpring {
+            a,
+            b,
+            axis: Vec3::from_f64(axis.map(|c| c / norm)),
+            reference: Quaternion::from_f64(reference.to_f64()),
+            stiffness: P::Real::from_f64(stiffness),
+            preload: P::Real::from_f64(preload),
+            damper,
+        });
+        Ok(())
+    }
+
+    /// Adds a load.
+    ///
+    /// # Errors
+    /// [`BuildError::Full`], a body that is not there, a force, torque or window out of range.
+    pub fn add_load(&mut self, load: Load<P::Real>) -> Result<(), BuildError> {
+        if load.body.row() >= self.bodies.len() {
+            return Err(BuildError::UnknownBody(load.body));
+        }
+        check(load.force.is_finite() && load.torque.is_finite(), Quantity::Load)?;
+        check(load.from.is_finite() && load.from <= load.until, Quantity::Window)?;
+        self.loads.push(load).map_err(|_| BuildError::Full(Part::Loads))
+    }
+
+    fn check_pair(&self, between: [BodyIndex; 2]) -> Result<(), BuildError> {
+        for body in between {
+            if !body.is_world() && body.row() >= self.bodies.len() {
+                return Err(BuildError::UnknownBody(body));
+            }
+        }
+        if between[0] == between[1] {
+            return Err(BuildError::SameBody(between[0]));
+        }
+        Ok(())
+    }
+
+    fn add_dampers(&mut self, damping: f64, count: usize) -> Result<DamperIndex, BuildError> {
+        if damping == 0.0 {
+            return Ok(DamperIndex::NONE);
+        }
+        room(&self.dampers, count, Part::Dampers)?;
+        let first = DamperIndex(self.dampers.len() as u16);
+        for _ in 0..count {
+            let _ = self.dampers.push(P::Real::from_f64(damping));
+        }
+        Ok(first)
+    }
+}
+
+fn finite(values: &[f64]) -> bool {
+    values.iter().all(|value| value.is_finite())
+}
+
+fn check(holds: bool, quantity: Quantity) -> Result<(), BuildError> {
+    if holds { Ok(()) } else { Err(BuildError::OutOfRange(quantity)) }
+}
+
+/// Whether `more` items fit; the largest index stands for "none" and is never given away.
+fn room<T, const N: usize>(items: &Vec<T, N>, more: usize, part: Part) -> Result<(), BuildError> {
+    let fits = items.len() + more <= N.min(usize::from(u16::MAX));
+    if fits { Ok(()) } else { Err(BuildError::Full(part)) }
+}
+
+impl<
+    P: Geometry,
+    const BODIES: usize,
+    const GROUPS: usize,
+    const POINTS: usize,
+    const TSDAS: usize,
+    const BUSHINGS: usize,
+    const DAMPERS: usize,
+    const TORSIONS: usize,
+    const LOADS: usize,
+> ModelOwner
+    for ModelBuilder<P, BODIES, GROUPS, POINTS, TSDAS, BUSHINGS, DAMPERS, TORSIONS, LOADS>
+{
+    type Precision = P;
+    type Terms = AllTerms;
+    type PerBody<T: Copy> = Vec<T, BODIES>;
+    type PerTorsion = Vec<i32, TORSIONS>;
+    type PerLoad = Vec<LoadWindow, LOADS>;
+
+    fn view(&self) -> ModelRef<'_, P, AllTerms> {
+        ModelRef {
+            bodies: &self.bodies,
+            gravity: &self.gravity,
+            groups: &self.groups,
+            points: &self.points,
+            tsdas: &self.tsdas,
+            bushings: &self.bushings,
+            dampers: &self.dampers,
+            torsions: &self.torsions,
+            loads: &self.loads,
+            terms: PhantomData,
+        }
+    }
+
+    fn initial(&self) -> &[BodyState<P>] {
+        &self.initial
+    }
+
+    fn per_body<T: Copy>(&self, value: T) -> Vec<T, BODIES> {
+        self.bodies.iter().map(|_| value).collect()
+    }
+
+    fn per_torsion(&self) -> Vec<i32, TORSIONS> {
+        self.torsions.iter().map(|_| 0).collect()
+    }
+
+    fn per_load(&self) -> Vec<LoadWindow, LOADS> {
+        self.loads.iter().map(|_| LoadWindow::default()).collect()
+    }
+}
