@@ -1,0 +1,272 @@
+//! The model as it grows: bodies first, then groups, torsion springs and loads.
+//!
+//! `checked elements => kernel model` in double precision. World points become points of their
+//! bodies by `Rᵀ·(P − x)` with the very rotation that the kernel places them back with.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use dbd_kernel::model::{DamperIndex, Group, Law};
+use dbd_kernel::{
+    Body, BodyIndex, BodyState, F64, Geometry, Load, PointBushing, TorsionSpring, Tsda, Vec3,
+};
+
+use crate::error::SceneError;
+use crate::pair::Pair;
+use crate::runtime::SceneModel;
+use crate::spring::Spring;
+use crate::text::Table;
+
+/// The name of the ground.
+pub(crate) const WORLD: &str = "world";
+
+/// A model in the making.
+#[derive(Default)]
+pub(crate) struct Assembly {
+    model: SceneModel<F64>,
+    frames: Vec<<F64 as Geometry>::Frame>,
+    names: Vec<String>,
+    rows: BTreeMap<String, BodyIndex>,
+}
+
+/// Why an element does not fit the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Defect {
+    /// One more than the model can count.
+    TooMany(&'static str),
+    /// A derived number is beyond what a number can hold.
+    OutOfRange,
+}
+
+impl Defect {
+    /// Refuses the element.
+    pub(crate) fn refuse(self, table: &Table<'_>) -> SceneError {
+        match self {
+            Self::TooMany(what) => {
+                let problem = format!("is one too many: the model counts {what} in 16 bits");
+                table.refuse(&problem, format!("a scene has at most {LIMIT} {what}"))
+            }
+            Self::OutOfRange => table.refuse(
+                "has points or lengths that double precision cannot hold",
+                "lengths between 1e-150 and 1e150 m",
+            ),
+        }
+    }
+}
+
+/// Most bodies, points, elements or dampers: their indices are 16 bits wide and the last value
+/// means the world or none.
+const LIMIT: usize = u16::MAX as usize;
+
+/// The points of a group, each in the axes of its owner.
+#[derive(Clone, Copy)]
+pub(crate) struct Points<'p> {
+    /// The first body's, one per star.
+    pub(crate) centres: &'p [Vec3<f64>],
+    /// The second body's.
+    pub(crate) tips: &'p [Vec3<f64>],
+    /// Whether all stars share the tips.
+    pub(crate) shared: bool,
+}
+
+impl Assembly {
+    /// The body of a name, or the world.
+    pub(crate) fn body(&self, name: &str) -> Option<BodyIndex> {
+        if name == WORLD { Some(BodyIndex::WORLD) } else { self.rows.get(name).copied() }
+    }
+
+    /// Names of the bodies in the model's order.
+    pub(crate) fn body_names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The state of a body, `None` for the world.
+    pub(crate) fn state(&self, body: BodyIndex) -> Option<&BodyState<F64>> {
+        self.model.initial.get(body.row())
+    }
+
+    /// A world point in the axes of its owner.
+    pub(crate) fn point_in(&self, body: BodyIndex, point_w: Vec3<f64>) -> Vec3<f64> {
+        match self.state(body) {
+            Some(state) => self.vector_in(body, point_w - state.position),
+            None => point_w,
+        }
+    }
+
+    /// A world vector in the axes of a body.
+    pub(crate) fn vector_in(&self, body: BodyIndex, vector_w: Vec3<f64>) -> Vec3<f64> {
+        match self.frames.get(body.row()) {
+            Some(frame) => F64::to_body(frame, vector_w),
+            None => vector_w,
+        }
+    }
+
+    /// A point of a body in the world, as the kernel places it.
+    pub(crate) fn place(&self, body: BodyIndex, point_b: Vec3<f64>) -> Vec3<f64> {
+        match self.frames.get(body.row()) {
+            Some(frame) => F64::place(frame, &point_b).0,
+            None => F64::ground(&point_b),
+        }
+    }
+
+    /// Sets the field of gravity \[m/s²\]; a field of 0 is none.
+    pub(crate) fn set_gravity(&mut self, gravity: [f64; 3]) {
+        self.model.gravity =
+            if gravity == [0.0; 3] { Vec::new() } else { vec![Vec3::from_f64(gravity)] };
+    }
+
+    /// Adds a body whose name is new.
+    pub(crate) fn add_body(
+        &mut self,
+        name: &str,
+        body: Body<f64>,
+        state: BodyState<F64>,
+    ) -> Result<(), Defect> {
+        let row = index(self.model.bodies.len(), 1, "bodies")?;
+        self.model.bodies.push(body);
+        self.model.initial.push(state);
+        self.frames.push(F64::frame(&state.position, &state.orientation));
+        self.names.push(name.to_owned());
+        self.rows.insert(name.to_owned(), BodyIndex(row));
+        Ok(())
+    }
+
+    /// Adds a group of TSDAs, each of `free_length` \[m\]: every centre joined to its tips.
+    pub(crate) fn add_tsdas(
+        &mut self,
+        pair: &Pair,
+        points: Points<'_>,
+        free_length: f64,
+        spring: Spring,
+    ) -> Result<(), Defect> {
+        if !(free_length.is_finite() && free_length > 0.0) {
+            return Err(Defect::OutOfRange);
+        }
+        let arms = if points.shared {
+            points.tips.len()
+        } else {
+            points.tips.len() / points.centres.len().max(1)
+        };
+        let count = points.centres.len() * arms;
+        let element = index(self.model.tsdas.len(), count, "TSDAs")?;
+        let shape = (points.centres.len() as u8, arms as u8);
+        self.add_group(Law::Tsda, pair, points, shape, element, spring)?;
+        let tsda = Tsda::from_f64(spring.stiffness, free_length);
+        self.model.tsdas.extend(std::iter::repeat_n(tsda, count));
+        Ok(())
+    }
+
+    /// Adds a point bushing.
+    pub(crate) fn add_bushing(
+        &mut self,
+        pair: &Pair,
+        points: Points<'_>,
+        spring: Spring,
+    ) -> Result<(), Defect> {
+        let element = index(self.model.bushings.len(), 1, "point bushings")?;
+        self.add_group(Law::PointBushing, pair, points, (1, 1), element, spring)?;
+        self.model.bushings.push(PointBushing::from_f64(spring.stiffness));
+        Ok(())
+    }
+
+    fn add_group(
+        &mut self,
+        law: Law,
+        pair: &Pair,
+        points: Points<'_>,
+        (stars, arms): (u8, u8),
+        element: u16,
+        spring: Spring,
+    ) -> Result<(), Defect> {
+        let all = || points.centres.iter().chain(points.tips);
+        if !all().all(|point| point.is_finite()) {
+            return Err(Defect::OutOfRange);
+        }
+        let point = index(self.model.points.len(), all().count(), "points")?;
+        let damper = self.add_dampers(spring.damping, usize::from(stars) * usize::from(arms))?;
+        let (a, b, shared) = (pair.a, pair.b, points.shared);
+        self.model.groups.push(Group { law, a, b, stars, arms, shared, point, element, damper });
+        self.model.points.extend(all().map(|p| F64::local_from_f64(p.to_f64())));
+        Ok(())
+    }
+
+    /// One coefficient per element; none where it is 0.
+    fn add_dampers(&mut self, damping: f64, count: usize) -> Result<DamperIndex, Defect> {
+        if damping == 0.0 {
+            return Ok(DamperIndex::NONE);
+        }
+        let first = index(self.model.dampers.len(), count, "dampers")?;
+        self.model.dampers.extend(std::iter::repeat_n(damping, count));
+        Ok(DamperIndex(first))
+    }
+
+    /// Adds a torsion spring about the unit axis `axis_w` \[world\], fixed in the first body.
+    pub(crate) fn add_torsion_spring(
+        &mut self,
+        pair: &Pair,
+        axis_w: Vec3<f64>,
+        spring: Spring,
+        preload: f64,
+    ) -> Result<(), Defect> {
+        index(self.model.torsions.len(), 1, "torsion springs")?;
+        let orientation = |body| self.state(body).map(|state| &state.orientation);
+        let relative = F64::relative(orientation(pair.a), orientation(pair.b));
+        let axis = self.vector_in(pair.a, axis_w);
+        let damper = self.add_dampers(spring.damping, 1)?;
+        self.model.torsions.push(TorsionSpring {
+            a: pair.a,
+            b: pair.b,
+            axis,
+            reference: relative.conjugate(),
+            stiffness: spring.stiffness,
+            preload,
+            damper,
+        });
+        Ok(())
+    }
+
+    /// Adds a load.
+    pub(crate) fn add_load(&mut self, load: Load<f64>) {
+        self.model.loads.push(load);
+    }
+
+    /// The groups there are.
+    pub(crate) fn groups(&self) -> &[Group] {
+        &self.model.groups
+    }
+
+    /// Elements of the groups `range` and their largest |L − L0| \[m\] at the initial pose.
+    pub(crate) fn extensions(&self, range: Range<usize>) -> (usize, f64) {
+        let (mut count, mut largest) = (0, 0.0_f64);
+        for group in self.model.groups.get(range).unwrap_or_default() {
+            let (first, stars, arms) =
+                (usize::from(group.point), usize::from(group.stars), usize::from(group.arms));
+            for i in 0..group.elements() {
+                let tip = first + stars + if group.shared { i % arms } else { i };
+                let a = self.place(group.a, self.model.points[first + i / arms]);
+                let d = self.place(group.b, self.model.points[tip]) - a;
+                let free_length = match group.law {
+                    Law::Tsda => self.model.tsdas[usize::from(group.element) + i].free_length,
+                    Law::PointBushing => 0.0,
+                };
+                let extension = (libm::sqrt(d.dot(d)) - free_length).abs();
+                largest = if extension > largest { extension } else { largest };
+                count += 1;
+            }
+        }
+        (count, largest)
+    }
+
+    /// The model and the names of its bodies.
+    pub(crate) fn finish(self) -> (SceneModel<F64>, Vec<String>) {
+        (self.model, self.names)
+    }
+}
+
+/// The 16-bit index of the first of `count` further things.
+fn index(first: usize, count: usize, what: &'static str) -> Result<u16, Defect> {
+    if first + count > LIMIT {
+        return Err(Defect::TooMany(what));
+    }
+    u16::try_from(first).map_err(|_| Defect::TooMany(what))
+}

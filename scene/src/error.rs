@@ -1,0 +1,168 @@
+//! Why a scene is refused: file, line, column, what is wrong, what would be right.
+
+use std::fmt;
+use std::io;
+
+use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode, SourceSpan};
+use thiserror::Error;
+
+/// A scene that cannot be read, or that is refused.
+///
+/// Displayed on one line as what is wrong; place and help are in the accessors and the diagnostic.
+#[derive(Debug, Error)]
+pub enum SceneError {
+    /// The file cannot be read.
+    // The reason is part of the message and therefore not a source, which would say it twice.
+    #[error("cannot read {file}: {reason}")]
+    Unreadable {
+        /// Its name.
+        file: String,
+        /// Why.
+        reason: io::Error,
+    },
+    /// The scene is refused.
+    #[error("{0}")]
+    Refused(Box<Refusal>),
+}
+
+/// What is wrong with a scene, and where.
+#[derive(Debug, Error)]
+#[error("{message}")]
+pub struct Refusal {
+    source: NamedSource<String>,
+    span: SourceSpan,
+    line: usize,
+    column: usize,
+    message: String,
+    help: String,
+}
+
+impl SceneError {
+    /// The scene's file.
+    #[must_use]
+    pub fn file(&self) -> &str {
+        match self {
+            Self::Unreadable { file, .. } => file,
+            Self::Refused(refusal) => refusal.source.name(),
+        }
+    }
+
+    /// The line of what is wrong, from 1; `None` where the file cannot be read.
+    #[must_use]
+    pub fn line(&self) -> Option<usize> {
+        match self {
+            Self::Unreadable { .. } => None,
+            Self::Refused(refusal) => Some(refusal.line),
+        }
+    }
+
+    /// The column of what is wrong, in characters from 1; `None` where the file cannot be read.
+    #[must_use]
+    pub fn column(&self) -> Option<usize> {
+        match self {
+            Self::Unreadable { .. } => None,
+            Self::Refused(refusal) => Some(refusal.column),
+        }
+    }
+
+    /// What is wrong.
+    #[must_use]
+    pub fn message(&self) -> String {
+        self.to_string()
+    }
+
+    /// What would be right.
+    #[must_use]
+    pub fn help(&self) -> &str {
+        match self {
+            Self::Unreadable { .. } => "a scene is a readable TOML file in UTF-8",
+            Self::Refused(refusal) => &refusal.help,
+        }
+    }
+}
+
+impl Diagnostic for SceneError {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        Some(Box::new(SceneError::help(self)))
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        match self {
+            Self::Unreadable { .. } => None,
+            Self::Refused(refusal) => Some(&refusal.source),
+        }
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        match self {
+            Self::Unreadable { .. } => None,
+            Self::Refused(refusal) => {
+                let label = LabeledSpan::new_with_span(Some("here".into()), refusal.span);
+                Some(Box::new(std::iter::once(label)))
+            }
+        }
+    }
+}
+
+/// The text of a scene and its file's name.
+#[derive(Clone, Copy)]
+pub(crate) struct Source<'t> {
+    /// The name used in messages.
+    pub(crate) file: &'t str,
+    /// The text.
+    pub(crate) text: &'t str,
+}
+
+impl Source<'_> {
+    /// A refusal of the bytes `span`.
+    pub(crate) fn refuse(
+        self,
+        span: std::ops::Range<usize>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> SceneError {
+        let (line, column) = self.position(span.start);
+        SceneError::Refused(Box::new(Refusal {
+            source: NamedSource::new(self.file, self.text.to_owned()).with_language("TOML"),
+            span: span.into(),
+            line,
+            column,
+            message: message.into(),
+            help: help.into(),
+        }))
+    }
+
+    /// Line and column of a byte, from 1; the column counts characters.
+    pub(crate) fn position(self, byte: usize) -> (usize, usize) {
+        let before = self.text.get(..byte).unwrap_or(self.text);
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let line = before.matches('\n').count() + 1;
+        (line, before[line_start..].chars().count() + 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_count_lines_and_characters_from_one() {
+        let source = Source { file: "f", text: "a = 1\n# ö\nö = 2" };
+        assert_eq!(source.position(0), (1, 1));
+        assert_eq!(source.position(4), (1, 5));
+        assert_eq!(source.position(6), (2, 1));
+        // ö takes two bytes and one column.
+        assert_eq!(source.position(source.text.len()), (3, 6));
+        assert_eq!(source.position(1000), (3, 6));
+    }
+
+    #[test]
+    fn the_diagnostic_shows_file_line_message_and_help() {
+        let source = Source { file: "slope.toml", text: "mass = -1\n" };
+        let error = source.refuse(7..9, "`mass` is -1", "`mass` is a number > 0 in kg");
+        let shown = format!("{:?}", miette::Report::new(error));
+        for part in ["slope.toml:1:8", "`mass` is -1", "a number > 0 in kg", "mass = -1"] {
+            assert!(shown.contains(part), "{shown}");
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! `[[load]]`: a constant force and torque on a body over a window of time.
+
+use dbd_kernel::{Load, LoadFrame, Vec3};
+
+use crate::assembly::Assembly;
+use crate::error::SceneError;
+use crate::pair::BodyName;
+use crate::text::{Choice, Number, Numbers, Table};
+
+const KEYS: &[&str] = &["body", "force", "torque", "frame", "from", "until"];
+
+/// Reads all loads in scene order.
+pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), SceneError> {
+    for table in root.list("load")? {
+        table.only(&[KEYS])?;
+        let (_, body) = table.required("body", BodyName { assembly, world: false })?;
+        let force = table.optional("force", Numbers(Number::any("N")))?;
+        let torque = table.optional("torque", Numbers(Number::any("N·m")))?;
+        if force.is_none() && torque.is_none() {
+            let help = "`force` in N, `torque` in N·m, or both, each an array of 3 numbers";
+            return Err(table.refuse("has neither `force` nor `torque`", help));
+        }
+        let frame = match table.optional("frame", Choice(&["world", "body"]))? {
+            Some(1) => LoadFrame::Body,
+            _ => LoadFrame::World,
+        };
+        let from = table.optional("from", Number::any("s"))?.unwrap_or(0.0);
+        let until = table.optional("until", Number::any("s"))?.unwrap_or(f64::INFINITY);
+        if until <= from {
+            let help = "the load acts from `from` until just before `until`; leave `until` out \
+                        for a load that never ends";
+            let problem = format!("is {until}, not after `from` = {from}");
+            return Err(table.refuse_value("until", &problem, help));
+        }
+        assembly.add_load(Load {
+            body,
+            frame,
+            force: Vec3::from_f64(force.unwrap_or_default()),
+            torque: Vec3::from_f64(torque.unwrap_or_default()),
+            from,
+            until,
+        });
+    }
+    Ok(())
+}

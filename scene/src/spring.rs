@@ -1,0 +1,99 @@
+//! Stiffness and damping, the keys that joints, raw TSDAs and torsion springs share.
+//!
+//! `stiffness = k` or `{ load, deflection }` with `k = load/deflection`; `damping = c`, or
+//! `damping_ratio = ζ` with `frequency = f`: `c = (2·ζ·k)/(2π·f)`.
+
+use crate::error::SceneError;
+use crate::text::{Kind, Number, Table, Value};
+
+/// The keys of a spring.
+pub(crate) const KEYS: &[&str] = &["stiffness", "damping", "damping_ratio", "frequency"];
+
+/// A spring and its damper.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Spring {
+    /// \[N/m\] or \[N·m/rad\] stiffness, ≥ 0.
+    pub(crate) stiffness: f64,
+    /// \[N·s/m\] or \[N·m·s/rad\] damping, ≥ 0.
+    pub(crate) damping: f64,
+}
+
+/// The units of a spring.
+#[derive(Clone, Copy)]
+pub(crate) struct Units {
+    stiffness: &'static str,
+    damping: &'static str,
+    load: &'static str,
+    deflection: &'static str,
+}
+
+/// A spring along a line.
+pub(crate) const AXIAL: Units =
+    Units { stiffness: "N/m", damping: "N·s/m", load: "N", deflection: "m" };
+
+/// A spring about an axis.
+pub(crate) const TORSIONAL: Units =
+    Units { stiffness: "N·m/rad", damping: "N·m·s/rad", load: "N·m", deflection: "rad" };
+
+/// Reads the keys of a spring.
+pub(crate) fn read(table: &Table<'_>, units: Units) -> Result<Spring, SceneError> {
+    let stiffness = table.required("stiffness", Stiffness(units))?;
+    let damping = table.optional("damping", Number::not_negative(units.damping))?;
+    let ratio = table.optional("damping_ratio", Number::not_negative(""))?;
+    let frequency = table.optional("frequency", Number::positive("Hz"))?;
+    let damping = match (damping, ratio, frequency) {
+        (None, None, None) => 0.0,
+        (Some(damping), None, None) => damping,
+        (None, Some(ratio), Some(frequency)) => {
+            (2.0 * ratio * stiffness) / (core::f64::consts::TAU * frequency)
+        }
+        (Some(_), Some(_), _) => {
+            let help = "give either `damping` or `damping_ratio` with `frequency`";
+            return Err(table.refuse_key("damping_ratio", "contradicts `damping`", help));
+        }
+        (None, Some(_), None) => {
+            let help = "add `frequency`, the frequency in Hz at which the ratio holds";
+            return Err(table.refuse_key("damping_ratio", "stands without `frequency`", help));
+        }
+        (_, None, Some(_)) => {
+            let help = "`frequency` belongs to `damping_ratio`; `damping` needs none";
+            return Err(table.refuse_key("frequency", "stands without `damping_ratio`", help));
+        }
+    };
+    if !damping.is_finite() {
+        let help = "a larger `frequency` or a smaller `damping_ratio`";
+        return Err(table.refuse_key("damping_ratio", "gives an infinite damping", help));
+    }
+    Ok(Spring { stiffness, damping })
+}
+
+struct Stiffness(Units);
+
+impl Kind for Stiffness {
+    type Output = f64;
+
+    fn expected(&self) -> String {
+        let Units { stiffness, load, deflection, .. } = self.0;
+        format!(
+            "a finite number ≥ 0 in {stiffness}, or {{ load = {load}, deflection = {deflection} }}"
+        )
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<f64, SceneError> {
+        if !value.get().is_table() {
+            if !(value.get().is_float() || value.get().is_integer()) {
+                return Err(value.wrong_type(&self.expected()));
+            }
+            return Number::not_negative(self.0.stiffness).read(value);
+        }
+        let table = value.table(&self.expected())?;
+        table.only(&[&["load", "deflection"]])?;
+        let load = table.required("load", Number::positive(self.0.load))?;
+        let deflection = table.required("deflection", Number::positive(self.0.deflection))?;
+        let stiffness = load / deflection;
+        if !stiffness.is_finite() {
+            return Err(value.refuse("is infinite", &self.expected()));
+        }
+        Ok(stiffness)
+    }
+}

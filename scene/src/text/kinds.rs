@@ -1,0 +1,181 @@
+//! The kinds of plain values: numbers, vectors, directions, texts, choices.
+
+use dbd_kernel::Vec3;
+use toml::de::DeValue;
+
+use crate::direction::unit;
+use crate::error::SceneError;
+use crate::nearest::nearest;
+use crate::text::value::{Kind, Value};
+
+/// A finite number; integers are numbers, too.
+#[derive(Clone, Copy)]
+pub(crate) struct Number {
+    unit: &'static str,
+    least: Least,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Least {
+    Any,
+    Zero,
+    AboveZero,
+}
+
+impl Number {
+    /// Any finite number.
+    pub(crate) const fn any(unit: &'static str) -> Self {
+        Self { unit, least: Least::Any }
+    }
+
+    /// A number ≥ 0.
+    pub(crate) const fn not_negative(unit: &'static str) -> Self {
+        Self { unit, least: Least::Zero }
+    }
+
+    /// A number > 0.
+    pub(crate) const fn positive(unit: &'static str) -> Self {
+        Self { unit, least: Least::AboveZero }
+    }
+
+    fn range(self) -> &'static str {
+        match self.least {
+            Least::Any => "",
+            Least::Zero => " ≥ 0",
+            Least::AboveZero => " > 0",
+        }
+    }
+
+    fn in_unit(self) -> String {
+        if self.unit.is_empty() { String::new() } else { format!(" in {}", self.unit) }
+    }
+}
+
+impl Kind for Number {
+    type Output = f64;
+
+    fn expected(&self) -> String {
+        format!("a finite number{}{}", self.range(), self.in_unit())
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<f64, SceneError> {
+        let number = number(value).ok_or_else(|| value.wrong_type(&self.expected()))?;
+        if !number.is_finite() {
+            return Err(value.refuse(&format!("is {number}"), &self.expected()));
+        }
+        // A subnormal number has no finite inverse.
+        let wrong = match self.least {
+            Least::Any => false,
+            Least::Zero => number < 0.0,
+            Least::AboveZero => number < f64::MIN_POSITIVE,
+        };
+        if wrong {
+            return Err(value.refuse(&format!("is {number}"), &self.expected()));
+        }
+        Ok(number)
+    }
+}
+
+/// The number nearest to what is written; one too large to write down is infinite.
+fn number(value: &Value<'_>) -> Option<f64> {
+    match value.get() {
+        DeValue::Float(float) => float.as_str().parse().ok(),
+        DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
+        DeValue::Integer(integer) => {
+            i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|i| i as f64)
+        }
+        _ => None,
+    }
+}
+
+/// An array of `N` numbers, each of one kind.
+#[derive(Clone, Copy)]
+pub(crate) struct Numbers<const N: usize>(pub(crate) Number);
+
+impl<const N: usize> Kind for Numbers<N> {
+    type Output = [f64; N];
+
+    fn expected(&self) -> String {
+        format!("an array of {N} finite numbers{}{}", self.0.range(), self.0.in_unit())
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<[f64; N], SceneError> {
+        let mut numbers = [0.0; N];
+        for (number, entry) in numbers.iter_mut().zip(value.entries(N, &self.expected())?) {
+            *number = self.0.read(&entry)?;
+        }
+        Ok(numbers)
+    }
+}
+
+/// A unit vector along an array of three numbers.
+#[derive(Clone, Copy)]
+pub(crate) struct Direction;
+
+impl Kind for Direction {
+    type Output = Vec3<f64>;
+
+    fn expected(&self) -> String {
+        "an array of 3 finite numbers, not all 0, in world axes".into()
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<Vec3<f64>, SceneError> {
+        let vector = Numbers::<3>(Number::any("")).read(value)?;
+        unit(Vec3::from_f64(vector))
+            .ok_or_else(|| value.refuse("has no direction", &self.expected()))
+    }
+}
+
+/// A string; with something in it where it is a name.
+#[derive(Clone, Copy)]
+pub(crate) enum Text {
+    /// Any string.
+    Any,
+    /// A name.
+    Name,
+}
+
+impl Kind for Text {
+    type Output = String;
+
+    fn expected(&self) -> String {
+        match self {
+            Self::Any => "a string in quotes".into(),
+            Self::Name => "a name in quotes, not empty".into(),
+        }
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<String, SceneError> {
+        let text = value.get().as_str().ok_or_else(|| value.wrong_type(&self.expected()))?;
+        if matches!(self, Self::Name) && text.trim().is_empty() {
+            return Err(value.refuse("is empty", &self.expected()));
+        }
+        Ok(text.to_owned())
+    }
+}
+
+/// One of a few words, by its index.
+#[derive(Clone, Copy)]
+pub(crate) struct Choice<'c>(pub(crate) &'c [&'static str]);
+
+impl Kind for Choice<'_> {
+    type Output = usize;
+
+    fn expected(&self) -> String {
+        self.0.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(" or ")
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<usize, SceneError> {
+        let word = value.get().as_str().ok_or_else(|| value.wrong_type(&self.expected()))?;
+        self.0.iter().position(|choice| *choice == word).ok_or_else(|| {
+            let problem = format!("is \"{word}\"");
+            match nearest(word, self.0.iter().copied()) {
+                Some(meant) => {
+                    let expected = format!("{}; did you mean \"{meant}\"?", self.expected());
+                    value.refuse(&problem, &expected)
+                }
+                None => value.refuse(&problem, &self.expected()),
+            }
+        })
+    }
+}

@@ -1,0 +1,153 @@
+//! A table that refuses keys it may not hold.
+//!
+//! Unknown keys are refused before any key is read: where a required key is misspelled, the
+//! message names the misspelling rather than an absence.
+
+use std::ops::Range;
+
+use toml::de::{DeTable, DeValue};
+
+use crate::error::{SceneError, Source};
+use crate::nearest::nearest;
+use crate::text::value::{Kind, Value};
+
+/// A table and what messages call it.
+pub(crate) struct Table<'t> {
+    source: Source<'t>,
+    entries: &'t DeTable<'t>,
+    span: Range<usize>,
+    /// ``body `crank` ``, or `body 1` until its name is known.
+    label: String,
+}
+
+/// The table that is the whole scene.
+pub(crate) fn root<'t>(source: Source<'t>, document: &'t DeTable<'t>) -> Table<'t> {
+    Table::new(source, document, 0..0, "the scene".into())
+}
+
+impl<'t> Table<'t> {
+    pub(crate) fn new(
+        source: Source<'t>,
+        entries: &'t DeTable<'t>,
+        span: Range<usize>,
+        label: String,
+    ) -> Self {
+        Self { source, entries, span, label }
+    }
+
+    /// What messages call it.
+    pub(crate) fn label(&self) -> &str {
+        &self.label
+    }
+
+    /// What messages call it from now on.
+    pub(crate) fn rename(&mut self, label: String) {
+        self.label = label;
+    }
+
+    /// Refuses the table as a whole.
+    pub(crate) fn refuse(&self, problem: &str, help: impl Into<String>) -> SceneError {
+        self.source.refuse(self.span.clone(), format!("{} {problem}", self.label), help)
+    }
+
+    /// Refuses a key.
+    pub(crate) fn refuse_key(
+        &self,
+        key: &str,
+        problem: &str,
+        help: impl Into<String>,
+    ) -> SceneError {
+        let span = self.entries.get_key_value(key).map_or(self.span.clone(), |(k, _)| k.span());
+        self.source.refuse(span, format!("`{key}` of {} {problem}", self.label), help)
+    }
+
+    /// Refuses the value of a key.
+    pub(crate) fn refuse_value(
+        &self,
+        key: &str,
+        problem: &str,
+        help: impl Into<String>,
+    ) -> SceneError {
+        match self.value(key) {
+            Some(value) => value.refuse_with(problem, help),
+            None => self.refuse(problem, help),
+        }
+    }
+
+    /// Refuses keys other than these.
+    pub(crate) fn only(&self, keys: &[&[&'static str]]) -> Result<(), SceneError> {
+        let mut allowed = keys.iter().copied().flatten().copied();
+        let unknown = self
+            .entries
+            .keys()
+            .filter(|key| !allowed.clone().any(|k| k == key.get_ref()))
+            // Keys come in alphabetical order; the first in the file is the one to name.
+            .min_by_key(|key| key.span().start);
+        let Some(unknown) = unknown else { return Ok(()) };
+        let all = || allowed.clone().map(|k| format!("`{k}`")).collect::<Vec<_>>().join(", ");
+        let help = match nearest(unknown.get_ref(), allowed.clone()) {
+            Some(key) => format!("did you mean `{key}`? {} may have {}", self.label, all()),
+            None => format!("{} may have {}", self.label, all()),
+        };
+        let message = format!("{} has no key `{}`", self.label, unknown.get_ref());
+        allowed.by_ref().for_each(drop);
+        Err(self.source.refuse(unknown.span(), message, help))
+    }
+
+    /// Whether a key is there.
+    pub(crate) fn has(&self, key: &str) -> bool {
+        self.entries.contains_key(key)
+    }
+
+    /// The value of a key, where it is there.
+    pub(crate) fn value(&self, key: &str) -> Option<Value<'t>> {
+        self.entries.get(key).map(|entry| Value {
+            source: self.source,
+            entry,
+            key: format!("`{key}`"),
+            owner: self.label.clone(),
+        })
+    }
+
+    /// A key that must be there.
+    pub(crate) fn required<K: Kind>(&self, key: &str, kind: K) -> Result<K::Output, SceneError> {
+        match self.value(key) {
+            Some(value) => kind.read(&value),
+            None => Err(self.missing(key, &kind.expected())),
+        }
+    }
+
+    /// The refusal of a table without a key.
+    pub(crate) fn missing(&self, key: &str, expected: &str) -> SceneError {
+        self.refuse(&format!("has no `{key}`"), format!("`{key}` is {expected}"))
+    }
+
+    /// A key that may be absent.
+    pub(crate) fn optional<K: Kind>(
+        &self,
+        key: &str,
+        kind: K,
+    ) -> Result<Option<K::Output>, SceneError> {
+        self.value(key).map(|value| kind.read(&value)).transpose()
+    }
+
+    /// The tables of `[[key]]`, labelled `key 1` and so on; none where the key is absent.
+    pub(crate) fn list(&self, key: &str) -> Result<Vec<Table<'t>>, SceneError> {
+        let Some(value) = self.value(key) else { return Ok(Vec::new()) };
+        let expected = format!("an array of tables, each opened by [[{key}]]");
+        let mut tables = Vec::new();
+        for (i, entry) in value.array(&expected)?.iter().enumerate() {
+            let DeValue::Table(entries) = entry.get() else {
+                return Err(entry.wrong_type(&format!("a table, opened by [[{key}]]")));
+            };
+            let label = format!("{key} {}", i + 1);
+            tables.push(Table::new(self.source, entries, entry.span(), label));
+        }
+        Ok(tables)
+    }
+
+    /// Line of the table in the file, from 1.
+    pub(crate) fn line(&self) -> usize {
+        self.source.position(self.span.start).0
+    }
+}

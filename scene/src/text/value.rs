@@ -1,0 +1,99 @@
+//! One value of a table, with its place and a name for messages.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::DeValue;
+
+use crate::error::{SceneError, Source};
+use crate::text::Table;
+
+/// What a value must be.
+pub(crate) trait Kind {
+    /// What it is read as.
+    type Output;
+    /// What would be right, to follow `… is`: `a number > 0 in kg`.
+    fn expected(&self) -> String;
+    /// Reads it.
+    fn read(&self, value: &Value<'_>) -> Result<Self::Output, SceneError>;
+}
+
+/// A value and what messages call it.
+pub(crate) struct Value<'t> {
+    pub(crate) source: Source<'t>,
+    pub(crate) entry: &'t Spanned<DeValue<'t>>,
+    /// The key, with an index for an entry of an array: `` `points`[1] ``.
+    pub(crate) key: String,
+    /// What it belongs to: ``body `crank` ``.
+    pub(crate) owner: String,
+}
+
+impl<'t> Value<'t> {
+    /// The value itself.
+    pub(crate) fn get(&self) -> &'t DeValue<'t> {
+        self.entry.get_ref()
+    }
+
+    /// Its place.
+    pub(crate) fn span(&self) -> Range<usize> {
+        self.entry.span()
+    }
+
+    /// Refuses it: `problem` follows its name, e.g. `is negative`.
+    pub(crate) fn refuse(&self, problem: &str, expected: &str) -> SceneError {
+        let Self { key, owner, .. } = self;
+        self.refuse_with(problem, format!("{key} of {owner} is {expected}"))
+    }
+
+    /// Refuses it with a help of its own.
+    pub(crate) fn refuse_with(&self, problem: &str, help: impl Into<String>) -> SceneError {
+        let Self { key, owner, .. } = self;
+        self.source.refuse(self.span(), format!("{key} of {owner} {problem}"), help)
+    }
+
+    /// Refuses its type.
+    pub(crate) fn wrong_type(&self, expected: &str) -> SceneError {
+        let kind = self.get().type_str();
+        let article = if matches!(kind, "integer" | "array") { "an" } else { "a" };
+        self.refuse(&format!("is {article} {kind}"), expected)
+    }
+
+    /// The entries of an array of exactly `length`.
+    pub(crate) fn entries(
+        &self,
+        length: usize,
+        expected: &str,
+    ) -> Result<Vec<Value<'t>>, SceneError> {
+        let entries = self.array(expected)?;
+        if entries.len() != length {
+            let plural = if entries.len() == 1 { "entry" } else { "entries" };
+            return Err(self.refuse(&format!("has {} {plural}", entries.len()), expected));
+        }
+        Ok(entries)
+    }
+
+    /// The entries of an array.
+    pub(crate) fn array(&self, expected: &str) -> Result<Vec<Value<'t>>, SceneError> {
+        let DeValue::Array(array) = self.get() else {
+            return Err(self.wrong_type(expected));
+        };
+        let entry = |(i, entry)| Value {
+            source: self.source,
+            entry,
+            key: format!("{}[{i}]", self.key),
+            owner: self.owner.clone(),
+        };
+        Ok(array.iter().enumerate().map(entry).collect())
+    }
+
+    /// A table within the table it belongs to.
+    pub(crate) fn table(&self, expected: &str) -> Result<Table<'t>, SceneError> {
+        match self.get() {
+            DeValue::Table(entries) => {
+                let label = format!("{} of {}", self.key, self.owner);
+                Ok(Table::new(self.source, entries, self.span(), label))
+            }
+            _ => Err(self.wrong_type(expected)),
+        }
+    }
+}
