@@ -29,7 +29,7 @@ pub enum SceneError {
 #[derive(Debug, Error)]
 #[error("{message}")]
 pub struct Refusal {
-    source: NamedSource<String>,
+    scene: NamedSource<String>,
     span: SourceSpan,
     line: usize,
     column: usize,
@@ -43,7 +43,7 @@ impl SceneError {
     pub fn file(&self) -> &str {
         match self {
             Self::Unreadable { file, .. } => file,
-            Self::Refused(refusal) => refusal.source.name(),
+            Self::Refused(refusal) => refusal.scene.name(),
         }
     }
 
@@ -89,7 +89,7 @@ impl Diagnostic for SceneError {
     fn source_code(&self) -> Option<&dyn SourceCode> {
         match self {
             Self::Unreadable { .. } => None,
-            Self::Refused(refusal) => Some(&refusal.source),
+            Self::Refused(refusal) => Some(&refusal.scene),
         }
     }
 
@@ -123,7 +123,7 @@ impl Source<'_> {
     ) -> SceneError {
         let (line, column) = self.position(span.start);
         SceneError::Refused(Box::new(Refusal {
-            source: NamedSource::new(self.file, self.text.to_owned()).with_language("TOML"),
+            scene: NamedSource::new(self.file, self.text.to_owned()).with_language("TOML"),
             span: span.into(),
             line,
             column,
