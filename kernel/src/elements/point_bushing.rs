@@ -1,7 +1,9 @@
 //! Point bushing: a TSDA of zero free length, isotropic, without a root or a division.
 //!
 //! `(d, v_rel) => force on A = k·d + c·v_rel`; the force on B is the opposite.
-//! Energy `½·k·d·d`. Smooth where the points coincide.
+//! Energy `½·k·d·d`. Smooth where the points coincide. The damper's force need not lie along d:
+//! while the points are apart the pair has a torque `d × c·v_rel`, so a damped bushing keeps
+//! linear momentum but angular momentum only as far as d vanishes.
 
 use crate::real::Real;
 use crate::vector::Vec3;

@@ -1,0 +1,254 @@
+//! Rust source of a const model, for a firmware's build script.
+//!
+//! `scene => source text`. Every number is written as its bit pattern, so the model that the
+//! compiler evaluates has the bits of the run-time-sized one; the compiler checks every index
+//! ([`dbd_kernel::Model::checked`]). Put it into a module of its own:
+//!
+//! ```ignore
+//! include!(concat!(env!("OUT_DIR"), "/four_bar.rs"));
+//! let plant = Plant::new(&FOUR_BAR_F32, Leapfrog, FOUR_BAR_STEP)?;
+//! ```
+
+use std::fmt::{Display, Write};
+
+use dbd_kernel::model::{Body, BodyIndex, DamperIndex, Group, ModelOwner};
+use dbd_kernel::{
+    BodyState, F32, F64, Geometry, Load, PointBushing, Quaternion, TorsionSpring, Tsda, Vec3,
+};
+
+use crate::{Scene, SceneModel};
+
+/// A precision that can be written as source.
+pub trait SourcePrecision:
+    Geometry<
+        Position = Vec3<Self::Real>,
+        Orientation = Quaternion<Self::Real>,
+        Velocity = Vec3<Self::Real>,
+        Local = Vec3<Self::Real>,
+    >
+{
+    /// The precision's type in the kernel.
+    const TYPE: &'static str;
+    /// The expression of a number.
+    fn number(value: Self::Real) -> String;
+}
+
+impl SourcePrecision for F64 {
+    const TYPE: &'static str = "F64";
+    fn number(value: f64) -> String {
+        format!("f64::from_bits({:#018x})", value.to_bits())
+    }
+}
+
+impl SourcePrecision for F32 {
+    const TYPE: &'static str = "F32";
+    fn number(value: f32) -> String {
+        format!("f32::from_bits({:#010x})", value.to_bits())
+    }
+}
+
+/// The scene's name as a Rust constant: `four-bar` becomes `FOUR_BAR`; a leading digit gets a `_`.
+#[must_use]
+pub fn constant_name(scene: &str) -> String {
+    let name: String = scene
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_uppercase() } else { '_' })
+        .collect();
+    if name.starts_with(|c: char| c.is_ascii_digit()) { format!("_{name}") } else { name }
+}
+
+/// The scene's name as a Rust type: `four-bar` becomes `FourBar`.
+#[must_use]
+pub fn type_name(scene: &str) -> String {
+    let words = scene.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+    let name: String = words
+        .map(|word| {
+            let (first, rest) = word.split_at(1);
+            first.to_ascii_uppercase() + rest
+        })
+        .collect();
+    if name.starts_with(|c: char| c.is_ascii_digit()) { format!("_{name}") } else { name }
+}
+
+/// Source of what all precisions share: `use` lines, the step \[s\] and the bodies' names. `step`
+/// is the default step where the scene gives none.
+#[must_use]
+pub fn preamble(scene: &Scene, step: f64) -> String {
+    let name = constant_name(&scene.name);
+    let step = F64::number(scene.step.unwrap_or(step));
+    let bodies = list(&scene.body_names, |body| format!("{body:?}"));
+    format!(
+        "// Not every scene has every kind of element.\n\
+         #[allow(unused_imports)]\n\
+         use dbd_kernel::{{\n    \
+             Body, BodyIndex, BodyState, F32, F64, Load, LoadFrame, Model, PointBushing,\n    \
+             Quaternion, TorsionSpring, Tsda, Vec3,\n    \
+             model::{{DamperIndex, Group, Law}},\n\
+         }};\n\n\
+         /// \\[s\\] the step of the scene `{scene_name}`.\n\
+         pub const {name}_STEP: f64 = {step};\n\
+         /// The bodies of the scene `{scene_name}`, in order.\n\
+         pub const {name}_BODIES: [&str; {count}] = {bodies};\n",
+        scene_name = scene.name,
+        count = scene.body_names.len(),
+    )
+}
+
+/// Source of the scene's model in the precision `P`: a type alias `FourBarF32` with the counts
+/// and a static `FOUR_BAR_F32`.
+#[must_use]
+pub fn model<P: SourcePrecision>(scene: &Scene) -> String {
+    let model: SceneModel<P> = scene.model.convert();
+    let ty = format!("{}{}", type_name(&scene.name), P::TYPE);
+    let name = format!("{}_{}", constant_name(&scene.name), P::TYPE);
+    let counts = [
+        model.bodies.len(),
+        model.groups.len(),
+        model.points.len(),
+        model.tsdas.len(),
+        model.bushings.len(),
+        model.dampers.len(),
+        model.torsions.len(),
+        model.gravity.len(),
+        model.loads.len(),
+    ];
+    let counts = counts.map(|n| n.to_string()).join(", ");
+    let mut out = String::new();
+    let mut line = |text: &dyn Display| {
+        // Writing to a string cannot fail.
+        let _ = writeln!(out, "{text}");
+    };
+    line(&format_args!("/// The shape of the scene `{}`.", scene.name));
+    line(&format_args!("pub type {ty} = Model<{}, {counts}>;", P::TYPE));
+    line(&format_args!("/// The scene `{}`.", scene.name));
+    line(&format_args!("pub static {name}: {ty} = Model {{"));
+    line(&format_args!("    bodies: {},", list(&model.bodies, body::<P>)));
+    line(&format_args!("    initial: {},", list(model.initial(), state::<P>)));
+    line(&format_args!("    gravity: {},", list(&model.gravity, vector::<P>)));
+    line(&format_args!("    groups: {},", list(&model.groups, group)));
+    line(&format_args!("    points: {},", list(&model.points, vector::<P>)));
+    line(&format_args!("    tsdas: {},", list(&model.tsdas, tsda::<P>)));
+    line(&format_args!("    bushings: {},", list(&model.bushings, bushing::<P>)));
+    line(&format_args!("    dampers: {},", list(&model.dampers, |c| P::number(*c))));
+    line(&format_args!("    torsions: {},", list(&model.torsions, torsion::<P>)));
+    line(&format_args!("    loads: {},", list(&model.loads, load::<P>)));
+    line(&"}");
+    line(&".checked();");
+    out
+}
+
+fn list<T>(items: &[T], item: impl Fn(&T) -> String) -> String {
+    if items.is_empty() {
+        return "[]".into();
+    }
+    let items: Vec<_> = items.iter().map(|i| format!("        {},\n", item(i))).collect();
+    format!("[\n{}    ]", items.concat())
+}
+
+fn vector<P: SourcePrecision>(v: &Vec3<P::Real>) -> String {
+    format!("Vec3::new({}, {}, {})", P::number(v.x), P::number(v.y), P::number(v.z))
+}
+
+fn quaternion<P: SourcePrecision>(q: &Quaternion<P::Real>) -> String {
+    let [w, x, y, z] = [q.w, q.v.x, q.v.y, q.v.z].map(P::number);
+    format!("Quaternion::new({w}, {x}, {y}, {z})")
+}
+
+fn index(body: BodyIndex) -> String {
+    if body.is_world() { "BodyIndex::WORLD".into() } else { format!("BodyIndex({})", body.0) }
+}
+
+fn damper(damper: DamperIndex) -> String {
+    match damper.row() {
+        Some(row) => format!("DamperIndex({row})"),
+        None => "DamperIndex::NONE".into(),
+    }
+}
+
+fn body<P: SourcePrecision>(body: &Body<P::Real>) -> String {
+    format!(
+        "Body {{ mass: {}, inertia: {}, inverse_mass: {}, inverse_inertia: {}, ratio: {}, \
+         inverse_ratio: {} }}",
+        P::number(body.mass),
+        vector::<P>(&body.inertia),
+        P::number(body.inverse_mass),
+        vector::<P>(&body.inverse_inertia),
+        vector::<P>(&body.ratio),
+        vector::<P>(&body.inverse_ratio),
+    )
+}
+
+fn state<P: SourcePrecision>(state: &BodyState<P>) -> String {
+    format!(
+        "BodyState {{ position: {}, orientation: {}, velocity: {}, angular_velocity: {} }}",
+        vector::<P>(&state.position),
+        quaternion::<P>(&state.orientation),
+        vector::<P>(&state.velocity),
+        vector::<P>(&state.angular_velocity),
+    )
+}
+
+fn group(group: &Group) -> String {
+    let Group { law, a, b, stars, arms, shared, point, element, damper: coefficients } = group;
+    format!(
+        "Group {{ law: Law::{law:?}, a: {}, b: {}, stars: {stars}, arms: {arms}, \
+         shared: {shared}, point: {point}, element: {element}, damper: {} }}",
+        index(*a),
+        index(*b),
+        damper(*coefficients),
+    )
+}
+
+fn tsda<P: SourcePrecision>(tsda: &Tsda<P::Real>) -> String {
+    let (k, l0) = (P::number(tsda.stiffness), P::number(tsda.free_length));
+    format!("Tsda {{ stiffness: {k}, free_length: {l0} }}")
+}
+
+fn bushing<P: SourcePrecision>(bushing: &PointBushing<P::Real>) -> String {
+    format!("PointBushing {{ stiffness: {} }}", P::number(bushing.stiffness))
+}
+
+fn torsion<P: SourcePrecision>(spring: &TorsionSpring<P::Real>) -> String {
+    format!(
+        "TorsionSpring {{ a: {}, b: {}, axis: {}, reference: {}, stiffness: {}, preload: {}, \
+         damper: {} }}",
+        index(spring.a),
+        index(spring.b),
+        vector::<P>(&spring.axis),
+        quaternion::<P>(&spring.reference),
+        P::number(spring.stiffness),
+        P::number(spring.preload),
+        damper(spring.damper),
+    )
+}
+
+fn load<P: SourcePrecision>(load: &Load<P::Real>) -> String {
+    format!(
+        "Load {{ body: {}, frame: LoadFrame::{:?}, force: {}, torque: {}, from: {}, until: {} }}",
+        index(load.body),
+        load.frame,
+        vector::<P>(&load.force),
+        vector::<P>(&load.torque),
+        F64::number(load.from),
+        F64::number(load.until),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_become_identifiers() {
+        assert_eq!(constant_name("four-bar"), "FOUR_BAR");
+        assert_eq!(constant_name("3rrr-1"), "_3RRR_1");
+        assert_eq!(type_name("five-bar-a"), "FiveBarA");
+        assert_eq!(type_name("3ruu"), "_3ruu");
+    }
+
+    #[test]
+    fn numbers_are_written_as_their_bits() {
+        assert_eq!(F32::number(1.0), "f32::from_bits(0x3f800000)");
+        assert_eq!(F64::number(-2.5), "f64::from_bits(0xc004000000000000)");
+    }
+}
