@@ -11,39 +11,31 @@
 
 use std::fmt::{Display, Write};
 
+use dbd_kernel::geometry::{Float, Named};
 use dbd_kernel::model::{Body, BodyIndex, DamperIndex, Group, ModelOwner};
-use dbd_kernel::{
-    BodyState, F32, F64, Geometry, Load, PointBushing, Quaternion, TorsionSpring, Tsda, Vec3,
-};
+use dbd_kernel::{BodyState, Load, PointBushing, Quaternion, Real, TorsionSpring, Tsda, Vec3};
 
 use crate::{Scene, SceneModel};
 
-/// A precision that can be written as source.
-pub trait SourcePrecision:
-    Geometry<
-        Position = Vec3<Self::Real>,
-        Orientation = Quaternion<Self::Real>,
-        Velocity = Vec3<Self::Real>,
-        Local = Vec3<Self::Real>,
-    >
-{
+/// A number that can be written as source, and the precision made of it.
+pub trait SourceNumber: Real + Named {
     /// The precision's type in the kernel.
     const TYPE: &'static str;
-    /// The expression of a number.
-    fn number(value: Self::Real) -> String;
+    /// The number's expression.
+    fn number(self) -> String;
 }
 
-impl SourcePrecision for F64 {
+impl SourceNumber for f64 {
     const TYPE: &'static str = "F64";
-    fn number(value: f64) -> String {
-        format!("f64::from_bits({:#018x})", value.to_bits())
+    fn number(self) -> String {
+        format!("f64::from_bits({:#018x})", self.to_bits())
     }
 }
 
-impl SourcePrecision for F32 {
+impl SourceNumber for f32 {
     const TYPE: &'static str = "F32";
-    fn number(value: f32) -> String {
-        format!("f32::from_bits({:#010x})", value.to_bits())
+    fn number(self) -> String {
+        format!("f32::from_bits({:#010x})", self.to_bits())
     }
 }
 
@@ -75,7 +67,7 @@ pub fn type_name(scene: &str) -> String {
 #[must_use]
 pub fn preamble(scene: &Scene, step: f64) -> String {
     let name = constant_name(&scene.name);
-    let step = F64::number(scene.step.unwrap_or(step));
+    let step = (scene.step.unwrap_or(step)).number();
     let bodies = list(&scene.body_names, |body| format!("{body:?}"));
     format!(
         "// Not every scene has every kind of element.\n\
@@ -94,13 +86,13 @@ pub fn preamble(scene: &Scene, step: f64) -> String {
     )
 }
 
-/// Source of the scene's model in the precision `P`: a type alias `FourBarF32` with the counts
+/// Source of the scene's model in the precision of `R`: a type alias `FourBarF32` with the counts
 /// and a static `FOUR_BAR_F32`.
 #[must_use]
-pub fn model<P: SourcePrecision>(scene: &Scene) -> String {
-    let model: SceneModel<P> = scene.model.convert();
-    let ty = format!("{}{}", type_name(&scene.name), P::TYPE);
-    let name = format!("{}_{}", constant_name(&scene.name), P::TYPE);
+pub fn model<R: SourceNumber>(scene: &Scene) -> String {
+    let model: SceneModel<Float<R>> = scene.model.convert();
+    let ty = format!("{}{}", type_name(&scene.name), R::TYPE);
+    let name = format!("{}_{}", constant_name(&scene.name), R::TYPE);
     let counts = [
         model.bodies.len(),
         model.groups.len(),
@@ -119,19 +111,19 @@ pub fn model<P: SourcePrecision>(scene: &Scene) -> String {
         let _ = writeln!(out, "{text}");
     };
     line(&format_args!("/// The shape of the scene `{}`.", scene.name));
-    line(&format_args!("pub type {ty} = Model<{}, {counts}>;", P::TYPE));
+    line(&format_args!("pub type {ty} = Model<{}, {counts}>;", R::TYPE));
     line(&format_args!("/// The scene `{}`.", scene.name));
     line(&format_args!("pub static {name}: {ty} = Model {{"));
-    line(&format_args!("    bodies: {},", list(&model.bodies, body::<P>)));
-    line(&format_args!("    initial: {},", list(model.initial(), state::<P>)));
-    line(&format_args!("    gravity: {},", list(&model.gravity, vector::<P>)));
+    line(&format_args!("    bodies: {},", list(&model.bodies, body::<R>)));
+    line(&format_args!("    initial: {},", list(model.initial(), state::<R>)));
+    line(&format_args!("    gravity: {},", list(&model.gravity, vector::<R>)));
     line(&format_args!("    groups: {},", list(&model.groups, group)));
-    line(&format_args!("    points: {},", list(&model.points, vector::<P>)));
-    line(&format_args!("    tsdas: {},", list(&model.tsdas, tsda::<P>)));
-    line(&format_args!("    bushings: {},", list(&model.bushings, bushing::<P>)));
-    line(&format_args!("    dampers: {},", list(&model.dampers, |c| P::number(*c))));
-    line(&format_args!("    torsions: {},", list(&model.torsions, torsion::<P>)));
-    line(&format_args!("    loads: {},", list(&model.loads, load::<P>)));
+    line(&format_args!("    points: {},", list(&model.points, vector::<R>)));
+    line(&format_args!("    tsdas: {},", list(&model.tsdas, tsda::<R>)));
+    line(&format_args!("    bushings: {},", list(&model.bushings, bushing::<R>)));
+    line(&format_args!("    dampers: {},", list(&model.dampers, |c| c.number())));
+    line(&format_args!("    torsions: {},", list(&model.torsions, torsion::<R>)));
+    line(&format_args!("    loads: {},", list(&model.loads, load::<R>)));
     line(&"}");
     line(&".checked();");
     out
@@ -145,12 +137,12 @@ fn list<T>(items: &[T], item: impl Fn(&T) -> String) -> String {
     format!("[\n{}    ]", items.concat())
 }
 
-fn vector<P: SourcePrecision>(v: &Vec3<P::Real>) -> String {
-    format!("Vec3::new({}, {}, {})", P::number(v.x), P::number(v.y), P::number(v.z))
+fn vector<R: SourceNumber>(v: &Vec3<R>) -> String {
+    format!("Vec3::new({}, {}, {})", v.x.number(), v.y.number(), v.z.number())
 }
 
-fn quaternion<P: SourcePrecision>(q: &Quaternion<P::Real>) -> String {
-    let [w, x, y, z] = [q.w, q.v.x, q.v.y, q.v.z].map(P::number);
+fn quaternion<R: SourceNumber>(q: &Quaternion<R>) -> String {
+    let [w, x, y, z] = [q.w, q.v.x, q.v.y, q.v.z].map(R::number);
     format!("Quaternion::new({w}, {x}, {y}, {z})")
 }
 
@@ -165,26 +157,26 @@ fn damper(damper: DamperIndex) -> String {
     }
 }
 
-fn body<P: SourcePrecision>(body: &Body<P::Real>) -> String {
+fn body<R: SourceNumber>(body: &Body<R>) -> String {
     format!(
         "Body {{ mass: {}, inertia: {}, inverse_mass: {}, inverse_inertia: {}, ratio: {}, \
          inverse_ratio: {} }}",
-        P::number(body.mass),
-        vector::<P>(&body.inertia),
-        P::number(body.inverse_mass),
-        vector::<P>(&body.inverse_inertia),
-        vector::<P>(&body.ratio),
-        vector::<P>(&body.inverse_ratio),
+        body.mass.number(),
+        vector::<R>(&body.inertia),
+        body.inverse_mass.number(),
+        vector::<R>(&body.inverse_inertia),
+        vector::<R>(&body.ratio),
+        vector::<R>(&body.inverse_ratio),
     )
 }
 
-fn state<P: SourcePrecision>(state: &BodyState<P>) -> String {
+fn state<R: SourceNumber>(state: &BodyState<Float<R>>) -> String {
     format!(
         "BodyState {{ position: {}, orientation: {}, velocity: {}, angular_velocity: {} }}",
-        vector::<P>(&state.position),
-        quaternion::<P>(&state.orientation),
-        vector::<P>(&state.velocity),
-        vector::<P>(&state.angular_velocity),
+        vector::<R>(&state.position),
+        quaternion::<R>(&state.orientation),
+        vector::<R>(&state.velocity),
+        vector::<R>(&state.angular_velocity),
     )
 }
 
@@ -199,38 +191,38 @@ fn group(group: &Group) -> String {
     )
 }
 
-fn tsda<P: SourcePrecision>(tsda: &Tsda<P::Real>) -> String {
-    let (k, l0) = (P::number(tsda.stiffness), P::number(tsda.free_length));
+fn tsda<R: SourceNumber>(tsda: &Tsda<R>) -> String {
+    let (k, l0) = (tsda.stiffness.number(), tsda.free_length.number());
     format!("Tsda {{ stiffness: {k}, free_length: {l0} }}")
 }
 
-fn bushing<P: SourcePrecision>(bushing: &PointBushing<P::Real>) -> String {
-    format!("PointBushing {{ stiffness: {} }}", P::number(bushing.stiffness))
+fn bushing<R: SourceNumber>(bushing: &PointBushing<R>) -> String {
+    format!("PointBushing {{ stiffness: {} }}", bushing.stiffness.number())
 }
 
-fn torsion<P: SourcePrecision>(spring: &TorsionSpring<P::Real>) -> String {
+fn torsion<R: SourceNumber>(spring: &TorsionSpring<R>) -> String {
     format!(
         "TorsionSpring {{ a: {}, b: {}, axis: {}, reference: {}, stiffness: {}, preload: {}, \
          damper: {} }}",
         index(spring.a),
         index(spring.b),
-        vector::<P>(&spring.axis),
-        quaternion::<P>(&spring.reference),
-        P::number(spring.stiffness),
-        P::number(spring.preload),
+        vector::<R>(&spring.axis),
+        quaternion::<R>(&spring.reference),
+        spring.stiffness.number(),
+        spring.preload.number(),
         damper(spring.damper),
     )
 }
 
-fn load<P: SourcePrecision>(load: &Load<P::Real>) -> String {
+fn load<R: SourceNumber>(load: &Load<R>) -> String {
     format!(
         "Load {{ body: {}, frame: LoadFrame::{:?}, force: {}, torque: {}, from: {}, until: {} }}",
         index(load.body),
         load.frame,
-        vector::<P>(&load.force),
-        vector::<P>(&load.torque),
-        F64::number(load.from),
-        F64::number(load.until),
+        vector::<R>(&load.force),
+        vector::<R>(&load.torque),
+        load.from.number(),
+        load.until.number(),
     )
 }
 
@@ -248,7 +240,7 @@ mod tests {
 
     #[test]
     fn numbers_are_written_as_their_bits() {
-        assert_eq!(F32::number(1.0), "f32::from_bits(0x3f800000)");
-        assert_eq!(F64::number(-2.5), "f64::from_bits(0xc004000000000000)");
+        assert_eq!(1.0_f32.number(), "f32::from_bits(0x3f800000)");
+        assert_eq!((-2.5_f64).number(), "f64::from_bits(0xc004000000000000)");
     }
 }
