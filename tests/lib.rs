@@ -1,9 +1,22 @@
 //! Systems and measures that the tests across crates share.
 
+use std::path::Path;
+
 use dbd_kernel::builder::{ModelBuilder, Stars};
 use dbd_kernel::{
     BodyIndex, BodyState, F64, Geometry, ModelOwner, Plant, Quaternion, Scheme, State, Vec3,
 };
+use dbd_scene::Scene;
+
+/// A scene that ships.
+///
+/// # Panics
+/// Where there is none of that name, or it is refused.
+#[must_use]
+pub fn scene(name: &str) -> Scene {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+    Scene::load(&scenes.join(name).with_extension("toml")).unwrap()
+}
 
 /// A builder with room for every test system.
 pub type Bench<P> = ModelBuilder<P, 6, 12, 60, 48, 12, 60, 6, 6>;

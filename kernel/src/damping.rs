@@ -233,9 +233,7 @@ fn torsion<P: Geometry, T: Terms>(
         None => twist.gradient,
     };
     let lever = |row: usize, frame: Option<&P::Frame>| {
-        frame.and_then(|f| {
-            Lever::new(row, model.bodies.get(row), Vec3::ZERO, P::to_body(f, world))
-        })
+        frame.and_then(|f| Lever::new(row, model.bodies.get(row), Vec3::ZERO, P::to_body(f, world)))
     };
     damp(bodies, lever(row_a, frame_a), lever(row_b, frame_b), damping, h);
 }

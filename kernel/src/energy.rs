@@ -46,11 +46,7 @@ impl<R: Real> Energy<R> {
 
 /// The energies of a state, loads as they act at its time for steps of `step_size` \[s\]. A
 /// torsion spring whose twist is undefined counts 0.
-pub fn energy<M: ModelOwner>(
-    model: &M,
-    state: &State<M>,
-    step_size: f64,
-) -> Energy<RealOf<M>> {
+pub fn energy<M: ModelOwner>(model: &M, state: &State<M>, step_size: f64) -> Energy<RealOf<M>> {
     let view = model.view();
     let bodies = state.bodies.as_ref();
     let mut sum = Energy::default();

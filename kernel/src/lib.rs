@@ -76,6 +76,7 @@ pub mod plant;
 pub mod real;
 pub mod rotation;
 pub mod schemes;
+mod square_root;
 pub mod state;
 pub mod status;
 pub mod step;

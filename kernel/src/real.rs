@@ -125,7 +125,7 @@ impl Real for f64 {
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
-        libm::sqrt(self)
+        crate::square_root::sqrt_f64(self)
     }
     #[inline(always)]
     fn is_finite(self) -> bool {
@@ -165,7 +165,7 @@ impl Real for f32 {
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
-        libm::sqrtf(self)
+        crate::square_root::sqrt_f32(self)
     }
     #[inline(always)]
     fn is_finite(self) -> bool {

@@ -176,9 +176,6 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     ) -> Increment<P::Real> {
         let w = P::velocity(&state.angular_velocity);
         let torque = wrench.torque - w.cross(body.inertia.scale(w));
-        Increment {
-            linear: wrench.force * diagonal.mass,
-            angular: torque.scale(diagonal.inertia),
-        }
+        Increment { linear: wrench.force * diagonal.mass, angular: torque.scale(diagonal.inertia) }
     }
 }

@@ -201,10 +201,7 @@ impl<R: Real> Quaternion<R> {
     #[inline(always)]
     pub fn product(self, other: Self) -> Self {
         let (a, b) = (self.v, other.v);
-        Self {
-            w: self.w * other.w - a.dot(b),
-            v: (b * self.w + a * other.w) + a.cross(b),
-        }
+        Self { w: self.w * other.w - a.dot(b), v: (b * self.w + a * other.w) + a.cross(b) }
     }
 
     /// `self + s·(1 − |self|²)/2·self`: one Newton step towards unit length, no root, no division.

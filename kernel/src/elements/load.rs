@@ -120,7 +120,10 @@ mod tests {
         let window = LoadWindow::new(0.0, 2.0, 2e-5);
         assert_eq!((window.first, window.end), (0, 100_000));
         assert!(window.contains(0) && window.contains(99_999) && !window.contains(100_000));
-        assert_eq!(LoadWindow::new(0.3, f64::INFINITY, 0.1), LoadWindow { first: 3, end: u64::MAX });
+        assert_eq!(
+            LoadWindow::new(0.3, f64::INFINITY, 0.1),
+            LoadWindow { first: 3, end: u64::MAX }
+        );
         assert_eq!(LoadWindow::new(0.25, 0.35, 0.1), LoadWindow { first: 3, end: 4 });
     }
 }

@@ -87,11 +87,7 @@ impl<R: Real> TorsionSpring<R> {
         let odd = *turns & 1 != 0;
         let (mut signed_w, mut signed_s) = if odd { (-since.w, -s) } else { (since.w, s) };
         if settle && signed_w < R::ZERO {
-            *turns = if signed_s > R::ZERO {
-                turns.wrapping_add(1)
-            } else {
-                turns.wrapping_sub(1)
-            };
+            *turns = if signed_s > R::ZERO { turns.wrapping_add(1) } else { turns.wrapping_sub(1) };
             signed_w = -signed_w;
             signed_s = -signed_s;
         }
@@ -174,9 +170,8 @@ mod tests {
         let twist = spring.twist(pose, &mut 0, true).unwrap();
         for axis in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
             // A rotation of B by a small vector in A's axes multiplies from the left.
-            let at = |e: f64| {
-                spring.twist(turned(axis, e).product(pose), &mut 0, true).unwrap().angle
-            };
+            let at =
+                |e: f64| spring.twist(turned(axis, e).product(pose), &mut 0, true).unwrap().angle;
             let rate = (at(1e-5) - at(-1e-5)) / 2e-5;
             let along = Vec3::from_f64(axis).dot(twist.gradient);
             assert!((rate - along).abs() < 1e-9, "{rate} {along}");

@@ -1,0 +1,61 @@
+//! The correctly rounded square root: the FPU's where it has one, pure Rust elsewhere.
+//!
+//! IEEE 754 rounds the root correctly, so the bits are the same either way. `core` offers no
+//! root; libm's is the host's instruction on x86-64 and about a hundred instructions on a
+//! Cortex-M, where the single-precision FPU does it in one.
+
+/// √x in double precision; libm's on every target.
+#[inline(always)]
+pub fn sqrt_f64(x: f64) -> f64 {
+    libm::sqrt(x)
+}
+
+/// √x in single precision.
+#[cfg(not(all(target_arch = "arm", target_os = "none", target_abi = "eabihf")))]
+#[inline(always)]
+pub fn sqrt_f32(x: f32) -> f32 {
+    libm::sqrtf(x)
+}
+
+/// √x in single precision, by VSQRT: the hard-float ABI implies the FPU.
+// `s0` is named and passed through a core register because stable Rust refuses the register
+// class `sreg` on this target; a function in `global_asm!` would cost a call and the spilling of
+// every caller-saved register of the FPU.
+#[cfg(all(target_arch = "arm", target_os = "none", target_abi = "eabihf"))]
+#[allow(unsafe_code)]
+#[inline(always)]
+pub fn sqrt_f32(x: f32) -> f32 {
+    let root: u32;
+    // SAFETY: the instructions read and write the named registers only, touch no memory and no
+    // condition flags.
+    unsafe {
+        core::arch::asm!(
+            "vmov s0, {x}",
+            "vsqrt.f32 s0, s0",
+            "vmov {x}, s0",
+            x = inlateout(reg) x.to_bits() => root,
+            out("s0") _,
+            options(pure, nomem, nostack, preserves_flags),
+        );
+    }
+    f32::from_bits(root)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roots_are_correctly_rounded() {
+        // For a correctly rounded root r of x, r·r in twice the precision is within r·ulp of x.
+        let mut x = 1.0e-30_f32;
+        while x < 1.0e30 {
+            let r = sqrt_f32(x);
+            let exact = sqrt_f64(f64::from(x));
+            assert_eq!(r, exact as f32, "{x:e}");
+            x *= 1.37;
+        }
+        assert_eq!(sqrt_f64(2.0), core::f64::consts::SQRT_2);
+        assert!(sqrt_f32(-1.0).is_nan() && sqrt_f64(0.0) == 0.0);
+    }
+}

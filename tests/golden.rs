@@ -1,0 +1,53 @@
+//! Golden bits: the state's hash per scene, scheme, precision, step and number of steps.
+//!
+//! The table `golden/hashes.csv` is part of the interface. `DBD_BLESS=1 cargo test -p dbd-tests
+//! --test golden` writes the present hashes; a changed one needs its reason in the commit.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use dbd_kernel::geometry::{F32, F64, Geometry};
+use dbd_kernel::{Dbd, Leapfrog, Plant, Scheme};
+use dbd_scene::{Scene, SceneModel};
+use dbd_tests::scene;
+
+const HEADER: &str = "scene,scheme,precision,step,steps,hash";
+
+/// Scenes and the number of steps each is run for, at its own step.
+const RUNS: [(&str, u64); 1] = [("four-bar", 10_000)];
+
+fn table() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("golden/hashes.csv")
+}
+
+fn row<P: Geometry, S: Scheme>(scene: &Scene, scheme: S, steps: u64) -> String {
+    let model: SceneModel<P> = scene.model.convert();
+    let step = scene.step.expect("a golden scene states its step");
+    let mut plant = Plant::new(&model, scheme, step).unwrap();
+    for _ in 0..steps {
+        plant.step().ok().unwrap();
+    }
+    let (name, scheme, precision) = (&scene.name, S::NAME, P::NAME);
+    format!("{name},{scheme},{precision},{step:e},{steps},{:016x}", plant.hash())
+}
+
+#[test]
+fn states_have_their_golden_hashes() {
+    let mut present = format!("{HEADER}\n");
+    for (name, steps) in RUNS {
+        let scene = scene(name);
+        for row in [
+            row::<F64, _>(&scene, Dbd::default(), steps),
+            row::<F32, _>(&scene, Dbd::default(), steps),
+            row::<F64, _>(&scene, Leapfrog, steps),
+            row::<F32, _>(&scene, Leapfrog, steps),
+        ] {
+            writeln!(present, "{row}").unwrap();
+        }
+    }
+    if std::env::var_os("DBD_BLESS").is_some() {
+        std::fs::write(table(), &present).unwrap();
+    }
+    let golden = std::fs::read_to_string(table()).unwrap_or_default();
+    assert!(present == golden, "present hashes:\n{present}golden hashes:\n{golden}");
+}
