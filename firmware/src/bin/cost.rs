@@ -1,0 +1,16 @@
+//! Program `cost`: what a step of every shipped model costs, see [`firmware::cost`].
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+use firmware::console::exit;
+
+#[cfg(target_os = "none")]
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    exit(firmware::cost::run(&mut firmware::board::Board::take().systick))
+}
+
+#[cfg(not(target_os = "none"))]
+fn main() -> ! {
+    firmware::say!("instructions are counted on the target: cargo xtask cost");
+    exit(false)
+}

@@ -1,0 +1,22 @@
+//! The MPS2 board with the AN386 image (Cortex-M4F), as QEMU's `mps2-an386` emulates it.
+//!
+//! Every hardware number stands in [`addresses`]. A driver speaks to a [`registers::Registers`],
+//! so its logic is tested on a host; only [`registers::Mapped`] touches the hardware's memory.
+
+pub mod addresses;
+pub mod led;
+pub mod registers;
+pub mod timer;
+pub mod uart;
+
+#[cfg(target_os = "none")]
+mod fault;
+#[cfg(target_os = "none")]
+pub mod stack;
+#[cfg(target_os = "none")]
+pub mod systick;
+#[cfg(target_os = "none")]
+mod take;
+
+#[cfg(target_os = "none")]
+pub use take::Board;

@@ -1,0 +1,116 @@
+//! Steps every shipped model and prints the state's hash at fixed step counts.
+//!
+//! `(models, limits) => lines "hash SCENE SCHEME PRECISION STEPS HASH"`. The counts are 1, 2, 5,
+//! 10, 20, … and the last one asked for. A line that two machines print for the same model,
+//! scheme, precision and count must be the same line; the first that differs tells when.
+
+use dbd_kernel::model::ModelOwner;
+use dbd_kernel::{Geometry, Plant, Scheme, Status};
+
+use crate::models::{Shipped, Visitor, for_each};
+use crate::say;
+
+/// When to stop.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// Most steps per combination.
+    pub steps: u64,
+    /// Most instructions per combination; the count that would exceed it is not begun.
+    pub instructions: u64,
+}
+
+/// Instructions executed since the program began; 0 for ever where nobody counts.
+pub trait InstructionCounter {
+    /// Asked at least once per step.
+    fn count(&mut self) -> u64;
+}
+
+/// Prints all lines; `false` where a model did not step.
+pub fn run(limits: Limits, counter: &mut impl InstructionCounter) -> bool {
+    let mut hashing = Hashing { limits, counter, well: true };
+    for_each(&mut hashing);
+    hashing.well
+}
+
+struct Hashing<'c, C> {
+    limits: Limits,
+    counter: &'c mut C,
+    well: bool,
+}
+
+impl<C: InstructionCounter> Visitor for Hashing<'_, C> {
+    fn visit<M: ModelOwner, S: Scheme>(&mut self, shipped: Shipped<M, S>) {
+        let precision = M::Precision::NAME;
+        let Ok(mut plant) = Plant::new(shipped.model, shipped.scheme, shipped.step) else {
+            say!("hash {} {} {} refused its step", shipped.scene, S::NAME, precision);
+            self.well = false;
+            return;
+        };
+        let start = self.counter.count();
+        let mut next = 1;
+        while next <= self.limits.steps {
+            let done = plant.state().step;
+            let spent = self.counter.count() - start;
+            if done > 0 && spent.saturating_mul(next) / done > self.limits.instructions {
+                return;
+            }
+            while plant.state().step < next {
+                if let Status::Failed(failure) = plant.step() {
+                    let step = failure.step;
+                    say!("hash {} {} {} failed at {}", shipped.scene, S::NAME, precision, step);
+                    self.well = false;
+                    return;
+                }
+                self.counter.count();
+            }
+            let hash = plant.hash();
+            say!("hash {} {} {} {} {:016x}", shipped.scene, S::NAME, precision, next, hash);
+            if next == self.limits.steps {
+                return;
+            }
+            next = successor(next).min(self.limits.steps);
+        }
+    }
+}
+
+/// The number after `n` in 1, 2, 5, 10, 20, …
+fn successor(n: u64) -> u64 {
+    let mut decade = 1;
+    while n / decade >= 10 {
+        decade *= 10;
+    }
+    decade
+        * if n / decade < 2 {
+            2
+        } else if n / decade < 5 {
+            5
+        } else {
+            10
+        }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Nobody;
+
+    impl InstructionCounter for Nobody {
+        fn count(&mut self) -> u64 {
+            0
+        }
+    }
+
+    #[test]
+    fn counts_are_those_of_a_preferred_series() {
+        let counts: Vec<u64> =
+            core::iter::successors(Some(1), |&n| Some(successor(n))).take(8).collect();
+        assert_eq!(counts, [1, 2, 5, 10, 20, 50, 100, 200]);
+    }
+
+    #[test]
+    fn every_shipped_model_steps() {
+        let limits = Limits { steps: 30, instructions: u64::MAX };
+        assert!(run(limits, &mut Nobody));
+    }
+}

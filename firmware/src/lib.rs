@@ -1,0 +1,14 @@
+//! Discrete Body Dynamics on Cortex-M4F: const models in flash, board drivers, programs.
+//!
+//! `shipped models => program => lines on the console`. Hardware is touched in [`board`] only;
+//! models and programs also compile for a host, where `hash` prints the same lines.
+#![cfg_attr(target_os = "none", no_std)]
+
+pub mod board;
+pub mod console;
+pub mod hash;
+pub mod models;
+mod pendulum;
+
+#[cfg(target_os = "none")]
+pub mod cost;
