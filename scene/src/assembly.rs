@@ -4,7 +4,6 @@
 //! bodies by `Rᵀ·(P − x)` with the very rotation that the kernel places them back with.
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 
 use dbd_kernel::model::{DamperIndex, Group, Law};
 use dbd_kernel::{
@@ -230,15 +229,16 @@ impl Assembly {
         self.model.loads.push(load);
     }
 
-    /// The groups there are.
-    pub(crate) fn groups(&self) -> &[Group] {
-        &self.model.groups
+    /// The number of groups there are.
+    pub(crate) fn group_count(&self) -> usize {
+        self.model.groups.len()
     }
 
-    /// Elements of the groups `range` and their largest |L − L0| \[m\] at the initial pose.
-    pub(crate) fn extensions(&self, range: Range<usize>) -> (usize, f64) {
-        let (mut count, mut largest) = (0, 0.0_f64);
-        for group in self.model.groups.get(range).unwrap_or_default() {
+    /// The elements of the groups from `first` on: how many there are and their largest
+    /// |L − L0| \[m\] at the initial pose.
+    pub(crate) fn extensions(&self, first: usize) -> Result<(usize, f64), Defect> {
+        let (mut count, mut largest) = (0, 0.0);
+        for group in self.model.groups.get(first..).unwrap_or_default() {
             let (first, stars, arms) =
                 (usize::from(group.point), usize::from(group.stars), usize::from(group.arms));
             for i in 0..group.elements() {
@@ -250,11 +250,16 @@ impl Assembly {
                     Law::PointBushing => 0.0,
                 };
                 let extension = (libm::sqrt(d.dot(d)) - free_length).abs();
-                largest = if extension > largest { extension } else { largest };
+                if !extension.is_finite() {
+                    return Err(Defect::OutOfRange);
+                }
+                if extension > largest {
+                    largest = extension;
+                }
                 count += 1;
             }
         }
-        (count, largest)
+        Ok((count, largest))
     }
 
     /// The model and the names of its bodies.

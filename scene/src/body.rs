@@ -2,14 +2,13 @@
 //!
 //! `table => body in the assembly`.
 
-use std::collections::BTreeMap;
-
 use dbd_kernel::{Body, BodyState, F64};
 
 use crate::assembly::{Assembly, WORLD};
 use crate::error::SceneError;
+use crate::names::Names;
 use crate::orientation::Orientation;
-use crate::text::{Number, Numbers, Table, Text, Value};
+use crate::text::{Number, Numbers, Table, Value};
 
 const KEYS: &[&str] =
     &["name", "mass", "inertia", "position", "orientation", "velocity", "angular_velocity"];
@@ -28,36 +27,18 @@ pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), 
             None => root.refuse("has no bodies", help),
         });
     }
-    let mut lines = BTreeMap::new();
-    for mut table in tables {
+    let mut names = Names::new("body");
+    for table in tables {
         table.only(&[KEYS])?;
-        let name = table.required("name", Text::Name)?;
+        let name = names.read(&table)?;
         if name == WORLD {
             let help = "the world is there without being declared; a body has another name";
-            return Err(table.refuse_key("name", "is \"world\"", help));
+            return Err(table.refuse_value("name", "is \"world\"", help));
         }
-        refuse_duplicate(&table, "body", &name, &mut lines)?;
-        table.rename(format!("body `{name}`"));
         let (body, state) = read(&table)?;
         assembly.add_body(&name, body, state).map_err(|defect| defect.refuse(&table))?;
     }
     Ok(())
-}
-
-/// Refuses a name that an earlier table of its kind has.
-pub(crate) fn refuse_duplicate(
-    table: &Table<'_>,
-    kind: &str,
-    name: &str,
-    lines: &mut BTreeMap<String, usize>,
-) -> Result<(), SceneError> {
-    match lines.insert(name.to_owned(), table.line()) {
-        None => Ok(()),
-        Some(first) => {
-            let problem = format!("is \"{name}\", as that of the {kind} on line {first}");
-            Err(table.refuse_key("name", &problem, format!("each {kind} has a name of its own")))
-        }
-    }
 }
 
 fn read(table: &Table<'_>) -> Result<(Body<f64>, BodyState<F64>), SceneError> {
@@ -78,19 +59,13 @@ fn read(table: &Table<'_>) -> Result<(Body<f64>, BodyState<F64>), SceneError> {
 /// Refuses an inertia that no distribution of mass has: one moment above the sum of the others.
 pub(crate) fn refuse_impossible(value: &Value<'_>, inertia: [f64; 3]) -> Result<(), SceneError> {
     let [x, y, z] = inertia;
-    for (name, one, others) in
-        [("Ix", x, ["Iy", "Iz"]), ("Iy", y, ["Ix", "Iz"]), ("Iz", z, ["Ix", "Iy"])]
+    for (name, one, others, sum) in
+        [("Ix", x, "Iy + Iz", y + z), ("Iy", y, "Ix + Iz", x + z), ("Iz", z, "Ix + Iy", x + y)]
     {
-        let sum = match name {
-            "Ix" => y + z,
-            "Iy" => x + z,
-            _ => x + y,
-        };
         if one > sum * (1.0 + TRIANGLE_SLACK) {
-            let [a, b] = others;
-            let problem = format!("breaks the triangle inequality: {name} = {one} > {sum}");
+            let problem = format!("breaks the triangle inequality: {name} = {one:?} > {sum:?}");
             let help = format!(
-                "{name} ≤ {a} + {b}, and likewise for the others: principal moments of a rigid \
+                "{name} ≤ {others}, and likewise for the others: principal moments of a rigid \
                  body about its centre of mass"
             );
             return Err(value.refuse_with(&problem, help));

@@ -43,3 +43,25 @@ pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), 
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use dbd_kernel::{BodyIndex, LoadFrame, Vec3};
+
+    use crate::example;
+
+    #[test]
+    fn a_load_is_in_world_axes_and_lasts_where_nothing_else_is_said() {
+        let scene = example::with(
+            "[[load]]\nbody = \"hand\"\nforce = [0, 3, 0]\n[[load]]\nbody = \"arm\"\n\
+             torque = [0, 0, 0.05]\nframe = \"body\"\nfrom = 0.5\nuntil = 2",
+        );
+        let [first, second] = &scene.model.loads[..] else { panic!("two loads") };
+        assert_eq!((first.body, first.frame), (BodyIndex(1), LoadFrame::World));
+        assert_eq!((first.from, first.until), (0.0, f64::INFINITY));
+        assert_eq!((first.force, first.torque), (Vec3::new(0.0, 3.0, 0.0), Vec3::ZERO));
+        assert_eq!((second.body, second.frame), (BodyIndex(0), LoadFrame::Body));
+        assert_eq!((second.from, second.until), (0.5, 2.0));
+        assert_eq!((second.force, second.torque), (Vec3::ZERO, Vec3::new(0.0, 0.0, 0.05)));
+    }
+}

@@ -96,6 +96,27 @@ mod tests {
     }
 
     #[test]
+    fn the_three_forms_agree() {
+        let quarter = core::f64::consts::FRAC_PI_2;
+        let of = |form: &str| {
+            let text = format!(
+                "name = \"o\"\nduration = 1\n[[body]]\nname = \"b\"\nmass = 1\n\
+                 inertia = [1, 1, 1]\nposition = [0, 0, 0]\norientation = {form}"
+            );
+            crate::Scene::parse(&text, "o").unwrap().model.initial[0].orientation.to_f64()
+        };
+        let expected = of("{ quaternion = [5, 0, 0, 5] }");
+        for form in [
+            format!("{{ axis = [0, 0, 0.1], angle = {quarter:?} }}"),
+            format!("{{ euler_321 = [{quarter:?}, 0, 0] }}"),
+        ] {
+            for (p, q) in of(&form).into_iter().zip(expected) {
+                assert!((p - q).abs() < 1e-15, "{form}");
+            }
+        }
+    }
+
+    #[test]
     fn a_unit_quaternion_keeps_its_bits() {
         for q in [[1.0, 0.0, 0.0, 0.0], [0.5, -0.5, 0.5, 0.5], [0.6, 0.0, 0.8, 0.0]] {
             assert_eq!(normalised(q), q);

@@ -97,3 +97,29 @@ impl Kind for Stiffness {
         Ok(stiffness)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::example;
+
+    fn tsda(keys: &str) -> (f64, f64) {
+        let scene = example::with(&format!(
+            "[[tsda]]\nbetween = [\"arm\", \"hand\"]\npoints = [[0, 0, 0], [1, 0, 0]]\n\
+             free_length = 0.1\n{keys}"
+        ));
+        (scene.model.tsdas[0].stiffness, scene.model.dampers.first().copied().unwrap_or(0.0))
+    }
+
+    #[test]
+    fn stiffness_and_damping_have_two_forms_each() {
+        assert_eq!(tsda("stiffness = 5e6"), (5e6, 0.0));
+        assert_eq!(tsda("stiffness = 0\ndamping = 7"), (0.0, 7.0));
+        let (stiffness, damping) = tsda(
+            "stiffness = { load = 500, deflection = 1e-4 }\ndamping_ratio = 1\nfrequency = 550",
+        );
+        assert_eq!(stiffness, 500.0 / 1e-4);
+        // c = 2ζk/ω at ω = 2π·550 rad/s.
+        assert!((damping - 2.0 * 5e6 / 3_455.751_918_948_772).abs() < 1e-9);
+        assert_eq!(tsda("stiffness = 1\ndamping_ratio = 0\nfrequency = 1"), (1.0, 0.0));
+    }
+}

@@ -29,3 +29,38 @@ pub(crate) fn read_all(
     }
     Ok(names)
 }
+
+#[cfg(test)]
+mod tests {
+    use dbd_kernel::{F64, Geometry, Vec3};
+
+    use crate::example;
+
+    /// The axis is stored in the first body and the twist is 0 at the initial pose.
+    #[test]
+    fn the_axis_is_the_first_bodys_and_the_twist_starts_at_zero() {
+        let scene = example::with(
+            "[[torsion_spring]]\nbetween = [\"arm\", \"hand\"]\naxis = [3, 0, 4]\nstiffness = 5\n\
+             preload = -2\n[[torsion_spring]]\nbetween = [\"world\", \"hand\"]\naxis = [0, 0, -7]\n\
+             stiffness = { load = 3, deflection = 0.5 }",
+        );
+        assert_eq!(
+            scene.torsion_names,
+            ["torsion_spring 1 (arm–hand)", "torsion_spring 2 (world–hand)"]
+        );
+        let [first, second] = &scene.model.torsions[..] else { panic!("two springs") };
+        let states = &scene.model.initial;
+        let world = states[0].orientation.rotation().to_world(first.axis);
+        let gap = world - Vec3::new(0.6, 0.0, 0.8);
+        assert!(libm::sqrt(gap.dot(gap)) < 1e-15);
+        assert_eq!(second.axis, Vec3::new(0.0, 0.0, -1.0));
+        assert_eq!((first.stiffness, first.preload), (5.0, -2.0));
+        assert_eq!((second.stiffness, second.preload), (6.0, 0.0));
+        let hand = Some(&states[1].orientation);
+        for (spring, a) in [(first, Some(&states[0].orientation)), (second, None)] {
+            let twist = spring.twist(F64::relative(a, hand), &mut 0, true).unwrap();
+            assert!(twist.angle.abs() < 1e-15, "{:e}", twist.angle);
+            assert_eq!(spring.damper.row(), None);
+        }
+    }
+}

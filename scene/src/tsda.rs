@@ -21,10 +21,7 @@ pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), 
         let [a, b] = table.required("points", TwoPoints)?;
         let spring = spring::read(&table, spring::AXIAL)?;
         let free_length = table.required("free_length", Number::not_negative("m"))?;
-        let points = Points { centres: &[a], tips: &[b], shared: false };
-        let added = if free_length == 0.0 {
-            assembly.add_bushing(&pair, points, spring)
-        } else {
+        if free_length > 0.0 {
             let d = assembly.place(pair.b, b) - assembly.place(pair.a, a);
             if libm::sqrt(d.dot(d)) <= COINCIDENT * free_length {
                 let help = "two points apart, or `free_length = 0` for a spring that is \
@@ -32,9 +29,16 @@ pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), 
                 let problem = "coincide, though the TSDA has a free length";
                 return Err(table.refuse_value("points", problem, help));
             }
+        }
+        let points = Points { centres: &[a], tips: &[b], shared: false };
+        let group = assembly.group_count();
+        if free_length > 0.0 {
             assembly.add_tsdas(&pair, points, free_length, spring)
-        };
-        added.map_err(|defect| defect.refuse(&table))?;
+        } else {
+            assembly.add_bushing(&pair, points, spring)
+        }
+        .and_then(|()| assembly.extensions(group))
+        .map_err(|defect| defect.refuse(&table))?;
     }
     Ok(())
 }
@@ -55,5 +59,29 @@ impl Kind for TwoPoints {
             *point = Vec3::from_f64(Numbers(Number::any("m")).read(&entry)?);
         }
         Ok(points)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dbd_kernel::Vec3;
+    use dbd_kernel::model::Law;
+
+    use crate::example;
+
+    #[test]
+    fn points_are_taken_as_given_and_no_free_length_makes_a_bushing() {
+        let scene = example::with(
+            "[[tsda]]\nbetween = [\"arm\", \"hand\"]\npoints = [[0, 0.5, 0], [0, -2, 0]]\n\
+             stiffness = 4e6\nfree_length = 0.03\n[[tsda]]\nbetween = [\"world\", \"hand\"]\n\
+             points = [[1, 2, 3], [0, 0, 0]]\nstiffness = 8\ndamping = 0.5\nfree_length = 0",
+        );
+        let model = &scene.model;
+        assert_eq!((model.groups[0].law, model.groups[1].law), (Law::Tsda, Law::PointBushing));
+        assert_eq!(model.points[..2], [Vec3::new(0.0, 0.5, 0.0), Vec3::new(0.0, -2.0, 0.0)]);
+        assert_eq!(model.points[2..], [Vec3::new(1.0, 2.0, 3.0), Vec3::ZERO]);
+        assert_eq!((model.tsdas[0].stiffness, model.tsdas[0].free_length), (4e6, 0.03));
+        assert_eq!((model.bushings[0].stiffness, model.dampers[0]), (8.0, 0.5));
+        assert!(scene.joints.is_empty());
     }
 }

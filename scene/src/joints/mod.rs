@@ -6,17 +6,15 @@
 mod revolute;
 mod spherical;
 
-use std::collections::BTreeMap;
-
 use dbd_kernel::Vec3;
 
 use crate::JointInfo;
-use crate::assembly::{Assembly, Defect};
-use crate::body::refuse_duplicate;
+use crate::assembly::Assembly;
 use crate::error::SceneError;
+use crate::names::Names;
 use crate::pair::{Between, Pair};
 use crate::spring::{self, Spring};
-use crate::text::{Choice, Number, Numbers, Table, Text};
+use crate::text::{Choice, Number, Numbers, Table};
 
 /// A type of joint.
 struct JointType {
@@ -39,7 +37,7 @@ struct Joint {
 }
 
 /// In the order in which messages name them.
-const TYPES: [JointType; 2] = [spherical::TYPE, revolute::TYPE];
+static TYPES: [JointType; 2] = [spherical::TYPE, revolute::TYPE];
 
 const KEYS: &[&str] = &["name", "type", "between", "at"];
 
@@ -48,33 +46,43 @@ pub(crate) fn read_all(
     root: &Table<'_>,
     assembly: &mut Assembly,
 ) -> Result<Vec<JointInfo>, SceneError> {
-    let mut lines = BTreeMap::new();
+    let mut names = Names::new("joint");
     let mut infos = Vec::new();
-    for mut table in root.list("joint")? {
-        if let Some(name) = table.optional("name", Text::Name)? {
-            refuse_duplicate(&table, "joint", &name, &mut lines)?;
-            table.rename(format!("joint `{name}`"));
-        }
-        infos.push(read(&table, assembly)?);
+    for table in root.list("joint")? {
+        let kind = kind(&table)?;
+        table.only(&[KEYS, kind.keys, spring::KEYS])?;
+        let name = names.read(&table)?;
+        infos.push(read(&table, kind, name, assembly)?);
     }
     Ok(infos)
 }
 
-fn read(table: &Table<'_>, assembly: &mut Assembly) -> Result<JointInfo, SceneError> {
-    let kind = &TYPES[table.required("type", Choice(&TYPES.map(|kind| kind.name)))?];
-    table.only(&[KEYS, kind.keys, spring::KEYS])?;
-    let name = table.required("name", Text::Name)?;
+/// The type, which decides what further keys there may be.
+fn kind(table: &Table<'_>) -> Result<&'static JointType, SceneError> {
+    if !table.has("type") {
+        let mut keys = vec![KEYS, spring::KEYS];
+        keys.extend(TYPES.iter().map(|kind| kind.keys));
+        table.only(&keys)?;
+    }
+    let index = table.required("type", Choice(&TYPES.each_ref().map(|kind| kind.name)))?;
+    Ok(&TYPES[index])
+}
+
+fn read(
+    table: &Table<'_>,
+    kind: &JointType,
+    name: String,
+    assembly: &mut Assembly,
+) -> Result<JointInfo, SceneError> {
     let pair = table.required("between", Between(assembly))?;
     let at_w = Vec3::from_f64(table.required("at", Numbers(Number::any("m, world")))?);
     let spring = spring::read(table, spring::AXIAL)?;
     let joint = Joint { pair, at_w, spring };
 
-    let first = assembly.groups().len();
+    let first = assembly.group_count();
     (kind.expand)(table, &joint, assembly)?;
-    let (tsdas, assembly_error) = assembly.extensions(first..assembly.groups().len());
-    if !assembly_error.is_finite() {
-        return Err(Defect::OutOfRange.refuse(table));
-    }
+    let (tsdas, assembly_error) =
+        assembly.extensions(first).map_err(|defect| defect.refuse(table))?;
     Ok(JointInfo {
         name,
         kind: kind.name,

@@ -45,3 +45,43 @@ fn azimuths() -> [[f64; 2]; 3] {
     let sine = 0.5 * libm::sqrt(3.0);
     [[1.0, 0.0], [-0.5, sine], [-0.5, -sine]]
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::example;
+
+    fn free_length(keys: &str) -> f64 {
+        let scene = example::with(&format!(
+            "[[joint]]\nname = \"r\"\ntype = \"revolute\"\nbetween = [\"arm\", \"hand\"]\n\
+             at = [0.5, 0.2, -0.1]\naxis = [0.1, -2, 0.3]\nstiffness = 1e5\nspan = 0.06\n{keys}"
+        ));
+        assert!(scene.joints[0].assembly_error < 1e-15);
+        scene.model.tsdas[0].free_length
+    }
+
+    #[test]
+    fn the_ring_may_be_given_and_defaults_to_orthogonal_lines() {
+        assert_eq!(free_length("ring = 0.04"), libm::sqrt(0.03 * 0.03 + 0.04 * 0.04));
+        assert!((free_length("") - 0.5 * libm::sqrt(3.0) * 0.06).abs() < 1e-16);
+        // The reference turns the ring and changes no length.
+        assert_eq!(free_length("reference = [0, 0, 1]"), free_length(""));
+    }
+
+    #[test]
+    fn the_reference_sets_the_first_azimuth() {
+        let scene = example::with(
+            "[[joint]]\nname = \"r\"\ntype = \"revolute\"\nbetween = [\"hand\", \"world\"]\n\
+             at = [0, 0, 0]\naxis = [0, 3, 0]\nreference = [1, 5, 1]\nstiffness = 1e5\n\
+             span = 2\nring = 1",
+        );
+        // The world is the second body here and owns the ring; y is taken out of the reference.
+        let [x, y, z] = scene.model.points[2].to_f64();
+        let half = core::f64::consts::FRAC_1_SQRT_2;
+        assert!((x - half).abs() < 1e-15 && y.abs() < 1e-15 && (z - half).abs() < 1e-15);
+        // y × (1, 0, 1)/√2 = (1, 0, −1)/√2: the azimuth grows from z towards x.
+        let [x, _, z] = scene.model.points[3].to_f64();
+        let (sine, cosine) = libm::sincos(120.0_f64.to_radians());
+        assert!((x - half * (cosine + sine)).abs() < 1e-15);
+        assert!((z - half * (cosine - sine)).abs() < 1e-15);
+    }
+}

@@ -22,3 +22,34 @@ fn expand(table: &Table<'_>, joint: &Joint, assembly: &mut Assembly) -> Result<(
     let points = Points { centres: &[centre], tips: &tips, shared: false };
     assembly.add_tsdas(pair, points, arm, joint.spring).map_err(|defect| defect.refuse(table))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example;
+
+    #[test]
+    fn the_tripod_stands_along_the_world_axes_at_free_length() {
+        let scene = example::with(
+            "[[joint]]\nname = \"s\"\ntype = \"spherical\"\nbetween = [\"arm\", \"hand\"]\n\
+             at = [0.5, 0.2, -0.1]\nstiffness = 1e5\narm = 0.03",
+        );
+        let joint = &scene.joints[0];
+        assert_eq!((joint.kind, joint.holds, joint.tsdas), ("spherical", 3, 3));
+        assert_eq!(joint.between, ["arm", "hand"]);
+        assert!(joint.assembly_error < 1e-15, "{:e}", joint.assembly_error);
+        let world = |row: usize, point: Vec3<f64>| {
+            let state = &scene.model.initial[row];
+            state.position + state.orientation.rotation().to_world(point)
+        };
+        let points = &scene.model.points;
+        let centre = world(0, points[0]);
+        for (axis, point) in points[1..].iter().enumerate() {
+            let mut expected = [0.0; 3];
+            expected[axis] = 0.03;
+            let gap = world(1, *point) - centre - Vec3::from_f64(expected);
+            assert!(libm::sqrt(gap.dot(gap)) < 1e-15, "{axis}: {gap:?}");
+        }
+        assert_eq!(scene.model.tsdas[0].free_length, 0.03);
+    }
+}

@@ -60,17 +60,14 @@ impl Kind for Number {
 
     fn read(&self, value: &Value<'_>) -> Result<f64, SceneError> {
         let number = number(value).ok_or_else(|| value.wrong_type(&self.expected()))?;
-        if !number.is_finite() {
-            return Err(value.refuse(&format!("is {number}"), &self.expected()));
-        }
-        // A subnormal number has no finite inverse.
-        let wrong = match self.least {
-            Least::Any => false,
-            Least::Zero => number < 0.0,
-            Least::AboveZero => number < f64::MIN_POSITIVE,
+        let right = match self.least {
+            Least::Any => true,
+            Least::Zero => number >= 0.0,
+            // A subnormal number has no finite inverse.
+            Least::AboveZero => number >= f64::MIN_POSITIVE,
         };
-        if wrong {
-            return Err(value.refuse(&format!("is {number}"), &self.expected()));
+        if !(right && number.is_finite()) {
+            return Err(value.refuse(&format!("is {}", value.written()), &self.expected()));
         }
         Ok(number)
     }
@@ -177,5 +174,30 @@ impl Kind for Choice<'_> {
                 None => value.refuse(&problem, &self.expected()),
             }
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::error::Source;
+    use crate::text::{Number, parse, root};
+
+    #[test]
+    fn numbers_of_every_notation_are_the_nearest_doubles() {
+        for (text, expected) in [
+            ("x = 3", 3.0),
+            ("x = +1_000", 1000.0),
+            ("x = 0x1F", 31.0),
+            ("x = 0b101", 5.0),
+            ("x = 9007199254740993", 9007199254740992.0),
+            ("x = 123456789012345678901234567890", 1.2345678901234568e29),
+            ("x = 20e-6", 2e-5),
+            ("x = 1_0.5", 10.5),
+            ("x = -4.9e-324", -5e-324),
+        ] {
+            let document = parse(Source { file: "f", text }).unwrap();
+            let table = root(Source { file: "f", text }, &document);
+            assert_eq!(table.required("x", Number::any("")).unwrap(), expected, "{text}");
+        }
     }
 }

@@ -20,12 +20,15 @@ pub(crate) fn parse(source: Source<'_>) -> Result<DeTable<'_>, SceneError> {
     match DeTable::parse(source.text) {
         Ok(document) => Ok(document.into_inner()),
         Err(error) => {
-            let (message, expected) = match error.message().split_once(", expected ") {
+            let (message, help) = match error.message().split_once(", expected ") {
                 Some((message, expected)) => (message, format!("expected {expected}")),
+                None if error.message() == "duplicate key" => {
+                    ("duplicate key", "a key stands once in its table".to_owned())
+                }
                 None => (error.message(), "see https://toml.io for what TOML allows".to_owned()),
             };
             let end = source.text.len();
-            Err(source.refuse(error.span().unwrap_or(end..end), message, expected))
+            Err(source.refuse(error.span().unwrap_or(end..end), message, help))
         }
     }
 }

@@ -16,7 +16,7 @@ pub(crate) struct Table<'t> {
     source: Source<'t>,
     entries: &'t DeTable<'t>,
     span: Range<usize>,
-    /// ``body `crank` ``, or `body 1` until its name is known.
+    /// ``body `crank` ``, or `body 1` where it has no name.
     label: String,
 }
 
@@ -38,11 +38,6 @@ impl<'t> Table<'t> {
     /// What messages call it.
     pub(crate) fn label(&self) -> &str {
         &self.label
-    }
-
-    /// What messages call it from now on.
-    pub(crate) fn rename(&mut self, label: String) {
-        self.label = label;
     }
 
     /// Refuses the table as a whole.
@@ -76,21 +71,21 @@ impl<'t> Table<'t> {
 
     /// Refuses keys other than these.
     pub(crate) fn only(&self, keys: &[&[&'static str]]) -> Result<(), SceneError> {
-        let mut allowed = keys.iter().copied().flatten().copied();
+        let allowed: Vec<&str> = keys.concat();
         let unknown = self
             .entries
             .keys()
-            .filter(|key| !allowed.clone().any(|k| k == key.get_ref()))
+            .filter(|key| !allowed.contains(&key.get_ref().as_ref()))
             // Keys come in alphabetical order; the first in the file is the one to name.
             .min_by_key(|key| key.span().start);
         let Some(unknown) = unknown else { return Ok(()) };
-        let all = || allowed.clone().map(|k| format!("`{k}`")).collect::<Vec<_>>().join(", ");
-        let help = match nearest(unknown.get_ref(), allowed.clone()) {
-            Some(key) => format!("did you mean `{key}`? {} may have {}", self.label, all()),
-            None => format!("{} may have {}", self.label, all()),
-        };
+        let mut help = String::new();
+        if let Some(key) = nearest(unknown.get_ref(), allowed.iter().copied()) {
+            help = format!("did you mean `{key}`? ");
+        }
+        let quoted: Vec<_> = allowed.iter().map(|key| format!("`{key}`")).collect();
+        help += &format!("{} may have {}", self.label, quoted.join(", "));
         let message = format!("{} has no key `{}`", self.label, unknown.get_ref());
-        allowed.by_ref().for_each(drop);
         Err(self.source.refuse(unknown.span(), message, help))
     }
 
@@ -131,7 +126,7 @@ impl<'t> Table<'t> {
         self.value(key).map(|value| kind.read(&value)).transpose()
     }
 
-    /// The tables of `[[key]]`, labelled `key 1` and so on; none where the key is absent.
+    /// The tables of `[[key]]`, called by their names or `key 1` and so on; none where the key is absent.
     pub(crate) fn list(&self, key: &str) -> Result<Vec<Table<'t>>, SceneError> {
         let Some(value) = self.value(key) else { return Ok(Vec::new()) };
         let expected = format!("an array of tables, each opened by [[{key}]]");
@@ -140,14 +135,22 @@ impl<'t> Table<'t> {
             let DeValue::Table(entries) = entry.get() else {
                 return Err(entry.wrong_type(&format!("a table, opened by [[{key}]]")));
             };
-            let label = format!("{key} {}", i + 1);
+            let label = match entries.get("name").and_then(|name| name.get_ref().as_str()) {
+                Some(name) if !name.trim().is_empty() => format!("{key} `{name}`"),
+                _ => format!("{key} {}", i + 1),
+            };
             tables.push(Table::new(self.source, entries, entry.span(), label));
         }
         Ok(tables)
     }
 
-    /// Line of the table in the file, from 1.
-    pub(crate) fn line(&self) -> usize {
-        self.source.position(self.span.start).0
+    /// Where the table begins, in bytes.
+    pub(crate) fn start(&self) -> usize {
+        self.span.start
+    }
+
+    /// The line of a byte, from 1.
+    pub(crate) fn line_of(&self, byte: usize) -> usize {
+        self.source.position(byte).0
     }
 }

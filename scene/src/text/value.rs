@@ -39,6 +39,11 @@ impl<'t> Value<'t> {
         self.entry.span()
     }
 
+    /// It as it is written.
+    pub(crate) fn written(&self) -> &'t str {
+        self.source.text.get(self.span()).unwrap_or_default()
+    }
+
     /// Refuses it: `problem` follows its name, e.g. `is negative`.
     pub(crate) fn refuse(&self, problem: &str, expected: &str) -> SceneError {
         let Self { key, owner, .. } = self;
