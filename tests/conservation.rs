@@ -1,5 +1,6 @@
 //! What no step may create or destroy: reactions, momentum, energy.
 
+use dbd_kernel::builder::LineLaw;
 use dbd_kernel::energy::energy;
 use dbd_kernel::forces::wrenches;
 use dbd_kernel::{
@@ -199,5 +200,7 @@ fn dampers_only(damping: f64, numbers: &[f64]) -> Bench<F64> {
     model.add_tsda([b, c], points, 0.0, damping, 0.0).unwrap();
     model.add_torsion_spring([c, a], [0.0, 0.0, 1.0], 0.0, damping, 0.0).unwrap();
     model.add_tsda([BodyIndex::WORLD, b], points, 0.0, damping, 0.5).unwrap();
+    let law = LineLaw { stiffness: 0.0, damping, free_length: 0.1 };
+    model.add_points_on_line([a, c], points[0], [1.0, 2.0, 2.0], &points, law).unwrap();
     model
 }

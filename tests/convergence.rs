@@ -20,7 +20,8 @@ fn tumbling_bodies_on_springs() {
     assert!((leapfrog - 1599.0 / 399.0).abs() < 0.15, "{leapfrog}");
     let dbd = ratio(Dbd::default(), 0.0, 1e-4, 0.4);
     assert!((dbd - 39.0 / 19.0).abs() < 0.1, "{dbd}");
-    let newton = ratio(Dbd { newton: 2 }, 0.0, 1e-4, 0.4);
+    // The iterations dissipate h·ω²·E: the window is short against 1/(h·ω²) = 0.6 s.
+    let newton = ratio(Dbd { newton: 2 }, 0.0, 1e-5, 0.05);
     assert!((newton - 39.0 / 19.0).abs() < 0.1, "{newton}");
 }
 

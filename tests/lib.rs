@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use dbd_kernel::builder::{ModelBuilder, Stars};
+use dbd_kernel::builder::{LineLaw, ModelBuilder, Stars};
 use dbd_kernel::{
     BodyIndex, BodyState, F64, Geometry, ModelOwner, Plant, Quaternion, Scheme, State, Vec3,
 };
@@ -19,7 +19,7 @@ pub fn scene(name: &str) -> Scene {
 }
 
 /// A builder with room for every test system.
-pub type Bench<P> = ModelBuilder<P, 6, 12, 60, 48, 12, 60, 6, 6>;
+pub type Bench<P> = ModelBuilder<P, 6, 12, 60, 48, 12, 60, 6, 6, 6>;
 
 /// The unit quaternion of a turn by `angle` \[rad\] about a unit axis.
 #[must_use]
@@ -73,7 +73,7 @@ fn join<P: Geometry>(
 }
 
 /// Three asymmetric bodies, tumbling, joined in a ring by every kind of element, without ground
-/// and gravity. The point bushing has no damper: its law does not keep angular momentum.
+/// and gravity. Bushing and lines have no damper: their law does not keep angular momentum.
 ///
 /// # Panics
 /// Never: the bench has room.
@@ -97,6 +97,12 @@ pub fn free_ring<P: Geometry>(damping: f64) -> Bench<P> {
     model.add_tsda([c, a], [[0.1, 0.2, 0.3], [0.0, -0.2, 0.1]], 150.0, damping, 1.5).unwrap();
     model.add_tsda([a, c], [[-0.4, 0.2, 0.3], [0.3, 0.2, 0.1]], 6.0, 0.0, 0.0).unwrap();
     model.add_torsion_spring([a, b], [0.0, 0.0, 1.0], 20.0, damping * 0.1, 3.0).unwrap();
+    let mut hold = |between, points: &[[f64; 3]], free_length| {
+        let law = LineLaw { stiffness: 25.0, damping: 0.0, free_length };
+        model.add_points_on_line(between, [0.1, -0.2, 0.3], [0.3, 0.4, 1.2], points, law).unwrap();
+    };
+    hold([c, b], &[[0.2, 0.1, 0.0], [0.1, -0.3, 0.2]], 0.0);
+    hold([a, c], &[[-0.3, 0.1, 0.4]], 0.2);
     model
 }
 

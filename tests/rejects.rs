@@ -109,6 +109,7 @@ const CASES: &[Case] = &[
     case("mass = 1.5", "mass = «]", "missing array opening", "expected `[`"),
     case("mass = 1.5", "mass = 1.5\n«mass = 1.6", "duplicate key", "a key stands once in its table"),
     case("\"arm\"\nmass = 1.5", "\"arm«\nmass = 1.5", "invalid basic string", "expected `\"`"),
+    case("duration = 0.5", "duration = 0.5«s", "invalid float", "a unit does not follow it"),
 
     // Keys.
     case("gravity =", "«gravitiy =", "the scene has no key `gravitiy`", "did you mean `gravity`?"),

@@ -10,6 +10,7 @@ use heapless::Vec;
 
 use crate::elements::load::{Load, LoadWindow};
 use crate::elements::point_bushing::PointBushing;
+use crate::elements::point_on_line::PointOnLine;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::geometry::Geometry;
@@ -52,6 +53,8 @@ pub enum Part {
     Torsions,
     /// Loads.
     Loads,
+    /// Points on lines.
+    Lines,
 }
 
 /// What can be out of range.
@@ -115,6 +118,18 @@ pub struct Stars<'p> {
     pub free_length: f64,
 }
 
+/// How a point is held to a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LineLaw {
+    /// \[N/m\] stiffness normal to the line, ≥ 0.
+    pub stiffness: f64,
+    /// \[N·s/m\] damping normal to the line, ≥ 0.
+    pub damping: f64,
+    /// \[m\] free distance from the line, ≥ 0.
+    pub free_length: f64,
+}
+
 /// A model under construction, and the model itself once complete.
 #[derive(Clone, Debug, Default)]
 pub struct ModelBuilder<
@@ -127,6 +142,7 @@ pub struct ModelBuilder<
     const DAMPERS: usize = 0,
     const TORSIONS: usize = 0,
     const LOADS: usize = 0,
+    const LINES: usize = 0,
 > {
     bodies: Vec<Body<P::Real>, BODIES>,
     initial: Vec<BodyState<P>, BODIES>,
@@ -138,6 +154,7 @@ pub struct ModelBuilder<
     dampers: Vec<P::Real, DAMPERS>,
     torsions: Vec<TorsionSpring<P::Real>, TORSIONS>,
     loads: Vec<Load<P::Real>, LOADS>,
+    lines: Vec<PointOnLine<P::Real>, LINES>,
 }
 
 impl<
@@ -150,7 +167,8 @@ impl<
     const DAMPERS: usize,
     const TORSIONS: usize,
     const LOADS: usize,
-> ModelBuilder<P, BODIES, GROUPS, POINTS, TSDAS, BUSHINGS, DAMPERS, TORSIONS, LOADS>
+    const LINES: usize,
+> ModelBuilder<P, BODIES, GROUPS, POINTS, TSDAS, BUSHINGS, DAMPERS, TORSIONS, LOADS, LINES>
 {
     /// An empty model.
     #[must_use]
@@ -166,6 +184,7 @@ impl<
             dampers: Vec::new(),
             torsions: Vec::new(),
             loads: Vec::new(),
+            lines: Vec::new(),
         }
     }
 
@@ -290,6 +309,54 @@ impl<
         Ok(())
     }
 
+    /// Adds points of the second body held to a line of the first as one group: the line through
+    /// `line_point` \[m\] along `direction` in the first body's axes, one point \[m\] or two in
+    /// the second's.
+    ///
+    /// # Errors
+    /// [`BuildError::Full`] for a capacity, a body that is not there, a quantity out of range.
+    pub fn add_points_on_line(
+        &mut self,
+        between: [BodyIndex; 2],
+        line_point: [f64; 3],
+        direction: [f64; 3],
+        points: &[[f64; 3]],
+        law: LineLaw,
+    ) -> Result<(), BuildError> {
+        self.check_pair(between)?;
+        let norm = length(direction);
+        check(norm > 0.0 && norm.is_finite(), Quantity::Axis)?;
+        let not_negative = |x: f64| x >= 0.0 && x.is_finite();
+        check(not_negative(law.stiffness), Quantity::Stiffness)?;
+        check(not_negative(law.damping), Quantity::Damping)?;
+        check(not_negative(law.free_length), Quantity::FreeLength)?;
+        check(finite(&line_point) && points.iter().all(|p| finite(p)), Quantity::Point)?;
+        check(points.len() == 1 || points.len() == 2, Quantity::Arms)?;
+        room(&self.groups, 1, Part::Groups)?;
+        room(&self.points, 1 + points.len(), Part::Points)?;
+        room(&self.lines, points.len(), Part::Lines)?;
+        let damper = self.add_dampers(law.damping, points.len())?;
+        let group = Group {
+            law: Law::PointOnLine,
+            a: between[0],
+            b: between[1],
+            stars: 1,
+            arms: points.len() as u8,
+            shared: false,
+            point: self.points.len() as u16,
+            element: self.lines.len() as u16,
+            damper,
+        };
+        let _ = self.groups.push(group);
+        let _ = self.points.push(P::local_from_f64(line_point));
+        for point in points {
+            let _ = self.points.push(P::local_from_f64(*point));
+            let unit = direction.map(|c| c / norm);
+            let _ = self.lines.push(PointOnLine::from_f64(unit, law.stiffness, law.free_length));
+        }
+        Ok(())
+    }
+
     /// Adds a torsion spring about `axis` (first body's axes), at twist 0 in the initial pose;
     /// stiffness \[N·m/rad\], damping \[N·m·s/rad\], preload \[N·m\] on the second body.
     ///
@@ -304,7 +371,7 @@ impl<
         preload: f64,
     ) -> Result<(), BuildError> {
         self.check_pair(between)?;
-        let norm = libm::sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+        let norm = length(axis);
         check(norm > 0.0 && norm.is_finite(), Quantity::Axis)?;
         check(stiffness >= 0.0 && stiffness.is_finite(), Quantity::Stiffness)?;
         check(damping >= 0.0 && damping.is_finite(), Quantity::Damping)?;
@@ -367,6 +434,10 @@ impl<
     }
 }
 
+fn length(v: [f64; 3]) -> f64 {
+    libm::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+}
+
 fn finite(values: &[f64]) -> bool {
     values.iter().all(|value| value.is_finite())
 }
@@ -391,8 +462,9 @@ impl<
     const DAMPERS: usize,
     const TORSIONS: usize,
     const LOADS: usize,
+    const LINES: usize,
 > ModelOwner
-    for ModelBuilder<P, BODIES, GROUPS, POINTS, TSDAS, BUSHINGS, DAMPERS, TORSIONS, LOADS>
+    for ModelBuilder<P, BODIES, GROUPS, POINTS, TSDAS, BUSHINGS, DAMPERS, TORSIONS, LOADS, LINES>
 {
     type Precision = P;
     type Terms = AllTerms;
@@ -411,6 +483,7 @@ impl<
             dampers: &self.dampers,
             torsions: &self.torsions,
             loads: &self.loads,
+            lines: &self.lines,
             terms: PhantomData,
         }
     }

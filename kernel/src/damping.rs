@@ -7,12 +7,12 @@
 //! one in descending order after it, half a step each: second order. `exp(−x)` is replaced by
 //! `1/(1 + x + x²/2)`: in (0, 1], second order, plain arithmetic.
 //! A TSDA damps along its line, a torsion spring along its gradient, a point bushing along the
-//! world's axes one after the other.
+//! world's axes, a point on a line along the line's two normals, one after the other.
 
 use crate::elements::torsion_spring::TorsionSpring;
-use crate::forces::End;
 use crate::geometry::Geometry;
-use crate::model::{Body, Group, Law, ModelRef, Terms};
+use crate::groups::{self, End};
+use crate::model::{Body, BodyIndex, Group, Law, ModelRef, Terms};
 use crate::real::Real;
 use crate::state::BodyState;
 use crate::vector::Vec3;
@@ -144,63 +144,37 @@ fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
         return;
     };
     let elements = group.elements();
-    let (stars, arms) = (group.stars as usize, group.arms as usize);
     for i in 0..elements {
         let i = if REVERSE { elements - 1 - i } else { i };
-        let (star, arm) = (i / arms.max(1), i % arms.max(1));
-        let first = group.point as usize;
-        let tip = first + stars + if group.shared { arm } else { i };
-        let (Some(a), Some(b), Some(&damping)) =
-            (model.points.get(first + star), model.points.get(tip), dampers.get(i))
+        let (Some(element), Some(&damping)) =
+            (groups::placed(model, frames, (0, group), i), dampers.get(i))
         else {
             continue;
         };
-        match group.law {
+        let d = element.displacement;
+        // The directions, and how many of them the law damps.
+        let (mut directions, count) = match group.law {
             Law::Tsda if T::TSDAS => {
-                line::<P, T, REVERSE>(model, group, (a, b), false, (damping, h), frames, bodies);
+                let along = d * d.dot(d).sqrt().reciprocal_or_zero();
+                ([along, Vec3::ZERO, Vec3::ZERO], 1)
             }
-            Law::PointBushing if T::BUSHINGS => {
-                line::<P, T, REVERSE>(model, group, (a, b), true, (damping, h), frames, bodies);
+            Law::PointBushing if T::BUSHINGS => (Vec3::axes(), 3),
+            Law::PointOnLine if T::LINES => {
+                let [n, m] = element.direction.normals();
+                ([n, m, Vec3::ZERO], 2)
             }
-            _ => {}
+            _ => continue,
+        };
+        if REVERSE && count > 1 {
+            directions.swap(0, count - 1);
         }
-    }
-}
-
-/// A damper between two points: along their line, or along the world's axes in turn.
-#[inline(always)]
-fn line<P: Geometry, T: Terms, const REVERSE: bool>(
-    model: &ModelRef<'_, P, T>,
-    group: &Group,
-    (a, b): (&P::Local, &P::Local),
-    along_axes: bool,
-    (damping, h): (P::Real, P::Real),
-    frames: &[P::Frame],
-    bodies: &mut [BodyState<P>],
-) {
-    let (row_a, row_b) = (group.a.row(), group.b.row());
-    let (frame_a, frame_b) = (frames.get(row_a), frames.get(row_b));
-    let (a, arm_a) = End::<P>::new(frame_a, None, false).place(a);
-    let (b, arm_b) = End::<P>::new(frame_b, None, false).place(b);
-    let lever = |row: usize, frame: Option<&P::Frame>, arm: Vec3<P::Real>, u: Vec3<P::Real>| {
-        frame.and_then(|f| Lever::new(row, model.bodies.get(row), u, P::to_body(f, arm.cross(u))))
-    };
-    let (zero, one) = (P::Real::ZERO, P::Real::ONE);
-    if !along_axes {
-        let d = P::displacement(&a, &b);
-        let u = d * d.dot(d).sqrt().reciprocal_or_zero();
-        let (lever_a, lever_b) = (lever(row_a, frame_a, arm_a, u), lever(row_b, frame_b, arm_b, u));
-        damp(bodies, lever_a, lever_b, damping, h);
-    } else {
-        let mut axes =
-            [Vec3::new(one, zero, zero), Vec3::new(zero, one, zero), Vec3::new(zero, zero, one)];
-        if REVERSE {
-            axes.reverse();
-        }
-        for u in axes {
-            let lever_a = lever(row_a, frame_a, arm_a, u);
-            let lever_b = lever(row_b, frame_b, arm_b, u);
-            damp(bodies, lever_a, lever_b, damping, h);
+        for u in directions.into_iter().take(count) {
+            let lever = |body: BodyIndex, arm: Vec3<P::Real>| {
+                let (frame, row) = (frames.get(body.row())?, body.row());
+                Lever::new(row, model.bodies.get(row), u, P::to_body(frame, arm.cross(u)))
+            };
+            let (a, b) = (lever(group.a, element.arm_a), lever(group.b, element.arm_b));
+            damp(bodies, a, b, damping, h);
         }
     }
 }
@@ -228,10 +202,7 @@ fn torsion<P: Geometry, T: Terms>(
         return;
     };
     let (frame_a, frame_b) = (frames.get(row_a), frames.get(row_b));
-    let world = match frame_a {
-        Some(frame) => P::to_world(frame, twist.gradient),
-        None => twist.gradient,
-    };
+    let world = End::<P>::new(frame_a, None, false).to_world(twist.gradient);
     let lever = |row: usize, frame: Option<&P::Frame>| {
         frame.and_then(|f| Lever::new(row, model.bodies.get(row), Vec3::ZERO, P::to_body(f, world)))
     };

@@ -7,12 +7,11 @@
 use crate::elements::gravity;
 use crate::elements::load::LoadWindow;
 use crate::elements::torsion_spring::{TorsionSpring, Twist};
-use crate::forces::{End, place_bodies};
 use crate::geometry::{FrameOf, Geometry, RealOf};
-use crate::model::{Group, Law, ModelOwner, ModelRef, Terms};
+use crate::groups::{each_element, place_bodies};
+use crate::model::{Law, ModelOwner};
 use crate::real::Real;
 use crate::state::{BodyState, State};
-use crate::vector::Vec3;
 
 /// Energies \[J\] by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,6 +25,8 @@ pub struct Energy<R> {
     pub tsda: R,
     /// Point bushings.
     pub bushing: R,
+    /// Points on lines.
+    pub line: R,
     /// Torsion springs, preload included.
     pub torsion: R,
     /// World-frame force loads while they act.
@@ -35,7 +36,7 @@ pub struct Energy<R> {
 impl<R: Real> Energy<R> {
     /// All but the kinetic energy.
     pub fn potential(&self) -> R {
-        self.gravity + self.tsda + self.bushing + self.torsion + self.load
+        self.gravity + self.tsda + self.bushing + self.line + self.torsion + self.load
     }
 
     /// Kinetic and potential energy.
@@ -74,6 +75,11 @@ pub fn energy<M: ModelOwner>(model: &M, state: &State<M>, step_size: f64) -> Ene
                 sum.bushing = sum.bushing + bushing.energy(element.displacement);
             }
         }
+        Law::PointOnLine => {
+            if let Some(line) = view.lines.get(element.index) {
+                sum.line = sum.line + line.energy(element.displacement);
+            }
+        }
     });
     for (spring, &turns) in view.torsions.iter().zip(state.turns.as_ref()) {
         if let Some(twist) = twist_of::<M::Precision>(spring, bodies, turns) {
@@ -91,21 +97,37 @@ pub fn energy<M: ModelOwner>(model: &M, state: &State<M>, step_size: f64) -> Ene
 
 /// The largest extension \[m\] of the groups' elements, `|L − L0|`.
 pub fn largest_extension<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
-    let view = model.view();
-    let mut frames = model.per_body(FrameOf::<M>::default());
-    place_bodies::<M::Precision>(state.bodies.as_ref(), frames.as_mut());
     let mut largest = RealOf::<M>::ZERO;
-    each_element(&view, frames.as_ref(), |element| {
-        let d = element.displacement;
-        let extension = match element.group.law {
-            Law::Tsda => view.tsdas.get(element.index).map(|tsda| tsda.extension(d).abs()),
-            Law::PointBushing => Some(d.dot(d).sqrt()),
-        };
-        if let Some(extension) = extension.filter(|e| *e > largest) {
+    each_extension(model, state, |_, extension| {
+        let extension = extension.abs();
+        if extension > largest {
             largest = extension;
         }
     });
     largest
+}
+
+/// Visits the extension `L − L0` \[m\] of every element of the groups in order, with the index of
+/// its group.
+pub fn each_extension<M: ModelOwner>(
+    model: &M,
+    state: &State<M>,
+    mut visit: impl FnMut(usize, RealOf<M>),
+) {
+    let view = model.view();
+    let mut frames = model.per_body(FrameOf::<M>::default());
+    place_bodies::<M::Precision>(state.bodies.as_ref(), frames.as_mut());
+    each_element(&view, frames.as_ref(), |element| {
+        let d = element.displacement;
+        let extension = match element.group.law {
+            Law::Tsda => view.tsdas.get(element.index).map(|tsda| tsda.extension(d)),
+            Law::PointBushing => Some(d.dot(d).sqrt()),
+            Law::PointOnLine => view.lines.get(element.index).map(|line| line.extension(d)),
+        };
+        if let Some(extension) = extension {
+            visit(element.number, extension);
+        }
+    });
 }
 
 /// The twist of a torsion spring, `None` where it is undefined.
@@ -117,41 +139,4 @@ pub(crate) fn twist_of<P: Geometry>(
     let orientation = |row: usize| bodies.get(row).map(|s| &s.orientation);
     let relative = P::relative(orientation(spring.a.row()), orientation(spring.b.row()));
     spring.twist(relative, &mut { turns }, false)
-}
-
-/// An element of a group at a pose.
-pub(crate) struct Placed<'m, R> {
-    /// Its group.
-    pub(crate) group: &'m Group,
-    /// Its index among the elements of its law.
-    pub(crate) index: usize,
-    /// From its first point to its second, world axes.
-    pub(crate) displacement: Vec3<R>,
-    /// The arm of the first point, world axes; 0 on the ground.
-    pub(crate) arm_a: Vec3<R>,
-    /// The arm of the second point.
-    pub(crate) arm_b: Vec3<R>,
-}
-
-/// Visits every element of the groups in order; frames are those of the pose.
-pub(crate) fn each_element<'m, P: Geometry, T: Terms>(
-    model: &ModelRef<'m, P, T>,
-    frames: &[P::Frame],
-    mut visit: impl FnMut(Placed<'m, P::Real>),
-) {
-    for group in model.groups {
-        let (stars, arms) = (group.stars as usize, group.arms.max(1) as usize);
-        let end_a = End::<P>::new(frames.get(group.a.row()), None, false);
-        let end_b = End::<P>::new(frames.get(group.b.row()), None, false);
-        for i in 0..group.elements() {
-            let centre = group.point as usize + i / arms;
-            let tip = group.point as usize + stars + if group.shared { i % arms } else { i };
-            let (Some(a), Some(b)) = (model.points.get(centre), model.points.get(tip)) else {
-                continue;
-            };
-            let ((a, arm_a), (b, arm_b)) = (end_a.place(a), end_b.place(b));
-            let displacement = P::displacement(&a, &b);
-            visit(Placed { group, index: group.element as usize + i, displacement, arm_a, arm_b });
-        }
-    }
 }

@@ -10,7 +10,9 @@
 
 use crate::elements::gravity;
 use crate::elements::load::{LoadFrame, LoadWindow};
+use crate::elements::point_on_line::Projection;
 use crate::geometry::{FrameOf, Geometry, RealOf};
+use crate::groups::{End, place_bodies};
 use crate::model::{Group, Law, ModelOwner, ModelRef, Terms};
 use crate::real::Real;
 use crate::state::{BodyState, State};
@@ -36,45 +38,6 @@ pub(crate) struct Record<R> {
 
 impl<R: Real> Record<R> {
     const ZERO: Self = Self { force: Vec3::ZERO, torque_a: Vec3::ZERO, torque_b: Vec3::ZERO };
-}
-
-/// One body as a group sees it: where it places points and how they move. The world is an end
-/// without a frame.
-pub(crate) struct End<'s, P: Geometry> {
-    frame: Option<&'s P::Frame>,
-    velocity: Vec3<P::Real>,
-    spin: Vec3<P::Real>,
-}
-
-impl<'s, P: Geometry> End<'s, P> {
-    #[inline(always)]
-    pub(crate) fn new(
-        frame: Option<&'s P::Frame>,
-        state: Option<&BodyState<P>>,
-        moving: bool,
-    ) -> Self {
-        let (mut velocity, mut spin) = (Vec3::ZERO, Vec3::ZERO);
-        if let (true, Some(frame), Some(state)) = (moving, frame, state) {
-            velocity = P::velocity(&state.velocity);
-            spin = P::to_world(frame, P::velocity(&state.angular_velocity));
-        }
-        Self { frame, velocity, spin }
-    }
-
-    /// The point's location and its arm, 0 for the ground's.
-    #[inline(always)]
-    pub(crate) fn place(&self, local: &P::Local) -> (P::Location, Vec3<P::Real>) {
-        match self.frame {
-            Some(frame) => P::place(frame, local),
-            None => (P::ground(local), Vec3::ZERO),
-        }
-    }
-
-    /// `v + ω × r`.
-    #[inline(always)]
-    fn point_velocity(&self, arm: Vec3<P::Real>) -> Vec3<P::Real> {
-        self.velocity + self.spin.cross(arm)
-    }
 }
 
 /// The wrenches on all bodies in a state, dampers and loads included, for steps of `step_size`
@@ -108,14 +71,6 @@ pub fn wrenches<M: ModelOwner>(
     Ok(wrenches)
 }
 
-/// Computes the frames of all bodies.
-#[inline]
-pub(crate) fn place_bodies<P: Geometry>(bodies: &[BodyState<P>], frames: &mut [P::Frame]) {
-    for (state, frame) in bodies.iter().zip(frames) {
-        *frame = P::frame(&state.position, &state.orientation);
-    }
-}
-
 /// One force evaluation; `frames` are those of the pose. `EXPLICIT` includes the dampers' forces
 /// at the velocities of `bodies`; `settle` brings turn counts up to date (a step's boundary).
 ///
@@ -136,7 +91,7 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, const EXPLICIT: bool>(
 ) -> Result<(), u16> {
     place_bodies(bodies, frames);
     start(model, windows, step, frames, wrenches);
-    if T::TSDAS || T::BUSHINGS {
+    if T::TSDAS || T::BUSHINGS || T::LINES {
         for group in model.groups {
             let (a, b) = (group.a.row(), group.b.row());
             let moving = EXPLICIT && T::DAMPERS && group.damper.row().is_some();
@@ -149,6 +104,9 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, const EXPLICIT: bool>(
                 Law::Tsda if T::TSDAS => stars::<P, T, EXPLICIT, 1>(model, group, &end_a, &end_b),
                 Law::PointBushing if T::BUSHINGS => {
                     bushing::<P, T, EXPLICIT>(model, group, &end_a, &end_b)
+                }
+                Law::PointOnLine if T::LINES => {
+                    lines::<P, T, EXPLICIT>(model, group, &end_a, &end_b)
                 }
                 _ => Record::ZERO,
             };
@@ -305,6 +263,59 @@ fn bushing<P: Geometry, T: Terms, const EXPLICIT: bool>(
     Record { force, torque_a: arm_a.cross(force), torque_b: -arm_b.cross(force) }
 }
 
+/// A group of points on lines. The force on A acts at the foot: its torque is that of the star's
+/// whole pull at the line's point and of each pull along its slide.
+#[inline(always)]
+fn lines<P: Geometry, T: Terms, const EXPLICIT: bool>(
+    model: &ModelRef<'_, P, T>,
+    group: &Group,
+    end_a: &End<'_, P>,
+    end_b: &End<'_, P>,
+) -> Record<P::Real> {
+    let mut record = Record::ZERO;
+    let (stars, arms) = (group.stars as usize, group.arms.max(1) as usize);
+    let (Some(points), Some(springs)) =
+        (model.points.get(group.point as usize..), model.lines.get(group.element as usize..))
+    else {
+        return record;
+    };
+    let Some((centres, tips)) = points.split_at_checked(stars) else {
+        return record;
+    };
+    let dampers = match group.damper.row() {
+        Some(row) if EXPLICIT && T::DAMPERS => model.dampers.get(row..).unwrap_or(&[]),
+        _ => &[],
+    };
+    let mut elements = tips.iter().zip(springs);
+    let mut dampers = dampers.iter();
+    for centre in centres {
+        let (centre, arm) = end_a.place(centre);
+        let (mut pull_a, mut slid) = (Vec3::ZERO, Vec3::ZERO);
+        let mut line = Vec3::ZERO;
+        for (tip, spring) in elements.by_ref().take(arms) {
+            line = end_a.to_world(spring.direction);
+            let (tip, tip_arm) = end_b.place(tip);
+            let Projection { slide, deflection } =
+                Projection::new(P::displacement(&centre, &tip), line);
+            let pull = match dampers.next() {
+                Some(&damping) => {
+                    let foot = end_a.arm_at(arm, line * slide);
+                    let v_rel = end_b.point_velocity(tip_arm) - end_a.point_velocity(foot);
+                    let rate = Projection::new(v_rel, line).deflection;
+                    spring.damped_force(damping, deflection, rate)
+                }
+                None => spring.force(deflection),
+            };
+            pull_a = pull_a + pull;
+            slid = slid + pull * slide;
+            record.torque_b = record.torque_b - tip_arm.cross(pull);
+        }
+        record.force = record.force + pull_a;
+        record.torque_a = record.torque_a + (arm.cross(pull_a) + line.cross(slid));
+    }
+    record
+}
+
 /// The torsion springs.
 #[inline(always)]
 fn torsions<P: Geometry, T: Terms, const EXPLICIT: bool>(
@@ -333,10 +344,7 @@ fn torsions<P: Geometry, T: Terms, const EXPLICIT: bool>(
             }
             None => spring.torque(&twist),
         };
-        let torque = match frame_a {
-            Some(frame) => P::to_world(frame, torque),
-            None => torque,
-        };
+        let torque = End::<P>::new(frame_a, None, false).to_world(torque);
         let record = Record { force: Vec3::ZERO, torque_a: -torque, torque_b: torque };
         apply(wrenches, spring.a.row(), spring.b.row(), &record);
     }

@@ -8,9 +8,10 @@
 //! The estimate is power iteration on differences of forces, one pair of evaluations each.
 //! Both speak for the pose, not for the future.
 
-use crate::energy::{each_element, twist_of};
-use crate::forces::{self, Wrench, place_bodies};
+use crate::energy::twist_of;
+use crate::forces::{self, Wrench};
 use crate::geometry::{FrameOf, Geometry, RealOf};
+use crate::groups::{each_element, place_bodies};
 use crate::model::{Body, BodyIndex, Law, ModelOwner};
 use crate::real::Real;
 use crate::rotation;
@@ -63,7 +64,7 @@ pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
                     add(tsda.stiffness, other, u, arm.cross(u));
                     let tension = (tsda.stiffness * tsda.extension(d)).abs();
                     if tension > zero {
-                        for n in normals(u) {
+                        for n in u.normals() {
                             add(tension * inverse, other, n, arm.cross(n));
                         }
                         turning = turning + tension * arm.dot(arm).sqrt();
@@ -71,12 +72,35 @@ pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
                 }
                 Law::PointBushing => {
                     let Some(bushing) = view.bushings.get(e.index) else { return };
-                    for u in axes() {
+                    for u in Vec3::axes() {
                         add(bushing.stiffness, other, u, arm.cross(u));
                     }
                     let d = e.displacement;
                     let force = bushing.stiffness * d.dot(d).sqrt();
                     turning = turning + force * arm.dot(arm).sqrt();
+                }
+                Law::PointOnLine => {
+                    let Some(line) = view.lines.get(e.index) else { return };
+                    let d = e.displacement;
+                    let inverse = d.dot(d).sqrt().reciprocal_or_zero();
+                    let force = (line.stiffness * line.extension(d)).abs();
+                    let isotropic = line.free_length == zero;
+                    let [n, m] = if isotropic {
+                        e.direction.normals()
+                    } else {
+                        [d * inverse, e.direction.cross(d * inverse)]
+                    };
+                    add(line.stiffness, other, n, arm.cross(n));
+                    let across = if isotropic { line.stiffness } else { force * inverse };
+                    add(across, other, m, arm.cross(m));
+                    // A loaded line that turns trades the turn against the slide: both get a
+                    // spring, with the arm as the length that weighs one against the other.
+                    if force > zero {
+                        let reach = arm.dot(arm).sqrt();
+                        let along = force * reach.reciprocal_or_zero();
+                        add(along, other, e.direction, arm.cross(e.direction));
+                        turning = turning + RealOf::<M>::TWO * force * reach;
+                    }
                 }
             }
         });
@@ -97,7 +121,7 @@ pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
             let torque = (spring.preload - spring.stiffness * twist.angle).abs();
             turning = turning + RealOf::<M>::HALF * torque * gradient.dot(gradient);
         }
-        for axis in axes() {
+        for axis in Vec3::axes() {
             add_row(&mut block, turning, scaled(body, Vec3::ZERO, axis));
         }
         let eigenvalue = largest_eigenvalue(block);
@@ -106,27 +130,6 @@ pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
         }
     }
     largest.sqrt()
-}
-
-fn axes<R: Real>() -> [Vec3<R>; 3] {
-    let (o, i) = (R::ZERO, R::ONE);
-    [Vec3::new(i, o, o), Vec3::new(o, i, o), Vec3::new(o, o, i)]
-}
-
-/// Two unit vectors normal to the unit vector `u` and to each other.
-fn normals<R: Real>(u: Vec3<R>) -> [Vec3<R>; 2] {
-    let [x, y, z] = axes();
-    // The axis least aligned with u.
-    let axis = if u.x.abs() <= u.y.abs() && u.x.abs() <= u.z.abs() {
-        x
-    } else if u.y.abs() <= u.z.abs() {
-        y
-    } else {
-        z
-    };
-    let n = u.cross(axis);
-    let n = n * n.dot(n).sqrt().reciprocal_or_zero();
-    [n, u.cross(n)]
 }
 
 /// `M^-1/2·(u, n)`.

@@ -42,6 +42,7 @@
 //!     dampers: [],
 //!     torsions: [],
 //!     loads: [],
+//!     lines: [],
 //! }
 //! .checked();
 //! let mut plant = Plant::new(&model, Leapfrog, 1e-3)?;
@@ -71,6 +72,7 @@ pub mod forces;
 mod format;
 pub mod frequency;
 pub mod geometry;
+mod groups;
 pub mod model;
 pub mod plant;
 pub mod real;
@@ -85,6 +87,7 @@ pub mod words;
 
 pub use elements::load::{Load, LoadFrame};
 pub use elements::point_bushing::PointBushing;
+pub use elements::point_on_line::PointOnLine;
 pub use elements::torsion_spring::TorsionSpring;
 pub use elements::tsda::Tsda;
 pub use energy::Energy;

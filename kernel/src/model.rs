@@ -13,6 +13,7 @@ use core::marker::PhantomData;
 
 use crate::elements::load::{Load, LoadWindow};
 use crate::elements::point_bushing::PointBushing;
+use crate::elements::point_on_line::PointOnLine;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::geometry::Geometry;
@@ -68,6 +69,9 @@ pub enum Law {
     Tsda,
     /// One point bushing.
     PointBushing,
+    /// Stars on lines: each star's first point and its elements' direction define a line of the
+    /// first body, on which the second body's points are projected.
+    PointOnLine,
 }
 
 /// The elements of one joint or one raw element: one record of force and torques.
@@ -85,7 +89,7 @@ pub struct Group {
     pub b: BodyIndex,
     /// Points of the first body, ≥ 1.
     pub stars: u8,
-    /// Points of the second body per star: 1 or 3.
+    /// Points of the second body per star: 1 or 3; 1 or 2 on a line.
     pub arms: u8,
     /// Whether all stars share the second body's points.
     pub shared: bool,
@@ -164,6 +168,8 @@ pub trait Terms: Copy + Default + 'static {
     const TORSIONS: bool;
     /// Dampers of any kind.
     const DAMPERS: bool;
+    /// Points on lines.
+    const LINES: bool;
 }
 
 /// Terms of a model whose sizes are known at run time only: any kind may occur.
@@ -177,6 +183,7 @@ impl Terms for AllTerms {
     const BUSHINGS: bool = true;
     const TORSIONS: bool = true;
     const DAMPERS: bool = true;
+    const LINES: bool = true;
 }
 
 /// Terms of a model whose counts are const generics: a kind occurs where its count is not 0.
@@ -188,6 +195,7 @@ pub struct CountedTerms<
     const TORSIONS: usize,
     const GRAVITY: usize,
     const LOADS: usize,
+    const LINES: usize,
 >;
 
 impl<
@@ -197,7 +205,8 @@ impl<
     const TORSIONS: usize,
     const GRAVITY: usize,
     const LOADS: usize,
-> Terms for CountedTerms<TSDAS, BUSHINGS, DAMPERS, TORSIONS, GRAVITY, LOADS>
+    const LINES: usize,
+> Terms for CountedTerms<TSDAS, BUSHINGS, DAMPERS, TORSIONS, GRAVITY, LOADS, LINES>
 {
     const GRAVITY: bool = GRAVITY > 0;
     const LOADS: bool = LOADS > 0;
@@ -205,6 +214,7 @@ impl<
     const BUSHINGS: bool = BUSHINGS > 0;
     const TORSIONS: bool = TORSIONS > 0;
     const DAMPERS: bool = DAMPERS > 0;
+    const LINES: bool = LINES > 0;
 }
 
 /// A model lent as slices.
@@ -228,6 +238,8 @@ pub struct ModelRef<'m, P: Geometry, T> {
     pub torsions: &'m [TorsionSpring<P::Real>],
     /// Loads, summed before all groups.
     pub loads: &'m [Load<P::Real>],
+    /// Points on lines of the groups.
+    pub lines: &'m [PointOnLine<P::Real>],
     /// The kinds of element that occur.
     pub terms: PhantomData<T>,
 }
@@ -270,6 +282,7 @@ pub struct Model<
     const TORSIONS: usize = 0,
     const GRAVITY: usize = 0,
     const LOADS: usize = 0,
+    const LINES: usize = 0,
 > {
     /// Bodies in scene order.
     pub bodies: [Body<P::Real>; BODIES],
@@ -291,6 +304,8 @@ pub struct Model<
     pub torsions: [TorsionSpring<P::Real>; TORSIONS],
     /// Loads, summed before all groups.
     pub loads: [Load<P::Real>; LOADS],
+    /// Points on lines of the groups.
+    pub lines: [PointOnLine<P::Real>; LINES],
 }
 
 impl<
@@ -304,7 +319,8 @@ impl<
     const TORSIONS: usize,
     const GRAVITY: usize,
     const LOADS: usize,
-> Model<P, BODIES, GROUPS, POINTS, TSDAS, BUSHINGS, DAMPERS, TORSIONS, GRAVITY, LOADS>
+    const LINES: usize,
+> Model<P, BODIES, GROUPS, POINTS, TSDAS, BUSHINGS, DAMPERS, TORSIONS, GRAVITY, LOADS, LINES>
 {
     /// Checks every index of the model; in a `const` the compiler does so.
     ///
@@ -320,7 +336,13 @@ impl<
             let group = &self.groups[i];
             check_pair(group.a, group.b, BODIES);
             assert!(group.stars >= 1, "a group has at least one star");
-            assert!(group.arms == 1 || group.arms == 3, "a star has one arm or three");
+            let arms = group.arms;
+            let whole = match group.law {
+                Law::Tsda => arms == 1 || arms == 3,
+                Law::PointBushing => arms == 1,
+                Law::PointOnLine => arms == 1 || arms == 2,
+            };
+            assert!(whole, "a star has as many arms as its law knows");
             let elements = group.elements();
             assert!(group.point as usize + group.points() <= POINTS, "a group's points are there");
             let count = match group.law {
@@ -329,6 +351,7 @@ impl<
                     assert!(elements == 1, "a point bushing stands alone in its group");
                     BUSHINGS
                 }
+                Law::PointOnLine => LINES,
             };
             assert!(group.element as usize + elements <= count, "a group's elements are there");
             check_damper(group.damper, elements, DAMPERS);
@@ -373,11 +396,12 @@ impl<
     const TORSIONS: usize,
     const GRAVITY: usize,
     const LOADS: usize,
+    const LINES: usize,
 > ModelOwner
-    for Model<P, BODIES, GROUPS, POINTS, TSDAS, BUSHINGS, DAMPERS, TORSIONS, GRAVITY, LOADS>
+    for Model<P, BODIES, GROUPS, POINTS, TSDAS, BUSHINGS, DAMPERS, TORSIONS, GRAVITY, LOADS, LINES>
 {
     type Precision = P;
-    type Terms = CountedTerms<TSDAS, BUSHINGS, DAMPERS, TORSIONS, GRAVITY, LOADS>;
+    type Terms = CountedTerms<TSDAS, BUSHINGS, DAMPERS, TORSIONS, GRAVITY, LOADS, LINES>;
     type PerBody<T: Copy> = [T; BODIES];
     type PerTorsion = [i32; TORSIONS];
     type PerLoad = [LoadWindow; LOADS];
@@ -394,6 +418,7 @@ impl<
             dampers: &self.dampers,
             torsions: &self.torsions,
             loads: &self.loads,
+            lines: &self.lines,
             terms: PhantomData,
         }
     }

@@ -59,6 +59,30 @@ impl<R: Real> Vec3<R> {
         )
     }
 
+    /// The unit vectors of the three axes.
+    #[inline(always)]
+    pub fn axes() -> [Self; 3] {
+        let (o, i) = (R::ZERO, R::ONE);
+        [Self::new(i, o, o), Self::new(o, i, o), Self::new(o, o, i)]
+    }
+
+    /// Two unit vectors normal to this unit vector and to each other: the first from the axis
+    /// least aligned with it (ties: x, y, z).
+    #[inline]
+    pub fn normals(self) -> [Self; 2] {
+        let [x, y, z] = Self::axes();
+        let axis = if self.x.abs() <= self.y.abs() && self.x.abs() <= self.z.abs() {
+            x
+        } else if self.y.abs() <= self.z.abs() {
+            y
+        } else {
+            z
+        };
+        let n = self.cross(axis);
+        let n = n * n.dot(n).sqrt().reciprocal_or_zero();
+        [n, self.cross(n)]
+    }
+
     /// The component-wise product.
     #[inline(always)]
     pub fn scale(self, other: Self) -> Self {

@@ -5,9 +5,10 @@
 
 use std::collections::BTreeMap;
 
+use dbd_kernel::energy::each_extension;
 use dbd_kernel::model::{DamperIndex, Group, Law};
 use dbd_kernel::{
-    Body, BodyIndex, BodyState, F64, Geometry, Load, PointBushing, TorsionSpring, Tsda, Vec3,
+    Body, BodyIndex, BodyState, F64, Geometry, Load, PointBushing, State, TorsionSpring, Tsda, Vec3,
 };
 
 use crate::error::SceneError;
@@ -237,29 +238,18 @@ impl Assembly {
     /// The elements of the groups from `first` on: how many there are and their largest
     /// |L − L0| \[m\] at the initial pose.
     pub(crate) fn extensions(&self, first: usize) -> Result<(usize, f64), Defect> {
-        let (mut count, mut largest) = (0, 0.0);
-        for group in self.model.groups.get(first..).unwrap_or_default() {
-            let (first, stars, arms) =
-                (usize::from(group.point), usize::from(group.stars), usize::from(group.arms));
-            for i in 0..group.elements() {
-                let tip = first + stars + if group.shared { i % arms } else { i };
-                let a = self.place(group.a, self.model.points[first + i / arms]);
-                let d = self.place(group.b, self.model.points[tip]) - a;
-                let free_length = match group.law {
-                    Law::Tsda => self.model.tsdas[usize::from(group.element) + i].free_length,
-                    Law::PointBushing => 0.0,
-                };
-                let extension = (libm::sqrt(d.dot(d)) - free_length).abs();
-                if !extension.is_finite() {
-                    return Err(Defect::OutOfRange);
-                }
-                if extension > largest {
-                    largest = extension;
-                }
-                count += 1;
+        let (mut count, mut largest, mut finite) = (0, 0.0, true);
+        each_extension(&self.model, &State::initial(&self.model), |group, extension| {
+            if group < first {
+                return;
             }
-        }
-        Ok((count, largest))
+            count += 1;
+            finite &= extension.is_finite();
+            if extension.abs() > largest {
+                largest = extension.abs();
+            }
+        });
+        if finite { Ok((count, largest)) } else { Err(Defect::OutOfRange) }
     }
 
     /// The model and the names of its bodies.

@@ -13,7 +13,9 @@ use std::fmt::{Display, Write};
 
 use dbd_kernel::geometry::{Float, Named};
 use dbd_kernel::model::{Body, BodyIndex, DamperIndex, Group, ModelOwner};
-use dbd_kernel::{BodyState, Load, PointBushing, Quaternion, Real, TorsionSpring, Tsda, Vec3};
+use dbd_kernel::{
+    BodyState, Load, PointBushing, PointOnLine, Quaternion, Real, TorsionSpring, Tsda, Vec3,
+};
 
 use crate::{Scene, SceneModel};
 
@@ -73,7 +75,7 @@ pub fn preamble(scene: &Scene, step: f64) -> String {
         "// Not every scene has every kind of element.\n\
          #[allow(unused_imports)]\n\
          use dbd_kernel::{{\n    \
-             Body, BodyIndex, BodyState, F32, F64, Load, LoadFrame, Model, PointBushing,\n    \
+             Body, BodyIndex, BodyState, F32, F64, Load, LoadFrame, Model, PointBushing, PointOnLine,\n    \
              Quaternion, TorsionSpring, Tsda, Vec3,\n    \
              model::{{DamperIndex, Group, Law}},\n\
          }};\n\n\
@@ -103,6 +105,7 @@ pub fn model<R: SourceNumber>(scene: &Scene) -> String {
         model.torsions.len(),
         model.gravity.len(),
         model.loads.len(),
+        model.lines.len(),
     ];
     let counts = counts.map(|n| n.to_string()).join(", ");
     let mut out = String::new();
@@ -124,6 +127,7 @@ pub fn model<R: SourceNumber>(scene: &Scene) -> String {
     line(&format_args!("    dampers: {},", list(&model.dampers, |c| c.number())));
     line(&format_args!("    torsions: {},", list(&model.torsions, torsion::<R>)));
     line(&format_args!("    loads: {},", list(&model.loads, load::<R>)));
+    line(&format_args!("    lines: {},", list(&model.lines, point_on_line)));
     line(&"}");
     line(&".checked();");
     out
@@ -198,6 +202,12 @@ fn tsda<R: SourceNumber>(tsda: &Tsda<R>) -> String {
 
 fn bushing<R: SourceNumber>(bushing: &PointBushing<R>) -> String {
     format!("PointBushing {{ stiffness: {} }}", bushing.stiffness.number())
+}
+
+fn point_on_line<R: SourceNumber>(line: &PointOnLine<R>) -> String {
+    let (k, l0) = (line.stiffness.number(), line.free_length.number());
+    let direction = vector(&line.direction);
+    format!("PointOnLine {{ direction: {direction}, stiffness: {k}, free_length: {l0} }}")
 }
 
 fn torsion<R: SourceNumber>(spring: &TorsionSpring<R>) -> String {

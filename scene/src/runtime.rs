@@ -7,7 +7,8 @@ use std::marker::PhantomData;
 use dbd_kernel::elements::load::LoadWindow;
 use dbd_kernel::model::{AllTerms, Body, Group, ModelOwner, ModelRef};
 use dbd_kernel::{
-    BodyState, F64, Geometry, Load, PointBushing, Real, State, TorsionSpring, Tsda, Vec3,
+    BodyState, F64, Geometry, Load, PointBushing, PointOnLine, Real, State, TorsionSpring, Tsda,
+    Vec3,
 };
 
 /// A model on the heap, see [`dbd_kernel::Model`] for the fields.
@@ -33,6 +34,8 @@ pub struct SceneModel<P: Geometry> {
     pub torsions: Vec<TorsionSpring<P::Real>>,
     /// Loads.
     pub loads: Vec<Load<P::Real>>,
+    /// Points on lines of the groups.
+    pub lines: Vec<PointOnLine<P::Real>>,
 }
 
 impl<P: Geometry> SceneModel<P> {
@@ -50,13 +53,14 @@ impl<P: Geometry> SceneModel<P> {
             dampers: self.dampers.iter().map(|c| Q::Real::from_f64(c.to_f64())).collect(),
             torsions: self.torsions.iter().map(TorsionSpring::convert).collect(),
             loads: self.loads.iter().map(Load::convert).collect(),
+            lines: self.lines.iter().map(PointOnLine::convert).collect(),
         }
     }
 
     /// The number of elements that count as a TSDA (Franco & Degani 2026, Table 7b).
     #[must_use]
     pub fn tsda_count(&self) -> usize {
-        self.tsdas.len() + self.bushings.len()
+        self.tsdas.len() + self.bushings.len() + self.lines.len()
     }
 }
 
@@ -88,6 +92,7 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
             dampers: &self.dampers,
             torsions: &self.torsions,
             loads: &self.loads,
+            lines: &self.lines,
             terms: PhantomData,
         }
     }

@@ -6,5 +6,6 @@
 pub mod gravity;
 pub mod load;
 pub mod point_bushing;
+pub mod point_on_line;
 pub mod torsion_spring;
 pub mod tsda;

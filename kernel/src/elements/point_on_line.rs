@@ -1,0 +1,134 @@
+//! Point on line: a point of B held to a line of A (Franco & Degani 2026, section 2.4.3).
+//!
+//! `(d, n, v_rel) => (force on A, slide)`, `d` from a point of the line to the point of B, n the
+//! line's unit direction. The slide is `s = d·n`, the foot point lies s along the line, and
+//! `e = d − s·n` is the deflection, `ė` the part of `v_rel` normal to n, `v_rel` between the
+//! material points of both bodies at the foot and at the point.
+//! Force on A at the foot `k·(|e| − L0)·e/|e| + c·ė`, on B at the point the opposite; with
+//! `L0 = 0` simply `k·e + c·ė`, smooth on the line. Energy `½·k·(|e| − L0)²`.
+//! A damper whose `ė` is not along e keeps angular momentum only as far as e vanishes.
+
+use crate::real::Real;
+use crate::vector::Vec3;
+
+/// The constants of a point on a line.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PointOnLine<R> {
+    /// Unit direction of the line in A's axes.
+    pub direction: Vec3<R>,
+    /// \[N/m\] stiffness normal to the line, ≥ 0.
+    pub stiffness: R,
+    /// \[m\] free distance from the line, ≥ 0.
+    pub free_length: R,
+}
+
+/// A point relative to its line, world axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Projection<R> {
+    /// Along the line from its defining point to the foot.
+    pub(crate) slide: R,
+    /// From the foot to the point.
+    pub(crate) deflection: Vec3<R>,
+}
+
+impl<R: Real> Projection<R> {
+    /// Projects `d` on the unit direction `n`.
+    #[inline(always)]
+    pub(crate) fn new(d: Vec3<R>, n: Vec3<R>) -> Self {
+        let slide = d.dot(n);
+        Self { slide, deflection: d - n * slide }
+    }
+}
+
+impl<R: Real> PointOnLine<R> {
+    /// Each constant rounded once from double precision.
+    pub fn from_f64(direction: [f64; 3], stiffness: f64, free_length: f64) -> Self {
+        Self {
+            direction: Vec3::from_f64(direction),
+            stiffness: R::from_f64(stiffness),
+            free_length: R::from_f64(free_length),
+        }
+    }
+
+    /// The same constants in another precision.
+    pub fn convert<Q: Real>(&self) -> PointOnLine<Q> {
+        PointOnLine::from_f64(
+            self.direction.to_f64(),
+            self.stiffness.to_f64(),
+            self.free_length.to_f64(),
+        )
+    }
+
+    /// Force on A \[N\] for the deflection `e` without damping.
+    #[inline(always)]
+    pub fn force(&self, e: Vec3<R>) -> Vec3<R> {
+        if self.free_length == R::ZERO {
+            return e * self.stiffness;
+        }
+        let length = e.dot(e).sqrt();
+        let tension = self.stiffness * (length - self.free_length);
+        e * (tension * length.reciprocal_or_zero())
+    }
+
+    /// Force on A \[N\] with the damper's share: `damping` in N·s/m, `rate` is `ė`.
+    #[inline(always)]
+    pub fn damped_force(&self, damping: R, e: Vec3<R>, rate: Vec3<R>) -> Vec3<R> {
+        self.force(e) + rate * damping
+    }
+
+    /// `|e| − L0` \[m\].
+    #[inline]
+    pub fn extension(&self, e: Vec3<R>) -> R {
+        e.dot(e).sqrt() - self.free_length
+    }
+
+    /// Stored energy \[J\].
+    #[inline]
+    pub fn energy(&self, e: Vec3<R>) -> R {
+        let extension = self.extension(e);
+        R::HALF * self.stiffness * extension * extension
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sliding_along_the_line_costs_nothing() {
+        let n = Vec3::new(0.0, 0.6, 0.8);
+        let line = PointOnLine::<f64>::from_f64(n.to_f64(), 500.0, 0.0);
+        let projection = Projection::new(n * 3.0, n);
+        assert!((projection.slide - 3.0).abs() < 1e-15);
+        assert!(line.energy(projection.deflection) < 1e-27);
+        let aside = Projection::new(n * 3.0 + Vec3::new(0.2, 0.0, 0.0), n);
+        assert!((line.force(aside.deflection).x - 100.0).abs() < 1e-12);
+        assert!((line.energy(aside.deflection) - 10.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_force_is_the_gradient_of_the_energy_beyond_a_free_distance() {
+        let n = Vec3::new(1.0, 0.0, 0.0);
+        let line = PointOnLine::<f64>::from_f64(n.to_f64(), 500.0, 0.01);
+        let d = Vec3::new(0.7, 0.012, -0.005);
+        let at = |d: Vec3<f64>| line.energy(Projection::new(d, n).deflection);
+        let force = line.force(Projection::new(d, n).deflection).to_f64();
+        for (axis, force) in force.into_iter().enumerate() {
+            let mut step = [0.0; 3];
+            step[axis] = 1e-7;
+            let step = Vec3::from_f64(step);
+            let gradient = (at(d + step) - at(d - step)) / 2e-7;
+            assert!((gradient - force).abs() < 1e-5, "{gradient} {force}");
+        }
+        assert_eq!(line.force(Vec3::ZERO), Vec3::ZERO);
+    }
+
+    #[test]
+    fn the_damper_acts_in_every_direction_of_its_rate() {
+        let line = PointOnLine::<f64>::from_f64([1.0, 0.0, 0.0], 0.0, 0.01);
+        let rate = Vec3::new(0.0, 2.0, -1.0);
+        let force = line.damped_force(3.0, Vec3::new(0.0, 0.02, 0.0), rate);
+        assert_eq!(force, Vec3::new(0.0, 6.0, -3.0));
+    }
+}
