@@ -20,15 +20,24 @@ pub(crate) fn parse(source: Source<'_>) -> Result<DeTable<'_>, SceneError> {
     match DeTable::parse(source.text) {
         Ok(document) => Ok(document.into_inner()),
         Err(error) => {
-            let (message, help) = match error.message().split_once(", expected ") {
-                Some((message, expected)) => (message, format!("expected {expected}")),
-                None if error.message() == "duplicate key" => {
-                    ("duplicate key", "a key stands once in its table".to_owned())
-                }
-                None => (error.message(), "see https://toml.io for what TOML allows".to_owned()),
-            };
+            let (message, help) = explain(error.message());
             let end = source.text.len();
             Err(source.refuse(error.span().unwrap_or(end..end), message, help))
         }
     }
+}
+
+/// What is wrong and what would be right, from the parser's message.
+fn explain(message: &str) -> (&str, String) {
+    let (problem, expected) = message.split_once(", expected ").unwrap_or((message, ""));
+    let help = match (problem, expected) {
+        // `0.5s` is a float with something behind it to the parser.
+        ("invalid float" | "invalid integer", "" | "nothing") => {
+            "a number is plain and in SI units, e.g. 0.5 or 2e-5; a unit does not follow it".into()
+        }
+        ("duplicate key", _) => "a key stands once in its table".into(),
+        (_, "" | "nothing") => "see https://toml.io for what TOML allows".into(),
+        (_, expected) => format!("expected {expected}"),
+    };
+    (problem, help)
 }

@@ -114,7 +114,7 @@ impl<'t> Table<'t> {
 
     /// The refusal of a table without a key.
     pub(crate) fn missing(&self, key: &str, expected: &str) -> SceneError {
-        self.refuse(&format!("has no `{key}`"), format!("`{key}` is {expected}"))
+        self.refuse(&format!("has no `{key}`"), format!("add `{key}`: {expected}"))
     }
 
     /// A key that may be absent.

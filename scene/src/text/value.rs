@@ -12,7 +12,7 @@ use crate::text::Table;
 pub(crate) trait Kind {
     /// What it is read as.
     type Output;
-    /// What would be right, to follow `… is`: `a number > 0 in kg`.
+    /// What would be right, to follow `… must be`: `a number > 0 in kg`.
     fn expected(&self) -> String;
     /// Reads it.
     fn read(&self, value: &Value<'_>) -> Result<Self::Output, SceneError>;
@@ -47,7 +47,7 @@ impl<'t> Value<'t> {
     /// Refuses it: `problem` follows its name, e.g. `is negative`.
     pub(crate) fn refuse(&self, problem: &str, expected: &str) -> SceneError {
         let Self { key, owner, .. } = self;
-        self.refuse_with(problem, format!("{key} of {owner} is {expected}"))
+        self.refuse_with(problem, format!("{key} of {owner} must be {expected}"))
     }
 
     /// Refuses it with a help of its own.
