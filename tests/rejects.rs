@@ -226,7 +226,7 @@ const CASES: &[Case] = &[
     case("axis = [0, 0, 1], angle = 0.3", "quaternion = «[0, 0, 0, 0]", "`quaternion` of `orientation` of body `arm` has no direction", "scalar first, not all 0"),
     case("reference = [1, 1, 0]", "reference = «[0, 0, -3]", "`reference` of joint `shoulder` is parallel to the axis", "normal to it"),
     case("[[2, 0, 0], [0.1, 0, 0]]", "«[[1.6, 0, 0], [0.1, 0, 0]]", "`points` of tsda 1 coincide", "`free_length = 0`"),
-    case("[[tsda]]\nbetween = [\"world\", \"hand\"]\npoints = [[2, ", "«[[tsda]]\nbetween = [\"world\", \"hand\"]\npoints = [[1e200, ", "tsda 1 has points or lengths that double precision cannot hold", "between 1e-150 and 1e150 m"),
+    case("[[tsda]]\nbetween = [\"world\", \"hand\"]\npoints = [[2, ", "«[[tsda]]\nbetween = [\"world\", \"hand\"]\npoints = [[1e200, ", "tsda 1 has points or lengths that double precision cannot hold", "at most 1e150 m"),
 
     // Contradictions.
     case("{ axis = [0, 0, 1], angle", "«{ euler_321 = [0, 0, 0], angle", "`orientation` of body `arm` has more than one form", "one of"),

@@ -48,7 +48,7 @@ impl Defect {
             }
             Self::OutOfRange => table.refuse(
                 "has points or lengths that double precision cannot hold",
-                "lengths between 1e-150 and 1e150 m",
+                "coordinates of at most 1e150 m, free lengths from 1e-150 to 1e150 m",
             ),
         }
     }
@@ -57,6 +57,12 @@ impl Defect {
 /// Most bodies, points, elements or dampers: their indices are 16 bits wide and the last value
 /// means the world or none.
 const LIMIT: usize = u16::MAX as usize;
+
+/// \[m\] Greatest coordinate and free length: squares of sums of a few stay finite.
+const GREATEST_LENGTH: f64 = 1e150;
+
+/// \[m\] Least free length: its square is not yet subnormal.
+const LEAST_LENGTH: f64 = 1e-150;
 
 /// The points of a group, each in the axes of its owner.
 #[derive(Clone, Copy)]
@@ -139,7 +145,7 @@ impl Assembly {
         free_length: f64,
         spring: Spring,
     ) -> Result<(), Defect> {
-        if !(free_length.is_finite() && free_length > 0.0) {
+        if !(LEAST_LENGTH..=GREATEST_LENGTH).contains(&free_length) {
             return Err(Defect::OutOfRange);
         }
         let arms = if points.shared {
@@ -179,7 +185,8 @@ impl Assembly {
         spring: Spring,
     ) -> Result<(), Defect> {
         let all = || points.centres.iter().chain(points.tips);
-        if !all().all(|point| point.is_finite()) {
+        let within = |body, points: &[Vec3<f64>]| points.iter().all(|p| self.in_range(body, *p));
+        if !(within(pair.a, points.centres) && within(pair.b, points.tips)) {
             return Err(Defect::OutOfRange);
         }
         let point = index(self.model.points.len(), all().count(), "points")?;
@@ -188,6 +195,12 @@ impl Assembly {
         self.model.groups.push(Group { law, a, b, stars, arms, shared, point, element, damper });
         self.model.points.extend(all().map(|p| F64::local_from_f64(p.to_f64())));
         Ok(())
+    }
+
+    /// Whether a point's coordinates, both in its body and in the world, have squares to add.
+    fn in_range(&self, body: BodyIndex, point_b: Vec3<f64>) -> bool {
+        let coordinates = [point_b, self.place(body, point_b)].map(Vec3::to_f64);
+        coordinates.as_flattened().iter().all(|c| c.abs() <= GREATEST_LENGTH)
     }
 
     /// One coefficient per element; none where it is 0.
@@ -230,26 +243,20 @@ impl Assembly {
         self.model.loads.push(load);
     }
 
-    /// The number of groups there are.
-    pub(crate) fn group_count(&self) -> usize {
-        self.model.groups.len()
+    /// The groups there are.
+    pub(crate) fn groups(&self) -> &[Group] {
+        &self.model.groups
     }
 
-    /// The elements of the groups from `first` on: how many there are and their largest
-    /// |L − L0| \[m\] at the initial pose.
-    pub(crate) fn extensions(&self, first: usize) -> Result<(usize, f64), Defect> {
-        let (mut count, mut largest, mut finite) = (0, 0.0, true);
+    /// The largest |L − L0| \[m\] of each group at the initial pose.
+    pub(crate) fn largest_extensions(&self) -> Vec<f64> {
+        let mut largest = vec![0.0; self.model.groups.len()];
         each_extension(&self.model, &State::initial(&self.model), |group, extension| {
-            if group < first {
-                return;
-            }
-            count += 1;
-            finite &= extension.is_finite();
-            if extension.abs() > largest {
-                largest = extension.abs();
+            if extension.abs() > largest[group] {
+                largest[group] = extension.abs();
             }
         });
-        if finite { Ok((count, largest)) } else { Err(Defect::OutOfRange) }
+        largest
     }
 
     /// The model and the names of its bodies.

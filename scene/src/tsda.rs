@@ -31,13 +31,11 @@ pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), 
             }
         }
         let points = Points { centres: &[a], tips: &[b], shared: false };
-        let group = assembly.group_count();
         if free_length > 0.0 {
             assembly.add_tsdas(&pair, points, free_length, spring)
         } else {
             assembly.add_bushing(&pair, points, spring)
         }
-        .and_then(|()| assembly.extensions(group))
         .map_err(|defect| defect.refuse(&table))?;
     }
     Ok(())

@@ -48,11 +48,30 @@ pub(crate) fn read_all(
 ) -> Result<Vec<JointInfo>, SceneError> {
     let mut names = Names::new("joint");
     let mut infos = Vec::new();
+    let mut first_groups = Vec::new();
     for table in root.list("joint")? {
         let kind = kind(&table)?;
         table.only(&[KEYS, kind.keys, spring::KEYS])?;
         let name = names.read(&table)?;
-        infos.push(read(&table, kind, name, assembly)?);
+        first_groups.push(assembly.groups().len());
+        let pair = read(&table, kind, assembly)?;
+        infos.push(JointInfo {
+            name,
+            kind: kind.name,
+            between: pair.names,
+            holds: kind.holds,
+            tsdas: 0,
+            assembly_error: 0.0,
+        });
+    }
+    // One pass over all elements, for a scene may have thousands of joints.
+    let extensions = assembly.largest_extensions();
+    for (number, (group, extension)) in assembly.groups().iter().zip(extensions).enumerate() {
+        // Every group here is some joint's: the last one that began at or before it.
+        let joint = first_groups.partition_point(|first| *first <= number) - 1;
+        let info = &mut infos[joint];
+        info.tsdas += group.elements();
+        info.assembly_error = info.assembly_error.max(extension);
     }
     Ok(infos)
 }
@@ -68,27 +87,12 @@ fn kind(table: &Table<'_>) -> Result<&'static JointType, SceneError> {
     Ok(&TYPES[index])
 }
 
-fn read(
-    table: &Table<'_>,
-    kind: &JointType,
-    name: String,
-    assembly: &mut Assembly,
-) -> Result<JointInfo, SceneError> {
+/// Reads a joint of a type and adds its elements.
+fn read(table: &Table<'_>, kind: &JointType, assembly: &mut Assembly) -> Result<Pair, SceneError> {
     let pair = table.required("between", Between(assembly))?;
     let at_w = Vec3::from_f64(table.required("at", Numbers(Number::any("m, world")))?);
     let spring = spring::read(table, spring::AXIAL)?;
     let joint = Joint { pair, at_w, spring };
-
-    let first = assembly.group_count();
     (kind.expand)(table, &joint, assembly)?;
-    let (tsdas, assembly_error) =
-        assembly.extensions(first).map_err(|defect| defect.refuse(table))?;
-    Ok(JointInfo {
-        name,
-        kind: kind.name,
-        between: joint.pair.names,
-        holds: kind.holds,
-        tsdas,
-        assembly_error,
-    })
+    Ok(joint.pair)
 }
