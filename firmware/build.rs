@@ -20,7 +20,7 @@ fn main() {
     println!("cargo:rustc-link-search={}", root.display());
     for program in programs() {
         let arguments: &[&str] = if program == AUDIT {
-            &["--entry=audit_roots", "--gc-sections", "-Tdefmt.x"]
+            &["--entry=audit_roots", "--gc-sections"]
         } else {
             &["-Tlink.x", "-Tdefmt.x", "--nmagic"]
         };

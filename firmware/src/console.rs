@@ -47,6 +47,7 @@ mod target {
         semihosting::process::exit(i32::from(!well))
     }
 
+    #[cfg(not(feature = "audit"))]
     #[panic_handler]
     fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
         defmt::error!("{}", defmt::Display2Format(info));

@@ -15,7 +15,8 @@ use crate::say;
 pub struct Limits {
     /// Most steps per combination.
     pub steps: u64,
-    /// Most instructions per combination; the count that would exceed it is not begun.
+    /// Most instructions of the program, shared out among the combinations as they come; a count
+    /// that would exceed a combination's share is not begun.
     pub instructions: u64,
 }
 
@@ -27,14 +28,27 @@ pub trait InstructionCounter {
 
 /// Prints all lines; `false` where a model did not step.
 pub fn run(limits: Limits, counter: &mut impl InstructionCounter) -> bool {
-    let mut hashing = Hashing { limits, counter, well: true };
+    let mut all = Combinations(0);
+    for_each(&mut all);
+    let mut hashing = Hashing { limits, counter, waiting: all.0, well: true };
     for_each(&mut hashing);
     hashing.well
+}
+
+/// Counts the combinations.
+struct Combinations(u64);
+
+impl Visitor for Combinations {
+    fn visit<M: ModelOwner, S: Scheme>(&mut self, _: Shipped<M, S>) {
+        self.0 += 1;
+    }
 }
 
 struct Hashing<'c, C> {
     limits: Limits,
     counter: &'c mut C,
+    /// Combinations not yet done.
+    waiting: u64,
     well: bool,
 }
 
@@ -47,11 +61,13 @@ impl<C: InstructionCounter> Visitor for Hashing<'_, C> {
             return;
         };
         let start = self.counter.count();
+        let share = self.limits.instructions.saturating_sub(start) / self.waiting.max(1);
+        self.waiting = self.waiting.saturating_sub(1);
         let mut next = 1;
         while next <= self.limits.steps {
             let done = plant.state().step;
             let spent = self.counter.count() - start;
-            if done > 0 && spent.saturating_mul(next) / done > self.limits.instructions {
+            if done > 0 && spent.saturating_mul(next) / done > share {
                 return;
             }
             while plant.state().step < next {

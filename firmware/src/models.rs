@@ -8,13 +8,12 @@ use dbd_kernel::{Dbd, Leapfrog, Scheme};
 
 pub use crate::pendulum::*;
 
-/// Calls a macro with all shipped models: name, module, step \[s\], static and type per
-/// precision.
+/// Calls a macro with all shipped models: module, name, step \[s\], static and type per precision.
 #[macro_export]
 macro_rules! shipped {
     ($then:path) => {
         $then! {
-            pendulum "pendulum" 1e-4, PENDULUM_F64: PendulumF64, PENDULUM_F32: PendulumF32;
+            pendulum "pendulum" 1e-4, PENDULUM_F32: PendulumF32, PENDULUM_F64: PendulumF64;
         }
     };
 }
@@ -37,16 +36,25 @@ pub trait Visitor {
     fn visit<M: ModelOwner, S: Scheme>(&mut self, shipped: Shipped<M, S>);
 }
 
-/// Shows all pairs in the order scene, precision (f64, f32), scheme (dbd, leapfrog).
+/// Shows all pairs: the scenes in f32, the cheap ones on the target, then those in f64; each with
+/// leapfrog, then dbd.
 pub fn for_each(visitor: &mut impl Visitor) {
     macro_rules! visit {
-        ($($module:ident $scene:literal $step:literal, $($table:ident: $model:ident),*;)*) => {
-            $($(
-                let (scene, model, step) = ($scene, &$table, $step);
-                visitor.visit(Shipped { scene, model, scheme: Dbd::default(), step });
-                visitor.visit(Shipped { scene, model, scheme: Leapfrog, step });
-            )*)*
+        ($($module:ident $scene:literal $step:literal,
+            $f32:ident: $model32:ident, $f64:ident: $model64:ident;)*) => {
+            $(both(visitor, $scene, &$f32, $step);)*
+            $(both(visitor, $scene, &$f64, $step);)*
         };
     }
     shipped!(visit);
+}
+
+fn both<M: ModelOwner>(
+    visitor: &mut impl Visitor,
+    scene: &'static str,
+    model: &'static M,
+    step: f64,
+) {
+    visitor.visit(Shipped { scene, model, scheme: Leapfrog, step });
+    visitor.visit(Shipped { scene, model, scheme: Dbd::default(), step });
 }

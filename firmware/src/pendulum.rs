@@ -78,6 +78,7 @@ macro_rules! pendulum {
                 preload: 0.0,
                 damper: DamperIndex(7),
             }],
+            lines: [],
             loads: [Load {
                 body: BodyIndex(1),
                 frame: LoadFrame::Body,

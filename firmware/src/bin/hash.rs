@@ -1,5 +1,5 @@
 //! Program `hash [STEPS [MILLION_INSTRUCTIONS]]`: hashes of all shipped models, see
-//! [`firmware::hash`]. Without limits: 10,000 steps, 700 million instructions per combination.
+//! [`firmware::hash`]. Without limits: 10,000 steps, 3,000 million instructions.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 use firmware::console::{exit, numbers};
@@ -10,7 +10,7 @@ fn main() -> ! {
     let [steps, millions] = numbers();
     let limits = Limits {
         steps: steps.unwrap_or(10_000),
-        instructions: millions.unwrap_or(700).saturating_mul(1_000_000),
+        instructions: millions.unwrap_or(3_000).saturating_mul(1_000_000),
     };
     exit(run(limits, &mut counter()))
 }

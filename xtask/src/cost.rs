@@ -1,0 +1,182 @@
+//! `cargo xtask cost`: instructions and memory of a step, as docs/costs.csv and a table.
+//!
+//! `program cost in QEMU, image of the audit => rows`. Instructions, plant, model and stack are
+//! measured by the program; `.text` is the code that the step reaches, with its literals.
+
+use std::fmt::Write as _;
+
+use anyhow::{Context as _, Result, bail};
+
+use crate::command::root;
+use crate::image::Image;
+use crate::toolchain::Toolchain;
+use crate::{firmware, setup};
+
+const FILE: &str = "docs/costs.csv";
+const HEADER: &str = "scene,scheme,precision,step_s,instructions_mean,instructions_max,text_bytes,\
+                      rodata_bytes,plant_ram_bytes,stack_bytes,estimated_rate_168mhz_hz";
+/// \[Hz\] a common clock of Cortex-M4F parts.
+const CLOCK: f64 = 168e6;
+/// Cycles per instruction assumed for the estimated rate. Cortex-M4 takes one for most, two for
+/// loads, 14 for a division or a square root in single precision (Technical Reference Manual,
+/// DDI 0439, tables 3-1 and 7-1); memory without wait states.
+const CYCLES_PER_INSTRUCTION: f64 = 1.5;
+
+/// What a step of one combination costs.
+#[derive(Clone, Debug, PartialEq)]
+struct Cost {
+    scene: String,
+    scheme: String,
+    precision: String,
+    step: f64,
+    mean: u64,
+    max: u64,
+    text: u64,
+    model: u64,
+    plant: u64,
+    stack: u64,
+}
+
+/// `cargo xtask cost [SCENE…]`.
+///
+/// # Errors
+/// Where a scene is unknown, or building, running or writing fails.
+pub fn run(scenes: &[String]) -> Result<()> {
+    let toolchain = setup::complete()?;
+    let costs = measure(&toolchain)?;
+    for scene in scenes {
+        if !costs.iter().any(|cost| cost.scene == *scene) {
+            let mut known: Vec<&str> = costs.iter().map(|cost| cost.scene.as_str()).collect();
+            known.dedup();
+            bail!("there is no shipped scene `{scene}`; there are: {}", known.join(", "));
+        }
+    }
+    let file = root().join(FILE);
+    std::fs::create_dir_all(file.parent().unwrap_or(root()))?;
+    std::fs::write(&file, csv(&costs)).with_context(|| format!("cannot write {FILE}"))?;
+    println!("\n{}", table(&costs, scenes));
+    println!("written: {FILE}");
+    Ok(())
+}
+
+/// Measures and compares with the file, which is part of the sources.
+///
+/// # Errors
+/// Where measuring fails or the program's rows are not those of the file.
+pub fn check(toolchain: &Toolchain) -> Result<()> {
+    let costs = measure(toolchain)?;
+    println!("\n{}", table(&costs, &[]));
+    let written = std::fs::read_to_string(root().join(FILE)).unwrap_or_default();
+    let rows = |text: &str| -> Vec<String> {
+        let key = |line: &str| line.splitn(4, ',').take(3).collect::<Vec<_>>().join(" ");
+        text.lines().skip(1).map(key).collect()
+    };
+    // Counts differ a little from compiler to compiler; that a row is missing does not.
+    if rows(&written) != rows(&csv(&costs)) {
+        bail!("{FILE} has other rows than the shipped models: cargo xtask cost");
+    }
+    Ok(())
+}
+
+fn measure(toolchain: &Toolchain) -> Result<Vec<Cost>> {
+    let image = Image::read(&firmware::build_audit(toolchain, None)?)?;
+    let lines = firmware::execute(toolchain, "cost", false, &[])?;
+    let mut costs = Vec::new();
+    for line in lines.iter().filter(|line| line.starts_with("cost ")) {
+        let mut cost = parse(line).with_context(|| format!("cannot read `{line}`"))?;
+        let module = cost.scene.replace('-', "_");
+        let root = format!("audit::roots::{module}::{}_{}", cost.scheme, cost.precision);
+        cost.text = image.reach(&root)?.iter().map(|function| function.size).sum();
+        costs.push(cost);
+    }
+    if costs.is_empty() {
+        bail!("the program reported no cost");
+    }
+    Ok(costs)
+}
+
+/// Reads `cost SCENE SCHEME PRECISION STEP_NS MEAN MAX PLANT MODEL STACK`.
+fn parse(line: &str) -> Option<Cost> {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let [_, scene, scheme, precision, step, mean, max, plant, model, stack] = words[..] else {
+        return None;
+    };
+    Some(Cost {
+        scene: scene.to_owned(),
+        scheme: scheme.to_owned(),
+        precision: precision.to_owned(),
+        step: step.parse::<u64>().ok()? as f64 * 1e-9,
+        mean: mean.parse().ok()?,
+        max: max.parse().ok()?,
+        text: 0,
+        model: model.parse().ok()?,
+        plant: plant.parse().ok()?,
+        stack: stack.parse().ok()?,
+    })
+}
+
+impl Cost {
+    fn rate(&self) -> u64 {
+        (CLOCK / (CYCLES_PER_INSTRUCTION * self.max as f64)) as u64
+    }
+}
+
+fn csv(costs: &[Cost]) -> String {
+    let mut text = format!("{HEADER}\n");
+    for c in costs {
+        let _ = writeln!(
+            text,
+            "{},{},{},{:e},{},{},{},{},{},{},{}",
+            c.scene,
+            c.scheme,
+            c.precision,
+            c.step,
+            c.mean,
+            c.max,
+            c.text,
+            c.model,
+            c.plant,
+            c.stack,
+            c.rate()
+        );
+    }
+    text
+}
+
+fn table(costs: &[Cost], scenes: &[String]) -> String {
+    let mut text = format!(
+        "{:<16} {:<10} {:<5} {:>9} {:>9} {:>8} {:>8} {:>6} {:>6} {:>10}\n",
+        "scene", "scheme", "real", "instr/step", "max", ".text", ".rodata", "RAM", "stack", "rate*"
+    );
+    for c in costs.iter().filter(|c| scenes.is_empty() || scenes.contains(&c.scene)) {
+        let _ = writeln!(
+            text,
+            "{:<16} {:<10} {:<5} {:>10} {:>9} {:>8} {:>8} {:>6} {:>6} {:>7} Hz",
+            c.scene,
+            c.scheme,
+            c.precision,
+            c.mean,
+            c.max,
+            c.text,
+            c.model,
+            c.plant,
+            c.stack,
+            c.rate()
+        );
+    }
+    text + "* an estimate: 168 MHz, 1.5 cycles per instruction, memory without wait states"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_becomes_a_row() {
+        let mut cost = parse("cost four-bar dbd f32 100000 9000 10000 600 800 400").unwrap();
+        cost.text = 7000;
+        let row = "four-bar,dbd,f32,1e-4,9000,10000,7000,800,600,400,11200";
+        assert_eq!(csv(&[cost]).lines().last(), Some(row));
+        assert_eq!(parse("cost four-bar dbd f32 refused"), None);
+    }
+}

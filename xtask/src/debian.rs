@@ -1,0 +1,37 @@
+//! Installing Debian packages: done where this process may, else said.
+
+use anyhow::{Context as _, Result, bail};
+
+use crate::command::{find, output, program, run};
+
+/// Installs packages, or says what to install.
+///
+/// # Errors
+/// Where this is not Debian, not root, or the installation failed; `purpose` and `otherwise`,
+/// a remedy that does not need Debian, become part of the message.
+pub fn install(purpose: &str, packages: &[&str], otherwise: &str) -> Result<()> {
+    let packages_line = packages.join(" ");
+    if find("apt-get").is_none() {
+        bail!("{purpose} is missing: {otherwise} (on Debian: apt-get install {packages_line})");
+    }
+    if output(program("id").arg("-u")).map(|id| id.trim() != "0").unwrap_or(true) {
+        bail!("{purpose} is missing: sudo apt-get install {packages_line}; or {otherwise}");
+    }
+    println!("installing {packages_line} for {purpose}");
+    // The package lists of a fresh machine are empty or old: install, else refresh and retry.
+    if apt(&["install"], packages).is_ok() {
+        return Ok(());
+    }
+    apt(&["update"], &[])
+        .and_then(|()| apt(&["install"], packages))
+        .with_context(|| format!("{purpose} is missing and could not be installed; {otherwise}"))
+}
+
+fn apt(action: &[&str], packages: &[&str]) -> Result<()> {
+    run(program("apt-get")
+        // Another installation may hold the lock for a while.
+        .args(["-qq", "-o", "DPkg::Lock::Timeout=300", "-y", "--no-install-recommends"])
+        .args(action)
+        .args(packages)
+        .env("DEBIAN_FRONTEND", "noninteractive"))
+}

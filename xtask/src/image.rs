@@ -1,0 +1,173 @@
+//! What a linked image holds: its symbols, its functions, which function calls which.
+//!
+//! `ELF => symbols, functions by address`, read from GNU binutils' listings.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use anyhow::{Context as _, Result, bail};
+
+use crate::command::{output, program};
+
+/// A linked image.
+#[derive(Debug, Default)]
+pub struct Image {
+    /// Demangled names of all symbols.
+    pub symbols: Vec<String>,
+    functions: BTreeMap<u64, Function>,
+}
+
+/// A function of an image.
+#[derive(Debug, Default, PartialEq)]
+pub struct Function {
+    /// Demangled name.
+    pub name: String,
+    /// \[bytes\] code with its literals, up to the next function.
+    pub size: u64,
+    /// The distinct mnemonics of its instructions.
+    pub mnemonics: BTreeSet<String>,
+    /// Where its branches lead, outside of itself.
+    calls: BTreeSet<u64>,
+}
+
+impl Image {
+    /// Reads an image.
+    ///
+    /// # Errors
+    /// Where the tools cannot read it.
+    pub fn read(elf: &Path) -> Result<Self> {
+        let names = output(program("arm-none-eabi-nm").arg("--demangle").arg(elf))?;
+        let listing = output(
+            program("arm-none-eabi-objdump")
+                .args(["--disassemble", "--demangle", "--no-show-raw-insn"])
+                .arg(elf),
+        )?;
+        let image = Self { symbols: symbols(&names), functions: functions(&listing) };
+        if image.symbols.is_empty() || image.functions.is_empty() {
+            bail!("{} has no symbols or no code", elf.display());
+        }
+        Ok(image)
+    }
+
+    /// All functions.
+    pub fn functions(&self) -> impl Iterator<Item = &Function> {
+        self.functions.values()
+    }
+
+    /// The function of this name and all that it reaches by calls.
+    ///
+    /// # Errors
+    /// Where there is no function of the name.
+    pub fn reach(&self, name: &str) -> Result<Vec<&Function>> {
+        let root = self.functions.iter().find(|(_, function)| function.name == name);
+        let (&root, _) = root.with_context(|| format!("the image has no function `{name}`"))?;
+        let (mut waiting, mut found) = (vec![root], BTreeSet::new());
+        while let Some(address) = waiting.pop() {
+            if found.insert(address) {
+                waiting.extend(&self.functions[&address].calls);
+            }
+        }
+        Ok(found.iter().map(|address| &self.functions[address]).collect())
+    }
+}
+
+/// The names of `nm`'s lines `ADDRESS KIND NAME`.
+fn symbols(names: &str) -> Vec<String> {
+    let name = |line: &str| line.splitn(3, ' ').nth(2).map(str::to_owned);
+    names.lines().filter_map(name).collect()
+}
+
+fn functions(listing: &str) -> BTreeMap<u64, Function> {
+    let mut functions: BTreeMap<u64, Function> = BTreeMap::new();
+    let (mut start, mut end) = (0, 0);
+    for line in listing.lines() {
+        if let Some((address, name)) = header(line) {
+            start = address;
+            functions.insert(start, Function { name, ..Function::default() });
+        } else if let Some((address, mnemonic, operands)) = instruction(line) {
+            // A lone instruction of four bytes at the very end counts two too few; padding hides
+            // it everywhere else.
+            end = address + 2;
+            if let Some(function) = functions.get_mut(&start) {
+                function.mnemonics.insert(mnemonic.to_owned());
+                function.calls.extend(branch(mnemonic, operands));
+            }
+        }
+    }
+    let starts: Vec<u64> = functions.keys().copied().collect();
+    let enclosing = |address: u64| starts.iter().rev().find(|&&start| start <= address).copied();
+    for (i, start) in starts.iter().enumerate() {
+        let next = starts.get(i + 1).copied().unwrap_or(end);
+        if let Some(function) = functions.get_mut(start) {
+            function.size = next.saturating_sub(*start);
+            function.calls = function.calls.iter().filter_map(|&call| enclosing(call)).collect();
+            function.calls.remove(start);
+        }
+    }
+    functions
+}
+
+/// `00020000 <name>:`
+fn header(line: &str) -> Option<(u64, String)> {
+    let (address, name) = line.strip_suffix(">:")?.split_once(" <")?;
+    Some((u64::from_str_radix(address, 16).ok()?, name.to_owned()))
+}
+
+/// `   20000:<tab>bl<tab>24b70 <name+0x2>`
+fn instruction(line: &str) -> Option<(u64, &str, &str)> {
+    let mut columns = line.splitn(3, '\t');
+    let address = columns.next()?.trim().strip_suffix(':')?;
+    let address = u64::from_str_radix(address, 16).ok()?;
+    Some((address, columns.next()?.trim(), columns.next().unwrap_or("")))
+}
+
+/// Where a branch with a fixed destination leads. Compare-and-branch stays in its function.
+fn branch(mnemonic: &str, operands: &str) -> Option<u64> {
+    let stem = mnemonic.split('.').next().unwrap_or(mnemonic);
+    if !(stem.starts_with('b') && stem.len() <= 3) {
+        return None;
+    }
+    let (address, _) = operands.split_once(" <")?;
+    u64::from_str_radix(address.trim(), 16).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LISTING: &str = "
+00020000 <roots::dbd_f32>:
+   20000:\tpush\t{r7, lr}
+   20002:\tbl\t20010 <<A as B>::step>
+   20006:\tbne.n\t20000 <roots::dbd_f32>
+   20008:\tpop\t{r7, pc}
+
+00020010 <<A as B>::step>:
+   20010:\tvmul.f32\ts0, s0, s0
+   20014:\tb.w\t20020 <leaf>
+
+00020020 <leaf>:
+   20020:\tbic\tr0, r1, r2
+   20024:\tbx\tlr
+
+00020026 <other>:
+   20026:\tbx\tlr
+";
+
+    #[test]
+    fn calls_are_followed_and_sizes_end_at_the_next_function() {
+        let image = Image { symbols: Vec::new(), functions: functions(LISTING) };
+        let reach = image.reach("roots::dbd_f32").unwrap();
+        let names: Vec<&str> = reach.iter().map(|f| f.name.as_str()).collect();
+        assert_eq!(names, ["roots::dbd_f32", "<A as B>::step", "leaf"]);
+        assert_eq!(reach.iter().map(|f| f.size).collect::<Vec<_>>(), [16, 16, 6]);
+        assert!(reach[1].mnemonics.contains("vmul.f32"));
+        assert!(image.reach("nothing").is_err());
+    }
+
+    #[test]
+    fn names_keep_their_spaces() {
+        assert_eq!(symbols("00020010 t <A as B>::step\n         U free\n").len(), 2);
+        assert_eq!(symbols("00020010 t <A as B>::step")[0], "<A as B>::step");
+    }
+}

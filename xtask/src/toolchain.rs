@@ -1,0 +1,197 @@
+//! The compiler for a bare target: which of three ways, and the cargo command of it.
+//!
+//! 1. prebuilt: the host's toolchain has the target's libraries.
+//! 2. rust-src: it has the library sources, from which cargo builds `core`.
+//! 3. debian: Debian's compiler and its matching library sources.
+//!
+//! Nothing is downloaded through rustup on the user's behalf.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context as _, Result, bail};
+
+use crate::command::{cargo, find, output, program, root};
+use crate::debian;
+
+/// The variable that demands one way.
+const OVERRIDE: &str = "DBD_TOOLCHAIN";
+const DEBIAN_PACKAGES: [&str; 3] = ["rustc-web", "cargo-web", "rust-web-src"];
+const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
+const DEBIAN_CARGO: &str = "/usr/bin/cargo";
+const DEBIAN_SYSROOT: &str = "/usr";
+/// Below a sysroot: present where the library sources are.
+const LIBRARY_SOURCE: &str = "lib/rustlib/src/rust/library/core/src/lib.rs";
+
+/// A compiler for one target.
+#[derive(Clone, Debug)]
+pub struct Toolchain {
+    way: Way,
+    target: String,
+    linker: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Way {
+    Prebuilt,
+    RustSrc,
+    Debian,
+}
+
+impl Toolchain {
+    /// Finds the first way that works for the target, installing Debian's packages last.
+    ///
+    /// # Errors
+    /// Where no way works, or the one demanded does not; the remedies are named.
+    pub fn find(target: &str) -> Result<Self> {
+        let demanded = demanded()?;
+        let sysroot = host_sysroot()?;
+        let way = match demanded {
+            Some(way) => way,
+            None if has_prebuilt(target) => Way::Prebuilt,
+            None if sysroot.join(LIBRARY_SOURCE).is_file() => Way::RustSrc,
+            None => Way::Debian,
+        };
+        match way {
+            Way::Prebuilt if !has_prebuilt(target) => {
+                bail!("{OVERRIDE}=prebuilt: the target is missing: rustup target add {target}");
+            }
+            Way::RustSrc if !sysroot.join(LIBRARY_SOURCE).is_file() => {
+                bail!(
+                    "{OVERRIDE}=rust-src: its sources are missing: rustup component add rust-src"
+                );
+            }
+            Way::Debian if !debian_is_complete() => debian::install(
+                &format!("a compiler for {target}"),
+                &DEBIAN_PACKAGES,
+                &format!("rustup target add {target}"),
+            )?,
+            _ => {}
+        }
+        let linker = match way {
+            // The toolchain that has the target has its linker too.
+            Way::Prebuilt => None,
+            Way::RustSrc | Way::Debian => Some(linker(&sysroot)?),
+        };
+        Ok(Self { way, target: target.to_owned(), linker })
+    }
+
+    /// The line that says which way was chosen.
+    ///
+    /// # Errors
+    /// Where the compiler does not run.
+    pub fn describe(&self) -> Result<String> {
+        let (name, rustc) = match self.way {
+            Way::Prebuilt => ("prebuilt", host_rustc()),
+            Way::RustSrc => ("rust-src", host_rustc()),
+            Way::Debian => ("debian", program(DEBIAN_RUSTC)),
+        };
+        let mut rustc = rustc;
+        let version = output(self.clean(rustc.arg("--version")))?;
+        let version = version.split_whitespace().take(2).collect::<Vec<_>>().join(" ");
+        Ok(format!("target toolchain: {name} ({version}) for {}", self.target))
+    }
+
+    /// Where its images lie.
+    pub fn target_dir(&self) -> PathBuf {
+        let base = std::env::var_os("CARGO_TARGET_DIR");
+        let base = base.map_or_else(|| root().join("target"), |dir| root().join(dir));
+        match self.way {
+            // Two compilers must not share one directory.
+            Way::Debian => base.join("debian"),
+            Way::Prebuilt | Way::RustSrc => base,
+        }
+    }
+
+    /// Where the images of a profile lie.
+    pub fn images(&self, profile: &str) -> PathBuf {
+        self.target_dir().join(&self.target).join(profile)
+    }
+
+    /// `cargo SUBCOMMAND` for the target; `libraries` as for build-std: `core`, `core,alloc`.
+    pub fn cargo(&self, subcommand: &str, libraries: &str) -> Command {
+        let mut command = match self.way {
+            Way::Debian => program(DEBIAN_CARGO),
+            Way::Prebuilt | Way::RustSrc => cargo(),
+        };
+        self.clean(&mut command);
+        command.arg(subcommand);
+        if self.way == Way::Debian {
+            command.env("RUSTC", DEBIAN_RUSTC).env("CARGO_TARGET_DIR", self.target_dir());
+        }
+        if self.way != Way::Prebuilt {
+            // build-std is unstable, the libraries it builds are those of this very compiler.
+            command.env("RUSTC_BOOTSTRAP", "1").args(["-Z", &format!("build-std={libraries}")]);
+        }
+        if let Some(linker) = &self.linker {
+            let name = self.target.to_uppercase().replace(['-', '.'], "_");
+            command.env(format!("CARGO_TARGET_{name}_LINKER"), linker);
+        }
+        command.args(["--target", &self.target]);
+        command
+    }
+
+    /// Debian's compiler must not see what rustup set for the host's.
+    fn clean<'c>(&self, command: &'c mut Command) -> &'c mut Command {
+        if self.way == Way::Debian {
+            for variable in ["RUSTUP_TOOLCHAIN", "LD_LIBRARY_PATH", "CARGO", "RUSTC_WRAPPER"] {
+                command.env_remove(variable);
+            }
+        }
+        command
+    }
+}
+
+fn demanded() -> Result<Option<Way>> {
+    match std::env::var(OVERRIDE).as_deref() {
+        Err(_) | Ok("") => Ok(None),
+        Ok("prebuilt") => Ok(Some(Way::Prebuilt)),
+        Ok("rust-src") => Ok(Some(Way::RustSrc)),
+        Ok("debian") => Ok(Some(Way::Debian)),
+        Ok(other) => bail!("{OVERRIDE}={other}: it is prebuilt, rust-src or debian"),
+    }
+}
+
+fn host_rustc() -> Command {
+    program(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()))
+}
+
+fn host_sysroot() -> Result<PathBuf> {
+    let sysroot = output(host_rustc().args(["--print", "sysroot"]))?;
+    Ok(PathBuf::from(sysroot.trim()))
+}
+
+fn has_prebuilt(target: &str) -> bool {
+    let Ok(dir) = output(host_rustc().args(["--print", "target-libdir", "--target", target]))
+    else {
+        return false;
+    };
+    let Ok(files) = std::fs::read_dir(dir.trim()) else {
+        return false;
+    };
+    files.filter_map(Result::ok).any(|file| {
+        let name = file.file_name();
+        let name = name.to_string_lossy();
+        name.starts_with("libcore-") && name.ends_with(".rlib")
+    })
+}
+
+fn debian_is_complete() -> bool {
+    let source = Path::new(DEBIAN_SYSROOT).join(LIBRARY_SOURCE);
+    [Path::new(DEBIAN_RUSTC), Path::new(DEBIAN_CARGO), &source].iter().all(|file| file.is_file())
+}
+
+/// An LLVM linker: the host toolchain's own, else one on PATH, else Debian's.
+fn linker(sysroot: &Path) -> Result<PathBuf> {
+    let version = output(host_rustc().arg("-vV"))?;
+    let host = version.lines().find_map(|line| line.strip_prefix("host: "));
+    let host = host.context("`rustc -vV` names no host")?;
+    let own = sysroot.join("lib/rustlib").join(host).join("bin/rust-lld");
+    if own.is_file() {
+        return Ok(own);
+    }
+    if find("ld.lld").is_none() {
+        debian::install("the linker lld", &["lld"], "install LLVM's lld")?;
+    }
+    find("ld.lld").context("the linker ld.lld is not on PATH")
+}
