@@ -9,12 +9,13 @@ use std::path::PathBuf;
 use dbd_kernel::geometry::{F32, F64, Geometry};
 use dbd_kernel::{Dbd, Leapfrog, Plant, Scheme};
 use dbd_scene::{Scene, SceneModel};
-use dbd_tests::scene;
+use dbd_tests::{scene, scene_names};
 
 const HEADER: &str = "scene,scheme,precision,step,steps,hash";
 
-/// Scenes and the number of steps each is run for, at its own step.
-const RUNS: [(&str, u64); 1] = [("four-bar", 10_000)];
+/// Steps of every scene, at its own step, and the longer run of one.
+const STEPS: u64 = 1_000;
+const LONG: (&str, u64) = ("four-bar", 10_000);
 
 fn table() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("golden/hashes.csv")
@@ -34,8 +35,10 @@ fn row<P: Geometry, S: Scheme>(scene: &Scene, scheme: S, steps: u64) -> String {
 #[test]
 fn states_have_their_golden_hashes() {
     let mut present = format!("{HEADER}\n");
-    for (name, steps) in RUNS {
-        let scene = scene(name);
+    let mut runs = vec![(LONG.0.to_owned(), LONG.1)];
+    runs.extend(scene_names().into_iter().map(|name| (name, STEPS)));
+    for (name, steps) in runs {
+        let scene = scene(&name);
         for row in [
             row::<F64, _>(&scene, Dbd::default(), steps),
             row::<F32, _>(&scene, Dbd::default(), steps),

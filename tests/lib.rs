@@ -8,6 +8,20 @@ use dbd_kernel::{
 };
 use dbd_scene::Scene;
 
+/// The names of the scenes that ship, in order.
+///
+/// # Panics
+/// Where their folder cannot be read.
+#[must_use]
+pub fn scene_names() -> Vec<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+    let files = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
+    let mut names: Vec<_> =
+        files.map(|file| file.file_stem().unwrap().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
 /// A scene that ships.
 ///
 /// # Panics

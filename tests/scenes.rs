@@ -1,0 +1,110 @@
+//! Every scene that ships: counts, a run over its duration, its energy band.
+//!
+//! The band is the largest deviation of the total energy from its value once the last load has
+//! ended, over the largest kinetic energy. Bounds are three times the figure measured when the
+//! row was written; `DBD_PRINT=1 cargo test --release -p dbd-tests --test scenes -- --nocapture`
+//! prints the present figures.
+
+use std::collections::BTreeSet;
+
+use dbd_kernel::energy::energy;
+use dbd_kernel::{F32, F64, Geometry, Leapfrog, Plant};
+use dbd_scene::{Scene, SceneModel, widen};
+use dbd_tests::{scene, scene_names};
+
+/// Counts of a scene and its energy bands, f64 and f32.
+struct Row {
+    name: &'static str,
+    bodies: usize,
+    tsdas: usize,
+    f64: f64,
+    f32: f64,
+}
+
+const fn row(name: &'static str, bodies: usize, tsdas: usize, f64: f64, f32: f64) -> Row {
+    Row { name, bodies, tsdas, f64, f32 }
+}
+
+/// Leapfrog at the scene's step. In f64 the band is that of the modified Hamiltonian, (ω·h)²
+/// times the energy in the joints' vibration, so it is largest where a preload is let go
+/// against stiff joints (five-bar-a, 3rrr-2) and least where gravity acts softly (hexagon,
+/// chains). In f32 rounding adds 1e-5 to 1e-4 of the kinetic energy, whatever the step.
+const SCENES: &[Row] = &[
+    row("3rrr", 7, 54, 3.1e-5, 1.1e-4),
+    row("3rrr-1", 6, 48, 4.2e-5, 1.1e-4),
+    row("3rrr-2", 5, 42, 1.5e-4, 1.6e-4),
+    row("chain-closed", 10, 66, 1.1e-7, 1.1e-4),
+    row("chain-open-30", 10, 60, 1.3e-9, 3.5e-5),
+    row("chain-open-60", 10, 60, 1.1e-9, 8.2e-6),
+    row("five-bar-a", 4, 30, 3.2e-4, 3.2e-4),
+    row("five-bar-b", 4, 30, 3.8e-5, 9.7e-5),
+    row("four-bar", 3, 24, 6.5e-5, 2.9e-4),
+    row("hexagon", 5, 36, 2.1e-8, 9.1e-6),
+    row("six-bar", 5, 36, 4.3e-5, 8.1e-5),
+    row("spring-ball", 1, 1, 7.3e-5, 7.8e-5),
+];
+
+#[test]
+fn the_table_lists_every_scene_that_ships() {
+    let shipped = BTreeSet::from_iter(scene_names());
+    let listed: BTreeSet<String> = SCENES.iter().map(|row| row.name.to_owned()).collect();
+    assert_eq!(shipped, listed);
+}
+
+#[test]
+fn counts_are_those_of_the_paper() {
+    for row in SCENES {
+        let scene = scene(row.name);
+        let counts = (scene.model.bodies.len(), scene.model.tsda_count());
+        assert_eq!(scene.name, row.name);
+        assert_eq!(counts, (row.bodies, row.tsdas), "{}", row.name);
+        assert!(!scene.description.is_empty(), "{}", row.name);
+        for joint in &scene.joints {
+            assert!(joint.assembly_error < 1e-12, "{}: {joint:?}", row.name);
+        }
+    }
+}
+
+/// The energy band of a whole run.
+fn band<P: Geometry>(scene: &Scene) -> f64 {
+    let model: SceneModel<P> = scene.model.convert();
+    let exact: SceneModel<F64> = model.convert();
+    let h = scene.step.unwrap();
+    let steps = (scene.duration / h).round() as u64;
+    let loads_end = scene.model.loads.iter().map(|load| load.until).fold(0.0, f64::max);
+    let mut plant = Plant::new(&model, Leapfrog, h).unwrap();
+    let (mut start, mut worst, mut kinetic) = (None, 0.0_f64, 0.0_f64);
+    for n in 0..=steps {
+        if n % 10 == 0 && plant.time() >= loads_end {
+            let now = energy(&exact, &widen(plant.state()), h);
+            let start = *start.get_or_insert(now.total());
+            worst = worst.max((now.total() - start).abs());
+            kinetic = kinetic.max(now.kinetic);
+        }
+        if n < steps {
+            plant.step().ok().unwrap_or_else(|failure| panic!("{}: {failure}", scene.name));
+        }
+    }
+    worst / kinetic
+}
+
+#[cfg_attr(debug_assertions, ignore = "minutes in a debug build; release runs it")]
+#[test]
+fn every_scene_runs_and_keeps_its_energy() {
+    let mut failed = Vec::new();
+    for row in SCENES {
+        let scene = scene(row.name);
+        for (name, band, figure) in
+            [("f64", band::<F64>(&scene), row.f64), ("f32", band::<F32>(&scene), row.f32)]
+        {
+            if std::env::var_os("DBD_PRINT").is_some() {
+                println!("{:14} {name} {band:.1e}", row.name);
+            }
+            let within = band < 3.0 * figure && (name == "f32" || band < 1e-3);
+            if !within {
+                failed.push(format!("{} {name}: {band:.2e}, was {figure:.1e}", row.name));
+            }
+        }
+    }
+    assert!(failed.is_empty(), "{failed:#?}");
+}
