@@ -1,0 +1,143 @@
+//! The scenes that ship, and the way from what a user names to a scene.
+//!
+//! `name or path => scene`. Scenes lie in `scenes/` below the current folder, or else in that of
+//! the sources this program was built from.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use dbd_scene::Scene;
+use miette::Diagnostic;
+use thiserror::Error;
+
+use crate::error::Error;
+
+const FOLDER: &str = "scenes";
+
+/// A folder of scenes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Catalogue {
+    folder: PathBuf,
+}
+
+/// There is no scene of this name.
+#[derive(Clone, Debug, PartialEq, Eq, Error, Diagnostic)]
+#[error("there is no scene named \"{name}\"")]
+#[diagnostic(help("{}", self.help_text()))]
+pub struct UnknownScene {
+    name: String,
+    known: Vec<String>,
+}
+
+impl UnknownScene {
+    fn help_text(&self) -> String {
+        let nearest = nearest(&self.name, &self.known);
+        let meant = nearest.map(|name| format!("did you mean {name}? ")).unwrap_or_default();
+        let known = if self.known.is_empty() { "none".into() } else { self.known.join(", ") };
+        format!("{meant}the scenes in {FOLDER}/: {known}; or a path to a .toml file")
+    }
+}
+
+impl Catalogue {
+    /// The scenes of a folder.
+    #[must_use]
+    pub fn new(folder: PathBuf) -> Self {
+        Self { folder }
+    }
+
+    /// The scenes that ship.
+    #[must_use]
+    pub fn find() -> Self {
+        let here = PathBuf::from(FOLDER);
+        if here.is_dir() {
+            return Self::new(here);
+        }
+        let sources = Path::new(env!("CARGO_MANIFEST_DIR"));
+        Self::new(sources.parent().unwrap_or(sources).join(FOLDER))
+    }
+
+    /// Names in alphabetical order.
+    #[must_use]
+    pub fn names(&self) -> Vec<String> {
+        let Ok(entries) = fs::read_dir(&self.folder) else { return Vec::new() };
+        let scene_name = |path: PathBuf| {
+            let is_scene = path.extension().is_some_and(|extension| extension == "toml");
+            if is_scene { path.file_stem()?.to_str().map(str::to_owned) } else { None }
+        };
+        let mut names: Vec<String> =
+            entries.filter_map(|entry| scene_name(entry.ok()?.path())).collect();
+        names.sort();
+        names
+    }
+
+    /// Loads what a user names: a scene of the catalogue, or a path to a `.toml` file.
+    ///
+    /// # Errors
+    /// Where there is no such scene, or it is refused.
+    pub fn load(&self, scene: &str) -> Result<Scene, Error> {
+        if is_path(scene) {
+            return Ok(Scene::load(Path::new(scene))?);
+        }
+        let known = self.names();
+        if !known.iter().any(|name| name == scene) {
+            return Err(UnknownScene { name: scene.into(), known }.into());
+        }
+        Ok(Scene::load(&self.folder.join(format!("{scene}.toml")))?)
+    }
+}
+
+fn is_path(scene: &str) -> bool {
+    scene.ends_with(".toml") || scene.contains(['/', '\\'])
+}
+
+/// The name nearest to a misspelled one, where one is near.
+fn nearest<'n>(word: &str, names: &'n [String]) -> Option<&'n str> {
+    let near = |name: &'n String| {
+        let distance = distance(&word.to_lowercase(), &name.to_lowercase());
+        (distance <= (name.len() / 3).max(1)).then_some((distance, name.as_str()))
+    };
+    names.iter().filter_map(near).min().map(|(_, name)| name)
+}
+
+/// Insertions, deletions and replacements of characters (Levenshtein 1966).
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
+        for (j, y) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(x != *y);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unknown_name_is_refused_with_those_that_exist() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["four-bar.toml", "pendulum.toml", "notes.md"] {
+            fs::write(folder.path().join(name), "").unwrap();
+        }
+        let catalogue = Catalogue::new(folder.path().into());
+        assert_eq!(catalogue.names(), ["four-bar", "pendulum"]);
+        let Err(error) = catalogue.load("fourbar") else { panic!() };
+        let help = error.help().unwrap().to_string();
+        assert!(help.contains("did you mean four-bar?"), "{help}");
+        assert!(help.contains("four-bar, pendulum"), "{help}");
+        let Err(error) = catalogue.load("rocket") else { panic!() };
+        assert!(!error.help().unwrap().to_string().contains("did you mean"));
+    }
+
+    #[test]
+    fn distances_between_words() {
+        assert_eq!(distance("kitten", "sitting"), 3);
+        assert_eq!(distance("", "abc"), 3);
+        assert_eq!(distance("abc", "abc"), 0);
+    }
+}

@@ -1,0 +1,233 @@
+//! `host-sim check`: what a scene is, without running it.
+//!
+//! `scene => counts, degrees of freedom, per joint what it holds and how well it fits, highest
+//! frequency, warnings, notes`. Warnings are for things that are probably not meant; they do not
+//! change the exit code.
+
+use dbd_kernel::schemes::{Leapfrog, Scheme};
+use dbd_scene::Scene;
+use serde::Serialize;
+
+use crate::frequencies::Frequencies;
+use crate::islands::islands;
+use crate::joint_rates::joint_rates;
+use crate::summary::{approximate, significant, table};
+use crate::time::display;
+
+/// What is known of a scene before it runs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Check {
+    /// Its name.
+    pub scene: String,
+    /// Bodies.
+    pub bodies: usize,
+    /// TSDAs.
+    pub tsdas: usize,
+    /// Torsion springs.
+    pub torsion_springs: usize,
+    /// Loads.
+    pub loads: usize,
+    /// The joints.
+    pub joints: Vec<JointCheck>,
+    /// 6 per body less what the joints hold; too low where joints hold the same twice.
+    pub degrees_of_freedom: i64,
+    /// Equations of motion: 6 per body.
+    pub equations: usize,
+    /// \[m\] the largest assembly error of a joint.
+    pub assembly_error: f64,
+    /// \[Hz\] upper bound of the highest frequency at t = 0.
+    pub frequency_bound_hz: f64,
+    /// \[Hz\] estimate of the highest frequency at t = 0.
+    pub frequency_estimate_hz: f64,
+    /// \[s\] 1/ω of the bound; `None` where nothing vibrates.
+    pub advised_step: Option<f64>,
+    /// \[s\] the scene's own step, where it gives one.
+    pub step: Option<f64>,
+    /// What is probably not meant.
+    pub warnings: Vec<String>,
+    /// What is good to know.
+    pub notes: Vec<String>,
+}
+
+/// What is known of a joint before the scene runs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct JointCheck {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    #[serde(rename = "type")]
+    pub kind: &'static str,
+    /// Its bodies.
+    pub between: [String; 2],
+    /// Degrees of freedom that it holds.
+    pub holds: u32,
+    /// Its TSDAs.
+    pub tsdas: usize,
+    /// \[m\] the largest |L − L0| at t = 0.
+    pub assembly_error: f64,
+    /// \[m/s\] the largest rate of a TSDA's length at t = 0: what the bodies' velocities do to it.
+    pub stretching_rate: f64,
+}
+
+/// Checks a scene.
+#[must_use]
+pub fn check(scene: &Scene) -> Check {
+    let model = &scene.model;
+    let frequencies = Frequencies::of(scene);
+    let rates = joint_rates(scene);
+    let joints: Vec<JointCheck> = scene
+        .joints
+        .iter()
+        .zip(rates)
+        .map(|(joint, stretching_rate)| JointCheck {
+            name: joint.name.clone(),
+            kind: joint.kind,
+            between: joint.between.clone(),
+            holds: joint.holds,
+            tsdas: joint.tsdas,
+            assembly_error: joint.assembly_error,
+            stretching_rate,
+        })
+        .collect();
+    let held: i64 = joints.iter().map(|joint| i64::from(joint.holds)).sum();
+    let equations = 6 * model.bodies.len();
+    let assembly_error = joints.iter().map(|joint| joint.assembly_error).fold(0.0, f64::max);
+    let mut check = Check {
+        scene: scene.name.clone(),
+        bodies: model.bodies.len(),
+        tsdas: model.tsda_count(),
+        torsion_springs: model.torsions.len(),
+        loads: model.loads.len(),
+        degrees_of_freedom: equations as i64 - held,
+        joints,
+        equations,
+        assembly_error,
+        frequency_bound_hz: frequencies.bound_hz(),
+        frequency_estimate_hz: frequencies.estimate_hz(),
+        advised_step: frequencies.advised_step(),
+        step: scene.step,
+        warnings: Vec::new(),
+        notes: Vec::new(),
+    };
+    warn_of_step(scene, &frequencies, &mut check);
+    note_count(&mut check);
+    note_islands(scene, &mut check);
+    note_rates(&mut check);
+    check
+}
+
+fn warn_of_step(scene: &Scene, frequencies: &Frequencies, check: &mut Check) {
+    let limit = Leapfrog::STABILITY_LIMIT;
+    if let Some(step) = scene.step.filter(|step| step * frequencies.bound > limit) {
+        let longest = frequencies.advised_step().map(|advised| limit * advised).unwrap_or(step);
+        check.warnings.push(format!(
+            "the scene's step of {} is beyond {limit}/ω of the bound, {}: the run may diverge",
+            display(step),
+            approximate(longest),
+        ));
+    }
+}
+
+fn note_count(check: &mut Check) {
+    if check.degrees_of_freedom <= 0 {
+        let note = "the count of degrees of freedom is too low where joints hold the same twice, \
+                    as the revolutes of a planar loop do";
+        check.notes.push(note.into());
+    }
+}
+
+fn note_islands(scene: &Scene, check: &mut Check) {
+    let name = |body: &usize| format!("`{}`", scene.body_names[*body]);
+    for island in islands(scene) {
+        let names: Vec<String> = island.bodies.iter().map(name).collect();
+        let names = names.join(", ");
+        if island.elements == 0 {
+            check.warnings.push(format!("no element holds body {names}"));
+        } else if !island.grounded {
+            check.notes.push(format!("not connected to the world: {names}"));
+        }
+    }
+}
+
+fn note_rates(check: &mut Check) {
+    let rate = |joint: &JointCheck| joint.stretching_rate;
+    let worst = check.joints.iter().max_by(|a, b| rate(a).total_cmp(&rate(b)));
+    // Velocities given with three digits are consistent for every practical purpose.
+    if let Some(joint) = worst.filter(|joint| rate(joint) > 1e-3) {
+        check.notes.push(format!(
+            "the initial velocities stretch joint `{}` by {} m/s: it will ring",
+            joint.name,
+            significant(rate(joint), 3),
+        ));
+    }
+}
+
+impl Check {
+    /// What people read.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let advised = match self.advised_step {
+            Some(step) => format!("{} (1/ω of the bound)", approximate(step)),
+            None => "– (nothing vibrates)".into(),
+        };
+        let step = self.step.map_or_else(|| "– (the advised one)".into(), display);
+        let mut rows = vec![
+            ("scene", self.scene.clone()),
+            ("bodies", self.bodies.to_string()),
+            ("joints", self.joints.len().to_string()),
+            ("TSDAs", self.tsdas.to_string()),
+            ("torsion springs", self.torsion_springs.to_string()),
+            ("loads", self.loads.to_string()),
+            ("degrees of freedom", format!("{} by count", self.degrees_of_freedom)),
+            ("equations", self.equations.to_string()),
+            ("assembly error", format!("{} m", significant(self.assembly_error, 3))),
+            (
+                "highest frequency",
+                format!(
+                    "≤ {} Hz (estimate {} Hz)",
+                    significant(self.frequency_bound_hz, 5),
+                    significant(self.frequency_estimate_hz, 5)
+                ),
+            ),
+            ("advised step", advised),
+            ("step of the scene", step),
+        ];
+        rows.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
+        rows.extend(self.notes.iter().map(|note| ("note", note.clone())));
+        let mut text = table(&rows);
+        if !self.joints.is_empty() {
+            text.push('\n');
+            text.push_str(&self.joint_lines());
+        }
+        text
+    }
+
+    fn joint_lines(&self) -> String {
+        let head = ["joint", "type", "between", "holds", "TSDAs", "error [m]", "rate [m/s]"];
+        let mut lines = vec![head.map(str::to_owned)];
+        lines.extend(self.joints.iter().map(|joint| {
+            [
+                joint.name.clone(),
+                joint.kind.into(),
+                joint.between.join("–"),
+                joint.holds.to_string(),
+                joint.tsdas.to_string(),
+                significant(joint.assembly_error, 3),
+                significant(joint.stretching_rate, 3),
+            ]
+        }));
+        let width = |column: usize| {
+            lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0)
+        };
+        let widths: [usize; 7] = std::array::from_fn(width);
+        let mut text = String::new();
+        for line in &lines {
+            for (cell, width) in line.iter().zip(widths) {
+                text.push_str(&format!("{cell:<width$}  "));
+            }
+            text.truncate(text.trim_end().len());
+            text.push('\n');
+        }
+        text
+    }
+}

@@ -1,0 +1,190 @@
+//! The command line: arguments in, exit code out.
+//!
+//! `arguments => command => text, files, exit code`. Callable in-process, so that tests and
+//! further commands need no binary.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+use crate::catalogue::Catalogue;
+use crate::check::check;
+use crate::console::Console;
+use crate::error::{Error, Exit};
+use crate::list::list;
+use crate::method::{Method, PrecisionName, SchemeName};
+use crate::progress::Progress;
+use crate::run::{Outcome, RunOptions, run};
+use crate::summary::{json, table};
+use crate::time::Time;
+
+/// Discrete Body Dynamics: simulates mechanisms of rigid bodies and springs.
+#[derive(Debug, Parser)]
+#[command(name = "host-sim", version, disable_help_subcommand = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Lists the scenes that ship
+    List {
+        /// As JSON
+        #[arg(long)]
+        json: bool,
+    },
+    /// Runs a scene: writes OUT/SCENE/{trace.csv,summary.json,report.html}, prints the summary
+    Run(RunArguments),
+    /// Reads and assembles a scene without running it: counts, joints, frequencies, warnings
+    Check {
+        #[command(flatten)]
+        scene: SceneArgument,
+        /// As JSON
+        #[arg(long)]
+        json: bool,
+    },
+}
+
+#[derive(Debug, Args)]
+struct SceneArgument {
+    /// A scene in scenes/ by name, or a path to a .toml file
+    scene: String,
+}
+
+#[derive(Debug, Args)]
+struct RunArguments {
+    #[command(flatten)]
+    scene: SceneArgument,
+    /// Time-stepping scheme
+    #[arg(long, value_enum, default_value_t)]
+    scheme: SchemeName,
+    /// Newton iterations per step of the dbd schemes [default: 0]
+    #[arg(long, value_name = "N")]
+    newton: Option<u32>,
+    /// Step, e.g. 20us [default: the scene's, else 1/ω of the frequency bound, shortened to fit]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    step: Option<Time>,
+    /// Simulated time, e.g. 0.5s [default: the scene's]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    duration: Option<Time>,
+    /// Precision of all arithmetic in a step
+    #[arg(long, value_enum, default_value_t)]
+    precision: PrecisionName,
+    /// Sampling interval, e.g. 1ms [default: the scene's, else about 500 samples]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    every: Option<Time>,
+    /// Folder below which results are written
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+    /// Print nothing but errors
+    #[arg(long)]
+    quiet: bool,
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs a command line, the program's name first.
+pub fn main_with<I>(arguments: I, console: &mut Console<'_>) -> Exit
+where
+    I: IntoIterator,
+    I::Item: Into<OsString> + Clone,
+{
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) => return usage(&error, console),
+    };
+    let catalogue = Catalogue::find();
+    let done = match cli.command {
+        Command::List { json } => Ok(list(&catalogue, json, console)),
+        Command::Run(arguments) => run_scene(&catalogue, &arguments, console),
+        Command::Check { scene, json } => check_scene(&catalogue, &scene.scene, json, console),
+    };
+    done.unwrap_or_else(|error| {
+        console.report(&error);
+        error.exit()
+    })
+}
+
+/// Prints help, version or what is wrong with the arguments.
+fn usage(error: &clap::Error, console: &mut Console<'_>) -> Exit {
+    let text = match console.terminal {
+        true => error.render().ansi().to_string(),
+        false => error.render().to_string(),
+    };
+    if error.use_stderr() {
+        let _ = console.err.write_all(text.as_bytes());
+        Exit::Refused
+    } else {
+        console.print(&text);
+        Exit::Done
+    }
+}
+
+fn run_scene(
+    catalogue: &Catalogue,
+    arguments: &RunArguments,
+    console: &mut Console<'_>,
+) -> Result<Exit, Error> {
+    let method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
+    let scene = catalogue.load(&arguments.scene.scene)?;
+    let options = RunOptions {
+        method,
+        step: arguments.step.map(Time::seconds),
+        duration: arguments.duration.map(Time::seconds),
+        every: arguments.every.map(Time::seconds),
+        out: Some(arguments.out.clone()),
+        called: Some(arguments.scene.scene.clone()),
+    };
+    let mut progress = Progress::new(console.terminal && !arguments.quiet);
+    let outcome = run(&scene, &options, &mut |steps, all| progress.update(steps, all));
+    progress.finish();
+    let outcome = outcome?;
+    if arguments.json {
+        console.print(&outcome.summary.json());
+    } else if !arguments.quiet {
+        console.print(&summary_table(&outcome));
+    }
+    Ok(match outcome.failure {
+        Some(failure) => {
+            console.report(&failure);
+            Exit::Failed
+        }
+        None => Exit::Done,
+    })
+}
+
+fn summary_table(outcome: &Outcome) -> String {
+    let mut rows = outcome.summary.rows();
+    if let Some(folder) = &outcome.folder {
+        rows.push((
+            "written",
+            format!("{}/{{trace.csv,summary.json,report.html}}", folder.display()),
+        ));
+    }
+    table(&rows)
+}
+
+fn check_scene(
+    catalogue: &Catalogue,
+    scene: &str,
+    as_json: bool,
+    console: &mut Console<'_>,
+) -> Result<Exit, Error> {
+    let check = check(&catalogue.load(scene)?);
+    console.print(&if as_json { json(&check) } else { check.text() });
+    Ok(Exit::Done)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        use clap::CommandFactory as _;
+        Cli::command().debug_assert();
+    }
+}

@@ -1,0 +1,102 @@
+//! What ends a command early, and the exit code it ends with.
+
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use dbd_kernel::plant::PlantError;
+use dbd_scene::SceneError;
+use miette::{Diagnostic, LabeledSpan, SourceCode};
+use thiserror::Error;
+
+use crate::catalogue::UnknownScene;
+use crate::method::MethodError;
+use crate::plan::PlanError;
+
+/// How a command ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Exit {
+    /// 0: done.
+    Done = 0,
+    /// 1: the run failed.
+    Failed = 1,
+    /// 2: bad input.
+    Refused = 2,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        ExitCode::from(exit as u8)
+    }
+}
+
+/// Why a command could not do its work.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// There is no such scene.
+    #[error(transparent)]
+    Unknown(#[from] UnknownScene),
+    /// The scene is refused.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The method is none.
+    #[error(transparent)]
+    Method(#[from] MethodError),
+    /// The step does not fit.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// The step is nothing in the precision.
+    #[error("in the precision that runs, {0}")]
+    Plant(PlantError),
+    /// The folder for the results cannot be made.
+    #[error("cannot write to {}: {reason}", folder.display())]
+    Folder {
+        /// The folder.
+        folder: PathBuf,
+        /// Why.
+        reason: io::Error,
+    },
+    /// Results cannot be written.
+    #[error("cannot write the results: {0}")]
+    Write(io::Error),
+}
+
+impl Error {
+    /// The exit code's meaning.
+    #[must_use]
+    pub fn exit(&self) -> Exit {
+        match self {
+            Self::Write(_) => Exit::Failed,
+            _ => Exit::Refused,
+        }
+    }
+
+    fn inner(&self) -> Option<&dyn Diagnostic> {
+        match self {
+            Self::Unknown(error) => Some(error),
+            Self::Scene(error) => Some(error),
+            Self::Method(error) => Some(error),
+            Self::Plan(error) => Some(error),
+            Self::Plant(_) | Self::Folder { .. } | Self::Write(_) => None,
+        }
+    }
+}
+
+// Not derived: the derive's calls would meet `SceneError::help`, which is a method of its own.
+impl Diagnostic for Error {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        match self {
+            Self::Folder { .. } => Some(Box::new("name another folder with --out DIR")),
+            _ => self.inner()?.help(),
+        }
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.inner()?.source_code()
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        self.inner()?.labels()
+    }
+}

@@ -1,0 +1,35 @@
+//! Runs Discrete Body Dynamics scenes on a PC: the command line `host-sim` and what it is made of.
+//!
+//! `scene → model → step → trace → report`. The modules in the order in which a run uses them:
+//!
+//! - [`cli`], [`console`], [`error`], [`progress`]: arguments in, text and exit code out.
+//! - [`catalogue`], [`list`], [`check`] with [`islands`] and [`joint_rates`]: scenes before they run.
+//! - [`time`], [`method`], [`frequencies`], [`plan`]: what is to be run, in whole numbers.
+//! - [`run`], [`simulate`]: the run; [`failure`]: where one failed and which step works.
+//! - [`numerals`], [`trace`], [`statistics`], [`summary`], [`curves`], [`plot`], [`report`],
+//!   [`output`]: what is left of it.
+
+pub mod catalogue;
+pub mod check;
+pub mod cli;
+pub mod console;
+pub mod curves;
+pub mod error;
+pub mod failure;
+pub mod frequencies;
+pub mod islands;
+pub mod joint_rates;
+pub mod list;
+pub mod method;
+pub mod numerals;
+pub mod output;
+pub mod plan;
+pub mod plot;
+pub mod progress;
+pub mod report;
+pub mod run;
+pub mod simulate;
+pub mod statistics;
+pub mod summary;
+pub mod time;
+pub mod trace;

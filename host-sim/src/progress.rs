@@ -1,0 +1,46 @@
+//! A progress bar for runs that take their time.
+
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Runs that are shorter show nothing.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+/// A bar on standard error that appears once a run takes longer than half a second.
+pub struct Progress {
+    start: Instant,
+    shown: bool,
+    bar: Option<ProgressBar>,
+}
+
+impl Progress {
+    /// A run begins; `shown` where there is a terminal to show it on.
+    #[must_use]
+    pub fn new(shown: bool) -> Self {
+        Self { start: Instant::now(), shown, bar: None }
+    }
+
+    /// So many steps of all are done.
+    pub fn update(&mut self, steps: u64, all: u64) {
+        if !self.shown || (self.bar.is_none() && self.start.elapsed() < PATIENCE) {
+            return;
+        }
+        let bar = self.bar.get_or_insert_with(|| {
+            let template = "{bar:40} {percent:>3} %  {human_pos} of {human_len} steps  {eta} left";
+            let bar = ProgressBar::new(all).with_elapsed(self.start.elapsed());
+            match ProgressStyle::with_template(template) {
+                Ok(style) => bar.with_style(style),
+                Err(_) => bar,
+            }
+        });
+        bar.set_position(steps);
+    }
+
+    /// The run is over.
+    pub fn finish(&mut self) {
+        if let Some(bar) = self.bar.take() {
+            bar.finish_and_clear();
+        }
+    }
+}

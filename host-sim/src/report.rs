@@ -1,0 +1,156 @@
+//! `report.html`: one page that needs no other file.
+//!
+//! `(scene, summary, curves) => HTML` with the summary, the energies and the path of every body,
+//! and what it takes to run it again.
+
+use std::fmt::Write as _;
+
+use dbd_scene::Scene;
+use plotters::style::RGBColor;
+
+use crate::curves::{Curve, Curves};
+use crate::plan::Plan;
+use crate::plot::{Line, Panel, svg};
+use crate::summary::Summary;
+use crate::time::display;
+
+/// What a report is made from.
+pub struct Report<'r> {
+    /// The scene.
+    pub scene: &'r Scene,
+    /// The plan of the run.
+    pub plan: &'r Plan,
+    /// Its summary.
+    pub summary: &'r Summary,
+    /// Its curves.
+    pub curves: &'r Curves,
+    /// What a command line calls the scene.
+    pub called: &'r str,
+}
+
+/// Distinct for people who see few colours, too (Okabe & Ito 2008).
+const COLOURS: [RGBColor; 3] =
+    [RGBColor(0x00, 0x72, 0xb2), RGBColor(0xd5, 0x5e, 0x00), RGBColor(0x00, 0x9e, 0x73)];
+
+const WIDE: (u32, u32) = (1000, 280);
+const HALF: (u32, u32) = (490, 250);
+
+const STYLE: &str = include_str!("report.css");
+
+/// The page.
+#[must_use]
+pub fn html(report: &Report<'_>) -> String {
+    let Report { scene, summary, curves, .. } = report;
+    let name = escape(&scene.name);
+    let mut page = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>{name}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
+         <h1>{name}</h1>\n"
+    );
+    if !scene.description.is_empty() {
+        let _ = writeln!(page, "<p class=\"lead\">{}</p>", escape(&scene.description));
+    }
+    if summary.status != "ok" {
+        let status = escape(&summary.status);
+        let _ = writeln!(page, "<p class=\"failed\"><strong>Failed.</strong> {status}.</p>");
+    }
+    page.push_str("<h2>Summary</h2>\n<table>\n");
+    for (row, text) in summary.rows() {
+        let _ = writeln!(page, "<tr><th>{row}</th><td>{}</td></tr>", escape(&text));
+    }
+    page.push_str("</table>\n");
+
+    page.push_str("<h2>Energy</h2>\n");
+    let lines = [("kinetic", &curves.kinetic), ("potential", &curves.potential)];
+    figure(&mut page, "", WIDE, ("energy", "J"), &lines);
+    let lines = [("total less that at t = 0", &curves.change)];
+    figure(&mut page, "", WIDE, ("change", "J"), &lines);
+
+    page.push_str("<h2>Positions</h2>\n<div class=\"grid\">\n");
+    for (body, [x, y, z]) in scene.body_names.iter().zip(&curves.positions) {
+        figure(&mut page, body, HALF, ("position", "m"), &[("x", x), ("y", y), ("z", z)]);
+    }
+    page.push_str("</div>\n");
+
+    let _ = write!(
+        page,
+        "<h2>Run it again</h2>\n<pre>{}</pre>\n\
+         <p>The same state hash, <code>{}</code>, means the same bits: every position, \
+         orientation and velocity at the end of the run.</p>\n</main>\n</body>\n</html>\n",
+        escape(&command(report)),
+        summary.state_hash,
+    );
+    page
+}
+
+/// The command line of the run, with all that was chosen for it spelled out.
+fn command(report: &Report<'_>) -> String {
+    let Report { plan, summary, .. } = report;
+    let newton = summary.newton.map(|n| format!(" --newton {n}")).unwrap_or_default();
+    format!(
+        "host-sim run {} --scheme {}{newton} --precision {} --step {} --duration {} --every {}",
+        argument(report.called),
+        summary.scheme,
+        summary.precision,
+        display(plan.step),
+        display(plan.duration),
+        display(plan.time(plan.stride).min(plan.duration)),
+    )
+}
+
+/// A word as a shell takes it.
+fn argument(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./\\:".contains(c);
+    if word.chars().all(plain) { word.into() } else { format!("'{}'", word.replace('\'', "'\\''")) }
+}
+
+fn figure(
+    page: &mut String,
+    title: &str,
+    size: (u32, u32),
+    (quantity, unit): (&str, &str),
+    curves: &[(&str, &Curve)],
+) {
+    let coloured = || curves.iter().zip(COLOURS);
+    let lines =
+        coloured().map(|((_, curve), colour)| Line { points: &curve.points, colour }).collect();
+    let Some(drawing) = svg(&Panel { size, quantity, unit, lines }) else { return };
+    page.push_str("<figure>\n<figcaption>");
+    if !title.is_empty() {
+        let _ = write!(page, "<strong>{}</strong>", escape(title));
+    }
+    for ((name, _), RGBColor(r, g, b)) in coloured() {
+        let _ = write!(
+            page,
+            "<span class=\"key\"><i style=\"background:#{r:02x}{g:02x}{b:02x}\"></i>{name}</span>"
+        );
+    }
+    let _ = writeln!(page, "</figcaption>\n{}</figure>", drawing.trim_start());
+}
+
+fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_cannot_become_markup_or_commands() {
+        assert_eq!(escape("<b a=\"1\">&"), "&lt;b a=&quot;1&quot;&gt;&amp;");
+        assert_eq!(argument("scenes/four-bar.toml"), "scenes/four-bar.toml");
+        assert_eq!(argument("my scene's.toml"), "'my scene'\\''s.toml'");
+    }
+}

@@ -1,0 +1,148 @@
+//! What the samples of a run amount to.
+//!
+//! `samples => energies, drift, RMS error, largest extension, last hash`, one pass, nothing kept.
+
+use crate::simulate::Sample;
+
+/// A least-squares line through points, accumulated about their running means (Welford 1962).
+#[derive(Clone, Copy, Debug, Default)]
+struct Line {
+    count: f64,
+    mean_x: f64,
+    mean_y: f64,
+    /// Σ (x − x̄)².
+    variation: f64,
+    /// Σ (x − x̄)·(y − ȳ).
+    covariation: f64,
+}
+
+impl Line {
+    fn push(&mut self, x: f64, y: f64) {
+        self.count += 1.0;
+        let dx = x - self.mean_x;
+        self.mean_x += dx / self.count;
+        self.variation += dx * (x - self.mean_x);
+        // The old mean of x with the new one of y, or the other way round; never both old.
+        self.mean_y += (y - self.mean_y) / self.count;
+        self.covariation += dx * (y - self.mean_y);
+    }
+
+    /// 0 for fewer than two points.
+    fn slope(&self) -> f64 {
+        if self.variation > 0.0 { self.covariation / self.variation } else { 0.0 }
+    }
+}
+
+/// Accumulates the samples of a run.
+#[derive(Clone, Debug, Default)]
+pub struct Statistics {
+    first: Option<f64>,
+    last: f64,
+    last_time: f64,
+    line: Line,
+    squares: f64,
+    extension: f64,
+    hash: u64,
+}
+
+impl Statistics {
+    /// Takes the next sample.
+    pub fn push(&mut self, sample: &Sample<'_>) {
+        self.push_energy(sample.time, sample.energy.total());
+        if sample.extension > self.extension {
+            self.extension = sample.extension;
+        }
+        self.hash = sample.hash;
+    }
+
+    fn push_energy(&mut self, time: f64, energy: f64) {
+        let error = energy - *self.first.get_or_insert(energy);
+        self.last = energy;
+        self.last_time = time;
+        // The error, not the energy: its digits are not spent on the constant.
+        self.line.push(time, error);
+        self.squares += error * error;
+    }
+
+    /// \[J\] total energy of the first sample.
+    #[must_use]
+    pub fn energy_initial(&self) -> f64 {
+        self.first.unwrap_or(f64::NAN)
+    }
+
+    /// \[J\] total energy of the last sample.
+    #[must_use]
+    pub fn energy_final(&self) -> f64 {
+        self.last
+    }
+
+    /// \[W\] least-squares slope of the total energy.
+    #[must_use]
+    pub fn energy_drift_rate(&self) -> f64 {
+        self.line.slope()
+    }
+
+    /// \[J\] root of the mean square of E − E(0).
+    #[must_use]
+    pub fn energy_rms_error(&self) -> f64 {
+        (self.squares / self.line.count).sqrt()
+    }
+
+    /// \[m\] the largest extension of the joints' elements.
+    #[must_use]
+    pub fn max_joint_extension(&self) -> f64 {
+        self.extension
+    }
+
+    /// \[s\] the time of the last sample.
+    #[must_use]
+    pub fn last_time(&self) -> f64 {
+        self.last_time
+    }
+
+    /// The hash of the last sample's state.
+    #[must_use]
+    pub fn hash(&self) -> u64 {
+        self.hash
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(points: impl IntoIterator<Item = (f64, f64)>) -> Statistics {
+        let mut statistics = Statistics::default();
+        for (time, energy) in points {
+            statistics.push_energy(time, energy);
+        }
+        statistics
+    }
+
+    #[test]
+    fn the_drift_is_the_least_squares_slope() {
+        let line = of((0..101).map(|i| (f64::from(i) * 0.01, 1e6 - 3e-3 * f64::from(i) * 0.01)));
+        assert!((line.energy_drift_rate() + 3e-3).abs() < 1e-8, "{}", line.energy_drift_rate());
+        // By hand: t = 0, 1, 3; E = 1, 3, 2: Σ dt·dE = 1, Σ dt² = 14/3.
+        let three = of([(0.0, 1.0), (1.0, 3.0), (3.0, 2.0)]);
+        assert!((three.energy_drift_rate() - 3.0 / 14.0).abs() < 1e-15);
+        assert_eq!(of([(0.0, 5.0)]).energy_drift_rate(), 0.0);
+        assert_eq!((three.energy_initial(), three.energy_final()), (1.0, 2.0));
+    }
+
+    #[test]
+    fn an_oscillation_of_whole_periods_has_no_drift_to_speak_of() {
+        let wave = of((0..=1000).map(|i| {
+            let t = f64::from(i) * 1e-3;
+            (t, 100.0 + 0.5 * (t * 40.0 * std::f64::consts::TAU).cos())
+        }));
+        assert!(wave.energy_drift_rate().abs() < 1e-3);
+    }
+
+    #[test]
+    fn the_rms_error_counts_from_the_first_sample() {
+        let statistics = of([(0.0, 10.0), (1.0, 13.0), (2.0, 6.0), (3.0, 10.0)]);
+        assert_eq!(statistics.energy_rms_error(), 2.5);
+        assert_eq!(of([(0.0, 10.0), (1.0, 10.0)]).energy_rms_error(), 0.0);
+    }
+}

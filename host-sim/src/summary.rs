@@ -1,0 +1,181 @@
+//! `summary.json` and the table of the same: what a run was and what it came to.
+//!
+//! Keys and their order are fixed. Of a run that failed, `steps` and `duration` say how far it
+//! came, and `energy_final` and `state_hash` are those of the last row of its trace.
+
+use serde::Serialize;
+
+use crate::time::display;
+
+/// The summary of a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// The scene's name.
+    pub scene: String,
+    /// The scheme's name.
+    pub scheme: &'static str,
+    /// Newton iterations per step; `None` for a scheme without any.
+    pub newton: Option<u32>,
+    /// The precision's name.
+    pub precision: &'static str,
+    /// How orientations are stored.
+    pub orientation: &'static str,
+    /// \[s\] the step.
+    pub step: f64,
+    /// Steps done.
+    pub steps: u64,
+    /// \[s\] simulated time.
+    pub duration: f64,
+    /// Force evaluations performed.
+    pub force_evaluations: u64,
+    /// \[s\] time on the clock spent stepping.
+    pub wall_seconds: f64,
+    /// Time on the clock over simulated time.
+    pub srt: f64,
+    /// \[J\] total energy at t = 0.
+    pub energy_initial: f64,
+    /// \[J\] total energy of the last sample.
+    pub energy_final: f64,
+    /// \[W\] least-squares slope of the total energy over the samples.
+    pub energy_drift_rate: f64,
+    /// \[J\] RMS of E − E(0) over the samples; `None` where energy is not meant to stay.
+    pub energy_rms_error: Option<f64>,
+    /// \[m\] largest |L − L0| or |e| over samples and the joints' elements.
+    pub max_joint_extension: f64,
+    /// \[Hz\] upper bound of the highest frequency at t = 0.
+    pub frequency_bound_hz: f64,
+    /// \[Hz\] estimate of the highest frequency at t = 0.
+    pub frequency_estimate_hz: f64,
+    /// \[s\] 1/ω of the bound; `None` where nothing vibrates.
+    pub advised_step: Option<f64>,
+    /// FNV-1a 64 over the state's words, 16 hexadecimal digits.
+    pub state_hash: String,
+    /// `ok`, or a sentence that names the failure.
+    pub status: String,
+}
+
+impl Summary {
+    /// As JSON with a final line feed.
+    #[must_use]
+    pub fn json(&self) -> String {
+        json(self)
+    }
+
+    /// What people read: a name and a text with units each.
+    #[must_use]
+    pub fn rows(&self) -> Vec<(&'static str, String)> {
+        let newton = match self.newton {
+            Some(1) => ", 1 Newton iteration".into(),
+            Some(n) if n > 1 => format!(", {n} Newton iterations"),
+            _ => String::new(),
+        };
+        let rms = match self.energy_rms_error {
+            Some(error) => format!("{} J", significant(error, 4)),
+            None => "– (dampers or loads change the energy)".into(),
+        };
+        let method = format!("{}{newton}, {}, {}", self.scheme, self.precision, self.orientation);
+        let frequency = format!(
+            "≤ {} Hz (estimate {} Hz)",
+            significant(self.frequency_bound_hz, 5),
+            significant(self.frequency_estimate_hz, 5),
+        );
+        let wall = format!(
+            "{} s, {} × simulated time",
+            significant(self.wall_seconds, 3),
+            significant(self.srt, 3),
+        );
+        let span = format!("{} × {} = {}", self.steps, display(self.step), display(self.duration));
+        let advised = match self.advised_step {
+            Some(step) => format!("{} (1/ω of the bound)", approximate(step)),
+            None => "– (nothing vibrates)".into(),
+        };
+        vec![
+            ("scene", self.scene.clone()),
+            ("method", method),
+            ("steps", span),
+            ("force evaluations", self.force_evaluations.to_string()),
+            ("wall time", wall),
+            ("energy, initial", format!("{} J", significant(self.energy_initial, 10))),
+            ("energy, final", format!("{} J", significant(self.energy_final, 10))),
+            ("energy, drift rate", format!("{} W", significant(self.energy_drift_rate, 4))),
+            ("energy, RMS error", rms),
+            ("joint extension, largest", format!("{} m", significant(self.max_joint_extension, 4))),
+            ("highest frequency", frequency),
+            ("advised step", advised),
+            ("state hash", self.state_hash.clone()),
+            ("status", self.status.clone()),
+        ]
+    }
+}
+
+/// A value as JSON, indented, with a final line feed. What JSON cannot hold becomes `null`.
+#[must_use]
+pub fn json(value: &impl Serialize) -> String {
+    let mut text = serde_json::to_string_pretty(value).unwrap_or_default();
+    text.push('\n');
+    text
+}
+
+/// Rows as aligned lines.
+#[must_use]
+pub fn table<N: AsRef<str>>(rows: &[(N, String)]) -> String {
+    let width = rows.iter().map(|(name, _)| name.as_ref().chars().count()).max().unwrap_or(0);
+    rows.iter().map(|(name, text)| format!("{:<width$}  {text}\n", name.as_ref())).collect()
+}
+
+/// A number with so many significant digits, without trailing zeros.
+#[must_use]
+pub fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let scientific = format!("{value:.*e}", digits.max(1) - 1);
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let trim = |text: &str| match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text.to_owned(),
+    };
+    let last = digits as i32 - 1 - exponent;
+    if (-3..digits.max(6) as i32).contains(&exponent) {
+        trim(&format!("{value:.*}", usize::try_from(last).unwrap_or(0)))
+    } else {
+        format!("{}e{exponent}", trim(mantissa))
+    }
+}
+
+/// A time with four significant digits and its unit.
+#[must_use]
+pub fn approximate(seconds: f64) -> String {
+    display(format!("{seconds:.3e}").parse().unwrap_or(seconds))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_as_many_digits_as_they_need() {
+        let shown = [
+            (0.0, "0"),
+            (1234.5678, "1235"),
+            (0.001_234_56, "0.001235"),
+            (1.5e-7, "1.5e-7"),
+            (-2.0e-9, "-2e-9"),
+            (123_456.0, "123456"),
+            (1e12, "1e12"),
+            (f64::INFINITY, "inf"),
+            (-0.5, "-0.5"),
+        ];
+        for (value, text) in shown {
+            assert_eq!(significant(value, 4), text);
+        }
+        assert_eq!(approximate(2.897_654_3e-4), "289.8us");
+    }
+
+    #[test]
+    fn rows_are_aligned() {
+        let text = table(&[("a", "1".into()), ("höhe", "2".into())]);
+        assert_eq!(text, "a     1\nhöhe  2\n");
+    }
+}
