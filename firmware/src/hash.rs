@@ -15,8 +15,8 @@ use crate::say;
 pub struct Limits {
     /// Most steps per combination.
     pub steps: u64,
-    /// Most instructions of the program, shared out among the combinations as they come; a count
-    /// that would exceed a combination's share is not begun.
+    /// Most instructions of the program. What is left is shared out as a combination's turn comes,
+    /// more to schemes of fewer evaluations; a count that would exceed a share is not begun.
     pub instructions: u64,
 }
 
@@ -28,26 +28,31 @@ pub trait InstructionCounter {
 
 /// Prints all lines; `false` where a model did not step.
 pub fn run(limits: Limits, counter: &mut impl InstructionCounter) -> bool {
-    let mut all = Combinations(0);
+    let mut all = Weights(0);
     for_each(&mut all);
     let mut hashing = Hashing { limits, counter, waiting: all.0, well: true };
     for_each(&mut hashing);
     hashing.well
 }
 
-/// Counts the combinations.
-struct Combinations(u64);
+/// Adds up the combinations' weights.
+struct Weights(u64);
 
-impl Visitor for Combinations {
-    fn visit<M: ModelOwner, S: Scheme>(&mut self, _: Shipped<M, S>) {
-        self.0 += 1;
+impl Visitor for Weights {
+    fn visit<M: ModelOwner, S: Scheme>(&mut self, shipped: Shipped<M, S>) {
+        self.0 += weight(&shipped.scheme);
     }
+}
+
+/// A scheme's weight where instructions are shared out.
+fn weight(scheme: &impl Scheme) -> u64 {
+    12 / u64::from(scheme.evaluations().clamp(1, 12))
 }
 
 struct Hashing<'c, C> {
     limits: Limits,
     counter: &'c mut C,
-    /// Combinations not yet done.
+    /// Weight of the combinations not yet begun.
     waiting: u64,
     well: bool,
 }
@@ -61,8 +66,10 @@ impl<C: InstructionCounter> Visitor for Hashing<'_, C> {
             return;
         };
         let start = self.counter.count();
-        let share = self.limits.instructions.saturating_sub(start) / self.waiting.max(1);
-        self.waiting = self.waiting.saturating_sub(1);
+        let weight = weight(&shipped.scheme);
+        let left = self.limits.instructions.saturating_sub(start);
+        let share = left / self.waiting.max(1) * weight;
+        self.waiting = self.waiting.saturating_sub(weight);
         let mut next = 1;
         while next <= self.limits.steps {
             let done = plant.state().step;

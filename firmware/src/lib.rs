@@ -8,7 +8,6 @@ pub mod board;
 pub mod console;
 pub mod hash;
 pub mod models;
-mod pendulum;
 
 #[cfg(target_os = "none")]
 pub mod cost;

@@ -1,22 +1,13 @@
 //! The shipped models: const, in flash, stepped alike on the target and on a host.
 //!
-//! [`shipped`] is the one list; a scene is one line of it. [`for_each`] shows every pair of
-//! model and scheme to a visitor, which is generic as the step itself is.
+//! The build script makes them from the scene files that it lists, and the macro
+//! [`shipped`](crate::shipped) from the same list. [`for_each`] shows every pair of model and
+//! scheme to a visitor, which is generic as the step itself is.
 
 use dbd_kernel::model::ModelOwner;
 use dbd_kernel::{Dbd, Leapfrog, Scheme};
 
-pub use crate::pendulum::*;
-
-/// Calls a macro with all shipped models: module, name, step \[s\], static and type per precision.
-#[macro_export]
-macro_rules! shipped {
-    ($then:path) => {
-        $then! {
-            pendulum "pendulum" 1e-4, PENDULUM_F32: PendulumF32, PENDULUM_F64: PendulumF64;
-        }
-    };
-}
+include!(concat!(env!("OUT_DIR"), "/models.rs"));
 
 /// A shipped model with a scheme.
 pub struct Shipped<M: 'static, S> {
@@ -40,10 +31,10 @@ pub trait Visitor {
 /// leapfrog, then dbd.
 pub fn for_each(visitor: &mut impl Visitor) {
     macro_rules! visit {
-        ($($module:ident $scene:literal $step:literal,
+        ($($module:ident $scene:literal $step:ident,
             $f32:ident: $model32:ident, $f64:ident: $model64:ident;)*) => {
-            $(both(visitor, $scene, &$f32, $step);)*
-            $(both(visitor, $scene, &$f64, $step);)*
+            $(both(visitor, $scene, &$module::$f32, $module::$step);)*
+            $(both(visitor, $scene, &$module::$f64, $module::$step);)*
         };
     }
     shipped!(visit);

@@ -82,8 +82,11 @@ fn planted(toolchain: &Toolchain, check: &Check) -> Result<()> {
 
 /// Roots are named `audit::roots::SCENE::SCHEME_PRECISION`.
 fn roots(image: &Image) -> impl Iterator<Item = &str> {
-    let scene = |name: &&str| name.strip_prefix("audit::roots::").is_some_and(|r| r.contains("::"));
-    image.functions().map(|function| function.name.as_str()).filter(scene)
+    let scene = |name: &&str| {
+        let root = name.strip_prefix("audit::roots::");
+        root.is_some_and(|root| root.ends_with("_f32") || root.ends_with("_f64"))
+    };
+    image.symbols().filter(scene)
 }
 
 fn panics(image: &Image) -> Vec<String> {
@@ -95,8 +98,8 @@ fn allocations(image: &Image) -> Vec<String> {
 }
 
 fn symbols_with(image: &Image, parts: &[&str]) -> Vec<String> {
-    let bad = |name: &&String| parts.iter().any(|part| name.contains(part));
-    image.symbols.iter().filter(bad).cloned().collect()
+    let bad = |name: &&str| parts.iter().any(|part| name.contains(part));
+    image.symbols().filter(bad).map(str::to_owned).collect()
 }
 
 /// A fused operation rounds once where the host rounds twice. `vmla`, which LLVM emits, is not

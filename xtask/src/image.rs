@@ -12,8 +12,8 @@ use crate::command::{output, program};
 /// A linked image.
 #[derive(Debug, Default)]
 pub struct Image {
-    /// Demangled names of all symbols.
-    pub symbols: Vec<String>,
+    /// Demangled names of all symbols, with their addresses.
+    symbols: Vec<(u64, String)>,
     functions: BTreeMap<u64, Function>,
 }
 
@@ -49,6 +49,11 @@ impl Image {
         Ok(image)
     }
 
+    /// Demangled names of all symbols.
+    pub fn symbols(&self) -> impl Iterator<Item = &str> {
+        self.symbols.iter().map(|(_, name)| name.as_str())
+    }
+
     /// All functions.
     pub fn functions(&self) -> impl Iterator<Item = &Function> {
         self.functions.values()
@@ -59,22 +64,29 @@ impl Image {
     /// # Errors
     /// Where there is no function of the name.
     pub fn reach(&self, name: &str) -> Result<Vec<&Function>> {
-        let root = self.functions.iter().find(|(_, function)| function.name == name);
-        let (&root, _) = root.with_context(|| format!("the image has no function `{name}`"))?;
-        let (mut waiting, mut found) = (vec![root], BTreeSet::new());
+        // By symbol: two functions of one body may share an address.
+        let root = self.symbols.iter().find(|(_, symbol)| symbol == name);
+        let &(root, _) = root.with_context(|| format!("the image has no function `{name}`"))?;
+        let (mut waiting, mut found) = (vec![root], BTreeMap::new());
         while let Some(address) = waiting.pop() {
-            if found.insert(address) {
-                waiting.extend(&self.functions[&address].calls);
+            if let Some(function) = self.functions.get(&address)
+                && found.insert(address, function).is_none()
+            {
+                waiting.extend(&function.calls);
             }
         }
-        Ok(found.iter().map(|address| &self.functions[address]).collect())
+        Ok(found.into_values().collect())
     }
 }
 
 /// The names of `nm`'s lines `ADDRESS KIND NAME`.
-fn symbols(names: &str) -> Vec<String> {
-    let name = |line: &str| line.splitn(3, ' ').nth(2).map(str::to_owned);
-    names.lines().filter_map(name).collect()
+fn symbols(names: &str) -> Vec<(u64, String)> {
+    let symbol = |line: &str| {
+        let mut words = line.splitn(3, ' ');
+        let address = u64::from_str_radix(words.next()?, 16).ok()?;
+        Some((address, words.nth(1)?.to_owned()))
+    };
+    names.lines().filter_map(symbol).collect()
 }
 
 fn functions(listing: &str) -> BTreeMap<u64, Function> {
@@ -156,7 +168,8 @@ mod tests {
 
     #[test]
     fn calls_are_followed_and_sizes_end_at_the_next_function() {
-        let image = Image { symbols: Vec::new(), functions: functions(LISTING) };
+        let symbols = vec![(0x20000, "roots::dbd_f32".to_owned())];
+        let image = Image { symbols, functions: functions(LISTING) };
         let reach = image.reach("roots::dbd_f32").unwrap();
         let names: Vec<&str> = reach.iter().map(|f| f.name.as_str()).collect();
         assert_eq!(names, ["roots::dbd_f32", "<A as B>::step", "leaf"]);
@@ -167,7 +180,7 @@ mod tests {
 
     #[test]
     fn names_keep_their_spaces() {
-        assert_eq!(symbols("00020010 t <A as B>::step\n         U free\n").len(), 2);
-        assert_eq!(symbols("00020010 t <A as B>::step")[0], "<A as B>::step");
+        let symbols = symbols("00020010 t <A as B>::step\n         U free\n");
+        assert_eq!(symbols, [(0x20010, "<A as B>::step".to_owned())]);
     }
 }

@@ -8,14 +8,15 @@
 #[cfg(target_os = "none")]
 mod roots {
     use dbd_kernel::{Dbd, Leapfrog, Plant, Status};
-    use firmware::models::*;
+    use firmware::models;
 
     /// One function per combination, named `roots::SCENE::SCHEME_PRECISION`.
     macro_rules! roots {
-        ($($module:ident $scene:literal $step:literal,
+        ($($module:ident $scene:literal $step:ident,
             $f32:ident: $model32:ident, $f64:ident: $model64:ident;)*) => {
             $(mod $module {
                 use super::*;
+                use models::$module::{$model32, $model64};
                 root!(leapfrog_f32, $model32, Leapfrog, plant::into_f32());
                 root!(dbd_f32, $model32, Dbd, plant::into_f32());
                 root!(leapfrog_f64, $model64, Leapfrog, ());
