@@ -15,6 +15,7 @@ use crate::frequencies::Frequencies;
 use crate::method::Method;
 use crate::plan::{Plan, Request, StepRequest, plan};
 use crate::simulate::{Ending, Observer, Sample, Trouble, simulate};
+use crate::summary::significant;
 use crate::time::display;
 
 /// How often the advised step is halved.
@@ -122,6 +123,11 @@ fn describe(scene: &Scene, trouble: Trouble) -> String {
         Trouble::Step(Cause::UndefinedTwist { spring }) => {
             let spring = name(&scene.torsion_names, usize::from(spring));
             format!("the twist of {spring} is undefined: its bodies turned half a turn across it")
+        }
+        Trouble::Torn { joint, extension } => {
+            let joint = scene.joints.get(joint).map(|joint| joint.name.clone()).unwrap_or_default();
+            let extension = significant(extension, 2);
+            format!("the run diverged: joint `{joint}` is stretched by {extension} m")
         }
         Trouble::Energy { body } => {
             let body = name(&scene.body_names, body);

@@ -53,7 +53,7 @@ pub fn html(report: &Report<'_>) -> String {
     }
     if summary.status != "ok" {
         let status = escape(&summary.status);
-        let _ = writeln!(page, "<p class=\"failed\"><strong>Failed.</strong> {status}.</p>");
+        let _ = writeln!(page, "<p class=\"failed\"><strong>Failed:</strong> {status}.</p>");
     }
     page.push_str("<h2>Summary</h2>\n<table>\n");
     for (row, text) in summary.rows() {
