@@ -16,8 +16,11 @@ use crate::method::{Method, MethodVisitor};
 use crate::numerals::Numerals;
 use crate::plan::Plan;
 
-/// Steps between two reports of progress.
-const STRIDE_OF_PROGRESS: u64 = 1024;
+/// A run is looked at this often at least, whatever its sampling interval.
+const LOOKS: u64 = 1000;
+
+/// Steps between two looks at most, so that progress is seen.
+const MOST_STEPS_UNSEEN: u64 = 1024;
 
 /// What is known at a sample.
 pub struct Sample<'s> {
@@ -72,6 +75,13 @@ pub enum Trouble {
         /// The row of the fastest body.
         body: usize,
     },
+    /// The energy grew beyond all measure, though nothing drives the scene.
+    Growth {
+        /// \[J\] by so much.
+        growth: f64,
+        /// The row of the fastest body.
+        body: usize,
+    },
     /// A joint is stretched beyond all that can be meant, though everything is finite.
     Torn {
         /// The row of the joint.
@@ -115,50 +125,54 @@ impl MethodVisitor for Simulation<'_> {
     fn visit<P: Geometry, S: Scheme>(self, scheme: S) -> Self::Output {
         let Self { scene, plan, observer } = self;
         let model: SceneModel<P> = scene.model.convert();
-        let judge = Judge::new(scene, &model, plan.step);
+        let mut judge = Judge::new(scene, &model, plan.step);
         let mut plant = Plant::new(&model, scheme, plan.step).map_err(SimulationError::Plant)?;
+        let stride = (plan.steps / LOOKS).clamp(1, MOST_STEPS_UNSEEN);
         let mut wall = Duration::ZERO;
-        let mut trouble = sample(&judge, &plant, observer)?;
         let mut next_sample = 0;
-        while trouble.is_none() && plant.state().step < plan.steps {
-            next_sample = plan.steps.min(next_sample + plan.stride);
-            while trouble.is_none() && plant.state().step < next_sample {
-                let pause = next_sample.min(plant.state().step + STRIDE_OF_PROGRESS);
-                let start = Instant::now();
-                trouble = step_to(&mut plant, pause);
-                wall += start.elapsed();
-                observer.progress(plant.state().step);
+        let trouble = loop {
+            let state = widen(plant.state());
+            let verdict = match judge.judge(&state) {
+                Ok(verdict) => verdict,
+                Err(trouble) => break Some(trouble),
+            };
+            let done = state.step;
+            observer.progress(done);
+            if done == next_sample {
+                let sample = Sample::new(&plant, &state, &verdict);
+                observer.sample(&sample).map_err(SimulationError::Observer)?;
+                next_sample = plan.steps.min(next_sample + plan.stride);
             }
-            if trouble.is_none() {
-                trouble = sample(&judge, &plant, observer)?;
+            if done == plan.steps {
+                break None;
             }
-        }
+            let start = Instant::now();
+            let trouble = step_to(&mut plant, next_sample.min(done + stride));
+            wall += start.elapsed();
+            if trouble.is_some() {
+                break trouble;
+            }
+        };
         let (steps, evaluations) = (plant.state().step, plant.evaluations());
         Ok(Ending { steps, evaluations, wall, trouble })
     }
 }
 
-/// Hands the plant's present state to the observer, unless it is none to go on from.
-fn sample<P: Geometry, S: Scheme>(
-    judge: &Judge,
-    plant: &Plant<'_, SceneModel<P>, S>,
-    observer: &mut dyn Observer,
-) -> Result<Option<Trouble>, SimulationError> {
-    let state = widen(plant.state());
-    let Verdict { energy, extension } = match judge.judge(&state) {
-        Ok(verdict) => verdict,
-        Err(trouble) => return Ok(Some(trouble)),
-    };
-    let sample = Sample {
-        time: plant.time(),
-        state: &state,
-        numerals: Numerals::of::<P>(),
-        energy,
-        extension,
-        hash: plant.hash(),
-    };
-    observer.sample(&sample).map_err(SimulationError::Observer)?;
-    Ok(None)
+impl<'s> Sample<'s> {
+    fn new<P: Geometry, S: Scheme>(
+        plant: &Plant<'_, SceneModel<P>, S>,
+        state: &'s State<SceneModel<F64>>,
+        verdict: &Verdict,
+    ) -> Self {
+        Self {
+            time: plant.time(),
+            state,
+            numerals: Numerals::of::<P>(),
+            energy: verdict.energy,
+            extension: verdict.extension,
+            hash: plant.hash(),
+        }
+    }
 }
 
 fn step_to<P: Geometry, S: Scheme>(
