@@ -15,10 +15,10 @@ use crate::time::{display, rounded};
 const SAMPLES: u64 = 500;
 
 /// More steps than this are refused: at 100 ns each they take longer than a day.
-const MOST_STEPS: f64 = 1e12;
+pub const MOST_STEPS: f64 = 1e12;
 
 /// More samples than this are refused: a trace of several gigabytes.
-const MOST_SAMPLES: u64 = 10_000_000;
+pub const MOST_SAMPLES: u64 = 10_000_000;
 
 /// The step that a run is to take.
 #[derive(Clone, Copy, Debug, PartialEq)]
