@@ -114,7 +114,7 @@ fn posed(model: &Bench<F64>, numbers: &[f64]) -> State<Bench<F64>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..Default::default() })]
 
     #[test]
     fn forces_are_minus_the_gradient_of_the_energy(

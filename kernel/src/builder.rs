@@ -14,6 +14,7 @@ use crate::elements::point_on_line::PointOnLine;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::geometry::Geometry;
+use crate::inputs::{Input, InputIndex, InputKind, Knot, KnotStep, Signal};
 use crate::model::{AllTerms, Body, BodyIndex, DamperIndex, Group, Law, ModelOwner, ModelRef};
 use crate::real::Real;
 use crate::state::BodyState;
@@ -55,6 +56,8 @@ pub enum Part {
     Loads,
     /// Points on lines.
     Lines,
+    /// Inputs.
+    Inputs,
 }
 
 /// What can be out of range.
@@ -143,6 +146,8 @@ pub struct ModelBuilder<
     const TORSIONS: usize = 0,
     const LOADS: usize = 0,
     const LINES: usize = 0,
+    const INPUTS: usize = 0,
+    const KNOTS: usize = 0,
 > {
     bodies: Vec<Body<P::Real>, BODIES>,
     initial: Vec<BodyState<P>, BODIES>,
@@ -155,6 +160,8 @@ pub struct ModelBuilder<
     torsions: Vec<TorsionSpring<P::Real>, TORSIONS>,
     loads: Vec<Load<P::Real>, LOADS>,
     lines: Vec<PointOnLine<P::Real>, LINES>,
+    inputs: Vec<Input<P>, INPUTS>,
+    knots: Vec<Knot<P::Real>, KNOTS>,
 }
 
 impl<
@@ -168,7 +175,23 @@ impl<
     const TORSIONS: usize,
     const LOADS: usize,
     const LINES: usize,
-> ModelBuilder<P, BODIES, GROUPS, POINTS, TSDAS, BUSHINGS, DAMPERS, TORSIONS, LOADS, LINES>
+    const INPUTS: usize,
+    const KNOTS: usize,
+>
+    ModelBuilder<
+        P,
+        BODIES,
+        GROUPS,
+        POINTS,
+        TSDAS,
+        BUSHINGS,
+        DAMPERS,
+        TORSIONS,
+        LOADS,
+        LINES,
+        INPUTS,
+        KNOTS,
+    >
 {
     /// An empty model.
     #[must_use]
@@ -185,6 +208,8 @@ impl<
             torsions: Vec::new(),
             loads: Vec::new(),
             lines: Vec::new(),
+            inputs: Vec::new(),
+            knots: Vec::new(),
         }
     }
 
@@ -409,13 +434,39 @@ impl<
         self.loads.push(load).map_err(|_| BuildError::Full(Part::Loads))
     }
 
+    /// Adds an input that the caller drives, at first with `value`.
+    ///
+    /// # Errors
+    /// [`BuildError::Full`], a body that is not there, a value that is not finite.
+    pub fn add_input(&mut self, kind: InputKind<P>, value: f64) -> Result<InputIndex, BuildError> {
+        match &kind {
+            InputKind::Force { body, .. } | InputKind::Torque { body, .. } => {
+                if body.row() >= self.bodies.len() {
+                    return Err(BuildError::UnknownBody(*body));
+                }
+            }
+            InputKind::JointTorque { a, b, .. } => self.check_pair([*a, *b])?,
+            InputKind::Actuator { group, element } => {
+                let known = self.groups.get(*group as usize);
+                let there = known.is_some_and(|g| (*element as usize) < g.elements());
+                check(there, Quantity::Arms)?;
+            }
+            InputKind::Anchor { .. } => {}
+        }
+        check(value.is_finite(), Quantity::Load)?;
+        let index = InputIndex(self.inputs.len() as u16);
+        let input = Input { kind, value: P::Real::from_f64(value), knot: 0, knots: 0 };
+        self.inputs.push(input).map_err(|_| BuildError::Full(Part::Inputs))?;
+        Ok(index)
+    }
+
     fn check_pair(&self, between: [BodyIndex; 2]) -> Result<(), BuildError> {
         for body in between {
             if !body.is_world() && body.row() >= self.bodies.len() {
                 return Err(BuildError::UnknownBody(body));
             }
         }
-        if between[0] == between[1] {
+        if between[0] == between[1] || between.iter().all(|body| body.is_world()) {
             return Err(BuildError::SameBody(between[0]));
         }
         Ok(())
@@ -463,14 +514,31 @@ impl<
     const TORSIONS: usize,
     const LOADS: usize,
     const LINES: usize,
+    const INPUTS: usize,
+    const KNOTS: usize,
 > ModelOwner
-    for ModelBuilder<P, BODIES, GROUPS, POINTS, TSDAS, BUSHINGS, DAMPERS, TORSIONS, LOADS, LINES>
+    for ModelBuilder<
+        P,
+        BODIES,
+        GROUPS,
+        POINTS,
+        TSDAS,
+        BUSHINGS,
+        DAMPERS,
+        TORSIONS,
+        LOADS,
+        LINES,
+        INPUTS,
+        KNOTS,
+    >
 {
     type Precision = P;
     type Terms = AllTerms;
     type PerBody<T: Copy> = Vec<T, BODIES>;
     type PerTorsion = Vec<i32, TORSIONS>;
     type PerLoad = Vec<LoadWindow, LOADS>;
+    type PerInput = Vec<Signal<P::Real>, INPUTS>;
+    type PerKnot = Vec<KnotStep<P::Real>, KNOTS>;
 
     fn view(&self) -> ModelRef<'_, P, AllTerms> {
         ModelRef {
@@ -484,6 +552,9 @@ impl<
             torsions: &self.torsions,
             loads: &self.loads,
             lines: &self.lines,
+            inputs: &self.inputs,
+            knots: &self.knots,
+            clearances: &[],
             terms: PhantomData,
         }
     }
@@ -502,5 +573,13 @@ impl<
 
     fn per_load(&self) -> Vec<LoadWindow, LOADS> {
         self.loads.iter().map(|_| LoadWindow::default()).collect()
+    }
+
+    fn per_input(&self) -> Self::PerInput {
+        self.inputs.iter().map(|_| Signal::default()).collect()
+    }
+
+    fn per_knot(&self) -> Self::PerKnot {
+        self.knots.iter().map(|_| KnotStep::default()).collect()
     }
 }

@@ -43,6 +43,9 @@
 //!     torsions: [],
 //!     loads: [],
 //!     lines: [],
+//!     inputs: [],
+//!     knots: [],
+//!     clearances: [],
 //! }
 //! .checked();
 //! let mut plant = Plant::new(&model, Leapfrog, 1e-3)?;
@@ -73,6 +76,7 @@ mod format;
 pub mod frequency;
 pub mod geometry;
 mod groups;
+pub mod inputs;
 pub mod model;
 pub mod plant;
 pub mod real;

@@ -53,6 +53,8 @@ pub trait Real:
     fn from_f64(value: f64) -> Self;
     /// The value in double precision, exact.
     fn to_f64(self) -> f64;
+    /// A number near a count of steps, exact below 2^24 (f32) or 2^53 (f64).
+    fn from_u64(value: u64) -> Self;
     /// The number nearest to a turn count.
     fn from_i32(value: i32) -> Self;
     /// The correctly rounded square root.
@@ -120,6 +122,10 @@ impl Real for f64 {
         self
     }
     #[inline(always)]
+    fn from_u64(value: u64) -> Self {
+        value as f64
+    }
+    #[inline(always)]
     fn from_i32(value: i32) -> Self {
         f64::from(value)
     }
@@ -158,6 +164,12 @@ impl Real for f32 {
     #[inline(always)]
     fn to_f64(self) -> f64 {
         f64::from(self)
+    }
+    // In two halves, each of which an FPU without 64-bit conversions can take.
+    #[inline(always)]
+    fn from_u64(value: u64) -> Self {
+        let (high, low) = ((value >> 32) as u32, value as u32);
+        if high == 0 { low as f32 } else { high as f32 * 4_294_967_296.0 + low as f32 }
     }
     #[inline(always)]
     fn from_i32(value: i32) -> Self {

@@ -66,11 +66,18 @@ pub struct State<M: ModelOwner> {
     pub turns: M::PerTorsion,
     /// Steps done: time is `step·h`.
     pub step: u64,
+    /// The inputs' signals; no words of the hash.
+    pub signals: M::PerInput,
 }
 
 impl<M: ModelOwner> Clone for State<M> {
     fn clone(&self) -> Self {
-        Self { bodies: self.bodies.clone(), turns: self.turns.clone(), step: self.step }
+        Self {
+            bodies: self.bodies.clone(),
+            turns: self.turns.clone(),
+            step: self.step,
+            signals: self.signals.clone(),
+        }
     }
 }
 
@@ -78,6 +85,7 @@ impl<M: ModelOwner> Copy for State<M>
 where
     M::PerBody<BodyState<M::Precision>>: Copy,
     M::PerTorsion: Copy,
+    M::PerInput: Copy,
 {
 }
 
@@ -88,7 +96,11 @@ impl<M: ModelOwner> State<M> {
         for (state, initial) in bodies.as_mut().iter_mut().zip(model.initial()) {
             *state = *initial;
         }
-        Self { bodies, turns: model.per_torsion(), step: 0 }
+        let mut signals = model.per_input();
+        for (signal, input) in signals.as_mut().iter_mut().zip(model.view().inputs) {
+            signal.value = input.value;
+        }
+        Self { bodies, turns: model.per_torsion(), step: 0, signals }
     }
 
     /// FNV-1a 64 over the state's words: the same on every target for the same scene, scheme,
