@@ -15,7 +15,9 @@ use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::geometry::Geometry;
 use crate::inputs::{Input, InputIndex, InputKind, Knot, KnotStep, Signal};
-use crate::model::{AllTerms, Body, BodyIndex, DamperIndex, Group, Law, ModelOwner, ModelRef};
+use crate::model::{
+    AllTerms, Body, BodyIndex, ClearanceIndex, DamperIndex, Group, Law, ModelOwner, ModelRef,
+};
 use crate::real::Real;
 use crate::state::BodyState;
 use crate::vector::{Quaternion, Vec3};
@@ -318,6 +320,7 @@ impl<
             point: self.points.len() as u16,
             element,
             damper,
+            clearance: ClearanceIndex::NONE,
         };
         // Room was made sure of above.
         let _ = self.groups.push(group);
@@ -371,6 +374,7 @@ impl<
             point: self.points.len() as u16,
             element: self.lines.len() as u16,
             damper,
+            clearance: ClearanceIndex::NONE,
         };
         let _ = self.groups.push(group);
         let _ = self.points.push(P::local_from_f64(line_point));

@@ -9,9 +9,10 @@
 //! A TSDA damps along its line, a torsion spring along its gradient, a point bushing along the
 //! world's axes, a point on a line along the line's two normals, one after the other.
 
+use crate::elements::clearance::beyond;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::geometry::Geometry;
-use crate::groups::{self, End, Places};
+use crate::groups::{self, End, Placed, Places};
 use crate::model::{Body, BodyIndex, Group, Law, ModelRef, Terms};
 use crate::real::Real;
 use crate::state::BodyState;
@@ -154,6 +155,10 @@ fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
             continue;
         };
         let d = element.displacement;
+        let clearance = model.clearance(group);
+        if clearance.is_some() && !engaged(model, &element, clearance) {
+            continue;
+        }
         // The directions, and how many of them the law damps.
         let (mut directions, count) = match group.law {
             Law::Tsda if T::TSDAS => {
@@ -179,6 +184,21 @@ fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
             damp(bodies, a, b, u.dot(element.ground_rate), damping, h);
         }
     }
+}
+
+/// Whether an element is beyond its clearance.
+fn engaged<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    element: &Placed<'_, P::Real>,
+    clearance: Option<P::Real>,
+) -> bool {
+    let d = element.displacement;
+    let extension = match element.group.law {
+        Law::Tsda => model.tsdas.get(element.index).map(|tsda| tsda.extension(d)),
+        Law::PointOnLine => model.lines.get(element.index).map(|line| line.extension(d)),
+        Law::PointBushing => None,
+    };
+    extension.is_none_or(|extension| beyond(extension, clearance) != P::Real::ZERO)
 }
 
 /// A torsion spring's damper, along the gradient of its twist. An undefined twist is left to the

@@ -68,7 +68,8 @@ pub fn energy<M: ModelOwner>(model: &M, state: &State<M>, step_size: f64) -> Ene
     each_element(&view, places, |element| match element.group.law {
         Law::Tsda => {
             if let Some(tsda) = view.tsdas.get(element.index) {
-                sum.tsda = sum.tsda + tsda.energy(element.displacement);
+                sum.tsda =
+                    sum.tsda + tsda.energy(element.displacement, view.clearance(element.group));
             }
         }
         Law::PointBushing => {
@@ -78,7 +79,8 @@ pub fn energy<M: ModelOwner>(model: &M, state: &State<M>, step_size: f64) -> Ene
         }
         Law::PointOnLine => {
             if let Some(line) = view.lines.get(element.index) {
-                sum.line = sum.line + line.energy(element.displacement);
+                sum.line =
+                    sum.line + line.energy(element.displacement, view.clearance(element.group));
             }
         }
     });

@@ -254,6 +254,7 @@ fn stars<P: Geometry, T: Terms, const EXPLICIT: bool, const ARMS: usize>(
         _ => None,
     }
     .map(|dampers| dampers.as_chunks::<ARMS>().0);
+    let clearance = model.clearance(group);
     let stars_per_block = if group.shared { stars } else { 1 };
 
     let mut tsdas = tsdas.iter();
@@ -271,9 +272,9 @@ fn stars<P: Geometry, T: Terms, const EXPLICIT: bool, const ARMS: usize>(
                 let pull = match coefficients {
                     Some(coefficients) => {
                         let v_rel = end_b.point_velocity(*tip_arm) - end_a.point_velocity(arm);
-                        springs[j].damped_force(coefficients[j], d, v_rel)
+                        springs[j].damped_force(coefficients[j], d, v_rel, clearance)
                     }
-                    None => springs[j].force(d),
+                    None => springs[j].force(d, clearance),
                 };
                 pull_a = pull_a + pull;
                 pulls[j] = pulls[j] + pull;
@@ -343,6 +344,7 @@ fn lines<P: Geometry, T: Terms, const EXPLICIT: bool>(
         Some(row) if EXPLICIT && T::DAMPERS => model.dampers.get(row..).unwrap_or(&[]),
         _ => &[],
     };
+    let clearance = model.clearance(group);
     let mut elements = tips.iter().zip(springs);
     let mut dampers = dampers.iter();
     for centre in centres {
@@ -359,9 +361,9 @@ fn lines<P: Geometry, T: Terms, const EXPLICIT: bool>(
                     let foot = end_a.arm_at(arm, line * slide);
                     let v_rel = end_b.point_velocity(tip_arm) - end_a.point_velocity(foot);
                     let rate = Projection::new(v_rel, line).deflection;
-                    spring.damped_force(damping, deflection, rate)
+                    spring.damped_force(damping, deflection, rate, clearance)
                 }
-                None => spring.force(deflection),
+                None => spring.force(deflection, clearance),
             };
             pull_a = pull_a + pull;
             slid = slid + pull * slide;

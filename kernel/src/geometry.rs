@@ -24,7 +24,7 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + 'static {
     /// A stored velocity or angular velocity, with its compensation where the precision has one.
     type Velocity: Copy + Debug + Default + PartialEq + Words;
     /// A point in body axes from the centre of mass; a point in the world for the ground.
-    type Local: Copy + Debug + Default + PartialEq;
+    type Local: Copy + Debug + Default + PartialEq + Words;
     /// A point in the world.
     type Location: Copy + Default;
     /// A body's pose, prepared for placing many points.

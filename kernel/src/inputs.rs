@@ -12,7 +12,7 @@ use crate::geometry::Geometry;
 use crate::model::BodyIndex;
 use crate::real::Real;
 use crate::vector::Vec3;
-use crate::words::{WordVisitor, Words};
+use crate::words::{WordSource, WordVisitor, Words};
 
 /// The index of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -164,6 +164,11 @@ impl<R: Real> Words for Signal<R> {
     fn visit(&self, visitor: &mut impl WordVisitor) {
         visitor.word(self.value.word());
         visitor.word(self.rate.word());
+    }
+
+    fn fill(&mut self, source: &mut impl WordSource) {
+        self.value = R::from_words(source);
+        self.rate = R::from_words(source);
     }
 }
 

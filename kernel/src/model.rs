@@ -86,6 +86,23 @@ impl DamperIndex {
     }
 }
 
+/// The index of a group's clearance, or none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ClearanceIndex(pub u16);
+
+impl ClearanceIndex {
+    /// Without clearance.
+    pub const NONE: Self = Self(u16::MAX);
+
+    /// The index into the clearances, `None` without one.
+    #[inline(always)]
+    #[must_use]
+    pub const fn row(self) -> Option<usize> {
+        if self.0 == u16::MAX { None } else { Some(self.0 as usize) }
+    }
+}
+
 /// The law that a group's elements follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -124,6 +141,8 @@ pub struct Group {
     pub element: u16,
     /// First of the elements' damping coefficients among the model's dampers.
     pub damper: DamperIndex,
+    /// The clearance of all its elements among the model's clearances; bushings have none.
+    pub clearance: ClearanceIndex,
 }
 
 impl Group {
@@ -253,6 +272,17 @@ impl<
     const LINES: bool = LINES > 0;
     const INPUTS: bool = INPUTS > 0;
     const CLEARANCES: bool = CLEARANCES > 0;
+}
+
+impl<P: Geometry, T: Terms> ModelRef<'_, P, T> {
+    /// The clearance \[m\] of a group, `None` without one.
+    #[inline(always)]
+    pub(crate) fn clearance(&self, group: &Group) -> Option<P::Real> {
+        if !T::CLEARANCES {
+            return None;
+        }
+        group.clearance.row().and_then(|row| self.clearances.get(row)).copied()
+    }
 }
 
 /// A model lent as slices.
@@ -435,6 +465,9 @@ impl<
             };
             assert!(group.element as usize + elements <= count, "a group's elements are there");
             check_damper(group.damper, elements, DAMPERS);
+            if let Some(row) = group.clearance.row() {
+                assert!(row < CLEARANCES, "a group's clearance is there");
+            }
             i += 1;
         }
         i = 0;

@@ -240,6 +240,13 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
         self.ledger.evaluations
     }
 
+    /// Goes on from a state: what was cached of the old one is dropped, a failure forgotten.
+    pub(crate) fn resume(&mut self, state: State<M>) {
+        self.state = state;
+        self.ledger.fresh = false;
+        self.status = Status::Running;
+    }
+
     /// FNV-1a 64 over the state's words.
     pub fn hash(&self) -> u64 {
         self.state.hash()

@@ -8,7 +8,7 @@
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::words::Word;
+use crate::words::{Word, WordSource};
 
 /// A number in which forces are computed.
 pub trait Real:
@@ -63,6 +63,8 @@ pub trait Real:
     fn is_finite(self) -> bool;
     /// The number's stored word.
     fn word(self) -> Word;
+    /// The number of the next word.
+    fn from_words(source: &mut impl WordSource) -> Self;
 
     /// `1/self`, or 0 where `self` is 0: the zero-force guard of coincident points.
     #[inline(always)]
@@ -141,6 +143,9 @@ impl Real for f64 {
     fn word(self) -> Word {
         Word::F64(self)
     }
+    fn from_words(source: &mut impl WordSource) -> Self {
+        Self::from_bits(source.take(8))
+    }
 }
 
 impl Real for f32 {
@@ -186,5 +191,8 @@ impl Real for f32 {
     #[inline(always)]
     fn word(self) -> Word {
         Word::F32(self)
+    }
+    fn from_words(source: &mut impl WordSource) -> Self {
+        Self::from_bits(source.take(4) as u32)
     }
 }

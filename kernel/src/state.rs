@@ -5,7 +5,7 @@
 
 use crate::geometry::Geometry;
 use crate::model::ModelOwner;
-use crate::words::{Fnv1a, Word, WordVisitor, Words};
+use crate::words::{Fnv1a, Word, WordSource, WordVisitor, Words};
 
 /// The state of one body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -54,6 +54,13 @@ impl<P: Geometry> Words for BodyState<P> {
         self.orientation.visit(visitor);
         self.velocity.visit(visitor);
         self.angular_velocity.visit(visitor);
+    }
+
+    fn fill(&mut self, source: &mut impl WordSource) {
+        self.position.fill(source);
+        self.orientation.fill(source);
+        self.velocity.fill(source);
+        self.angular_velocity.fill(source);
     }
 }
 
@@ -122,5 +129,15 @@ impl<M: ModelOwner> Words for State<M> {
             visitor.word(Word::I32(turns));
         }
         visitor.word(Word::U64(self.step));
+    }
+
+    fn fill(&mut self, source: &mut impl WordSource) {
+        for body in self.bodies.as_mut() {
+            body.fill(source);
+        }
+        for turns in self.turns.as_mut() {
+            *turns = source.take(4) as i32;
+        }
+        self.step = source.take(8);
     }
 }

@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use dbd_kernel::energy::each_extension;
-use dbd_kernel::model::{DamperIndex, Group, Law};
+use dbd_kernel::model::{ClearanceIndex, DamperIndex, Group, Law};
 use dbd_kernel::{
     Body, BodyIndex, BodyState, F64, Geometry, Load, PointBushing, State, TorsionSpring, Tsda, Vec3,
 };
@@ -192,7 +192,9 @@ impl Assembly {
         let point = index(self.model.points.len(), all().count(), "points")?;
         let damper = self.add_dampers(spring.damping, usize::from(stars) * usize::from(arms))?;
         let (a, b, shared) = (pair.a, pair.b, points.shared);
-        self.model.groups.push(Group { law, a, b, stars, arms, shared, point, element, damper });
+        let clearance = ClearanceIndex::NONE;
+        let group = Group { law, a, b, stars, arms, shared, point, element, damper, clearance };
+        self.model.groups.push(group);
         self.model.points.extend(all().map(|p| F64::local_from_f64(p.to_f64())));
         Ok(())
     }
