@@ -100,25 +100,8 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, const EXPLICIT: bool>(
     }
     if T::TSDAS || T::BUSHINGS || T::LINES {
         for group in model.groups {
-            let (a, b) = (group.a.row(), group.b.row());
-            let moving = EXPLICIT && T::DAMPERS && group.damper.row().is_some();
-            let moving = if moving { Some(bodies) } else { None };
-            let end_a = End::new(model, places, group.a, moving);
-            let end_b = End::new(model, places, group.b, moving);
-            let record = match group.law {
-                Law::Tsda if T::TSDAS && group.arms == 3 => {
-                    stars::<P, T, EXPLICIT, 3>(model, group, &end_a, &end_b)
-                }
-                Law::Tsda if T::TSDAS => stars::<P, T, EXPLICIT, 1>(model, group, &end_a, &end_b),
-                Law::PointBushing if T::BUSHINGS => {
-                    bushing::<P, T, EXPLICIT>(model, group, &end_a, &end_b)
-                }
-                Law::PointOnLine if T::LINES => {
-                    lines::<P, T, EXPLICIT>(model, group, &end_a, &end_b)
-                }
-                _ => Record::ZERO,
-            };
-            apply(wrenches, a, b, &record);
+            let record = record::<P, T, EXPLICIT>(model, places, bodies, group);
+            apply(wrenches, group.a.row(), group.b.row(), &record);
         }
     }
     if T::TORSIONS {
@@ -128,6 +111,29 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, const EXPLICIT: bool>(
         wrench.torque = P::to_body(frame, wrench.torque);
     }
     Ok(())
+}
+
+/// The record of one group.
+#[inline(always)]
+pub(crate) fn record<P: Geometry, T: Terms, const EXPLICIT: bool>(
+    model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    bodies: &[BodyState<P>],
+    group: &Group,
+) -> Record<P::Real> {
+    let moving = EXPLICIT && T::DAMPERS && group.damper.row().is_some();
+    let moving = if moving { Some(bodies) } else { None };
+    let end_a = End::new(model, places, group.a, moving);
+    let end_b = End::new(model, places, group.b, moving);
+    match group.law {
+        Law::Tsda if T::TSDAS && group.arms == 3 => {
+            stars::<P, T, EXPLICIT, 3>(model, group, &end_a, &end_b)
+        }
+        Law::Tsda if T::TSDAS => stars::<P, T, EXPLICIT, 1>(model, group, &end_a, &end_b),
+        Law::PointBushing if T::BUSHINGS => bushing::<P, T, EXPLICIT>(model, group, &end_a, &end_b),
+        Law::PointOnLine if T::LINES => lines::<P, T, EXPLICIT>(model, group, &end_a, &end_b),
+        _ => Record::ZERO,
+    }
 }
 
 /// Weight and loads.

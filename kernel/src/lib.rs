@@ -80,6 +80,7 @@ mod groups;
 pub mod inputs;
 pub mod model;
 pub mod plant;
+pub mod readouts;
 pub mod real;
 pub mod rotation;
 pub mod schemes;
