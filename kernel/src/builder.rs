@@ -60,6 +60,8 @@ pub enum Part {
     Lines,
     /// Inputs.
     Inputs,
+    /// Knots of tables.
+    Knots,
 }
 
 /// What can be out of range.
@@ -82,6 +84,8 @@ pub enum Quantity {
     Damping,
     /// Free length: finite, not negative.
     FreeLength,
+    /// Clearance: finite, not negative; none on a point bushing.
+    Clearance,
     /// An axis: finite and not 0.
     Axis,
     /// A preload, force or torque: finite.
@@ -121,6 +125,8 @@ pub struct Stars<'p> {
     pub damping: f64,
     /// \[m\] free length of each TSDA, ≥ 0; 0 makes point bushings, of one star and one arm.
     pub free_length: f64,
+    /// \[m\] clearance of each TSDA, ≥ 0; 0 for none. A point bushing has none.
+    pub clearance: f64,
 }
 
 /// How a point is held to a line.
@@ -133,6 +139,8 @@ pub struct LineLaw {
     pub damping: f64,
     /// \[m\] free distance from the line, ≥ 0.
     pub free_length: f64,
+    /// \[m\] clearance, ≥ 0; 0 for none.
+    pub clearance: f64,
 }
 
 /// A model under construction, and the model itself once complete.
@@ -164,6 +172,8 @@ pub struct ModelBuilder<
     lines: Vec<PointOnLine<P::Real>, LINES>,
     inputs: Vec<Input<P>, INPUTS>,
     knots: Vec<Knot<P::Real>, KNOTS>,
+    // At most one per group.
+    clearances: Vec<P::Real, GROUPS>,
 }
 
 impl<
@@ -212,6 +222,7 @@ impl<
             lines: Vec::new(),
             inputs: Vec::new(),
             knots: Vec::new(),
+            clearances: Vec::new(),
         }
     }
 
@@ -277,6 +288,7 @@ impl<
             stiffness,
             damping,
             free_length,
+            clearance: 0.0,
         })
     }
 
@@ -290,6 +302,9 @@ impl<
         check(not_negative(stars.stiffness), Quantity::Stiffness)?;
         check(not_negative(stars.damping), Quantity::Damping)?;
         check(not_negative(stars.free_length), Quantity::FreeLength)?;
+        let dead = stars.clearance != 0.0;
+        let bushing = stars.free_length == 0.0;
+        check(not_negative(stars.clearance) && !(bushing && dead), Quantity::Clearance)?;
         let points = stars.centres.iter().chain(stars.arms);
         check(points.clone().flatten().all(|c| c.is_finite()), Quantity::Point)?;
         let (count, arms) = (stars.centres.len(), stars.arms.len());
@@ -298,7 +313,6 @@ impl<
         let whole = shared || per_star * count == arms;
         check(count <= 255 && whole && (per_star == 1 || per_star == 3), Quantity::Arms)?;
         let elements = count * per_star;
-        let bushing = stars.free_length == 0.0;
         check(!bushing || elements == 1, Quantity::Arms)?;
 
         room(&self.groups, 1, Part::Groups)?;
@@ -309,6 +323,7 @@ impl<
             room(&self.tsdas, elements, Part::Tsdas)?;
         }
         let damper = self.add_dampers(stars.damping, elements)?;
+        let clearance = self.add_clearance(stars.clearance)?;
         let element = if bushing { self.bushings.len() } else { self.tsdas.len() } as u16;
         let group = Group {
             law: if bushing { Law::PointBushing } else { Law::Tsda },
@@ -320,7 +335,7 @@ impl<
             point: self.points.len() as u16,
             element,
             damper,
-            clearance: ClearanceIndex::NONE,
+            clearance,
         };
         // Room was made sure of above.
         let _ = self.groups.push(group);
@@ -358,12 +373,14 @@ impl<
         check(not_negative(law.stiffness), Quantity::Stiffness)?;
         check(not_negative(law.damping), Quantity::Damping)?;
         check(not_negative(law.free_length), Quantity::FreeLength)?;
+        check(not_negative(law.clearance), Quantity::Clearance)?;
         check(finite(&line_point) && points.iter().all(|p| finite(p)), Quantity::Point)?;
         check(points.len() == 1 || points.len() == 2, Quantity::Arms)?;
         room(&self.groups, 1, Part::Groups)?;
         room(&self.points, 1 + points.len(), Part::Points)?;
         room(&self.lines, points.len(), Part::Lines)?;
         let damper = self.add_dampers(law.damping, points.len())?;
+        let clearance = self.add_clearance(law.clearance)?;
         let group = Group {
             law: Law::PointOnLine,
             a: between[0],
@@ -374,7 +391,7 @@ impl<
             point: self.points.len() as u16,
             element: self.lines.len() as u16,
             damper,
-            clearance: ClearanceIndex::NONE,
+            clearance,
         };
         let _ = self.groups.push(group);
         let _ = self.points.push(P::local_from_f64(line_point));
@@ -458,9 +475,41 @@ impl<
             InputKind::Anchor { .. } => {}
         }
         check(value.is_finite(), Quantity::Load)?;
+        room(&self.inputs, 1, Part::Inputs)?;
         let index = InputIndex(self.inputs.len() as u16);
         let input = Input { kind, value: P::Real::from_f64(value), knot: 0, knots: 0 };
-        self.inputs.push(input).map_err(|_| BuildError::Full(Part::Inputs))?;
+        let _ = self.inputs.push(input);
+        Ok(index)
+    }
+
+    /// Adds an input that follows a table of (time \[s\], value) with ascending times, held from
+    /// each knot on, or linear in between.
+    ///
+    /// # Errors
+    /// As [`Self::add_input`]; [`Quantity::Window`] where times do not ascend.
+    pub fn add_table(
+        &mut self,
+        kind: InputKind<P>,
+        table: &[[f64; 2]],
+        linear: bool,
+    ) -> Result<InputIndex, BuildError> {
+        let ascending = table.windows(2).all(|pair| pair[0][0] < pair[1][0]);
+        let known = table.iter().all(|knot| finite(knot));
+        check(!table.is_empty() && ascending && known, Quantity::Window)?;
+        room(&self.knots, table.len(), Part::Knots)?;
+        let index = self.add_input(kind, 0.0)?;
+        if let Some(input) = self.inputs.get_mut(index.0 as usize) {
+            input.knot = self.knots.len() as u16;
+            input.knots = table.len() as u16;
+        }
+        for (i, [time, value]) in table.iter().enumerate() {
+            let slope = match table.get(i + 1) {
+                Some([next, then]) if linear => (then - value) / (next - time),
+                _ => 0.0,
+            };
+            let (value, slope) = (P::Real::from_f64(*value), P::Real::from_f64(slope));
+            let _ = self.knots.push(Knot { time: *time, value, slope });
+        }
         Ok(index)
     }
 
@@ -474,6 +523,17 @@ impl<
             return Err(BuildError::SameBody(between[0]));
         }
         Ok(())
+    }
+
+    fn add_clearance(&mut self, clearance: f64) -> Result<ClearanceIndex, BuildError> {
+        if clearance == 0.0 {
+            return Ok(ClearanceIndex::NONE);
+        }
+        let index = ClearanceIndex(self.clearances.len() as u16);
+        self.clearances
+            .push(P::Real::from_f64(clearance))
+            .map_err(|_| BuildError::Full(Part::Groups))?;
+        Ok(index)
     }
 
     fn add_dampers(&mut self, damping: f64, count: usize) -> Result<DamperIndex, BuildError> {
@@ -558,7 +618,7 @@ impl<
             lines: &self.lines,
             inputs: &self.inputs,
             knots: &self.knots,
-            clearances: &[],
+            clearances: &self.clearances,
             terms: PhantomData,
         }
     }
