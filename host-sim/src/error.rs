@@ -5,7 +5,6 @@ use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use dbd_kernel::plant::PlantError;
 use dbd_scene::SceneError;
 use miette::{Diagnostic, LabeledSpan, SourceCode};
 use thiserror::Error;
@@ -13,6 +12,7 @@ use thiserror::Error;
 use crate::catalogue::UnknownScene;
 use crate::method::MethodError;
 use crate::plan::PlanError;
+use crate::time::display;
 
 /// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,9 +46,16 @@ pub enum Error {
     /// The step does not fit.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// The step is nothing in the precision.
-    #[error("in the precision that runs, {0}")]
-    Plant(PlantError),
+    /// The step is zero or infinite once rounded.
+    #[error("a step of {} is {rounded} in {precision}", display(*step))]
+    Step {
+        /// \[s\] the step.
+        step: f64,
+        /// \[s\] what it is rounded to.
+        rounded: f64,
+        /// The precision's name.
+        precision: &'static str,
+    },
     /// The folder for the results cannot be made.
     #[error("cannot write to {}: {reason}", folder.display())]
     Folder {
@@ -78,7 +85,7 @@ impl Error {
             Self::Scene(error) => Some(error),
             Self::Method(error) => Some(error),
             Self::Plan(error) => Some(error),
-            Self::Plant(_) | Self::Folder { .. } | Self::Write(_) => None,
+            Self::Step { .. } | Self::Folder { .. } | Self::Write(_) => None,
         }
     }
 }
@@ -87,6 +94,7 @@ impl Error {
 impl Diagnostic for Error {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         match self {
+            Self::Step { .. } => Some(Box::new("a longer step, or --precision f64")),
             Self::Folder { .. } => Some(Box::new("name another folder with --out DIR")),
             _ => self.inner()?.help(),
         }

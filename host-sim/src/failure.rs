@@ -15,6 +15,7 @@ use crate::frequencies::Frequencies;
 use crate::method::Method;
 use crate::plan::{Plan, Request, StepRequest, plan};
 use crate::simulate::{Ending, Observer, Sample, Trouble, simulate};
+use crate::summary::significant;
 use crate::time::display;
 
 /// How often the advised step is halved.
@@ -84,8 +85,8 @@ impl FailedRun {
             Remedy::NoneOf(tried) => {
                 let tried: Vec<String> = tried.iter().map(|step| display(*step)).collect();
                 format!(
-                    "the step is not the reason: the run also fails with {}; look at the scene's \
-                     pose, stiffnesses, preloads and loads",
+                    "shorter steps fail, too ({}): look at the scene's pose, stiffnesses, \
+                     preloads and loads",
                     tried.join(", ")
                 )
             }
@@ -123,6 +124,15 @@ fn describe(scene: &Scene, trouble: Trouble) -> String {
             let spring = name(&scene.torsion_names, usize::from(spring));
             format!("the twist of {spring} is undefined: its bodies turned half a turn across it")
         }
+        Trouble::Growth { growth, body } => {
+            let (growth, body) = (significant(growth, 2), name(&scene.body_names, body));
+            format!("the run diverged: {growth} J came from nowhere, body `{body}` is the fastest,")
+        }
+        Trouble::Torn { joint, extension } => {
+            let joint = scene.joints.get(joint).map(|joint| joint.name.clone()).unwrap_or_default();
+            let extension = significant(extension, 2);
+            format!("the run diverged: joint `{joint}` is stretched by {extension} m")
+        }
         Trouble::Energy { body } => {
             let body = name(&scene.body_names, body);
             format!("the run diverged: the energy of body `{body}` is not finite")
@@ -138,7 +148,7 @@ fn find_remedy(scene: &Scene, method: &Method, run: &Plan, every: Option<f64>) -
     for _ in 0..=HALVINGS {
         let request =
             Request { step: StepRequest::RoundAtMost(limit), duration: run.duration, every };
-        let Ok(candidate) = plan(&request) else { break };
+        let Ok(candidate) = plan(&request) else { return Remedy::Untried(limit) };
         if cost(scene, method, &candidate) > MOST_EVALUATIONS {
             return Remedy::Untried(candidate.step);
         }

@@ -3,26 +3,22 @@
 //! `scene => per joint the largest rate of a TSDA's length at t = 0`. A consistent state has none;
 //! a scene need not have one, its joints then ring at their own frequencies.
 
+use std::ops::Range;
+
 use dbd_kernel::model::Group;
 use dbd_kernel::{BodyIndex, BodyState, F64, Geometry, Vec3};
 use dbd_scene::Scene;
 
+use crate::joint_groups::joint_groups;
+
 /// \[m/s\] per joint, in scene order.
 #[must_use]
 pub fn joint_rates(scene: &Scene) -> Vec<f64> {
-    let mut groups = scene.model.groups.iter();
-    let rate_of_joint = |tsdas: usize| {
-        let mut elements = 0;
-        let mut largest = 0.0_f64;
-        // A joint expands into one group or several, whose elements make up its TSDAs.
-        while elements < tsdas {
-            let Some(group) = groups.next() else { break };
-            elements += group.elements();
-            largest = largest.max(rate_of_group(scene, group));
-        }
-        largest
+    let rate_of_joint = |groups: Range<usize>| {
+        let rates = scene.model.groups[groups].iter().map(|group| rate_of_group(scene, group));
+        rates.fold(0.0, f64::max)
     };
-    scene.joints.iter().map(|joint| joint.tsdas).map(rate_of_joint).collect()
+    joint_groups(scene).into_iter().map(rate_of_joint).collect()
 }
 
 fn rate_of_group(scene: &Scene, group: &Group) -> f64 {

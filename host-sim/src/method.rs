@@ -4,7 +4,7 @@
 //! A further scheme or precision is one variant and one arm here, nothing elsewhere.
 
 use clap::ValueEnum;
-use dbd_kernel::{Dbd, F32, F64, Geometry, Leapfrog, Scheme};
+use dbd_kernel::{Dbd, F32, F64, Geometry, Leapfrog, Real as _, Scheme};
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -131,6 +131,19 @@ impl Method {
             }
         }
         self.visit(Name)
+    }
+
+    /// \[s\] the step rounded to the precision.
+    #[must_use]
+    pub fn rounded(&self, step: f64) -> f64 {
+        struct Rounded(f64);
+        impl MethodVisitor for Rounded {
+            type Output = f64;
+            fn visit<P: Geometry, S: Scheme>(self, _: S) -> f64 {
+                P::Real::from_f64(self.0).to_f64()
+            }
+        }
+        self.visit(Rounded(step))
     }
 
     /// Force evaluations per step.

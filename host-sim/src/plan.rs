@@ -8,26 +8,17 @@
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::time::display;
-
-/// Relative deviation up to which a quotient counts as whole.
-const WHOLE: f64 = 1e-9;
+use crate::fitting::{Span, WHOLE, whole};
+use crate::time::{display, rounded};
 
 /// The number of samples where no interval is given.
 const SAMPLES: u64 = 500;
 
 /// More steps than this are refused: at 100 ns each they take longer than a day.
-const MOST_STEPS: f64 = 1e12;
+pub const MOST_STEPS: f64 = 1e12;
 
 /// More samples than this are refused: a trace of several gigabytes.
-const MOST_SAMPLES: u64 = 10_000_000;
-
-/// Sampling intervals that are searched for a number which the duration divides. More would
-/// shorten the step beyond what can be meant, and in the end any number fits within 1e-9.
-const MOST_INTERVALS: u64 = 1000;
-
-/// Steps that are looked at for a round one.
-const ROUND_STEPS: usize = 10_000;
+pub const MOST_SAMPLES: u64 = 10_000_000;
 
 /// The step that a run is to take.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,7 +74,7 @@ impl Plan {
 pub enum PlanError {
     /// Duration or sampling interval is not a whole multiple of the step.
     #[error("{what} of {} is not a whole multiple of the step of {}", display(*value), display(*step))]
-    #[diagnostic(help("steps that fit, nearest first: {}", listed("--step", steps)))]
+    #[diagnostic(help("nearest that fit: {}", alternatives(steps, intervals)))]
     Multiple {
         /// `the duration` or `the sampling interval`.
         what: &'static str,
@@ -91,8 +82,10 @@ pub enum PlanError {
         value: f64,
         /// \[s\] the step.
         step: f64,
-        /// \[s\] the nearest steps that fit, nearest first.
+        /// \[s\] the nearest steps that fit duration and sampling interval, nearest first.
         steps: Vec<f64>,
+        /// \[s\] the nearest sampling intervals that fit the step, where that is enough.
+        intervals: Vec<f64>,
     },
     /// No step divides both.
     #[error(
@@ -152,6 +145,15 @@ fn listed(option: &str, times: &[f64]) -> String {
     times.join(" or ")
 }
 
+fn alternatives(steps: &[f64], intervals: &[f64]) -> String {
+    let steps = listed("--step", steps);
+    if intervals.is_empty() {
+        steps
+    } else {
+        format!("{steps}; or {}", listed("--every", intervals))
+    }
+}
+
 /// Plans a run.
 ///
 /// # Errors
@@ -175,16 +177,18 @@ pub fn plan(request: &Request) -> Result<Plan, PlanError> {
         }
     };
     check_steps(duration, step)?;
-    let misfit = |what, value| {
+    let misfit = |what, value, intervals| {
         let steps = span.map_or_else(Vec::new, |span| span.nearest_steps(step));
-        match (span, steps.is_empty()) {
-            (Some(_), false) => PlanError::Multiple { what, value, step, steps },
-            _ => incommensurate(duration, every),
+        if steps.is_empty() {
+            return incommensurate(duration, every);
         }
+        PlanError::Multiple { what, value, step, steps, intervals }
     };
-    let steps = whole(duration / step).ok_or_else(|| misfit("the duration", duration))?;
+    let steps =
+        whole(duration / step).ok_or_else(|| misfit("the duration", duration, Vec::new()))?;
     let stride = match every {
-        Some(every) => whole(every / step).ok_or_else(|| misfit("the sampling interval", every))?,
+        Some(every) => whole(every / step)
+            .ok_or_else(|| misfit("the sampling interval", every, multiples(step, every)))?,
         None => stride_for(steps),
     };
     let plan = Plan { step, duration, steps, stride };
@@ -200,79 +204,19 @@ fn check_steps(duration: f64, step: f64) -> Result<(), PlanError> {
     if steps <= MOST_STEPS { Ok(()) } else { Err(PlanError::Steps { steps, step, duration }) }
 }
 
+/// The multiples of `step` on either side of `time`, without the digits of rounding.
+fn multiples(step: f64, time: f64) -> Vec<f64> {
+    let below = (time / step) as u64;
+    let counts = [below, below + 1].into_iter().filter(|count| *count > 0);
+    counts.map(|count| rounded(count as f64 * step, 12)).collect()
+}
+
 fn incommensurate(duration: f64, every: Option<f64>) -> PlanError {
     let every = every.unwrap_or(duration);
     let below = (duration / every) as u64;
     let intervals = [below + 1, below].into_iter().filter(|n| *n > 0);
-    let intervals = intervals.map(|n| duration / n as f64).collect();
+    let intervals = intervals.map(|n| rounded(duration / n as f64, 12)).collect();
     PlanError::Incommensurate { duration, every, intervals }
-}
-
-/// The whole number ≥ 1 that `quotient` is, within [`WHOLE`].
-fn whole(quotient: f64) -> Option<u64> {
-    let nearest = (quotient + 0.5) as u64;
-    let excess = quotient - nearest as f64;
-    let tolerance = WHOLE * quotient;
-    (nearest >= 1 && -tolerance <= excess && excess <= tolerance).then_some(nearest)
-}
-
-/// The longest time of which every fitting step is a whole part: the sampling interval, without
-/// one the duration.
-#[derive(Clone, Copy, Debug)]
-struct Span {
-    duration: f64,
-    every: Option<f64>,
-    /// How many sampling intervals the duration divides first: a fitting step divides each into
-    /// a multiple of so many parts.
-    intervals: u64,
-}
-
-impl Span {
-    fn new(duration: f64, every: Option<f64>) -> Option<Self> {
-        let ratio = duration / every.unwrap_or(duration);
-        let intervals =
-            (1..=MOST_INTERVALS).find(|count| whole(ratio * *count as f64).is_some())?;
-        Some(Self { duration, every, intervals })
-    }
-
-    fn time(&self) -> f64 {
-        self.every.unwrap_or(self.duration)
-    }
-
-    fn step(&self, parts: u64) -> f64 {
-        self.time() / parts as f64
-    }
-
-    /// The least number of parts whose length is at most `limit`.
-    fn parts_at_most(&self, limit: f64) -> u64 {
-        let exact = self.time() / limit / self.intervals as f64;
-        let below = exact as u64;
-        let above = if (below as f64) < exact { below + 1 } else { below };
-        above.max(1) * self.intervals
-    }
-
-    /// The step of at least so many parts, at most half as many more, that is shortest to write.
-    fn round_step(&self, least: u64) -> f64 {
-        let digits = |step: &f64| format!("{step:e}").split('e').next().map_or(0, str::len);
-        let counts = least / self.intervals..=(least + least / 2) / self.intervals;
-        let steps = counts.take(ROUND_STEPS).map(|count| self.step(count * self.intervals));
-        steps.min_by_key(digits).unwrap_or_else(|| self.step(least))
-    }
-
-    /// The two fitting steps nearest to `step`, one on either side where there is one.
-    fn nearest_steps(&self, step: f64) -> Vec<f64> {
-        let below = (self.time() / step / self.intervals as f64) as u64;
-        let first = below.max(1);
-        let steps = [first, first + 1].map(|count| self.step(count * self.intervals));
-        let mut fitting: Vec<f64> = steps.into_iter().filter(|step| self.fits(*step)).collect();
-        let distance = |t: &f64| if *t > step { t - step } else { step - t };
-        fitting.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
-        fitting
-    }
-
-    fn fits(&self, step: f64) -> bool {
-        whole(self.duration / step).is_some() && whole(self.time() / step).is_some()
-    }
 }
 
 /// Steps per sample for about [`SAMPLES`] samples: the divisor of `steps` nearest to
@@ -350,6 +294,17 @@ mod tests {
             panic!();
         };
         assert_eq!(steps, [1e-3 / 33.0, 1e-3 / 34.0]);
+    }
+
+    #[test]
+    fn where_only_every_does_not_fit_intervals_are_named_too() {
+        let Err(PlanError::Multiple { intervals, .. }) = given(2e-5, 0.5, Some(1.234e-3)) else {
+            panic!();
+        };
+        assert_eq!(intervals, [1.22e-3, 1.24e-3]);
+        for every in intervals {
+            assert!(given(2e-5, 0.5, Some(every)).is_ok());
+        }
     }
 
     #[test]

@@ -30,6 +30,9 @@ const INK: RGBColor = RGBColor(0x33, 0x3a, 0x45);
 const GRID: RGBColor = RGBColor(0xe3, 0xe7, 0xec);
 const FONT: &str = "sans-serif";
 
+/// Axes of fewer values show them all.
+const FEWEST_TO_CUT: usize = 50;
+
 /// SI prefixes and their exponents.
 const PREFIXES: [(&str, i32); 10] = [
     ("p", -12),
@@ -62,8 +65,8 @@ fn draw(panel: &Panel<'_>, root: &DrawingArea<SVGBackend<'_>, Shift>) -> Option<
     let mut chart = ChartBuilder::on(root)
         .margin(6)
         .margin_right(18)
-        .x_label_area_size(40)
-        .y_label_area_size(70)
+        .x_label_area_size(46)
+        .y_label_area_size(76)
         .build_cartesian_2d(x.low..x.high, y.low..y.high)
         .ok()?;
     chart
@@ -71,10 +74,10 @@ fn draw(panel: &Panel<'_>, root: &DrawingArea<SVGBackend<'_>, Shift>) -> Option<
         .light_line_style(TRANSPARENT)
         .bold_line_style(GRID)
         .axis_style(INK.mix(0.55))
-        .label_style((FONT, 13).into_font().color(&INK))
-        .axis_desc_style((FONT, 13).into_font().color(&INK))
-        .x_labels(9)
-        .y_labels(6)
+        .label_style((FONT, 15).into_font().color(&INK))
+        .axis_desc_style((FONT, 15).into_font().color(&INK))
+        .x_labels(11)
+        .y_labels(8)
         .x_desc(&x.label)
         .y_desc(&y.label)
         .x_label_formatter(&|value| tick(*value, x.high - x.low))
@@ -117,7 +120,8 @@ impl Axis {
         let at = |share: f64| sorted[((sorted.len() - 1) as f64 * share) as usize];
         let (usual_low, usual_high) = (at(0.05), at(0.95));
         let usual = usual_high - usual_low;
-        if usual > 0.0 && high - low > 100.0 * usual {
+        let cut = sorted.len() >= FEWEST_TO_CUT && usual > 0.0 && high - low > 100.0 * usual;
+        if cut {
             low = low.max(usual_low - 2.0 * usual);
             high = high.min(usual_high + 2.0 * usual);
         }
@@ -132,7 +136,8 @@ impl Axis {
         }
         let (prefix, exponent) = prefix(if largest > 0.0 { largest } else { 1.0 });
         let scale = 10_f64.powi(-exponent);
-        let label = format!("{quantity} [{prefix}{unit}]");
+        let remark = if cut { ", cut off" } else { "" };
+        let label = format!("{quantity} [{prefix}{unit}]{remark}");
         Some(Self { low: low * scale, high: high * scale, scale, label })
     }
 
@@ -212,5 +217,6 @@ mod tests {
         let values = points.iter().map(|p| p.1);
         let axis = Axis::new("energy", "J", values, Room::Some).unwrap();
         assert!(axis.high < 100.0 && axis.low < 0.0, "{} {}", axis.low, axis.high);
+        assert_eq!(axis.label, "energy [J], cut off");
     }
 }

@@ -53,7 +53,7 @@ pub fn html(report: &Report<'_>) -> String {
     }
     if summary.status != "ok" {
         let status = escape(&summary.status);
-        let _ = writeln!(page, "<p class=\"failed\"><strong>Failed.</strong> {status}.</p>");
+        let _ = writeln!(page, "<p class=\"failed\"><strong>Failed:</strong> {status}.</p>");
     }
     page.push_str("<h2>Summary</h2>\n<table>\n");
     for (row, text) in summary.rows() {
@@ -61,17 +61,10 @@ pub fn html(report: &Report<'_>) -> String {
     }
     page.push_str("</table>\n");
 
-    page.push_str("<h2>Energy</h2>\n");
-    let lines = [("kinetic", &curves.kinetic), ("potential", &curves.potential)];
-    figure(&mut page, "", WIDE, ("energy", "J"), &lines);
-    let lines = [("total less that at t = 0", &curves.change)];
-    figure(&mut page, "", WIDE, ("change", "J"), &lines);
-
-    page.push_str("<h2>Positions</h2>\n<div class=\"grid\">\n");
-    for (body, [x, y, z]) in scene.body_names.iter().zip(&curves.positions) {
-        figure(&mut page, body, HALF, ("position", "m"), &[("x", x), ("y", y), ("z", z)]);
+    // A run that failed before its second sample has nothing to draw.
+    if curves.kinetic.points.len() > 1 {
+        figures(&mut page, scene, curves);
     }
-    page.push_str("</div>\n");
 
     let _ = write!(
         page,
@@ -82,6 +75,20 @@ pub fn html(report: &Report<'_>) -> String {
         summary.state_hash,
     );
     page
+}
+
+fn figures(page: &mut String, scene: &Scene, curves: &Curves) {
+    page.push_str("<h2>Energy</h2>\n");
+    let lines = [("kinetic", &curves.kinetic), ("potential", &curves.potential)];
+    figure(page, "", WIDE, ("energy", "J"), &lines);
+    let lines = [("total less that at t = 0", &curves.change)];
+    figure(page, "", WIDE, ("change", "J"), &lines);
+
+    page.push_str("<h2>Positions</h2>\n<div class=\"grid\">\n");
+    for (body, [x, y, z]) in scene.body_names.iter().zip(&curves.positions) {
+        figure(page, body, HALF, ("position", "m"), &[("x", x), ("y", y), ("z", z)]);
+    }
+    page.push_str("</div>\n");
 }
 
 /// The command line of the run, with all that was chosen for it spelled out.

@@ -7,6 +7,7 @@
 use std::io;
 use std::path::PathBuf;
 
+use dbd_kernel::plant::PlantError;
 use dbd_scene::Scene;
 
 use crate::curves::Curves;
@@ -87,6 +88,7 @@ pub fn run(
 ) -> Result<Outcome, Error> {
     let frequencies = Frequencies::of(scene);
     let plan = plan_of(scene, options, &frequencies)?;
+    check_step(&options.method, plan.step)?;
     let folder = match &options.out {
         Some(out) => Some(
             output::folder(out, &scene.name)
@@ -110,7 +112,7 @@ pub fn run(
     };
     let ending =
         simulate(scene, &options.method, &plan, &mut recorder).map_err(|error| match error {
-            SimulationError::Plant(error) => Error::Plant(error),
+            SimulationError::Plant(PlantError::Step(step)) => refused_step(&options.method, step),
             SimulationError::Observer(error) => Error::Write(error),
         })?;
     let Recorder { trace, curves, statistics, .. } = recorder;
@@ -131,6 +133,16 @@ pub fn run(
         output::write(folder, "summary.json", &summary.json()).map_err(Error::Write)?;
     }
     Ok(Outcome { summary, folder, failure })
+}
+
+fn check_step(method: &Method, step: f64) -> Result<(), Error> {
+    let rounded = method.rounded(step);
+    if rounded > 0.0 && rounded.is_finite() { Ok(()) } else { Err(refused_step(method, step)) }
+}
+
+fn refused_step(method: &Method, step: f64) -> Error {
+    let precision = method.precision_name();
+    Error::Step { step, rounded: method.rounded(step), precision }
 }
 
 /// Passes samples on to trace, curves and statistics.

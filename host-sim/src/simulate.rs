@@ -6,19 +6,21 @@
 use std::io;
 use std::time::{Duration, Instant};
 
-use dbd_kernel::energy::{energy, largest_extension};
-use dbd_kernel::model::Group;
 use dbd_kernel::plant::PlantError;
 use dbd_kernel::status::Cause;
-use dbd_kernel::{BodyState, Energy, F64, Geometry, Plant, Scheme, State, Status};
+use dbd_kernel::{Energy, F64, Geometry, Plant, Scheme, State, Status};
 use dbd_scene::{Scene, SceneModel, widen};
 
+use crate::judge::{Judge, Verdict};
 use crate::method::{Method, MethodVisitor};
 use crate::numerals::Numerals;
 use crate::plan::Plan;
 
-/// Steps between two reports of progress.
-const STRIDE_OF_PROGRESS: u64 = 1024;
+/// A run is looked at this often at least, whatever its sampling interval.
+const LOOKS: u64 = 1000;
+
+/// Steps between two looks at most, so that progress is seen.
+const MOST_STEPS_UNSEEN: u64 = 1024;
 
 /// What is known at a sample.
 pub struct Sample<'s> {
@@ -27,7 +29,7 @@ pub struct Sample<'s> {
     /// The state, widened exactly.
     pub state: &'s State<SceneModel<F64>>,
     /// How many digits its words have.
-    pub numerals: &'s Numerals,
+    pub numerals: Numerals,
     /// \[J\] its energy.
     pub energy: Energy<f64>,
     /// \[m\] the largest extension of the joints' elements.
@@ -64,7 +66,7 @@ pub struct Ending {
 }
 
 /// Why a run ended early.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Trouble {
     /// A step failed.
     Step(Cause),
@@ -72,6 +74,20 @@ pub enum Trouble {
     Energy {
         /// The row of the fastest body.
         body: usize,
+    },
+    /// The energy grew beyond all measure, though nothing drives the scene.
+    Growth {
+        /// \[J\] by so much.
+        growth: f64,
+        /// The row of the fastest body.
+        body: usize,
+    },
+    /// A joint is stretched beyond all that can be meant, though everything is finite.
+    Torn {
+        /// The row of the joint.
+        joint: usize,
+        /// \[m\] the extension of its elements.
+        extension: f64,
     },
 }
 
@@ -109,26 +125,53 @@ impl MethodVisitor for Simulation<'_> {
     fn visit<P: Geometry, S: Scheme>(self, scheme: S) -> Self::Output {
         let Self { scene, plan, observer } = self;
         let model: SceneModel<P> = scene.model.convert();
-        let judge = Judge::new(scene, &model, plan.step);
+        let mut judge = Judge::new(scene, &model, plan.step);
         let mut plant = Plant::new(&model, scheme, plan.step).map_err(SimulationError::Plant)?;
+        let stride = (plan.steps / LOOKS).clamp(1, MOST_STEPS_UNSEEN);
         let mut wall = Duration::ZERO;
-        let mut trouble = judge.observe(&plant, observer)?;
         let mut next_sample = 0;
-        while trouble.is_none() && plant.state().step < plan.steps {
-            next_sample = plan.steps.min(next_sample + plan.stride);
-            while trouble.is_none() && plant.state().step < next_sample {
-                let pause = next_sample.min(plant.state().step + STRIDE_OF_PROGRESS);
-                let start = Instant::now();
-                trouble = step_to(&mut plant, pause);
-                wall += start.elapsed();
-                observer.progress(plant.state().step);
+        let trouble = loop {
+            let state = widen(plant.state());
+            let verdict = match judge.judge(&state) {
+                Ok(verdict) => verdict,
+                Err(trouble) => break Some(trouble),
+            };
+            let done = state.step;
+            observer.progress(done);
+            if done == next_sample {
+                let sample = Sample::new(&plant, &state, &verdict);
+                observer.sample(&sample).map_err(SimulationError::Observer)?;
+                next_sample = plan.steps.min(next_sample + plan.stride);
             }
-            if trouble.is_none() {
-                trouble = judge.observe(&plant, observer)?;
+            if done == plan.steps {
+                break None;
             }
-        }
+            let start = Instant::now();
+            let trouble = step_to(&mut plant, next_sample.min(done + stride));
+            wall += start.elapsed();
+            if trouble.is_some() {
+                break trouble;
+            }
+        };
         let (steps, evaluations) = (plant.state().step, plant.evaluations());
         Ok(Ending { steps, evaluations, wall, trouble })
+    }
+}
+
+impl<'s> Sample<'s> {
+    fn new<P: Geometry, S: Scheme>(
+        plant: &Plant<'_, SceneModel<P>, S>,
+        state: &'s State<SceneModel<F64>>,
+        verdict: &Verdict,
+    ) -> Self {
+        Self {
+            time: plant.time(),
+            state,
+            numerals: Numerals::of::<P>(),
+            energy: verdict.energy,
+            extension: verdict.extension,
+            hash: plant.hash(),
+        }
     }
 }
 
@@ -142,67 +185,4 @@ fn step_to<P: Geometry, S: Scheme>(
         }
     }
     None
-}
-
-/// The model that runs, its stored words taken as exact in double precision.
-struct Judge {
-    model: SceneModel<F64>,
-    /// The joints' elements alone.
-    joints: SceneModel<F64>,
-    numerals: Numerals,
-    step_size: f64,
-}
-
-impl Judge {
-    fn new<P: Geometry>(scene: &Scene, model: &SceneModel<P>, step_size: f64) -> Self {
-        let model_of_judge: SceneModel<F64> = model.convert();
-        let mut joints = model_of_judge.clone();
-        joints.groups.truncate(joint_groups(scene));
-        Self { model: model_of_judge, joints, numerals: Numerals::of::<P>(), step_size }
-    }
-
-    /// Hands the plant's present state to the observer, unless its energy is not a number.
-    fn observe<P: Geometry, S: Scheme>(
-        &self,
-        plant: &Plant<'_, SceneModel<P>, S>,
-        observer: &mut dyn Observer,
-    ) -> Result<Option<Trouble>, SimulationError> {
-        let state = widen(plant.state());
-        let energy = energy(&self.model, &state, self.step_size);
-        let extension = largest_extension(&self.joints, &state);
-        if !energy.total().is_finite() {
-            return Ok(Some(Trouble::Energy { body: fastest(&state) }));
-        }
-        let sample = Sample {
-            time: plant.time(),
-            state: &state,
-            numerals: &self.numerals,
-            energy,
-            extension,
-            hash: plant.hash(),
-        };
-        observer.sample(&sample).map_err(SimulationError::Observer)?;
-        Ok(None)
-    }
-}
-
-/// The row of the body with the largest component of a velocity.
-fn fastest(state: &State<SceneModel<F64>>) -> usize {
-    let speed = |body: &BodyState<F64>| {
-        let components = [body.velocity.to_f64(), body.angular_velocity.to_f64()];
-        components.as_flattened().iter().fold(0.0, |most: f64, v| most.max(v.abs()))
-    };
-    let speeds = state.bodies.iter().map(speed).enumerate();
-    speeds.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(row, _)| row)
-}
-
-/// The number of groups that joints expanded into; raw elements come after them.
-fn joint_groups(scene: &Scene) -> usize {
-    let elements: usize = scene.joints.iter().map(|joint| joint.tsdas).sum();
-    let mut counted = 0;
-    let is_of_joint = |group: &&Group| {
-        counted += group.elements();
-        counted <= elements
-    };
-    scene.model.groups.iter().take_while(is_of_joint).count()
 }

@@ -5,7 +5,7 @@
 
 use serde::Serialize;
 
-use crate::time::display;
+use crate::time::{display, rounded};
 
 /// The summary of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -147,7 +147,7 @@ pub fn significant(value: f64, digits: usize) -> String {
 /// A time with four significant digits and its unit.
 #[must_use]
 pub fn approximate(seconds: f64) -> String {
-    display(format!("{seconds:.3e}").parse().unwrap_or(seconds))
+    display(rounded(seconds, 4))
 }
 
 #[cfg(test)]

@@ -114,6 +114,12 @@ pub fn display(seconds: f64) -> String {
     format!("{sign}{}{unit}", place_point(&digits.replace('.', ""), exponent - shift))
 }
 
+/// A time rounded to so many significant digits.
+#[must_use]
+pub fn rounded(seconds: f64, digits: usize) -> f64 {
+    format!("{seconds:.*e}", digits.max(1) - 1).parse().unwrap_or(seconds)
+}
+
 /// Writes `d.ddd·10^exponent`, given the digits without their point.
 fn place_point(digits: &str, exponent: i32) -> String {
     // Beyond this a number is clearer with an exponent.
@@ -189,5 +195,6 @@ mod tests {
             seconds *= 1.7;
         }
         assert_eq!(display(0.0), "0s");
+        assert_eq!(rounded(62.0 * 2e-5, 12).to_bits(), 1.24e-3_f64.to_bits());
     }
 }

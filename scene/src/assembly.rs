@@ -8,7 +8,8 @@ use std::collections::BTreeMap;
 use dbd_kernel::energy::each_extension;
 use dbd_kernel::model::{ClearanceIndex, DamperIndex, Group, Law};
 use dbd_kernel::{
-    Body, BodyIndex, BodyState, F64, Geometry, Load, PointBushing, State, TorsionSpring, Tsda, Vec3,
+    Body, BodyIndex, BodyState, F64, Geometry, Load, PointBushing, PointOnLine, State,
+    TorsionSpring, Tsda, Vec3,
 };
 
 use crate::error::SceneError;
@@ -75,6 +76,28 @@ pub(crate) struct Points<'p> {
     pub(crate) shared: bool,
 }
 
+impl Points<'_> {
+    /// Tips per star.
+    fn arms(&self) -> usize {
+        let stars = if self.shared { 1 } else { self.centres.len().max(1) };
+        self.tips.len() / stars
+    }
+
+    /// One per star and arm.
+    fn elements(&self) -> usize {
+        self.centres.len() * self.arms()
+    }
+}
+
+/// What the points of a group on parallel lines have in common.
+#[derive(Clone, Copy)]
+pub(crate) struct Lines {
+    /// Unit direction in the first body's axes.
+    pub(crate) direction: Vec3<f64>,
+    /// \[m\] distance of each point from its line at rest, ≥ 0.
+    pub(crate) free_length: f64,
+}
+
 impl Assembly {
     /// The body of a name, or the world.
     pub(crate) fn body(&self, name: &str) -> Option<BodyIndex> {
@@ -115,26 +138,38 @@ impl Assembly {
         }
     }
 
+    /// The velocity \[m/s\] of the point of a body that is at a world point, and its angular
+    /// velocity \[rad/s\], both world.
+    pub(crate) fn motion(&self, body: BodyIndex, point_w: Vec3<f64>) -> (Vec3<f64>, Vec3<f64>) {
+        match (self.state(body), self.frames.get(body.row())) {
+            (Some(state), Some(frame)) => {
+                let spin = F64::to_world(frame, state.angular_velocity);
+                (state.velocity + spin.cross(point_w - state.position), spin)
+            }
+            _ => (Vec3::ZERO, Vec3::ZERO),
+        }
+    }
+
     /// Sets the field of gravity \[m/s²\]; a field of 0 is none.
     pub(crate) fn set_gravity(&mut self, gravity: [f64; 3]) {
         self.model.gravity =
             if gravity == [0.0; 3] { Vec::new() } else { vec![Vec3::from_f64(gravity)] };
     }
 
-    /// Adds a body whose name is new.
+    /// Adds a body whose name is new and returns its index.
     pub(crate) fn add_body(
         &mut self,
         name: &str,
         body: Body<f64>,
         state: BodyState<F64>,
-    ) -> Result<(), Defect> {
+    ) -> Result<BodyIndex, Defect> {
         let row = index(self.model.bodies.len(), 1, "bodies")?;
         self.model.bodies.push(body);
         self.model.initial.push(state);
         self.frames.push(F64::frame(&state.position, &state.orientation));
         self.names.push(name.to_owned());
         self.rows.insert(name.to_owned(), BodyIndex(row));
-        Ok(())
+        Ok(BodyIndex(row))
     }
 
     /// Adds a group of TSDAs, each of `free_length` \[m\]: every centre joined to its tips.
@@ -148,15 +183,9 @@ impl Assembly {
         if !(LEAST_LENGTH..=GREATEST_LENGTH).contains(&free_length) {
             return Err(Defect::OutOfRange);
         }
-        let arms = if points.shared {
-            points.tips.len()
-        } else {
-            points.tips.len() / points.centres.len().max(1)
-        };
-        let count = points.centres.len() * arms;
+        let count = points.elements();
         let element = index(self.model.tsdas.len(), count, "TSDAs")?;
-        let shape = (points.centres.len() as u8, arms as u8);
-        self.add_group(Law::Tsda, pair, points, shape, element, spring)?;
+        self.add_group(Law::Tsda, pair, points, element, spring)?;
         let tsda = Tsda::from_f64(spring.stiffness, free_length);
         self.model.tsdas.extend(std::iter::repeat_n(tsda, count));
         Ok(())
@@ -170,8 +199,27 @@ impl Assembly {
         spring: Spring,
     ) -> Result<(), Defect> {
         let element = index(self.model.bushings.len(), 1, "point bushings")?;
-        self.add_group(Law::PointBushing, pair, points, (1, 1), element, spring)?;
+        self.add_group(Law::PointBushing, pair, points, element, spring)?;
         self.model.bushings.push(PointBushing::from_f64(spring.stiffness));
+        Ok(())
+    }
+
+    /// Adds a group of points on parallel lines: every centre is on the line of its tips.
+    pub(crate) fn add_lines(
+        &mut self,
+        pair: &Pair,
+        points: Points<'_>,
+        Lines { direction, free_length }: Lines,
+        spring: Spring,
+    ) -> Result<(), Defect> {
+        if free_length != 0.0 && !(LEAST_LENGTH..=GREATEST_LENGTH).contains(&free_length) {
+            return Err(Defect::OutOfRange);
+        }
+        let count = points.elements();
+        let element = index(self.model.lines.len(), count, "points on lines")?;
+        self.add_group(Law::PointOnLine, pair, points, element, spring)?;
+        let line = PointOnLine::from_f64(direction.to_f64(), spring.stiffness, free_length);
+        self.model.lines.extend(std::iter::repeat_n(line, count));
         Ok(())
     }
 
@@ -180,7 +228,6 @@ impl Assembly {
         law: Law,
         pair: &Pair,
         points: Points<'_>,
-        (stars, arms): (u8, u8),
         element: u16,
         spring: Spring,
     ) -> Result<(), Defect> {
@@ -190,7 +237,8 @@ impl Assembly {
             return Err(Defect::OutOfRange);
         }
         let point = index(self.model.points.len(), all().count(), "points")?;
-        let damper = self.add_dampers(spring.damping, usize::from(stars) * usize::from(arms))?;
+        let damper = self.add_dampers(spring.damping, points.elements())?;
+        let (stars, arms) = (points.centres.len() as u8, points.arms() as u8);
         let (a, b, shared) = (pair.a, pair.b, points.shared);
         let clearance = ClearanceIndex::NONE;
         let group = Group { law, a, b, stars, arms, shared, point, element, damper, clearance };
@@ -248,6 +296,17 @@ impl Assembly {
     /// The groups there are.
     pub(crate) fn groups(&self) -> &[Group] {
         &self.model.groups
+    }
+
+    /// The free length \[m\] that the elements of a group share.
+    pub(crate) fn free_length(&self, group: &Group) -> f64 {
+        let row = usize::from(group.element);
+        let length = match group.law {
+            Law::Tsda => self.model.tsdas.get(row).map(|tsda| tsda.free_length),
+            Law::PointBushing => None,
+            Law::PointOnLine => self.model.lines.get(row).map(|line| line.free_length),
+        };
+        length.unwrap_or(0.0)
     }
 
     /// The largest |L − L0| \[m\] of each group at the initial pose.

@@ -42,22 +42,28 @@ pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), 
 }
 
 fn read(table: &Table<'_>) -> Result<(Body<f64>, BodyState<F64>), SceneError> {
-    let mass = table.required("mass", Number::positive("kg"))?;
-    let inertia = table.required("inertia", Numbers(Number::positive("kg·m²")))?;
-    if let Some(value) = table.value("inertia") {
-        refuse_impossible(&value, inertia)?;
-    }
+    let body = mass_and_inertia(table)?;
     let position = table.required("position", Numbers(Number::any("m")))?;
     let orientation = table.optional("orientation", Orientation)?.unwrap_or([1.0, 0.0, 0.0, 0.0]);
     let velocity = table.optional("velocity", Numbers(Number::any("m/s")))?.unwrap_or_default();
     let angular_velocity =
         table.optional("angular_velocity", Numbers(Number::any("rad/s")))?.unwrap_or_default();
     let state = BodyState::from_f64(position, orientation, velocity, angular_velocity);
-    Ok((Body::from_f64(mass, inertia), state))
+    Ok((body, state))
+}
+
+/// Reads `mass` and `inertia`.
+pub(crate) fn mass_and_inertia(table: &Table<'_>) -> Result<Body<f64>, SceneError> {
+    let mass = table.required("mass", Number::positive("kg"))?;
+    let inertia = table.required("inertia", Numbers(Number::positive("kg·m²")))?;
+    if let Some(value) = table.value("inertia") {
+        refuse_impossible(&value, inertia)?;
+    }
+    Ok(Body::from_f64(mass, inertia))
 }
 
 /// Refuses an inertia that no distribution of mass has: one moment above the sum of the others.
-pub(crate) fn refuse_impossible(value: &Value<'_>, inertia: [f64; 3]) -> Result<(), SceneError> {
+fn refuse_impossible(value: &Value<'_>, inertia: [f64; 3]) -> Result<(), SceneError> {
     let [x, y, z] = inertia;
     for (name, one, others, sum) in
         [("Ix", x, "Iy + Iz", y + z), ("Iy", y, "Ix + Iz", x + z), ("Iz", z, "Ix + Iy", x + y)]

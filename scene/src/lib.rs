@@ -15,12 +15,14 @@ mod names;
 mod nearest;
 mod orientation;
 mod pair;
+mod point_on_line;
 mod runtime;
 mod spring;
 mod text;
 mod torsion_spring;
 mod tsda;
 
+use std::ops::Range;
 use std::path::Path;
 
 pub use error::{Refusal, SceneError};
@@ -42,6 +44,7 @@ const KEYS: &[&str] = &[
     "body",
     "joint",
     "tsda",
+    "point_on_line",
     "torsion_spring",
     "load",
 ];
@@ -59,7 +62,7 @@ pub struct Scene {
     pub step: Option<f64>,
     /// \[s\] the sampling interval, where the scene gives one.
     pub every: Option<f64>,
-    /// Names of the bodies in the model's order.
+    /// Names of the bodies in the model's order, spiders after those of the scene file.
     pub body_names: Vec<String>,
     /// The joints in scene order.
     pub joints: Vec<JointInfo>,
@@ -79,9 +82,14 @@ pub struct JointInfo {
     pub kind: &'static str,
     /// The names of its two bodies (`world` for the ground).
     pub between: [String; 2],
-    /// Degrees of freedom of the pair that it holds: 5 for a revolute, 3 for a spherical joint.
+    /// Degrees of freedom that it holds: 5 for a revolute, 3 for a spherical joint. A universal
+    /// joint holds 10, for it brings a body with 6 of its own; the pair loses 4.
     pub holds: u32,
-    /// Its TSDAs.
+    /// The name of the body that it brings, `JOINT.spider` for a universal joint.
+    pub spider: Option<String>,
+    /// Its groups in the model.
+    pub groups: Range<usize>,
+    /// Its TSDAs, points on lines included.
     pub tsdas: usize,
     /// \[m\] the largest |L − L0| of its elements at the initial pose.
     pub assembly_error: f64,
@@ -121,6 +129,7 @@ impl Scene {
         body::read_all(&root, &mut assembly)?;
         let joints = joints::read_all(&root, &mut assembly)?;
         tsda::read_all(&root, &mut assembly)?;
+        point_on_line::read_all(&root, &mut assembly)?;
         let torsion_names = torsion_spring::read_all(&root, &mut assembly)?;
         load::read_all(&root, &mut assembly)?;
         let (model, body_names) = assembly.finish();

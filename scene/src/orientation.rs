@@ -3,7 +3,7 @@
 //! `table => unit quaternion` (scalar first, body → world). Trigonometry is libm's. The norm is
 //! summed `((w² + x²) + y²) + z²`.
 
-use dbd_kernel::Quaternion;
+use dbd_kernel::{Quaternion, Vec3};
 
 use crate::error::SceneError;
 use crate::text::{Direction, Kind, Number, Numbers, Table, Value};
@@ -63,6 +63,23 @@ fn euler_321(table: &Table<'_>) -> Result<[f64; 4], SceneError> {
     Ok(normalised(yaw.product(pitch).product(roll).to_f64()))
 }
 
+/// The turn that takes the world's axes to these right-handed unit vectors. The component that
+/// is largest is the one that the root gives (Shepperd 1978).
+pub(crate) fn of_axes([x, y, z]: [Vec3<f64>; 3]) -> [f64; 4] {
+    let trace = x.x + y.y + z.z;
+    let largest = trace.max(x.x).max(y.y).max(z.z);
+    let q = if largest == trace {
+        [1.0 + trace, y.z - z.y, z.x - x.z, x.y - y.x]
+    } else if largest == x.x {
+        [y.z - z.y, 1.0 + x.x - y.y - z.z, x.y + y.x, x.z + z.x]
+    } else if largest == y.y {
+        [z.x - x.z, x.y + y.x, 1.0 + y.y - x.x - z.z, y.z + z.y]
+    } else {
+        [x.y - y.x, x.z + z.x, y.z + z.y, 1.0 + z.z - x.x - y.y]
+    };
+    normalised(q)
+}
+
 /// A turn by an angle about a unit axis.
 fn about(axis: [f64; 3], angle: f64) -> Quaternion<f64> {
     let (sine, cosine) = libm::sincos(0.5 * angle);
@@ -113,6 +130,25 @@ mod tests {
             for (p, q) in of(&form).into_iter().zip(expected) {
                 assert!((p - q).abs() < 1e-15, "{form}");
             }
+        }
+    }
+
+    #[test]
+    fn the_axes_of_a_turn_give_the_turn_back() {
+        for q in [
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, 1.0, 0.0],
+            [0.0, 0.0, 0.0, 1.0],
+            [0.1, -0.9, 0.3, 0.2],
+            [0.1, 0.2, 0.9, -0.3],
+            [-0.1, 0.2, 0.3, 0.9],
+            [0.9, 0.2, -0.3, 0.1],
+        ] {
+            let expected = Quaternion::from_f64(normalised(q));
+            let found = of_axes(Vec3::axes().map(|axis| expected.rotation().to_world(axis)));
+            let found = Quaternion::<f64>::from_f64(found).product(expected.conjugate());
+            assert!((found.w.abs() - 1.0).abs() < 1e-15, "{q:?}");
         }
     }
 

@@ -30,12 +30,28 @@ proptest! {
                  orientation = {{ axis = {axis:?}, angle = {angle:?} }}\n"
             );
         }
+        let normal = axis.iter().position(|c| c.abs() > 1e-3).map_or([0.0, 0.0, 1.0], |i| {
+            // Two components swapped, one negated, the third 0: normal to the axis.
+            let mut normal = [0.0; 3];
+            normal[i] = -axis[(i + 1) % 3];
+            normal[(i + 1) % 3] = axis[i];
+            normal
+        });
         let ring = ring.map(|ring| format!("ring = {ring:?}\n")).unwrap_or_default();
         text += &format!(
             "[[joint]]\nname = \"r\"\ntype = \"revolute\"\nbetween = [\"b0\", \"b1\"]\nat = {at:?}\n\
              stiffness = 1\naxis = {axis:?}\nspan = {span:?}\n{ring}\
              [[joint]]\nname = \"s\"\ntype = \"spherical\"\nbetween = [\"b1\", \"world\"]\nat = {at:?}\n\
-             stiffness = 1\narm = {span:?}\n"
+             stiffness = 1\narm = {span:?}\n\
+             [[joint]]\nname = \"c\"\ntype = \"cylindrical\"\nbetween = [\"b0\", \"b1\"]\nat = {at:?}\n\
+             stiffness = 1\naxis = {axis:?}\nspan = {span:?}\noffset = 0.3\n\
+             [[joint]]\nname = \"t\"\ntype = \"translational\"\nbetween = [\"world\", \"b1\"]\nat = {at:?}\n\
+             stiffness = 1\naxis = {axis:?}\nspan = {span:?}\noffset = 0.02\ngauge = 0.1\n\
+             [[joint]]\nname = \"f\"\ntype = \"fixed\"\nbetween = [\"b1\", \"world\"]\nat = {at:?}\n\
+             stiffness = 1\naxis = {axis:?}\nspan = 0.5\narm = {span:?}\n\
+             [[joint]]\nname = \"u\"\ntype = \"universal\"\nbetween = [\"b1\", \"b0\"]\nat = {at:?}\n\
+             stiffness = 1\naxes = [{axis:?}, {normal:?}]\nspan = {span:?}\n{ring}\
+             spider = {{ mass = 1, inertia = [1, 1, 1] }}\n"
         );
         let scene = Scene::parse(&text, "p").map_err(|e| TestCaseError::fail(e.to_string()))?;
         for joint in &scene.joints {

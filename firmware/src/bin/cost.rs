@@ -1,4 +1,4 @@
-//! Program `cost`: what a step of every shipped model costs, see [`firmware::cost`].
+//! Program `cost`: what a step of every shipped model costs, see `firmware::cost` (target only).
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 use firmware::console::exit;

@@ -3,8 +3,13 @@
 //! `table => groups in the assembly, what reports say of the joint`. A type is one file with one
 //! [`JointType`]; its name, its keys and its expansion stand there and nowhere else.
 
+mod cylindrical;
+mod fixed;
 mod revolute;
 mod spherical;
+mod translational;
+mod triad;
+mod universal;
 
 use dbd_kernel::Vec3;
 
@@ -20,7 +25,7 @@ use crate::text::{Choice, Number, Numbers, Table};
 struct JointType {
     /// Its name in a scene.
     name: &'static str,
-    /// Degrees of freedom of the pair that it holds.
+    /// Degrees of freedom that it holds, see [`JointInfo::holds`].
     holds: u32,
     /// The keys it has besides those of every joint.
     keys: &'static [&'static str],
@@ -30,6 +35,7 @@ struct JointType {
 
 /// What every joint has.
 struct Joint {
+    name: String,
     pair: Pair,
     /// \[m\] its place, world.
     at_w: Vec3<f64>,
@@ -37,9 +43,20 @@ struct Joint {
 }
 
 /// In the order in which messages name them.
-static TYPES: [JointType; 2] = [spherical::TYPE, revolute::TYPE];
+static TYPES: [JointType; 6] = [
+    spherical::TYPE,
+    revolute::TYPE,
+    universal::TYPE,
+    cylindrical::TYPE,
+    translational::TYPE,
+    fixed::TYPE,
+];
 
 const KEYS: &[&str] = &["name", "type", "between", "at"];
+
+/// A joint is made at free length. One whose points miss that by more than this share of it lies
+/// so far from its bodies, or is so small, that coordinates cannot tell its points apart.
+const REACH: f64 = 1e-3;
 
 /// Reads and expands all joints in scene order.
 pub(crate) fn read_all(
@@ -48,32 +65,47 @@ pub(crate) fn read_all(
 ) -> Result<Vec<JointInfo>, SceneError> {
     let mut names = Names::new("joint");
     let mut infos = Vec::new();
-    let mut first_groups = Vec::new();
-    for table in root.list("joint")? {
-        let kind = kind(&table)?;
+    let tables = root.list("joint")?;
+    for table in &tables {
+        let kind = kind(table)?;
         table.only(&[KEYS, kind.keys, spring::KEYS])?;
-        let name = names.read(&table)?;
-        first_groups.push(assembly.groups().len());
-        let pair = read(&table, kind, assembly)?;
+        let name = names.read(table)?;
+        let (groups, bodies) = (assembly.groups().len(), assembly.body_names().len());
+        let pair = read(table, name.clone(), kind, assembly)?;
         infos.push(JointInfo {
             name,
             kind: kind.name,
             between: pair.names,
             holds: kind.holds,
+            spider: assembly.body_names().get(bodies).cloned(),
+            groups: groups..assembly.groups().len(),
             tsdas: 0,
             assembly_error: 0.0,
         });
     }
     // One pass over all elements, for a scene may have thousands of joints.
     let extensions = assembly.largest_extensions();
-    for (number, (group, extension)) in assembly.groups().iter().zip(extensions).enumerate() {
-        // Every group here is some joint's: the last one that began at or before it.
-        let joint = first_groups.partition_point(|first| *first <= number) - 1;
-        let info = &mut infos[joint];
-        info.tsdas += group.elements();
-        info.assembly_error = info.assembly_error.max(extension);
+    for (table, info) in tables.iter().zip(&mut infos) {
+        for number in info.groups.clone() {
+            let group = &assembly.groups()[number];
+            let (extension, reach) = (extensions[number], assembly.free_length(group));
+            if extension > REACH * reach {
+                return Err(out_of_reach(table, extension, reach));
+            }
+            info.tsdas += group.elements();
+            info.assembly_error = info.assembly_error.max(extension);
+        }
     }
     Ok(infos)
+}
+
+fn out_of_reach(table: &Table<'_>, extension: f64, reach: f64) -> SceneError {
+    let problem = format!(
+        "does not assemble: its points are {extension:e} m off where its springs are {reach:e} m long"
+    );
+    let help = "a joint of a larger size, or nearer to the origin and to its bodies: coordinates \
+                have 16 digits";
+    table.refuse(&problem, help)
 }
 
 /// The type, which decides what further keys there may be.
@@ -88,11 +120,16 @@ fn kind(table: &Table<'_>) -> Result<&'static JointType, SceneError> {
 }
 
 /// Reads a joint of a type and adds its elements.
-fn read(table: &Table<'_>, kind: &JointType, assembly: &mut Assembly) -> Result<Pair, SceneError> {
+fn read(
+    table: &Table<'_>,
+    name: String,
+    kind: &JointType,
+    assembly: &mut Assembly,
+) -> Result<Pair, SceneError> {
     let pair = table.required("between", Between(assembly))?;
     let at_w = Vec3::from_f64(table.required("at", Numbers(Number::any("m, world")))?);
     let spring = spring::read(table, spring::AXIAL)?;
-    let joint = Joint { pair, at_w, spring };
+    let joint = Joint { name, pair, at_w, spring };
     (kind.expand)(table, &joint, assembly)?;
     Ok(joint.pair)
 }

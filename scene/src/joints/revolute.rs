@@ -7,26 +7,46 @@
 
 use core::f64::consts::SQRT_2;
 
-use crate::assembly::{Assembly, Points};
-use crate::direction::{least_aligned, normals};
+use crate::assembly::{Assembly, Defect, Points};
 use crate::error::SceneError;
+use crate::joints::triad::{self, Triad};
 use crate::joints::{Joint, JointType};
-use crate::text::{Direction, Number, Table};
+use crate::pair::Pair;
+use crate::text::{Number, Table};
 
 pub(super) const TYPE: JointType =
     JointType { name: "revolute", holds: 5, keys: &["axis", "reference", "span", "ring"], expand };
 
 fn expand(table: &Table<'_>, joint: &Joint, assembly: &mut Assembly) -> Result<(), SceneError> {
-    let axis = table.required("axis", Direction)?;
-    let reference = table.optional("reference", Direction)?.unwrap_or(least_aligned(axis));
-    let [e1, e2] = normals(axis, reference).ok_or_else(|| {
-        let help = "a direction across the axis, e.g. one normal to it";
-        table.refuse_value("reference", "is parallel to the axis", help)
-    })?;
-    let span = table.required("span", Number::positive("m"))?;
-    let ring = table.optional("ring", Number::positive("m"))?.unwrap_or(span / SQRT_2);
+    let triad = triad::read(table)?;
+    let size = Size::read(table)?;
+    add(&joint.pair, joint, triad, size, assembly).map_err(|defect| defect.refuse(table))
+}
 
-    let pair = &joint.pair;
+/// How large a revolute is.
+#[derive(Clone, Copy)]
+pub(super) struct Size {
+    span: f64,
+    ring: f64,
+}
+
+impl Size {
+    /// Reads `span` and `ring`.
+    pub(super) fn read(table: &Table<'_>) -> Result<Self, SceneError> {
+        let span = table.required("span", Number::positive("m"))?;
+        let ring = table.optional("ring", Number::positive("m"))?.unwrap_or(span / SQRT_2);
+        Ok(Self { span, ring })
+    }
+}
+
+/// Adds the group of a revolute between two bodies at the place of a joint.
+pub(super) fn add(
+    pair: &Pair,
+    joint: &Joint,
+    Triad { e1, e2, axis }: Triad,
+    Size { span, ring }: Size,
+    assembly: &mut Assembly,
+) -> Result<(), Defect> {
     let half = 0.5 * span;
     let centres = [-half, half].map(|s| assembly.point_in(pair.a, joint.at_w + axis * s));
     let tips = azimuths().map(|[cosine, sine]| {
@@ -35,9 +55,7 @@ fn expand(table: &Table<'_>, joint: &Joint, assembly: &mut Assembly) -> Result<(
     });
     let free_length = libm::sqrt(half * half + ring * ring);
     let points = Points { centres: &centres, tips: &tips, shared: true };
-    assembly
-        .add_tsdas(pair, points, free_length, joint.spring)
-        .map_err(|defect| defect.refuse(table))
+    assembly.add_tsdas(pair, points, free_length, joint.spring)
 }
 
 /// Cosine and sine of 0°, 120° and 240°.

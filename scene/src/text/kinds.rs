@@ -159,7 +159,11 @@ impl Kind for Choice<'_> {
     type Output = usize;
 
     fn expected(&self) -> String {
-        self.0.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(" or ")
+        let words: Vec<_> = self.0.iter().map(|word| format!("\"{word}\"")).collect();
+        match words.split_last() {
+            Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+            _ => words.concat(),
+        }
     }
 
     fn read(&self, value: &Value<'_>) -> Result<usize, SceneError> {

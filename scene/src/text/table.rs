@@ -71,7 +71,12 @@ impl<'t> Table<'t> {
 
     /// Refuses keys other than these.
     pub(crate) fn only(&self, keys: &[&[&'static str]]) -> Result<(), SceneError> {
-        let allowed: Vec<&str> = keys.concat();
+        let mut allowed: Vec<&str> = Vec::new();
+        for key in keys.iter().copied().flatten().copied() {
+            if !allowed.contains(&key) {
+                allowed.push(key);
+            }
+        }
         let unknown = self
             .entries
             .keys()

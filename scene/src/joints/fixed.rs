@@ -1,0 +1,57 @@
+//! Fixed joint: three orthogonal tripods, nine TSDAs.
+//!
+//! The centres lie on the first body, at −span/2 and +span/2 on the axis and at span/2 along the
+//! reference, three points that no axis joins. Each has three points of the second body at the
+//! distance `arm` along the reference, axis × reference and the axis.
+
+use crate::assembly::{Assembly, Points};
+use crate::error::SceneError;
+use crate::joints::triad::{self, Triad};
+use crate::joints::{Joint, JointType};
+use crate::text::{Number, Table};
+
+pub(super) const TYPE: JointType =
+    JointType { name: "fixed", holds: 6, keys: &["axis", "reference", "span", "arm"], expand };
+
+fn expand(table: &Table<'_>, joint: &Joint, assembly: &mut Assembly) -> Result<(), SceneError> {
+    let Triad { e1, e2, axis } = triad::read(table)?;
+    let half = 0.5 * table.required("span", Number::positive("m"))?;
+    let arm = table.required("arm", Number::positive("m"))?;
+    let places = [axis * -half, axis * half, e1 * half].map(|place| joint.at_w + place);
+    let centres = places.map(|place| assembly.point_in(joint.pair.a, place));
+    let tips = places
+        .map(|place| [e1, e2, axis].map(|e| assembly.point_in(joint.pair.b, place + e * arm)));
+    let points = Points { centres: &centres, tips: tips.as_flattened(), shared: false };
+    assembly
+        .add_tsdas(&joint.pair, points, arm, joint.spring)
+        .map_err(|defect| defect.refuse(table))
+}
+
+#[cfg(test)]
+mod tests {
+    use dbd_kernel::Vec3;
+
+    use crate::example;
+
+    #[test]
+    fn three_tripods_stand_along_the_joints_axes() {
+        let scene = example::with(
+            "[[joint]]\nname = \"f\"\ntype = \"fixed\"\nbetween = [\"hand\", \"world\"]\n\
+             at = [1, 2, 3]\naxis = [0, 1, 0]\nstiffness = 1e5\nspan = 1\narm = 0.25",
+        );
+        let joint = &scene.joints[0];
+        assert_eq!((joint.kind, joint.holds, joint.tsdas), ("fixed", 6, 9));
+        assert!(joint.assembly_error < 1e-15);
+        let model = &scene.model;
+        let group = model.groups[0];
+        assert_eq!((group.stars, group.arms, group.shared), (3, 3, false));
+        // The reference is x, so axis × reference is −z.
+        let places = [[1.0, 1.5, 3.0], [1.0, 2.5, 3.0], [1.5, 2.0, 3.0]].map(Vec3::from_f64);
+        let arms = [[0.25, 0.0, 0.0], [0.0, 0.0, -0.25], [0.0, 0.25, 0.0]].map(Vec3::from_f64);
+        for (tips, place) in model.points[3..].chunks(3).zip(places) {
+            for (tip, arm) in tips.iter().zip(arms) {
+                assert_eq!(*tip, place + arm);
+            }
+        }
+    }
+}

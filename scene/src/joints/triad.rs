@@ -1,0 +1,38 @@
+//! The axes of a joint: `axis` and what `reference` makes normal to it.
+//!
+//! `table => (e1, e2, axis)`, world, right-handed: e1 is the reference made normal to the axis,
+//! e2 = axis × e1, the binormal. The reference defaults to the world axis least aligned with the
+//! axis.
+
+use dbd_kernel::Vec3;
+
+use crate::direction::{least_aligned, normals};
+use crate::error::SceneError;
+use crate::text::{Direction, Table};
+
+/// Three unit vectors, world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Triad {
+    /// The reference.
+    pub(super) e1: Vec3<f64>,
+    /// The binormal, axis × e1.
+    pub(super) e2: Vec3<f64>,
+    /// The axis.
+    pub(super) axis: Vec3<f64>,
+}
+
+/// Reads `axis` and `reference`.
+pub(super) fn read(table: &Table<'_>) -> Result<Triad, SceneError> {
+    let axis = table.required("axis", Direction)?;
+    about(table, axis)
+}
+
+/// The triad of an axis that is known; reads `reference`.
+pub(super) fn about(table: &Table<'_>, axis: Vec3<f64>) -> Result<Triad, SceneError> {
+    let reference = table.optional("reference", Direction)?.unwrap_or(least_aligned(axis));
+    let [e1, e2] = normals(axis, reference).ok_or_else(|| {
+        let help = "a direction across the axis, e.g. one normal to it";
+        table.refuse_value("reference", "is parallel to the axis", help)
+    })?;
+    Ok(Triad { e1, e2, axis })
+}

@@ -1,0 +1,169 @@
+//! Universal joint: a spider between two revolutes (Franco & Degani 2026, section 2.4.2).
+//!
+//! The spider is a body `JOINT.spider` at `at` with the axes (a1, a2, a1 × a2), moving with the
+//! first body. A revolute about a1 joins it to the first body, one about a2 to the second. a2 is
+//! made normal to a1 to the last bit.
+
+use dbd_kernel::{BodyState, Vec3};
+
+use crate::assembly::Assembly;
+use crate::body::mass_and_inertia;
+use crate::direction::normals;
+use crate::error::SceneError;
+use crate::joints::revolute::{self, Size};
+use crate::joints::triad;
+use crate::joints::{Joint, JointType};
+use crate::orientation::of_axes;
+use crate::pair::Pair;
+use crate::text::{Direction, Kind, Table, Value};
+
+pub(super) const TYPE: JointType = JointType {
+    name: "universal",
+    holds: 10,
+    keys: &["axes", "spider", "reference", "span", "ring"],
+    expand,
+};
+
+/// Cosine of the angle between axes that still count as orthogonal.
+const ORTHOGONAL: f64 = 1e-6;
+
+fn expand(table: &Table<'_>, joint: &Joint, assembly: &mut Assembly) -> Result<(), SceneError> {
+    let axes = table.required("axes", Axes)?;
+    let [a1, a2, _] = axes;
+    let triads = [triad::about(table, a1)?, triad::about(table, a2)?];
+    let size = Size::read(table)?;
+    let body = table.required("spider", Spider)?;
+
+    let name = format!("{}.spider", joint.name);
+    if assembly.body(&name).is_some() {
+        let problem = format!("makes a body `{name}`, which the scene has already");
+        let help = "the spider is named after its joint; rename the joint or the body";
+        return Err(table.refuse_key("spider", &problem, help));
+    }
+    let Pair { a, b, names } = joint.pair.clone();
+    let (velocity, spin_w) = assembly.motion(a, joint.at_w);
+    let orientation = of_axes(axes);
+    let rotation = dbd_kernel::Quaternion::from_f64(orientation).rotation();
+    let state = BodyState::from_f64(
+        joint.at_w.to_f64(),
+        orientation,
+        velocity.to_f64(),
+        rotation.to_body(spin_w).to_f64(),
+    );
+    let [first, second] = names;
+    let spider = assembly.add_body(&name, body, state).map_err(|defect| defect.refuse(table))?;
+    let pairs = [
+        Pair { a, b: spider, names: [first, name.clone()] },
+        Pair { a: spider, b, names: [name, second] },
+    ];
+    for (pair, triad) in pairs.iter().zip(triads) {
+        revolute::add(pair, joint, triad, size, assembly).map_err(|defect| defect.refuse(table))?;
+    }
+    Ok(())
+}
+
+/// Two orthogonal axes and the one normal to both.
+struct Axes;
+
+impl Kind for Axes {
+    type Output = [Vec3<f64>; 3];
+
+    fn expected(&self) -> String {
+        "two orthogonal directions in world axes, [[x, y, z], [x, y, z]]".into()
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<[Vec3<f64>; 3], SceneError> {
+        let entries = value.entries(2, &self.expected())?;
+        let a1 = Direction.read(&entries[0])?;
+        let a2 = Direction.read(&entries[1])?;
+        let cosine = a1.dot(a2);
+        let [a2, a3] = match normals(a1, a2) {
+            Some(normals) if cosine.abs() <= ORTHOGONAL => normals,
+            _ => {
+                let angle = libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees();
+                let problem = format!("are {angle} degrees apart");
+                let help = "the axes of a universal joint are orthogonal within 1e-6; two \
+                            revolutes and a body between them join axes at another angle";
+                return Err(value.refuse_with(&problem, help));
+            }
+        };
+        Ok([a1, a2, a3])
+    }
+}
+
+/// The spider's mass and inertia.
+struct Spider;
+
+impl Kind for Spider {
+    type Output = dbd_kernel::Body<f64>;
+
+    fn expected(&self) -> String {
+        "{ mass = kg, inertia = [Ix, Iy, Iz] } of the body between the two axes".into()
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<Self::Output, SceneError> {
+        let table = value.table(&self.expected())?;
+        table.only(&[&["mass", "inertia"]])?;
+        mass_and_inertia(&table)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dbd_kernel::{BodyIndex, F64, Geometry, Vec3};
+
+    use crate::example;
+
+    /// The spider comes after the scene's bodies, turned to the axes, and moves as the point of
+    /// the first body does; a load may name it.
+    #[test]
+    fn the_spider_stands_at_the_axes_and_moves_with_the_first_body() {
+        let joint = |name: &str, between: &str| {
+            format!(
+                "[[joint]]\nname = \"{name}\"\ntype = \"universal\"\nbetween = {between}\n\
+                 at = [1.5, 0.5, 0]\naxes = [[0, 0, 2], [1, 1, 1e-7]]\nstiffness = 1e5\nspan = 0.1\n\
+                 spider = {{ mass = 0.2, inertia = [1e-3, 1e-3, 2e-3] }}\n"
+            )
+        };
+        let scene = example::with(&format!(
+            "{}{}[[load]]\nbody = \"knee.spider\"\nforce = [1, 0, 0]",
+            joint("knee", "[\"hand\", \"arm\"]"),
+            joint("hip", "[\"world\", \"arm\"]"),
+        ));
+        assert_eq!(scene.body_names, ["arm", "hand", "knee.spider", "hip.spider"]);
+        let knee = &scene.joints[0];
+        assert_eq!((knee.kind, knee.holds, knee.tsdas), ("universal", 10, 12));
+        assert_eq!((knee.spider.as_deref(), knee.groups.clone()), (Some("knee.spider"), 0..2));
+        assert_eq!(
+            (scene.joints[1].spider.as_deref(), scene.joints[1].groups.clone()),
+            (Some("hip.spider"), 2..4)
+        );
+        let model = &scene.model;
+        let bodies: Vec<_> = model.groups.iter().map(|group| (group.a, group.b)).collect();
+        let [arm, hand, knee, hip] = [0, 1, 2, 3].map(BodyIndex);
+        let world = BodyIndex::WORLD;
+        assert_eq!(bodies, [(hand, knee), (knee, arm), (world, hip), (hip, arm)]);
+        assert_eq!(model.loads[0].body, knee);
+
+        let near = |v: Vec3<f64>, expected: [f64; 3]| {
+            let gap = v - Vec3::from_f64(expected);
+            assert!(libm::sqrt(gap.dot(gap)) < 1e-14, "{v:?} {expected:?}");
+        };
+        let spider = &model.initial[2];
+        near(spider.position, [1.5, 0.5, 0.0]);
+        let half = core::f64::consts::FRAC_1_SQRT_2;
+        let rotation = spider.orientation.rotation();
+        let [x, y, z] = Vec3::axes().map(|axis| rotation.to_world(axis));
+        near(x, [0.0, 0.0, 1.0]);
+        near(y, [half, half, 0.0]);
+        near(z, [-half, half, 0.0]);
+        // The hand is at (1, 0, 0); its spin of 3 rad/s is about its own z.
+        let body = &model.initial[1];
+        let frame = F64::frame(&body.position, &body.orientation);
+        let spin = F64::to_world(&frame, Vec3::new(0.0, 0.0, 3.0));
+        near(spider.velocity, spin.cross(Vec3::new(0.5, 0.5, 0.0)).to_f64());
+        near(rotation.to_world(spider.angular_velocity), spin.to_f64());
+        let resting = &model.initial[3];
+        assert_eq!((resting.velocity, resting.angular_velocity), (Vec3::ZERO, Vec3::ZERO));
+    }
+}

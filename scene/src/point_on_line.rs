@@ -1,0 +1,85 @@
+//! `[[point_on_line]]`: a point of the second body projected on a line of the first.
+
+use dbd_kernel::Vec3;
+
+use crate::assembly::{Assembly, Lines, Points};
+use crate::error::SceneError;
+use crate::pair::{Between, Pair};
+use crate::spring;
+use crate::text::{Direction, Number, Numbers, Table};
+
+const KEYS: &[&str] = &["between", "line_point", "line_direction", "point", "free_length"];
+
+/// A point nearer to its line than this share of the free length is on it: no direction leads
+/// from the line to the point.
+const COINCIDENT: f64 = 1e-9;
+
+/// Reads all points on lines in scene order.
+pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), SceneError> {
+    for table in root.list("point_on_line")? {
+        table.only(&[KEYS, spring::KEYS])?;
+        let pair = table.required("between", Between(assembly))?;
+        let point = |key| table.required(key, Numbers(Number::any("m"))).map(Vec3::from_f64);
+        let line_point = point("line_point")?;
+        let direction = table.required("line_direction", Direction)?;
+        let tip = point("point")?;
+        let spring = spring::read(&table, spring::AXIAL)?;
+        let free_length = table.required("free_length", Number::not_negative("m"))?;
+        if distance(assembly, &pair, (line_point, direction), tip) <= COINCIDENT * free_length
+            && free_length > 0.0
+        {
+            let help = "a point off the line, or `free_length = 0` for a spring that is isotropic \
+                        across the line and needs no direction";
+            let problem = "lies on the line, though it has a free length";
+            return Err(table.refuse_value("point", problem, help));
+        }
+        let points = Points { centres: &[line_point], tips: &[tip], shared: false };
+        assembly
+            .add_lines(&pair, points, Lines { direction, free_length }, spring)
+            .map_err(|defect| defect.refuse(&table))?;
+    }
+    Ok(())
+}
+
+/// \[m\] of a point of the second body from a line of the first.
+fn distance(
+    assembly: &Assembly,
+    pair: &Pair,
+    (line_point, direction): (Vec3<f64>, Vec3<f64>),
+    point: Vec3<f64>,
+) -> f64 {
+    let d = assembly.place(pair.b, point) - assembly.place(pair.a, line_point);
+    let d = assembly.vector_in(pair.a, d);
+    let e = d - direction * d.dot(direction);
+    libm::sqrt(e.dot(e))
+}
+
+#[cfg(test)]
+mod tests {
+    use dbd_kernel::model::Law;
+    use dbd_kernel::{BodyIndex, Vec3};
+
+    use crate::example;
+
+    #[test]
+    fn points_and_line_are_taken_as_given_and_come_after_all_else() {
+        let scene = example::with(
+            "[[point_on_line]]\nbetween = [\"arm\", \"hand\"]\nline_point = [0, 0.02, 0]\n\
+             line_direction = [3, 0, 4]\npoint = [0.015, 0.02, 0]\nstiffness = 4e5\ndamping = 2\n\
+             free_length = 0.01\n[[tsda]]\nbetween = [\"world\", \"hand\"]\n\
+             points = [[1, 2, 3], [0, 0, 0]]\nstiffness = 8\nfree_length = 1\n\
+             [[point_on_line]]\nbetween = [\"hand\", \"world\"]\nline_point = [0, 0, 0]\n\
+             line_direction = [0, -2, 0]\npoint = [0, 0, 0]\nstiffness = 1\nfree_length = 0",
+        );
+        let model = &scene.model;
+        let laws: Vec<_> = model.groups.iter().map(|group| group.law).collect();
+        assert_eq!(laws, [Law::Tsda, Law::PointOnLine, Law::PointOnLine]);
+        assert_eq!(model.points[2..4], [Vec3::new(0.0, 0.02, 0.0), Vec3::new(0.015, 0.02, 0.0)]);
+        assert_eq!(model.lines[0].direction, Vec3::new(0.6, 0.0, 0.8));
+        assert_eq!((model.lines[0].stiffness, model.lines[0].free_length), (4e5, 0.01));
+        assert_eq!(model.lines[1].direction, Vec3::new(0.0, -1.0, 0.0));
+        assert_eq!(model.lines[1].free_length, 0.0);
+        assert_eq!((model.dampers.as_slice(), model.tsda_count()), (&[2.0][..], 3));
+        assert_eq!((model.groups[2].a, model.groups[2].b), (BodyIndex(1), BodyIndex::WORLD));
+    }
+}
