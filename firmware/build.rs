@@ -1,6 +1,7 @@
 //! Const models of the shipped scenes, and link arguments of the target's programs.
 //!
-//! `scenes/*.toml => models.rs`: one module per scene and the macro `shipped` that lists them.
+//! `scenes/*.toml => models.rs`: one module per scene and the macros `shipped` and `shipped_f32`
+//! that list them.
 //! Link arguments stand here and not in a configuration, so that RUSTFLAGS in the environment
 //! cannot lose them; a host build gets none.
 
@@ -8,8 +9,26 @@ use std::path::{Path, PathBuf};
 
 use dbd_scene::{Scene, SceneError, export};
 
-/// The shipped scenes: files of `scenes/`, each of which gives its step.
-const SCENES: [&str; 1] = ["four-bar"];
+/// Scenes that ship in both precisions: files of `scenes/`, each of which gives its step.
+const SCENES: &[&str] = &["four-bar"];
+/// Scenes that ship in single precision.
+const SCENES_F32: &[&str] = &[
+    "3rrr",
+    "3rrr-1",
+    "3rrr-2",
+    "3ruu",
+    "3ruu-1",
+    "3ruu-2",
+    "chain-closed",
+    "chain-open-30",
+    "chain-open-60",
+    "crank-slider",
+    "five-bar-a",
+    "five-bar-b",
+    "hexagon",
+    "six-bar",
+    "spring-ball",
+];
 /// Linked from its own entry without start-up code: see its head.
 const AUDIT: &str = "audit";
 
@@ -23,9 +42,9 @@ fn main() {
 }
 
 fn models(root: &Path) {
-    let mut modules = String::new();
-    let mut lines = String::new();
-    for name in SCENES {
+    let (mut modules, mut both, mut f32) = (String::new(), String::new(), String::new());
+    let all = SCENES.iter().map(|name| (name, true));
+    for (name, double) in all.chain(SCENES_F32.iter().map(|name| (name, false))) {
         let file = format!("scenes/{name}.toml");
         println!("cargo:rerun-if-changed={}", root.join(&file).display());
         let text = std::fs::read_to_string(root.join(&file));
@@ -34,31 +53,34 @@ fn models(root: &Path) {
         let Some(step) = scene.step else {
             refuse(&format!("{file}: a scene for the firmware gives its `step`"));
         };
-        let (preamble, f32, f64) = (
-            export::preamble(&scene, step),
-            export::model::<f32>(&scene),
-            export::model::<f64>(&scene),
-        );
         let constant = export::constant_name(name);
         let (module, model) = (constant.to_lowercase(), export::type_name(name));
-        modules +=
-            &format!("/// The scene `{name}`.\npub mod {module} {{\n{preamble}{f32}{f64}}}\n");
-        lines += &format!(
-            "            {module} \"{name}\" {constant}_STEP, \
-             {constant}_F32: {model}F32, {constant}_F64: {model}F64;\n"
-        );
+        let mut source = export::preamble(&scene, step) + &export::model::<f32>(&scene);
+        let single = format!("{module} \"{name}\" {constant}_STEP, {constant}_F32: {model}F32");
+        if double {
+            source += &export::model::<f64>(&scene);
+            both += &format!("            {single}, {constant}_F64: {model}F64;\n");
+        } else {
+            f32 += &format!("            {single};\n");
+        }
+        modules += &format!("/// The scene `{name}`.\npub mod {module} {{\n{source}}}\n");
     }
-    let list = format!(
-        "/// Calls a macro with all shipped models: module, name, step, static and type per precision.\n\
-         #[macro_export]\n\
-         macro_rules! shipped {{\n    \
-             ($then:path) => {{\n        \
-                 $then! {{\n{lines}        }}\n    \
-             }};\n\
-         }}\n"
-    );
+    let list = |name: &str, of: &str, lines: &str| {
+        format!(
+            "/// Calls a macro with all models shipped {of}: module, name, step, static and type.\n\
+             #[macro_export]\n\
+             macro_rules! {name} {{\n    \
+                 ($then:path) => {{\n        \
+                     $then! {{\n{lines}        }}\n    \
+                 }};\n\
+             }}\n"
+        )
+    };
+    let source = modules
+        + &list("shipped", "in both precisions", &both)
+        + &list("shipped_f32", "in single precision", &f32);
     let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
-    std::fs::write(out.join("models.rs"), modules + &list).expect("OUT_DIR can be written");
+    std::fs::write(out.join("models.rs"), source).expect("OUT_DIR can be written");
 }
 
 /// Where in the scene the error lies, what it is and what would be right.

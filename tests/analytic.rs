@@ -77,6 +77,7 @@ fn small_pendulum() {
             stiffness: 1e6,
             damping: 0.0,
             free_length: arm,
+            clearance: 0.0,
         })
         .unwrap();
     let period = 2.0

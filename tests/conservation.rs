@@ -114,7 +114,7 @@ fn posed(model: &Bench<F64>, numbers: &[f64]) -> State<Bench<F64>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..Default::default() })]
 
     #[test]
     fn forces_are_minus_the_gradient_of_the_energy(
@@ -200,7 +200,7 @@ fn dampers_only(damping: f64, numbers: &[f64]) -> Bench<F64> {
     model.add_tsda([b, c], points, 0.0, damping, 0.0).unwrap();
     model.add_torsion_spring([c, a], [0.0, 0.0, 1.0], 0.0, damping, 0.0).unwrap();
     model.add_tsda([BodyIndex::WORLD, b], points, 0.0, damping, 0.5).unwrap();
-    let law = LineLaw { stiffness: 0.0, damping, free_length: 0.1 };
+    let law = LineLaw { stiffness: 0.0, damping, free_length: 0.1, clearance: 0.0 };
     model.add_points_on_line([a, c], points[0], [1.0, 2.0, 2.0], &points, law).unwrap();
     model
 }

@@ -33,7 +33,7 @@ pub fn scene(name: &str) -> Scene {
 }
 
 /// A builder with room for every test system.
-pub type Bench<P> = ModelBuilder<P, 6, 12, 60, 48, 12, 60, 6, 6, 6>;
+pub type Bench<P> = ModelBuilder<P, 6, 12, 60, 48, 12, 60, 6, 6, 6, 6, 12>;
 
 /// The unit quaternion of a turn by `angle` \[rad\] about a unit axis.
 #[must_use]
@@ -82,6 +82,7 @@ fn join<P: Geometry>(
         stiffness: 2_000.0,
         damping,
         free_length: (0.04 + height * height).sqrt(),
+        clearance: 0.0,
     };
     model.add_stars(stars).unwrap();
 }
@@ -112,7 +113,7 @@ pub fn free_ring<P: Geometry>(damping: f64) -> Bench<P> {
     model.add_tsda([a, c], [[-0.4, 0.2, 0.3], [0.3, 0.2, 0.1]], 6.0, 0.0, 0.0).unwrap();
     model.add_torsion_spring([a, b], [0.0, 0.0, 1.0], 20.0, damping * 0.1, 3.0).unwrap();
     let mut hold = |between, points: &[[f64; 3]], free_length| {
-        let law = LineLaw { stiffness: 25.0, damping: 0.0, free_length };
+        let law = LineLaw { stiffness: 25.0, damping: 0.0, free_length, clearance: 0.0 };
         model.add_points_on_line(between, [0.1, -0.2, 0.3], [0.3, 0.4, 1.2], points, law).unwrap();
     };
     hold([c, b], &[[0.2, 0.1, 0.0], [0.1, -0.3, 0.2]], 0.0);

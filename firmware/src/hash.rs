@@ -70,8 +70,9 @@ impl<C: InstructionCounter> Visitor for Hashing<'_, C> {
         let left = self.limits.instructions.saturating_sub(start);
         let share = left / self.waiting.max(1) * weight;
         self.waiting = self.waiting.saturating_sub(weight);
+        let steps = self.limits.steps.min(shipped.steps);
         let mut next = 1;
-        while next <= self.limits.steps {
+        while next <= steps {
             let done = plant.state().step;
             let spent = self.counter.count() - start;
             if done > 0 && spent.saturating_mul(next) / done > share {
@@ -88,10 +89,10 @@ impl<C: InstructionCounter> Visitor for Hashing<'_, C> {
             }
             let hash = plant.hash();
             say!("hash {} {} {} {} {:016x}", shipped.scene, S::NAME, precision, next, hash);
-            if next == self.limits.steps {
+            if next == steps {
                 return;
             }
-            next = successor(next).min(self.limits.steps);
+            next = successor(next).min(steps);
         }
     }
 }

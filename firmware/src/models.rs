@@ -1,8 +1,8 @@
 //! The shipped models: const, in flash, stepped alike on the target and on a host.
 //!
-//! The build script makes them from the scene files that it lists, and the macro
-//! [`shipped`](crate::shipped) from the same list. [`for_each`] shows every pair of model and
-//! scheme to a visitor, which is generic as the step itself is.
+//! The build script makes them from the scene files that it lists, and the macros
+//! [`shipped`](crate::shipped) and [`shipped_f32`](crate::shipped_f32) from the same lists.
+//! [`for_each`] shows pairs of model and scheme to a visitor, which is generic as the step is.
 
 use dbd_kernel::model::ModelOwner;
 use dbd_kernel::{Dbd, Leapfrog, Scheme};
@@ -19,6 +19,8 @@ pub struct Shipped<M: 'static, S> {
     pub scheme: S,
     /// \[s\] the step of the shipped programs.
     pub step: f64,
+    /// Most steps that a comparison of bits takes.
+    pub steps: u64,
 }
 
 /// Is shown every shipped model with every scheme.
@@ -27,14 +29,29 @@ pub trait Visitor {
     fn visit<M: ModelOwner, S: Scheme>(&mut self, shipped: Shipped<M, S>);
 }
 
-/// Shows all pairs: the scenes in f32, the cheap ones on the target, then those in f64; each with
-/// leapfrog, then dbd.
+/// Steps that every golden hash is taken at; the scenes of both precisions go on as asked.
+const SHORT: u64 = 1_000;
+
+/// Shows all pairs, those that are cheap on the target first: the scenes of both precisions in
+/// f32, each with leapfrog, then dbd; those of single precision with leapfrog; the first in f64.
 pub fn for_each(visitor: &mut impl Visitor) {
     macro_rules! visit {
         ($($module:ident $scene:literal $step:ident,
             $f32:ident: $model32:ident, $f64:ident: $model64:ident;)*) => {
             $(both(visitor, $scene, &$module::$f32, $module::$step);)*
+            shipped_f32!(visit_f32);
             $(both(visitor, $scene, &$module::$f64, $module::$step);)*
+        };
+    }
+    macro_rules! visit_f32 {
+        ($($module:ident $scene:literal $step:ident, $f32:ident: $model32:ident;)*) => {
+            $(visitor.visit(Shipped {
+                scene: $scene,
+                model: &$module::$f32,
+                scheme: Leapfrog,
+                step: $module::$step,
+                steps: SHORT,
+            });)*
         };
     }
     shipped!(visit);
@@ -46,6 +63,7 @@ fn both<M: ModelOwner>(
     model: &'static M,
     step: f64,
 ) {
-    visitor.visit(Shipped { scene, model, scheme: Leapfrog, step });
-    visitor.visit(Shipped { scene, model, scheme: Dbd::default(), step });
+    let steps = u64::MAX;
+    visitor.visit(Shipped { scene, model, scheme: Leapfrog, step, steps });
+    visitor.visit(Shipped { scene, model, scheme: Dbd::default(), step, steps });
 }

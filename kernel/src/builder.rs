@@ -14,7 +14,10 @@ use crate::elements::point_on_line::PointOnLine;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::geometry::Geometry;
-use crate::model::{AllTerms, Body, BodyIndex, DamperIndex, Group, Law, ModelOwner, ModelRef};
+use crate::inputs::{Input, InputIndex, InputKind, Knot, KnotStep, Signal};
+use crate::model::{
+    AllTerms, Body, BodyIndex, ClearanceIndex, DamperIndex, Group, Law, ModelOwner, ModelRef,
+};
 use crate::real::Real;
 use crate::state::BodyState;
 use crate::vector::{Quaternion, Vec3};
@@ -55,6 +58,10 @@ pub enum Part {
     Loads,
     /// Points on lines.
     Lines,
+    /// Inputs.
+    Inputs,
+    /// Knots of tables.
+    Knots,
 }
 
 /// What can be out of range.
@@ -77,6 +84,8 @@ pub enum Quantity {
     Damping,
     /// Free length: finite, not negative.
     FreeLength,
+    /// Clearance: finite, not negative; none on a point bushing.
+    Clearance,
     /// An axis: finite and not 0.
     Axis,
     /// A preload, force or torque: finite.
@@ -116,6 +125,8 @@ pub struct Stars<'p> {
     pub damping: f64,
     /// \[m\] free length of each TSDA, ≥ 0; 0 makes point bushings, of one star and one arm.
     pub free_length: f64,
+    /// \[m\] clearance of each TSDA, ≥ 0; 0 for none. A point bushing has none.
+    pub clearance: f64,
 }
 
 /// How a point is held to a line.
@@ -128,6 +139,8 @@ pub struct LineLaw {
     pub damping: f64,
     /// \[m\] free distance from the line, ≥ 0.
     pub free_length: f64,
+    /// \[m\] clearance, ≥ 0; 0 for none.
+    pub clearance: f64,
 }
 
 /// A model under construction, and the model itself once complete.
@@ -143,6 +156,8 @@ pub struct ModelBuilder<
     const TORSIONS: usize = 0,
     const LOADS: usize = 0,
     const LINES: usize = 0,
+    const INPUTS: usize = 0,
+    const KNOTS: usize = 0,
 > {
     bodies: Vec<Body<P::Real>, BODIES>,
     initial: Vec<BodyState<P>, BODIES>,
@@ -155,6 +170,10 @@ pub struct ModelBuilder<
     torsions: Vec<TorsionSpring<P::Real>, TORSIONS>,
     loads: Vec<Load<P::Real>, LOADS>,
     lines: Vec<PointOnLine<P::Real>, LINES>,
+    inputs: Vec<Input<P>, INPUTS>,
+    knots: Vec<Knot<P::Real>, KNOTS>,
+    // At most one per group.
+    clearances: Vec<P::Real, GROUPS>,
 }
 
 impl<
@@ -168,7 +187,23 @@ impl<
     const TORSIONS: usize,
     const LOADS: usize,
     const LINES: usize,
-> ModelBuilder<P, BODIES, GROUPS, POINTS, TSDAS, BUSHINGS, DAMPERS, TORSIONS, LOADS, LINES>
+    const INPUTS: usize,
+    const KNOTS: usize,
+>
+    ModelBuilder<
+        P,
+        BODIES,
+        GROUPS,
+        POINTS,
+        TSDAS,
+        BUSHINGS,
+        DAMPERS,
+        TORSIONS,
+        LOADS,
+        LINES,
+        INPUTS,
+        KNOTS,
+    >
 {
     /// An empty model.
     #[must_use]
@@ -185,6 +220,9 @@ impl<
             torsions: Vec::new(),
             loads: Vec::new(),
             lines: Vec::new(),
+            inputs: Vec::new(),
+            knots: Vec::new(),
+            clearances: Vec::new(),
         }
     }
 
@@ -250,6 +288,7 @@ impl<
             stiffness,
             damping,
             free_length,
+            clearance: 0.0,
         })
     }
 
@@ -263,6 +302,9 @@ impl<
         check(not_negative(stars.stiffness), Quantity::Stiffness)?;
         check(not_negative(stars.damping), Quantity::Damping)?;
         check(not_negative(stars.free_length), Quantity::FreeLength)?;
+        let dead = stars.clearance != 0.0;
+        let bushing = stars.free_length == 0.0;
+        check(not_negative(stars.clearance) && !(bushing && dead), Quantity::Clearance)?;
         let points = stars.centres.iter().chain(stars.arms);
         check(points.clone().flatten().all(|c| c.is_finite()), Quantity::Point)?;
         let (count, arms) = (stars.centres.len(), stars.arms.len());
@@ -271,7 +313,6 @@ impl<
         let whole = shared || per_star * count == arms;
         check(count <= 255 && whole && (per_star == 1 || per_star == 3), Quantity::Arms)?;
         let elements = count * per_star;
-        let bushing = stars.free_length == 0.0;
         check(!bushing || elements == 1, Quantity::Arms)?;
 
         room(&self.groups, 1, Part::Groups)?;
@@ -282,6 +323,7 @@ impl<
             room(&self.tsdas, elements, Part::Tsdas)?;
         }
         let damper = self.add_dampers(stars.damping, elements)?;
+        let clearance = self.add_clearance(stars.clearance)?;
         let element = if bushing { self.bushings.len() } else { self.tsdas.len() } as u16;
         let group = Group {
             law: if bushing { Law::PointBushing } else { Law::Tsda },
@@ -293,6 +335,7 @@ impl<
             point: self.points.len() as u16,
             element,
             damper,
+            clearance,
         };
         // Room was made sure of above.
         let _ = self.groups.push(group);
@@ -330,12 +373,14 @@ impl<
         check(not_negative(law.stiffness), Quantity::Stiffness)?;
         check(not_negative(law.damping), Quantity::Damping)?;
         check(not_negative(law.free_length), Quantity::FreeLength)?;
+        check(not_negative(law.clearance), Quantity::Clearance)?;
         check(finite(&line_point) && points.iter().all(|p| finite(p)), Quantity::Point)?;
         check(points.len() == 1 || points.len() == 2, Quantity::Arms)?;
         room(&self.groups, 1, Part::Groups)?;
         room(&self.points, 1 + points.len(), Part::Points)?;
         room(&self.lines, points.len(), Part::Lines)?;
         let damper = self.add_dampers(law.damping, points.len())?;
+        let clearance = self.add_clearance(law.clearance)?;
         let group = Group {
             law: Law::PointOnLine,
             a: between[0],
@@ -346,6 +391,7 @@ impl<
             point: self.points.len() as u16,
             element: self.lines.len() as u16,
             damper,
+            clearance,
         };
         let _ = self.groups.push(group);
         let _ = self.points.push(P::local_from_f64(line_point));
@@ -409,16 +455,85 @@ impl<
         self.loads.push(load).map_err(|_| BuildError::Full(Part::Loads))
     }
 
+    /// Adds an input that the caller drives, at first with `value`.
+    ///
+    /// # Errors
+    /// [`BuildError::Full`], a body that is not there, a value that is not finite.
+    pub fn add_input(&mut self, kind: InputKind<P>, value: f64) -> Result<InputIndex, BuildError> {
+        match &kind {
+            InputKind::Force { body, .. } | InputKind::Torque { body, .. } => {
+                if body.row() >= self.bodies.len() {
+                    return Err(BuildError::UnknownBody(*body));
+                }
+            }
+            InputKind::JointTorque { a, b, .. } => self.check_pair([*a, *b])?,
+            InputKind::Actuator { group, element } => {
+                let known = self.groups.get(*group as usize);
+                let there = known.is_some_and(|g| (*element as usize) < g.elements());
+                check(there, Quantity::Arms)?;
+            }
+            InputKind::Anchor { .. } => {}
+        }
+        check(value.is_finite(), Quantity::Load)?;
+        room(&self.inputs, 1, Part::Inputs)?;
+        let index = InputIndex(self.inputs.len() as u16);
+        let input = Input { kind, value: P::Real::from_f64(value), knot: 0, knots: 0 };
+        let _ = self.inputs.push(input);
+        Ok(index)
+    }
+
+    /// Adds an input that follows a table of (time \[s\], value) with ascending times, held from
+    /// each knot on, or linear in between.
+    ///
+    /// # Errors
+    /// As [`Self::add_input`]; [`Quantity::Window`] where times do not ascend.
+    pub fn add_table(
+        &mut self,
+        kind: InputKind<P>,
+        table: &[[f64; 2]],
+        linear: bool,
+    ) -> Result<InputIndex, BuildError> {
+        let ascending = table.windows(2).all(|pair| pair[0][0] < pair[1][0]);
+        let known = table.iter().all(|knot| finite(knot));
+        check(!table.is_empty() && ascending && known, Quantity::Window)?;
+        room(&self.knots, table.len(), Part::Knots)?;
+        let index = self.add_input(kind, 0.0)?;
+        if let Some(input) = self.inputs.get_mut(index.0 as usize) {
+            input.knot = self.knots.len() as u16;
+            input.knots = table.len() as u16;
+        }
+        for (i, [time, value]) in table.iter().enumerate() {
+            let slope = match table.get(i + 1) {
+                Some([next, then]) if linear => (then - value) / (next - time),
+                _ => 0.0,
+            };
+            let (value, slope) = (P::Real::from_f64(*value), P::Real::from_f64(slope));
+            let _ = self.knots.push(Knot { time: *time, value, slope });
+        }
+        Ok(index)
+    }
+
     fn check_pair(&self, between: [BodyIndex; 2]) -> Result<(), BuildError> {
         for body in between {
             if !body.is_world() && body.row() >= self.bodies.len() {
                 return Err(BuildError::UnknownBody(body));
             }
         }
-        if between[0] == between[1] {
+        if between[0] == between[1] || between.iter().all(|body| body.is_world()) {
             return Err(BuildError::SameBody(between[0]));
         }
         Ok(())
+    }
+
+    fn add_clearance(&mut self, clearance: f64) -> Result<ClearanceIndex, BuildError> {
+        if clearance == 0.0 {
+            return Ok(ClearanceIndex::NONE);
+        }
+        let index = ClearanceIndex(self.clearances.len() as u16);
+        self.clearances
+            .push(P::Real::from_f64(clearance))
+            .map_err(|_| BuildError::Full(Part::Groups))?;
+        Ok(index)
     }
 
     fn add_dampers(&mut self, damping: f64, count: usize) -> Result<DamperIndex, BuildError> {
@@ -463,14 +578,31 @@ impl<
     const TORSIONS: usize,
     const LOADS: usize,
     const LINES: usize,
+    const INPUTS: usize,
+    const KNOTS: usize,
 > ModelOwner
-    for ModelBuilder<P, BODIES, GROUPS, POINTS, TSDAS, BUSHINGS, DAMPERS, TORSIONS, LOADS, LINES>
+    for ModelBuilder<
+        P,
+        BODIES,
+        GROUPS,
+        POINTS,
+        TSDAS,
+        BUSHINGS,
+        DAMPERS,
+        TORSIONS,
+        LOADS,
+        LINES,
+        INPUTS,
+        KNOTS,
+    >
 {
     type Precision = P;
     type Terms = AllTerms;
     type PerBody<T: Copy> = Vec<T, BODIES>;
     type PerTorsion = Vec<i32, TORSIONS>;
     type PerLoad = Vec<LoadWindow, LOADS>;
+    type PerInput = Vec<Signal<P::Real>, INPUTS>;
+    type PerKnot = Vec<KnotStep<P::Real>, KNOTS>;
 
     fn view(&self) -> ModelRef<'_, P, AllTerms> {
         ModelRef {
@@ -484,6 +616,9 @@ impl<
             torsions: &self.torsions,
             loads: &self.loads,
             lines: &self.lines,
+            inputs: &self.inputs,
+            knots: &self.knots,
+            clearances: &self.clearances,
             terms: PhantomData,
         }
     }
@@ -502,5 +637,13 @@ impl<
 
     fn per_load(&self) -> Vec<LoadWindow, LOADS> {
         self.loads.iter().map(|_| LoadWindow::default()).collect()
+    }
+
+    fn per_input(&self) -> Self::PerInput {
+        self.inputs.iter().map(|_| Signal::default()).collect()
+    }
+
+    fn per_knot(&self) -> Self::PerKnot {
+        self.knots.iter().map(|_| KnotStep::default()).collect()
     }
 }

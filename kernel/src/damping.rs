@@ -9,9 +9,10 @@
 //! A TSDA damps along its line, a torsion spring along its gradient, a point bushing along the
 //! world's axes, a point on a line along the line's two normals, one after the other.
 
+use crate::elements::clearance::beyond;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::geometry::Geometry;
-use crate::groups::{self, End};
+use crate::groups::{self, End, Placed, Places};
 use crate::model::{Body, BodyIndex, Group, Law, ModelRef, Terms};
 use crate::real::Real;
 use crate::state::BodyState;
@@ -80,6 +81,7 @@ fn damp<P: Geometry>(
     bodies: &mut [BodyState<P>],
     a: Option<Lever<P::Real>>,
     b: Option<Lever<P::Real>>,
+    ground_rate: P::Real,
     damping: P::Real,
     h: P::Real,
 ) {
@@ -90,8 +92,9 @@ fn damp<P: Geometry>(
     if inverse == zero {
         return;
     }
-    let rate =
-        b.as_ref().map_or(zero, |b| b.rate(bodies)) - a.as_ref().map_or(zero, |a| a.rate(bodies));
+    let rate = b.as_ref().map_or(zero, |b| b.rate(bodies))
+        - a.as_ref().map_or(zero, |a| a.rate(bodies))
+        + ground_rate;
     let impulse = removed(h * damping * inverse) / inverse * rate;
     if let Some(a) = a {
         a.push(bodies, impulse);
@@ -107,26 +110,26 @@ fn damp<P: Geometry>(
 pub(crate) fn sweep<P: Geometry, T: Terms, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     h: P::Real,
-    frames: &[P::Frame],
+    places: Places<'_, P>,
     bodies: &mut [BodyState<P>],
     turns: &[i32],
 ) {
     if REVERSE {
         if T::TORSIONS {
             for (spring, &turns) in model.torsions.iter().zip(turns).rev() {
-                torsion(model, spring, turns, h, frames, bodies);
+                torsion(model, spring, turns, h, places, bodies);
             }
         }
         for group in model.groups.iter().rev() {
-            sweep_group::<P, T, true>(model, group, h, frames, bodies);
+            sweep_group::<P, T, true>(model, group, h, places, bodies);
         }
     } else {
         for group in model.groups {
-            sweep_group::<P, T, false>(model, group, h, frames, bodies);
+            sweep_group::<P, T, false>(model, group, h, places, bodies);
         }
         if T::TORSIONS {
             for (spring, &turns) in model.torsions.iter().zip(turns) {
-                torsion(model, spring, turns, h, frames, bodies);
+                torsion(model, spring, turns, h, places, bodies);
             }
         }
     }
@@ -137,7 +140,7 @@ fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     h: P::Real,
-    frames: &[P::Frame],
+    places: Places<'_, P>,
     bodies: &mut [BodyState<P>],
 ) {
     let Some(dampers) = group.damper.row().and_then(|row| model.dampers.get(row..)) else {
@@ -147,11 +150,15 @@ fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
     for i in 0..elements {
         let i = if REVERSE { elements - 1 - i } else { i };
         let (Some(element), Some(&damping)) =
-            (groups::placed(model, frames, (0, group), i), dampers.get(i))
+            (groups::placed(model, places, (0, group), i), dampers.get(i))
         else {
             continue;
         };
         let d = element.displacement;
+        let clearance = model.clearance(group);
+        if clearance.is_some() && !engaged(model, &element, clearance) {
+            continue;
+        }
         // The directions, and how many of them the law damps.
         let (mut directions, count) = match group.law {
             Law::Tsda if T::TSDAS => {
@@ -170,13 +177,28 @@ fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
         }
         for u in directions.into_iter().take(count) {
             let lever = |body: BodyIndex, arm: Vec3<P::Real>| {
-                let (frame, row) = (frames.get(body.row())?, body.row());
+                let (frame, row) = (places.frames.get(body.row())?, body.row());
                 Lever::new(row, model.bodies.get(row), u, P::to_body(frame, arm.cross(u)))
             };
             let (a, b) = (lever(group.a, element.arm_a), lever(group.b, element.arm_b));
-            damp(bodies, a, b, damping, h);
+            damp(bodies, a, b, u.dot(element.ground_rate), damping, h);
         }
     }
+}
+
+/// Whether an element is beyond its clearance.
+fn engaged<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    element: &Placed<'_, P::Real>,
+    clearance: Option<P::Real>,
+) -> bool {
+    let d = element.displacement;
+    let extension = match element.group.law {
+        Law::Tsda => model.tsdas.get(element.index).map(|tsda| tsda.extension(d)),
+        Law::PointOnLine => model.lines.get(element.index).map(|line| line.extension(d)),
+        Law::PointBushing => None,
+    };
+    extension.is_none_or(|extension| beyond(extension, clearance) != P::Real::ZERO)
 }
 
 /// A torsion spring's damper, along the gradient of its twist. An undefined twist is left to the
@@ -187,7 +209,7 @@ fn torsion<P: Geometry, T: Terms>(
     spring: &TorsionSpring<P::Real>,
     mut turns: i32,
     h: P::Real,
-    frames: &[P::Frame],
+    places: Places<'_, P>,
     bodies: &mut [BodyState<P>],
 ) {
     let Some(&damping) = spring.damper.row().and_then(|row| model.dampers.get(row)) else {
@@ -201,10 +223,11 @@ fn torsion<P: Geometry, T: Terms>(
     let Some(twist) = spring.twist(relative, &mut turns, false) else {
         return;
     };
-    let (frame_a, frame_b) = (frames.get(row_a), frames.get(row_b));
-    let world = End::<P>::new(frame_a, None, false).to_world(twist.gradient);
+    let (frame_a, frame_b) = (places.frames.get(row_a), places.frames.get(row_b));
+    let world = End::new(model, places, spring.a, None).to_world(twist.gradient);
     let lever = |row: usize, frame: Option<&P::Frame>| {
         frame.and_then(|f| Lever::new(row, model.bodies.get(row), Vec3::ZERO, P::to_body(f, world)))
     };
-    damp(bodies, lever(row_a, frame_a), lever(row_b, frame_b), damping, h);
+    let zero = P::Real::ZERO;
+    damp(bodies, lever(row_a, frame_a), lever(row_b, frame_b), zero, damping, h);
 }

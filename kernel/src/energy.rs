@@ -8,7 +8,7 @@ use crate::elements::gravity;
 use crate::elements::load::LoadWindow;
 use crate::elements::torsion_spring::{TorsionSpring, Twist};
 use crate::geometry::{FrameOf, Geometry, RealOf};
-use crate::groups::{each_element, place_bodies};
+use crate::groups::{Places, each_element, place_bodies};
 use crate::model::{Law, ModelOwner};
 use crate::real::Real;
 use crate::state::{BodyState, State};
@@ -64,10 +64,12 @@ pub fn energy<M: ModelOwner>(model: &M, state: &State<M>, step_size: f64) -> Ene
     }
     let mut frames = model.per_body(FrameOf::<M>::default());
     place_bodies::<M::Precision>(bodies, frames.as_mut());
-    each_element(&view, frames.as_ref(), |element| match element.group.law {
+    let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
+    each_element(&view, places, |element| match element.group.law {
         Law::Tsda => {
             if let Some(tsda) = view.tsdas.get(element.index) {
-                sum.tsda = sum.tsda + tsda.energy(element.displacement);
+                sum.tsda =
+                    sum.tsda + tsda.energy(element.displacement, view.clearance(element.group));
             }
         }
         Law::PointBushing => {
@@ -77,7 +79,8 @@ pub fn energy<M: ModelOwner>(model: &M, state: &State<M>, step_size: f64) -> Ene
         }
         Law::PointOnLine => {
             if let Some(line) = view.lines.get(element.index) {
-                sum.line = sum.line + line.energy(element.displacement);
+                sum.line =
+                    sum.line + line.energy(element.displacement, view.clearance(element.group));
             }
         }
     });
@@ -117,7 +120,8 @@ pub fn each_extension<M: ModelOwner>(
     let view = model.view();
     let mut frames = model.per_body(FrameOf::<M>::default());
     place_bodies::<M::Precision>(state.bodies.as_ref(), frames.as_mut());
-    each_element(&view, frames.as_ref(), |element| {
+    let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
+    each_element(&view, places, |element| {
         let d = element.displacement;
         let extension = match element.group.law {
             Law::Tsda => view.tsdas.get(element.index).map(|tsda| tsda.extension(d)),

@@ -2,7 +2,7 @@
 //!
 //! `(model, pose, velocities, turn counts, step) => wrenches`. The order of sums, which is part
 //! of the bits: a body starts from its weight, then adds its loads in ascending order, then the
-//! records of its groups in ascending order, then its torsion springs' in ascending order.
+//! inputs and the records of its groups likewise, then its torsion springs'.
 //! Within a TSDA group each distinct point is placed once; the pulls on a point are added in
 //! the order of its elements; the record's force and torque on A add star by star, the torque
 //! on B arm by arm. Forces and torques are in world axes; a body's torque is turned into body
@@ -12,8 +12,9 @@ use crate::elements::gravity;
 use crate::elements::load::{LoadFrame, LoadWindow};
 use crate::elements::point_on_line::Projection;
 use crate::geometry::{FrameOf, Geometry, RealOf};
-use crate::groups::{End, place_bodies};
-use crate::model::{Group, Law, ModelOwner, ModelRef, Terms};
+use crate::groups::{End, Places, place_bodies, placed};
+use crate::inputs::{InputKind, Signal};
+use crate::model::{BodyIndex, Group, Law, ModelOwner, ModelRef, Terms};
 use crate::real::Real;
 use crate::state::{BodyState, State};
 use crate::vector::Vec3;
@@ -61,6 +62,7 @@ pub fn wrenches<M: ModelOwner>(
     evaluate::<M::Precision, M::Terms, true>(
         &view,
         windows.as_ref(),
+        state.signals.as_ref(),
         state.bodies.as_ref(),
         turns.as_mut(),
         state.step,
@@ -82,6 +84,7 @@ pub fn wrenches<M: ModelOwner>(
 pub(crate) fn evaluate<P: Geometry, T: Terms, const EXPLICIT: bool>(
     model: &ModelRef<'_, P, T>,
     windows: &[LoadWindow],
+    signals: &[Signal<P::Real>],
     bodies: &[BodyState<P>],
     turns: &mut [i32],
     step: u64,
@@ -91,35 +94,46 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, const EXPLICIT: bool>(
 ) -> Result<(), u16> {
     place_bodies(bodies, frames);
     start(model, windows, step, frames, wrenches);
+    let places = Places { frames, signals };
+    if T::INPUTS {
+        inputs(model, places, wrenches);
+    }
     if T::TSDAS || T::BUSHINGS || T::LINES {
         for group in model.groups {
-            let (a, b) = (group.a.row(), group.b.row());
-            let moving = EXPLICIT && T::DAMPERS && group.damper.row().is_some();
-            let end_a = End::<P>::new(frames.get(a), bodies.get(a), moving);
-            let end_b = End::<P>::new(frames.get(b), bodies.get(b), moving);
-            let record = match group.law {
-                Law::Tsda if T::TSDAS && group.arms == 3 => {
-                    stars::<P, T, EXPLICIT, 3>(model, group, &end_a, &end_b)
-                }
-                Law::Tsda if T::TSDAS => stars::<P, T, EXPLICIT, 1>(model, group, &end_a, &end_b),
-                Law::PointBushing if T::BUSHINGS => {
-                    bushing::<P, T, EXPLICIT>(model, group, &end_a, &end_b)
-                }
-                Law::PointOnLine if T::LINES => {
-                    lines::<P, T, EXPLICIT>(model, group, &end_a, &end_b)
-                }
-                _ => Record::ZERO,
-            };
-            apply(wrenches, a, b, &record);
+            let record = record::<P, T, EXPLICIT>(model, places, bodies, group);
+            apply(wrenches, group.a.row(), group.b.row(), &record);
         }
     }
     if T::TORSIONS {
-        torsions::<P, T, EXPLICIT>(model, bodies, turns, settle, frames, wrenches)?;
+        torsions::<P, T, EXPLICIT>(model, places, bodies, turns, settle, wrenches)?;
     }
     for (wrench, frame) in wrenches.iter_mut().zip(frames.iter()) {
         wrench.torque = P::to_body(frame, wrench.torque);
     }
     Ok(())
+}
+
+/// The record of one group.
+#[inline(always)]
+pub(crate) fn record<P: Geometry, T: Terms, const EXPLICIT: bool>(
+    model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    bodies: &[BodyState<P>],
+    group: &Group,
+) -> Record<P::Real> {
+    let moving = EXPLICIT && T::DAMPERS && group.damper.row().is_some();
+    let moving = if moving { Some(bodies) } else { None };
+    let end_a = End::new(model, places, group.a, moving);
+    let end_b = End::new(model, places, group.b, moving);
+    match group.law {
+        Law::Tsda if T::TSDAS && group.arms == 3 => {
+            stars::<P, T, EXPLICIT, 3>(model, group, &end_a, &end_b)
+        }
+        Law::Tsda if T::TSDAS => stars::<P, T, EXPLICIT, 1>(model, group, &end_a, &end_b),
+        Law::PointBushing if T::BUSHINGS => bushing::<P, T, EXPLICIT>(model, group, &end_a, &end_b),
+        Law::PointOnLine if T::LINES => lines::<P, T, EXPLICIT>(model, group, &end_a, &end_b),
+        _ => Record::ZERO,
+    }
 }
 
 /// Weight and loads.
@@ -155,6 +169,55 @@ fn start<P: Geometry, T: Terms>(
                 wrench.force = wrench.force + force;
                 wrench.torque = wrench.torque + torque;
             }
+        }
+    }
+}
+
+/// The forces and torques of inputs.
+#[inline(always)]
+fn inputs<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    wrenches: &mut [Wrench<P::Real>],
+) {
+    let turned = |body: BodyIndex, frame: LoadFrame, v: Vec3<P::Real>| match frame {
+        LoadFrame::World => v,
+        LoadFrame::Body => End::new(model, places, body, None).to_world(v),
+    };
+    for (input, signal) in model.inputs.iter().zip(places.signals) {
+        let value = signal.value;
+        let zero = Vec3::ZERO;
+        match input.kind {
+            InputKind::Force { body, point, direction, frame } => {
+                let force = turned(body, frame, direction) * value;
+                let (_, arm) = End::new(model, places, body, None).place(&point);
+                let record = Record { force, torque_a: arm.cross(force), torque_b: zero };
+                apply(wrenches, body.row(), BodyIndex::WORLD.row(), &record);
+            }
+            InputKind::Torque { body, axis, frame } => {
+                let torque_a = turned(body, frame, axis) * value;
+                let record = Record { force: zero, torque_a, torque_b: zero };
+                apply(wrenches, body.row(), BodyIndex::WORLD.row(), &record);
+            }
+            InputKind::JointTorque { a, b, axis } => {
+                let torque_b = turned(a, LoadFrame::Body, axis) * value;
+                let record = Record { force: zero, torque_a: -torque_b, torque_b };
+                apply(wrenches, a.row(), b.row(), &record);
+            }
+            InputKind::Actuator { group, element } => {
+                let row = group as usize;
+                let element = model
+                    .groups
+                    .get(row)
+                    .and_then(|group| placed(model, places, (row, group), element as usize));
+                let Some(element) = element else { continue };
+                let d = element.displacement;
+                let force = d * (value * d.dot(d).sqrt().reciprocal_or_zero());
+                let torque_a = element.arm_a.cross(force);
+                let record = Record { force, torque_a, torque_b: -element.arm_b.cross(force) };
+                apply(wrenches, element.group.a.row(), element.group.b.row(), &record);
+            }
+            InputKind::Anchor { .. } => {}
         }
     }
 }
@@ -197,6 +260,7 @@ fn stars<P: Geometry, T: Terms, const EXPLICIT: bool, const ARMS: usize>(
         _ => None,
     }
     .map(|dampers| dampers.as_chunks::<ARMS>().0);
+    let clearance = model.clearance(group);
     let stars_per_block = if group.shared { stars } else { 1 };
 
     let mut tsdas = tsdas.iter();
@@ -214,9 +278,9 @@ fn stars<P: Geometry, T: Terms, const EXPLICIT: bool, const ARMS: usize>(
                 let pull = match coefficients {
                     Some(coefficients) => {
                         let v_rel = end_b.point_velocity(*tip_arm) - end_a.point_velocity(arm);
-                        springs[j].damped_force(coefficients[j], d, v_rel)
+                        springs[j].damped_force(coefficients[j], d, v_rel, clearance)
                     }
-                    None => springs[j].force(d),
+                    None => springs[j].force(d, clearance),
                 };
                 pull_a = pull_a + pull;
                 pulls[j] = pulls[j] + pull;
@@ -286,6 +350,7 @@ fn lines<P: Geometry, T: Terms, const EXPLICIT: bool>(
         Some(row) if EXPLICIT && T::DAMPERS => model.dampers.get(row..).unwrap_or(&[]),
         _ => &[],
     };
+    let clearance = model.clearance(group);
     let mut elements = tips.iter().zip(springs);
     let mut dampers = dampers.iter();
     for centre in centres {
@@ -302,9 +367,9 @@ fn lines<P: Geometry, T: Terms, const EXPLICIT: bool>(
                     let foot = end_a.arm_at(arm, line * slide);
                     let v_rel = end_b.point_velocity(tip_arm) - end_a.point_velocity(foot);
                     let rate = Projection::new(v_rel, line).deflection;
-                    spring.damped_force(damping, deflection, rate)
+                    spring.damped_force(damping, deflection, rate, clearance)
                 }
-                None => spring.force(deflection),
+                None => spring.force(deflection, clearance),
             };
             pull_a = pull_a + pull;
             slid = slid + pull * slide;
@@ -320,10 +385,10 @@ fn lines<P: Geometry, T: Terms, const EXPLICIT: bool>(
 #[inline(always)]
 fn torsions<P: Geometry, T: Terms, const EXPLICIT: bool>(
     model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
     bodies: &[BodyState<P>],
     turns: &mut [i32],
     settle: bool,
-    frames: &[P::Frame],
     wrenches: &mut [Wrench<P::Real>],
 ) -> Result<(), u16> {
     for (i, (spring, turns)) in model.torsions.iter().zip(turns).enumerate() {
@@ -332,38 +397,22 @@ fn torsions<P: Geometry, T: Terms, const EXPLICIT: bool>(
         let Some(twist) = spring.twist(relative, turns, settle) else {
             return Err(i as u16);
         };
-        let (frame_a, frame_b) = (frames.get(spring.a.row()), frames.get(spring.b.row()));
+        let end_a = End::new(model, places, spring.a, Some(bodies));
         let damper = match spring.damper.row() {
             Some(row) if EXPLICIT && T::DAMPERS => model.dampers.get(row),
             _ => None,
         };
         let torque = match damper {
             Some(&damping) => {
-                let rate = spin_in_a::<P>(frame_a, frame_b, a, b);
+                let end_b = End::new(model, places, spring.b, Some(bodies));
+                let rate = end_a.to_axes(end_b.spin - end_a.spin);
                 spring.damped_torque(damping, &twist, rate)
             }
             None => spring.torque(&twist),
         };
-        let torque = End::<P>::new(frame_a, None, false).to_world(torque);
+        let torque = end_a.to_world(torque);
         let record = Record { force: Vec3::ZERO, torque_a: -torque, torque_b: torque };
         apply(wrenches, spring.a.row(), spring.b.row(), &record);
     }
     Ok(())
-}
-
-/// `ω_B − ω_A` in A's axes.
-#[inline(always)]
-fn spin_in_a<P: Geometry>(
-    frame_a: Option<&P::Frame>,
-    frame_b: Option<&P::Frame>,
-    a: Option<&BodyState<P>>,
-    b: Option<&BodyState<P>>,
-) -> Vec3<P::Real> {
-    let spin_a = End::<P>::new(frame_a, a, true).spin;
-    let spin_b = End::<P>::new(frame_b, b, true).spin;
-    let relative = spin_b - spin_a;
-    match frame_a {
-        Some(frame) => P::to_body(frame, relative),
-        None => relative,
-    }
 }

@@ -11,7 +11,7 @@
 use crate::energy::twist_of;
 use crate::forces::{self, Wrench};
 use crate::geometry::{FrameOf, Geometry, RealOf};
-use crate::groups::{each_element, place_bodies};
+use crate::groups::{Places, each_element, place_bodies};
 use crate::model::{Body, BodyIndex, Law, ModelOwner};
 use crate::real::Real;
 use crate::rotation;
@@ -36,6 +36,7 @@ pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
     let mut frames = model.per_body(FrameOf::<M>::default());
     place_bodies::<M::Precision>(bodies, frames.as_mut());
     let frames = frames.as_ref();
+    let places = Places { frames, signals: state.signals.as_ref() };
     let zero = RealOf::<M>::ZERO;
     let mut largest = zero;
     for (row, (body, frame)) in view.bodies.iter().zip(frames).enumerate() {
@@ -47,7 +48,7 @@ pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
             add_row(&mut block, share * stiffness, scaled(body, u, n));
         };
         let mut turning = zero;
-        each_element(&view, frames, |e| {
+        each_element(&view, places, |e| {
             let (other, arm) = if e.group.a == here {
                 (e.group.b, e.arm_a)
             } else if e.group.b == here {
@@ -188,6 +189,23 @@ const PROBE: f64 = 1e-6;
 /// `iterations` power iterations on `M^-1/2·K·M^-1/2`; each takes two force evaluations. Meant
 /// for double precision: forces are differenced over 1e-6 m.
 pub fn estimate<M: ModelOwner>(model: &M, state: &State<M>, iterations: u32) -> f64 {
+    let mut square = largest_by_magnitude(model, state, iterations, 0.0);
+    if square < 0.0 {
+        // Compressed springs can have the largest eigenvalue by magnitude, a negative one; a
+        // shift by it leaves the positive ones at the top.
+        let shift = -square;
+        square = largest_by_magnitude(model, state, iterations, shift) - shift;
+    }
+    libm::sqrt(if square > 0.0 { square } else { 0.0 })
+}
+
+/// The eigenvalue of `M^-1/2·K·M^-1/2 + shift·I` \[1/s²\] of the largest magnitude.
+fn largest_by_magnitude<M: ModelOwner>(
+    model: &M,
+    state: &State<M>,
+    iterations: u32,
+    shift: f64,
+) -> f64 {
     let view = model.view();
     let mut direction = model.per_body(Increment::default());
     start_direction(direction.as_mut());
@@ -213,6 +231,7 @@ pub fn estimate<M: ModelOwner>(model: &M, state: &State<M>, iterations: u32) -> 
             let turned = forces::evaluate::<M::Precision, M::Terms, false>(
                 &view,
                 windows.as_ref(),
+                state.signals.as_ref(),
                 moved.bodies.as_ref(),
                 moved.turns.as_mut(),
                 0,
@@ -234,7 +253,9 @@ pub fn estimate<M: ModelOwner>(model: &M, state: &State<M>, iterations: u32) -> 
             }
         }
         let (mut along, mut norm) = (0.0, 0.0);
-        for (x, y) in direction.as_ref().iter().zip(response.as_ref()) {
+        let s = RealOf::<M>::from_f64(shift);
+        for (x, y) in direction.as_ref().iter().zip(response.as_mut()) {
+            *y = Increment { linear: y.linear + x.linear * s, angular: y.angular + x.angular * s };
             along += x.linear.dot(y.linear).to_f64() + x.angular.dot(y.angular).to_f64();
             norm += y.linear.dot(y.linear).to_f64() + y.angular.dot(y.angular).to_f64();
         }
@@ -248,7 +269,7 @@ pub fn estimate<M: ModelOwner>(model: &M, state: &State<M>, iterations: u32) -> 
             *x = Increment { linear: y.linear * inverse, angular: y.angular * inverse };
         }
     }
-    libm::sqrt(if square > 0.0 { square } else { 0.0 })
+    square
 }
 
 fn root<R: Real>(v: Vec3<R>) -> Vec3<R> {

@@ -24,7 +24,7 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + 'static {
     /// A stored velocity or angular velocity, with its compensation where the precision has one.
     type Velocity: Copy + Debug + Default + PartialEq + Words;
     /// A point in body axes from the centre of mass; a point in the world for the ground.
-    type Local: Copy + Debug + Default + PartialEq;
+    type Local: Copy + Debug + Default + PartialEq + Words;
     /// A point in the world.
     type Location: Copy + Default;
     /// A body's pose, prepared for placing many points.
@@ -39,6 +39,8 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + 'static {
     fn place(frame: &Self::Frame, local: &Self::Local) -> (Self::Location, Vec3<Self::Real>);
     /// The location of a point of the ground.
     fn ground(local: &Self::Local) -> Self::Location;
+    /// A location moved by a displacement \[m\].
+    fn shift(location: &Self::Location, by: Vec3<Self::Real>) -> Self::Location;
     /// `to − from` \[m\], world axes.
     fn displacement(from: &Self::Location, to: &Self::Location) -> Vec3<Self::Real>;
     /// Body axes to world axes.
@@ -142,6 +144,10 @@ impl<R: Real + Named> Geometry for Float<R> {
     #[inline(always)]
     fn ground(local: &Vec3<R>) -> Vec3<R> {
         *local
+    }
+    #[inline(always)]
+    fn shift(location: &Vec3<R>, by: Vec3<R>) -> Vec3<R> {
+        *location + by
     }
     #[inline(always)]
     fn displacement(from: &Vec3<R>, to: &Vec3<R>) -> Vec3<R> {

@@ -5,7 +5,8 @@
 
 use crate::elements::point_on_line::Projection;
 use crate::geometry::Geometry;
-use crate::model::{Group, Law, ModelRef, Terms};
+use crate::inputs::{InputKind, Signal};
+use crate::model::{BodyIndex, Group, Law, ModelRef, Terms};
 use crate::state::BodyState;
 use crate::vector::Vec3;
 
@@ -17,28 +18,56 @@ pub(crate) fn place_bodies<P: Geometry>(bodies: &[BodyState<P>], frames: &mut [P
     }
 }
 
+/// What places points: the frames of the bodies, and the signals that move the ground.
+pub(crate) struct Places<'s, P: Geometry> {
+    /// One per body.
+    pub(crate) frames: &'s [P::Frame],
+    /// One per input.
+    pub(crate) signals: &'s [Signal<P::Real>],
+}
+
+impl<P: Geometry> Clone for Places<'_, P> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<P: Geometry> Copy for Places<'_, P> {}
+
 /// One body as a group sees it: where it places points and how they move. The world is an end
-/// without a frame.
+/// without a frame; an anchor is a world whose points are moved.
 pub(crate) struct End<'s, P: Geometry> {
     frame: Option<&'s P::Frame>,
+    moved: Option<Vec3<P::Real>>,
     velocity: Vec3<P::Real>,
     /// \[rad/s\] world axes.
     pub(crate) spin: Vec3<P::Real>,
 }
 
 impl<'s, P: Geometry> End<'s, P> {
+    /// The end at a body; without `bodies` its points are at rest.
     #[inline(always)]
-    pub(crate) fn new(
-        frame: Option<&'s P::Frame>,
-        state: Option<&BodyState<P>>,
-        moving: bool,
+    pub(crate) fn new<T: Terms>(
+        model: &ModelRef<'_, P, T>,
+        places: Places<'s, P>,
+        index: BodyIndex,
+        bodies: Option<&[BodyState<P>]>,
     ) -> Self {
-        let (mut velocity, mut spin) = (Vec3::ZERO, Vec3::ZERO);
-        if let (true, Some(frame), Some(state)) = (moving, frame, state) {
-            velocity = P::velocity(&state.velocity);
-            spin = P::to_world(frame, P::velocity(&state.angular_velocity));
+        let frame = places.frames.get(index.row());
+        let mut end = Self { frame, moved: None, velocity: Vec3::ZERO, spin: Vec3::ZERO };
+        if let (Some(frame), Some(state)) = (frame, bodies.and_then(|b| b.get(index.row()))) {
+            end.velocity = P::velocity(&state.velocity);
+            end.spin = P::to_world(frame, P::velocity(&state.angular_velocity));
         }
-        Self { frame, velocity, spin }
+        if T::INPUTS
+            && let Some(row) = index.anchor_row()
+            && let (Some(input), Some(signal)) = (model.inputs.get(row), places.signals.get(row))
+            && let InputKind::Anchor { direction } = input.kind
+        {
+            end.moved = Some(direction * signal.value);
+            end.velocity = direction * signal.rate;
+        }
+        end
     }
 
     /// The point's location and its arm, 0 for the ground's.
@@ -46,7 +75,14 @@ impl<'s, P: Geometry> End<'s, P> {
     pub(crate) fn place(&self, local: &P::Local) -> (P::Location, Vec3<P::Real>) {
         match self.frame {
             Some(frame) => P::place(frame, local),
-            None => (P::ground(local), Vec3::ZERO),
+            None => {
+                let ground = P::ground(local);
+                let location = match self.moved {
+                    Some(by) => P::shift(&ground, by),
+                    None => ground,
+                };
+                (location, Vec3::ZERO)
+            }
         }
     }
 
@@ -55,6 +91,15 @@ impl<'s, P: Geometry> End<'s, P> {
     pub(crate) fn to_world(&self, v: Vec3<P::Real>) -> Vec3<P::Real> {
         match self.frame {
             Some(frame) => P::to_world(frame, v),
+            None => v,
+        }
+    }
+
+    /// World axes to body axes.
+    #[inline(always)]
+    pub(crate) fn to_axes(&self, v: Vec3<P::Real>) -> Vec3<P::Real> {
+        match self.frame {
+            Some(frame) => P::to_body(frame, v),
             None => v,
         }
     }
@@ -88,21 +133,23 @@ pub(crate) struct Placed<'m, R> {
     pub(crate) arm_b: Vec3<R>,
     /// The direction of its line, world axes; 0 where the law knows no line.
     pub(crate) direction: Vec3<R>,
+    /// The rate of the displacement that moved ground gives it, world axes.
+    pub(crate) ground_rate: Vec3<R>,
 }
 
 /// Element `i` of a group with its index, `None` where the model lacks its points.
 #[inline(always)]
 pub(crate) fn placed<'m, P: Geometry, T: Terms>(
     model: &ModelRef<'m, P, T>,
-    frames: &[P::Frame],
+    places: Places<'_, P>,
     (number, group): (usize, &'m Group),
     i: usize,
 ) -> Option<Placed<'m, P::Real>> {
     let (stars, arms) = (group.stars as usize, group.arms.max(1) as usize);
     let first = group.point as usize;
     let tip = first + stars + if group.shared { i % arms } else { i };
-    let end_a = End::<P>::new(frames.get(group.a.row()), None, false);
-    let end_b = End::<P>::new(frames.get(group.b.row()), None, false);
+    let end_a = End::new(model, places, group.a, None);
+    let end_b = End::new(model, places, group.b, None);
     let (a, mut arm_a) = end_a.place(model.points.get(first + i / arms)?);
     let (b, arm_b) = end_b.place(model.points.get(tip)?);
     let mut displacement = P::displacement(&a, &b);
@@ -114,18 +161,19 @@ pub(crate) fn placed<'m, P: Geometry, T: Terms>(
         displacement = projection.deflection;
         arm_a = end_a.arm_at(arm_a, direction * projection.slide);
     }
-    Some(Placed { group, number, index, displacement, arm_a, arm_b, direction })
+    let ground_rate = end_b.velocity - end_a.velocity;
+    Some(Placed { group, number, index, displacement, arm_a, arm_b, direction, ground_rate })
 }
 
 /// Visits every element of the groups in order; frames are those of the pose.
 pub(crate) fn each_element<'m, P: Geometry, T: Terms>(
     model: &ModelRef<'m, P, T>,
-    frames: &[P::Frame],
+    places: Places<'_, P>,
     mut visit: impl FnMut(Placed<'m, P::Real>),
 ) {
     for (number, group) in model.groups.iter().enumerate() {
         for i in 0..group.elements() {
-            if let Some(element) = placed(model, frames, (number, group), i) {
+            if let Some(element) = placed(model, places, (number, group), i) {
                 visit(element);
             }
         }

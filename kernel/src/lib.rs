@@ -14,7 +14,7 @@
 //! - [`energy`], [`frequency`]: what a state holds, how fast it can vibrate.
 //!
 //! ```
-//! use dbd_kernel::model::{Body, BodyIndex, DamperIndex, Group, Law, Model};
+//! use dbd_kernel::model::{Body, BodyIndex, ClearanceIndex, DamperIndex, Group, Law, Model};
 //! use dbd_kernel::schemes::Leapfrog;
 //! use dbd_kernel::state::BodyState;
 //! use dbd_kernel::{F64, Plant, Tsda, Vec3};
@@ -35,6 +35,7 @@
 //!         point: 0,
 //!         element: 0,
 //!         damper: DamperIndex::NONE,
+//!         clearance: ClearanceIndex::NONE,
 //!     }],
 //!     points: [Vec3::new(0.0, 0.0, 0.0); 2],
 //!     tsdas: [Tsda { stiffness: 50.0, free_length: 1.0 }],
@@ -43,6 +44,9 @@
 //!     torsions: [],
 //!     loads: [],
 //!     lines: [],
+//!     inputs: [],
+//!     knots: [],
+//!     clearances: [],
 //! }
 //! .checked();
 //! let mut plant = Plant::new(&model, Leapfrog, 1e-3)?;
@@ -73,11 +77,14 @@ mod format;
 pub mod frequency;
 pub mod geometry;
 mod groups;
+pub mod inputs;
 pub mod model;
 pub mod plant;
+pub mod readouts;
 pub mod real;
 pub mod rotation;
 pub mod schemes;
+pub mod snapshot;
 mod square_root;
 pub mod state;
 pub mod status;

@@ -16,7 +16,8 @@ use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_on_line::PointOnLine;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
-use crate::geometry::Geometry;
+use crate::geometry::{Geometry, RealOf};
+use crate::inputs::{Input, InputIndex, InputKind, Knot, KnotStep, Signal};
 use crate::real::Real;
 use crate::state::BodyState;
 use crate::vector::Vec3;
@@ -30,10 +31,34 @@ impl BodyIndex {
     /// The world: immovable, its points are the ground's.
     pub const WORLD: Self = Self(u16::MAX);
 
-    /// Whether this is the world.
+    /// Indices from here on are the ground's.
+    const FIRST_ANCHOR: u16 = 0xff00;
+
+    /// The ground as moved by input `input`, an [`InputKind::Anchor`].
+    ///
+    /// # Panics
+    /// Where the input's index is above 254.
+    #[must_use]
+    pub const fn anchor(input: InputIndex) -> Self {
+        assert!(input.0 < u16::MAX - Self::FIRST_ANCHOR, "an anchor is one of the first inputs");
+        Self(Self::FIRST_ANCHOR + input.0)
+    }
+
+    /// The input that moves this part of the ground, if one does.
+    #[inline(always)]
+    #[must_use]
+    pub const fn anchor_row(self) -> Option<usize> {
+        if self.0 >= Self::FIRST_ANCHOR && self.0 != u16::MAX {
+            Some((self.0 - Self::FIRST_ANCHOR) as usize)
+        } else {
+            None
+        }
+    }
+
+    /// Whether this is the world, moved by an input or not: no force moves it.
     #[must_use]
     pub const fn is_world(self) -> bool {
-        self.0 == u16::MAX
+        self.0 >= Self::FIRST_ANCHOR
     }
 
     /// The index into slices of bodies; the world's lies beyond any of them.
@@ -54,6 +79,23 @@ impl DamperIndex {
     pub const NONE: Self = Self(u16::MAX);
 
     /// The index into the dampers, `None` where undamped.
+    #[inline(always)]
+    #[must_use]
+    pub const fn row(self) -> Option<usize> {
+        if self.0 == u16::MAX { None } else { Some(self.0 as usize) }
+    }
+}
+
+/// The index of a group's clearance, or none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ClearanceIndex(pub u16);
+
+impl ClearanceIndex {
+    /// Without clearance.
+    pub const NONE: Self = Self(u16::MAX);
+
+    /// The index into the clearances, `None` without one.
     #[inline(always)]
     #[must_use]
     pub const fn row(self) -> Option<usize> {
@@ -99,6 +141,8 @@ pub struct Group {
     pub element: u16,
     /// First of the elements' damping coefficients among the model's dampers.
     pub damper: DamperIndex,
+    /// The clearance of all its elements among the model's clearances; bushings have none.
+    pub clearance: ClearanceIndex,
 }
 
 impl Group {
@@ -170,6 +214,10 @@ pub trait Terms: Copy + Default + 'static {
     const DAMPERS: bool;
     /// Points on lines.
     const LINES: bool;
+    /// Inputs.
+    const INPUTS: bool;
+    /// Clearances.
+    const CLEARANCES: bool;
 }
 
 /// Terms of a model whose sizes are known at run time only: any kind may occur.
@@ -184,6 +232,8 @@ impl Terms for AllTerms {
     const TORSIONS: bool = true;
     const DAMPERS: bool = true;
     const LINES: bool = true;
+    const INPUTS: bool = true;
+    const CLEARANCES: bool = true;
 }
 
 /// Terms of a model whose counts are const generics: a kind occurs where its count is not 0.
@@ -196,6 +246,8 @@ pub struct CountedTerms<
     const GRAVITY: usize,
     const LOADS: usize,
     const LINES: usize,
+    const INPUTS: usize,
+    const CLEARANCES: usize,
 >;
 
 impl<
@@ -206,7 +258,10 @@ impl<
     const GRAVITY: usize,
     const LOADS: usize,
     const LINES: usize,
-> Terms for CountedTerms<TSDAS, BUSHINGS, DAMPERS, TORSIONS, GRAVITY, LOADS, LINES>
+    const INPUTS: usize,
+    const CLEARANCES: usize,
+> Terms
+    for CountedTerms<TSDAS, BUSHINGS, DAMPERS, TORSIONS, GRAVITY, LOADS, LINES, INPUTS, CLEARANCES>
 {
     const GRAVITY: bool = GRAVITY > 0;
     const LOADS: bool = LOADS > 0;
@@ -215,6 +270,19 @@ impl<
     const TORSIONS: bool = TORSIONS > 0;
     const DAMPERS: bool = DAMPERS > 0;
     const LINES: bool = LINES > 0;
+    const INPUTS: bool = INPUTS > 0;
+    const CLEARANCES: bool = CLEARANCES > 0;
+}
+
+impl<P: Geometry, T: Terms> ModelRef<'_, P, T> {
+    /// The clearance \[m\] of a group, `None` without one.
+    #[inline(always)]
+    pub(crate) fn clearance(&self, group: &Group) -> Option<P::Real> {
+        if !T::CLEARANCES {
+            return None;
+        }
+        group.clearance.row().and_then(|row| self.clearances.get(row)).copied()
+    }
 }
 
 /// A model lent as slices.
@@ -240,6 +308,12 @@ pub struct ModelRef<'m, P: Geometry, T> {
     pub loads: &'m [Load<P::Real>],
     /// Points on lines of the groups.
     pub lines: &'m [PointOnLine<P::Real>],
+    /// Inputs, added after the loads.
+    pub inputs: &'m [Input<P>],
+    /// Knots of the inputs' tables.
+    pub knots: &'m [Knot<P::Real>],
+    /// \[m\] clearances of groups.
+    pub clearances: &'m [P::Real],
     /// The kinds of element that occur.
     pub terms: PhantomData<T>,
 }
@@ -256,6 +330,10 @@ pub trait ModelOwner {
     type PerTorsion: Clone + AsRef<[i32]> + AsMut<[i32]>;
     /// Memory of one window per load.
     type PerLoad: Clone + AsRef<[LoadWindow]> + AsMut<[LoadWindow]>;
+    /// Memory of one signal per input.
+    type PerInput: Clone + AsRef<[Signal<RealOf<Self>>]> + AsMut<[Signal<RealOf<Self>>]>;
+    /// Memory of one place per knot.
+    type PerKnot: Clone + AsRef<[KnotStep<RealOf<Self>>]> + AsMut<[KnotStep<RealOf<Self>>]>;
 
     /// The constants.
     fn view(&self) -> ModelRef<'_, Self::Precision, Self::Terms>;
@@ -267,6 +345,10 @@ pub trait ModelOwner {
     fn per_torsion(&self) -> Self::PerTorsion;
     /// One empty window per load.
     fn per_load(&self) -> Self::PerLoad;
+    /// One zero signal per input.
+    fn per_input(&self) -> Self::PerInput;
+    /// One place per knot.
+    fn per_knot(&self) -> Self::PerKnot;
 }
 
 /// A model whose sizes are const generics. A kind that a scene lacks has count 0, the default.
@@ -283,6 +365,9 @@ pub struct Model<
     const GRAVITY: usize = 0,
     const LOADS: usize = 0,
     const LINES: usize = 0,
+    const INPUTS: usize = 0,
+    const KNOTS: usize = 0,
+    const CLEARANCES: usize = 0,
 > {
     /// Bodies in scene order.
     pub bodies: [Body<P::Real>; BODIES],
@@ -306,6 +391,12 @@ pub struct Model<
     pub loads: [Load<P::Real>; LOADS],
     /// Points on lines of the groups.
     pub lines: [PointOnLine<P::Real>; LINES],
+    /// Inputs, added after the loads.
+    pub inputs: [Input<P>; INPUTS],
+    /// Knots of the inputs' tables.
+    pub knots: [Knot<P::Real>; KNOTS],
+    /// \[m\] clearances of groups.
+    pub clearances: [P::Real; CLEARANCES],
 }
 
 impl<
@@ -320,7 +411,26 @@ impl<
     const GRAVITY: usize,
     const LOADS: usize,
     const LINES: usize,
-> Model<P, BODIES, GROUPS, POINTS, TSDAS, BUSHINGS, DAMPERS, TORSIONS, GRAVITY, LOADS, LINES>
+    const INPUTS: usize,
+    const KNOTS: usize,
+    const CLEARANCES: usize,
+>
+    Model<
+        P,
+        BODIES,
+        GROUPS,
+        POINTS,
+        TSDAS,
+        BUSHINGS,
+        DAMPERS,
+        TORSIONS,
+        GRAVITY,
+        LOADS,
+        LINES,
+        INPUTS,
+        KNOTS,
+        CLEARANCES,
+    >
 {
     /// Checks every index of the model; in a `const` the compiler does so.
     ///
@@ -355,6 +465,9 @@ impl<
             };
             assert!(group.element as usize + elements <= count, "a group's elements are there");
             check_damper(group.damper, elements, DAMPERS);
+            if let Some(row) = group.clearance.row() {
+                assert!(row < CLEARANCES, "a group's clearance is there");
+            }
             i += 1;
         }
         i = 0;
@@ -362,6 +475,27 @@ impl<
             let spring = &self.torsions[i];
             check_pair(spring.a, spring.b, BODIES);
             check_damper(spring.damper, 1, DAMPERS);
+            i += 1;
+        }
+        i = 0;
+        while i < INPUTS {
+            let input = &self.inputs[i];
+            assert!(
+                input.knot as usize + input.knots as usize <= KNOTS,
+                "an input's knots are there"
+            );
+            match &input.kind {
+                InputKind::Force { body, .. } | InputKind::Torque { body, .. } => {
+                    assert!(body.row() < BODIES, "an input's body is there");
+                }
+                InputKind::JointTorque { a, b, .. } => check_pair(*a, *b, BODIES),
+                InputKind::Actuator { group, element } => {
+                    assert!((*group as usize) < GROUPS, "an actuator's group is there");
+                    let elements = self.groups[*group as usize].elements();
+                    assert!((*element as usize) < elements, "an actuator's element is there");
+                }
+                InputKind::Anchor { .. } => {}
+            }
             i += 1;
         }
         i = 0;
@@ -376,7 +510,8 @@ impl<
 const fn check_pair(a: BodyIndex, b: BodyIndex, bodies: usize) {
     assert!(a.is_world() || a.row() < bodies, "an element's first body is there");
     assert!(b.is_world() || b.row() < bodies, "an element's second body is there");
-    assert!(a.0 != b.0, "an element joins two different bodies");
+    let ground = a.is_world() && b.is_world();
+    assert!(a.0 != b.0 && !ground, "an element joins two different bodies");
 }
 
 const fn check_damper(damper: DamperIndex, elements: usize, dampers: usize) {
@@ -397,14 +532,35 @@ impl<
     const GRAVITY: usize,
     const LOADS: usize,
     const LINES: usize,
+    const INPUTS: usize,
+    const KNOTS: usize,
+    const CLEARANCES: usize,
 > ModelOwner
-    for Model<P, BODIES, GROUPS, POINTS, TSDAS, BUSHINGS, DAMPERS, TORSIONS, GRAVITY, LOADS, LINES>
+    for Model<
+        P,
+        BODIES,
+        GROUPS,
+        POINTS,
+        TSDAS,
+        BUSHINGS,
+        DAMPERS,
+        TORSIONS,
+        GRAVITY,
+        LOADS,
+        LINES,
+        INPUTS,
+        KNOTS,
+        CLEARANCES,
+    >
 {
     type Precision = P;
-    type Terms = CountedTerms<TSDAS, BUSHINGS, DAMPERS, TORSIONS, GRAVITY, LOADS, LINES>;
+    type Terms =
+        CountedTerms<TSDAS, BUSHINGS, DAMPERS, TORSIONS, GRAVITY, LOADS, LINES, INPUTS, CLEARANCES>;
     type PerBody<T: Copy> = [T; BODIES];
     type PerTorsion = [i32; TORSIONS];
     type PerLoad = [LoadWindow; LOADS];
+    type PerInput = [Signal<P::Real>; INPUTS];
+    type PerKnot = [KnotStep<P::Real>; KNOTS];
 
     #[inline(always)]
     fn view(&self) -> ModelRef<'_, P, Self::Terms> {
@@ -419,6 +575,9 @@ impl<
             torsions: &self.torsions,
             loads: &self.loads,
             lines: &self.lines,
+            inputs: &self.inputs,
+            knots: &self.knots,
+            clearances: &self.clearances,
             terms: PhantomData,
         }
     }
@@ -440,5 +599,15 @@ impl<
     #[inline]
     fn per_load(&self) -> [LoadWindow; LOADS] {
         [LoadWindow { first: 0, end: 0 }; LOADS]
+    }
+
+    #[inline]
+    fn per_input(&self) -> [Signal<P::Real>; INPUTS] {
+        [Signal { value: P::Real::ZERO, rate: P::Real::ZERO }; INPUTS]
+    }
+
+    #[inline]
+    fn per_knot(&self) -> [KnotStep<P::Real>; KNOTS] {
+        [KnotStep { first: 0, offset: P::Real::ZERO }; KNOTS]
     }
 }

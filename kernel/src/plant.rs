@@ -6,7 +6,8 @@
 use crate::elements::load::LoadWindow;
 use crate::forces::Wrench;
 use crate::geometry::{FrameOf, Geometry, RealOf};
-use crate::model::ModelOwner;
+use crate::inputs::{self, InputIndex, KnotStep, Signal};
+use crate::model::{ModelOwner, Terms};
 use crate::real::Real;
 use crate::schemes::Scheme;
 use crate::state::{BodyState, State};
@@ -21,6 +22,7 @@ pub struct Plant<'m, M: ModelOwner, S: Scheme> {
     h: RealOf<M>,
     diagonals: M::PerBody<Diagonal<RealOf<M>>>,
     windows: M::PerLoad,
+    knots: M::PerKnot,
     state: State<M>,
     frames: M::PerBody<FrameOf<M>>,
     wrenches: M::PerBody<Wrench<RealOf<M>>>,
@@ -46,6 +48,30 @@ impl core::fmt::Display for PlantError {
 
 impl core::error::Error for PlantError {}
 
+/// Why an input could not be set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum InputError {
+    /// The model has no such input.
+    Unknown(InputIndex),
+    /// A table of the scene drives it.
+    Table(InputIndex),
+    /// The value is infinite or not a number in the model's precision.
+    NotFinite(InputIndex),
+}
+
+impl core::fmt::Display for InputError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            InputError::Unknown(input) => write!(f, "the model has no input {}", input.0),
+            InputError::Table(input) => write!(f, "input {} follows a table", input.0),
+            InputError::NotFinite(input) => write!(f, "input {}: the value is not finite", input.0),
+        }
+    }
+}
+
+impl core::error::Error for InputError {}
+
 impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
     /// A plant at its model's initial state, with the step `step_size` \[s\], which is rounded
     /// once to the precision. The diagonals of the inverse Jacobian are computed here.
@@ -66,6 +92,15 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
         for (window, load) in windows.as_mut().iter_mut().zip(view.loads) {
             *window = LoadWindow::new(load.from, load.until, step_size);
         }
+        let mut knots = model.per_knot();
+        for (place, knot) in knots.as_mut().iter_mut().zip(view.knots) {
+            *place = KnotStep::new(knot.time, step_size);
+        }
+        let mut state = State::initial(model);
+        if M::Terms::INPUTS {
+            let signals = state.signals.as_mut();
+            inputs::sample(view.inputs, view.knots, knots.as_ref(), 0, h, signals);
+        }
         Ok(Self {
             model,
             scheme,
@@ -73,7 +108,8 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
             h,
             diagonals,
             windows,
-            state: State::initial(model),
+            knots,
+            state,
             frames: model.per_body(FrameOf::<M>::default()),
             wrenches: model.per_body(Wrench::default()),
             memory: model.per_body(S::Memory::default()),
@@ -90,11 +126,19 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
             return self.status;
         }
         let step = self.state.step;
+        let model = self.model.view();
+        if M::Terms::INPUTS {
+            let (knots, signals) = (self.knots.as_ref(), self.state.signals.as_mut());
+            if inputs::sample(model.inputs, model.knots, knots, step, self.h, signals) {
+                self.ledger.fresh = false;
+            }
+        }
         let mut stepper = Stepper {
-            model: self.model.view(),
+            model,
             h: self.h,
             diagonals: self.diagonals.as_ref(),
             windows: self.windows.as_ref(),
+            signals: self.state.signals.as_ref(),
             bodies: self.state.bodies.as_mut(),
             turns: self.state.turns.as_mut(),
             step,
@@ -113,6 +157,57 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
             self.status = Status::Failed(Failure { cause, step: self.state.step });
         }
         self.status
+    }
+
+    /// `n` steps with held inputs, or as many as succeed.
+    pub fn advance(&mut self, n: u64) -> Status {
+        for _ in 0..n {
+            if !self.step().is_running() {
+                break;
+            }
+        }
+        self.status
+    }
+
+    /// Sets an input \[N, N·m, or m for an anchor, then at rest\]; it is held until set again.
+    ///
+    /// # Errors
+    /// [`InputError`]; nothing is changed then.
+    pub fn set_input(&mut self, input: InputIndex, value: f64) -> Result<(), InputError> {
+        self.set_anchor(input, value, 0.0)
+    }
+
+    /// Sets an input with its rate: for an anchor the displacement \[m\] and its velocity \[m/s\],
+    /// which its dampers feel. Each number is rounded once to the precision.
+    ///
+    /// # Errors
+    /// [`InputError`]; nothing is changed then.
+    pub fn set_anchor(
+        &mut self,
+        input: InputIndex,
+        displacement: f64,
+        rate: f64,
+    ) -> Result<(), InputError> {
+        let row = input.0 as usize;
+        let value = RealOf::<M>::from_f64(displacement);
+        let rate = RealOf::<M>::from_f64(rate);
+        let view = self.model.view();
+        let signal = self.state.signals.as_mut().get_mut(row);
+        let (Some(known), Some(signal)) = (view.inputs.get(row), signal) else {
+            return Err(InputError::Unknown(input));
+        };
+        if known.knots > 0 {
+            return Err(InputError::Table(input));
+        }
+        if !(value.is_finite() && rate.is_finite()) {
+            return Err(InputError::NotFinite(input));
+        }
+        let now = Signal { value, rate };
+        if *signal != now {
+            *signal = now;
+            self.ledger.fresh = false;
+        }
+        Ok(())
     }
 
     /// The status of the last step.
@@ -143,6 +238,13 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
     /// Force evaluations performed since t = 0.
     pub fn evaluations(&self) -> u64 {
         self.ledger.evaluations
+    }
+
+    /// Goes on from a state: what was cached of the old one is dropped, a failure forgotten.
+    pub(crate) fn resume(&mut self, state: State<M>) {
+        self.state = state;
+        self.ledger.fresh = false;
+        self.status = Status::Running;
     }
 
     /// FNV-1a 64 over the state's words.

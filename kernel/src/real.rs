@@ -8,7 +8,7 @@
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::words::Word;
+use crate::words::{Word, WordSource};
 
 /// A number in which forces are computed.
 pub trait Real:
@@ -53,6 +53,8 @@ pub trait Real:
     fn from_f64(value: f64) -> Self;
     /// The value in double precision, exact.
     fn to_f64(self) -> f64;
+    /// A number near a count of steps, exact below 2^24 (f32) or 2^53 (f64).
+    fn from_u64(value: u64) -> Self;
     /// The number nearest to a turn count.
     fn from_i32(value: i32) -> Self;
     /// The correctly rounded square root.
@@ -61,6 +63,8 @@ pub trait Real:
     fn is_finite(self) -> bool;
     /// The number's stored word.
     fn word(self) -> Word;
+    /// The number of the next word.
+    fn from_words(source: &mut impl WordSource) -> Self;
 
     /// `1/self`, or 0 where `self` is 0: the zero-force guard of coincident points.
     #[inline(always)]
@@ -120,6 +124,10 @@ impl Real for f64 {
         self
     }
     #[inline(always)]
+    fn from_u64(value: u64) -> Self {
+        value as f64
+    }
+    #[inline(always)]
     fn from_i32(value: i32) -> Self {
         f64::from(value)
     }
@@ -134,6 +142,9 @@ impl Real for f64 {
     #[inline(always)]
     fn word(self) -> Word {
         Word::F64(self)
+    }
+    fn from_words(source: &mut impl WordSource) -> Self {
+        Self::from_bits(source.take(8))
     }
 }
 
@@ -159,6 +170,12 @@ impl Real for f32 {
     fn to_f64(self) -> f64 {
         f64::from(self)
     }
+    // In two halves, each of which an FPU without 64-bit conversions can take.
+    #[inline(always)]
+    fn from_u64(value: u64) -> Self {
+        let (high, low) = ((value >> 32) as u32, value as u32);
+        if high == 0 { low as f32 } else { high as f32 * 4_294_967_296.0 + low as f32 }
+    }
     #[inline(always)]
     fn from_i32(value: i32) -> Self {
         value as f32
@@ -174,5 +191,8 @@ impl Real for f32 {
     #[inline(always)]
     fn word(self) -> Word {
         Word::F32(self)
+    }
+    fn from_words(source: &mut impl WordSource) -> Self {
+        Self::from_bits(source.take(4) as u32)
     }
 }

@@ -5,7 +5,7 @@
 
 use crate::geometry::Geometry;
 use crate::model::ModelOwner;
-use crate::words::{Fnv1a, Word, WordVisitor, Words};
+use crate::words::{Fnv1a, Word, WordSource, WordVisitor, Words};
 
 /// The state of one body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -55,6 +55,13 @@ impl<P: Geometry> Words for BodyState<P> {
         self.velocity.visit(visitor);
         self.angular_velocity.visit(visitor);
     }
+
+    fn fill(&mut self, source: &mut impl WordSource) {
+        self.position.fill(source);
+        self.orientation.fill(source);
+        self.velocity.fill(source);
+        self.angular_velocity.fill(source);
+    }
 }
 
 /// The state of a plant, owned in the shape of its model; `Copy` where the model's sizes are
@@ -66,11 +73,18 @@ pub struct State<M: ModelOwner> {
     pub turns: M::PerTorsion,
     /// Steps done: time is `step·h`.
     pub step: u64,
+    /// The inputs' signals; no words of the hash.
+    pub signals: M::PerInput,
 }
 
 impl<M: ModelOwner> Clone for State<M> {
     fn clone(&self) -> Self {
-        Self { bodies: self.bodies.clone(), turns: self.turns.clone(), step: self.step }
+        Self {
+            bodies: self.bodies.clone(),
+            turns: self.turns.clone(),
+            step: self.step,
+            signals: self.signals.clone(),
+        }
     }
 }
 
@@ -78,6 +92,7 @@ impl<M: ModelOwner> Copy for State<M>
 where
     M::PerBody<BodyState<M::Precision>>: Copy,
     M::PerTorsion: Copy,
+    M::PerInput: Copy,
 {
 }
 
@@ -88,7 +103,11 @@ impl<M: ModelOwner> State<M> {
         for (state, initial) in bodies.as_mut().iter_mut().zip(model.initial()) {
             *state = *initial;
         }
-        Self { bodies, turns: model.per_torsion(), step: 0 }
+        let mut signals = model.per_input();
+        for (signal, input) in signals.as_mut().iter_mut().zip(model.view().inputs) {
+            signal.value = input.value;
+        }
+        Self { bodies, turns: model.per_torsion(), step: 0, signals }
     }
 
     /// FNV-1a 64 over the state's words: the same on every target for the same scene, scheme,
@@ -110,5 +129,15 @@ impl<M: ModelOwner> Words for State<M> {
             visitor.word(Word::I32(turns));
         }
         visitor.word(Word::U64(self.step));
+    }
+
+    fn fill(&mut self, source: &mut impl WordSource) {
+        for body in self.bodies.as_mut() {
+            body.fill(source);
+        }
+        for turns in self.turns.as_mut() {
+            *turns = source.take(4) as i32;
+        }
+        self.step = source.take(8);
     }
 }

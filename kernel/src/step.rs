@@ -8,6 +8,8 @@ use crate::damping;
 use crate::elements::load::LoadWindow;
 use crate::forces::{self, Wrench};
 use crate::geometry::Geometry;
+use crate::groups::Places;
+use crate::inputs::Signal;
 use crate::model::{Body, ModelRef, Terms};
 use crate::real::Real;
 use crate::rotation;
@@ -65,6 +67,8 @@ pub struct Stepper<'s, 'm, P: Geometry, T, S> {
     pub diagonals: &'s [Diagonal<P::Real>],
     /// The loads' windows.
     pub windows: &'s [LoadWindow],
+    /// The inputs' signals.
+    pub signals: &'s [Signal<P::Real>],
     /// The bodies' states.
     pub bodies: &'s mut [BodyState<P>],
     /// The torsion springs' turn counts.
@@ -94,6 +98,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
         forces::evaluate::<P, T, EXPLICIT>(
             &self.model,
             self.windows,
+            self.signals,
             self.bodies,
             self.turns,
             self.step,
@@ -145,7 +150,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
             damping::sweep::<P, T, false>(
                 &self.model,
                 P::Real::HALF * self.h,
-                self.frames,
+                Places { frames: self.frames, signals: self.signals },
                 self.bodies,
                 self.turns,
             );
@@ -159,7 +164,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
             damping::sweep::<P, T, true>(
                 &self.model,
                 P::Real::HALF * self.h,
-                self.frames,
+                Places { frames: self.frames, signals: self.signals },
                 self.bodies,
                 self.turns,
             );

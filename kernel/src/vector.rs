@@ -6,7 +6,7 @@
 use core::ops::{Add, Mul, Neg, Sub};
 
 use crate::real::Real;
-use crate::words::{WordVisitor, Words};
+use crate::words::{WordSource, WordVisitor, Words};
 
 /// A vector in space.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -136,6 +136,12 @@ impl<R: Real> Words for Vec3<R> {
             visitor.word(value.word());
         }
     }
+
+    fn fill(&mut self, source: &mut impl WordSource) {
+        for value in [&mut self.x, &mut self.y, &mut self.z] {
+            *value = R::from_words(source);
+        }
+    }
 }
 
 /// A rotation matrix, rows in world axes, columns in body axes.
@@ -256,6 +262,11 @@ impl<R: Real> Words for Quaternion<R> {
     fn visit(&self, visitor: &mut impl WordVisitor) {
         visitor.word(self.w.word());
         self.v.visit(visitor);
+    }
+
+    fn fill(&mut self, source: &mut impl WordSource) {
+        self.w = R::from_words(source);
+        self.v.fill(source);
     }
 }
 

@@ -45,10 +45,18 @@ pub trait WordVisitor {
     fn word(&mut self, word: Word);
 }
 
+/// Gives words in their fixed order.
+pub trait WordSource {
+    /// The bits of the next word of `size` bytes, zero-extended to 64.
+    fn take(&mut self, size: usize) -> u64;
+}
+
 /// A value made of words in a fixed order.
 pub trait Words {
     /// Hands every word to the visitor, in the order that is part of the interface.
     fn visit(&self, visitor: &mut impl WordVisitor);
+    /// Takes every word from the source, in the same order.
+    fn fill(&mut self, source: &mut impl WordSource);
 }
 
 /// FNV-1a 64 over the little-endian bytes of words.

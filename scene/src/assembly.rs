@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use dbd_kernel::energy::each_extension;
-use dbd_kernel::model::{DamperIndex, Group, Law};
+use dbd_kernel::model::{ClearanceIndex, DamperIndex, Group, Law};
 use dbd_kernel::{
     Body, BodyIndex, BodyState, F64, Geometry, Load, PointBushing, PointOnLine, State,
     TorsionSpring, Tsda, Vec3,
@@ -240,7 +240,9 @@ impl Assembly {
         let damper = self.add_dampers(spring.damping, points.elements())?;
         let (stars, arms) = (points.centres.len() as u8, points.arms() as u8);
         let (a, b, shared) = (pair.a, pair.b, points.shared);
-        self.model.groups.push(Group { law, a, b, stars, arms, shared, point, element, damper });
+        let clearance = ClearanceIndex::NONE;
+        let group = Group { law, a, b, stars, arms, shared, point, element, damper, clearance };
+        self.model.groups.push(group);
         self.model.points.extend(all().map(|p| F64::local_from_f64(p.to_f64())));
         Ok(())
     }

@@ -12,9 +12,11 @@
 use std::fmt::{Display, Write};
 
 use dbd_kernel::geometry::{Float, Named};
+use dbd_kernel::inputs::{Input, InputKind, Knot};
 use dbd_kernel::model::{Body, BodyIndex, DamperIndex, Group, ModelOwner};
 use dbd_kernel::{
-    BodyState, Load, PointBushing, PointOnLine, Quaternion, Real, TorsionSpring, Tsda, Vec3,
+    BodyState, Load, LoadFrame, PointBushing, PointOnLine, Quaternion, Real, TorsionSpring, Tsda,
+    Vec3,
 };
 
 use crate::{Scene, SceneModel};
@@ -77,7 +79,8 @@ pub fn preamble(scene: &Scene, step: f64) -> String {
          use dbd_kernel::{{\n    \
              Body, BodyIndex, BodyState, F32, F64, Load, LoadFrame, Model, PointBushing, PointOnLine,\n    \
              Quaternion, TorsionSpring, Tsda, Vec3,\n    \
-             model::{{DamperIndex, Group, Law}},\n\
+             inputs::{{Input, InputIndex, InputKind, Knot}},\n    \
+             model::{{ClearanceIndex, DamperIndex, Group, Law}},\n\
          }};\n\n\
          /// \\[s\\] the step of the scene `{scene_name}`.\n\
          pub const {name}_STEP: f64 = {step};\n\
@@ -106,6 +109,9 @@ pub fn model<R: SourceNumber>(scene: &Scene) -> String {
         model.gravity.len(),
         model.loads.len(),
         model.lines.len(),
+        model.inputs.len(),
+        model.knots.len(),
+        model.clearances.len(),
     ];
     let counts = counts.map(|n| n.to_string()).join(", ");
     let mut out = String::new();
@@ -128,6 +134,9 @@ pub fn model<R: SourceNumber>(scene: &Scene) -> String {
     line(&format_args!("    torsions: {},", list(&model.torsions, torsion::<R>)));
     line(&format_args!("    loads: {},", list(&model.loads, load::<R>)));
     line(&format_args!("    lines: {},", list(&model.lines, point_on_line)));
+    line(&format_args!("    inputs: {},", list(&model.inputs, input)));
+    line(&format_args!("    knots: {},", list(&model.knots, knot)));
+    line(&format_args!("    clearances: {},", list(&model.clearances, |c| c.number())));
     line(&"}");
     line(&".checked();");
     out
@@ -151,7 +160,11 @@ fn quaternion<R: SourceNumber>(q: &Quaternion<R>) -> String {
 }
 
 fn index(body: BodyIndex) -> String {
-    if body.is_world() { "BodyIndex::WORLD".into() } else { format!("BodyIndex({})", body.0) }
+    if body == BodyIndex::WORLD {
+        "BodyIndex::WORLD".into()
+    } else {
+        format!("BodyIndex({})", body.0)
+    }
 }
 
 fn damper(damper: DamperIndex) -> String {
@@ -185,10 +198,15 @@ fn state<R: SourceNumber>(state: &BodyState<Float<R>>) -> String {
 }
 
 fn group(group: &Group) -> String {
-    let Group { law, a, b, stars, arms, shared, point, element, damper: coefficients } = group;
+    let Group { law, a, b, stars, arms, shared, point, element, damper: coefficients, clearance } =
+        group;
+    let clearance = match clearance.row() {
+        Some(row) => format!("ClearanceIndex({row})"),
+        None => "ClearanceIndex::NONE".into(),
+    };
     format!(
         "Group {{ law: Law::{law:?}, a: {}, b: {}, stars: {stars}, arms: {arms}, \
-         shared: {shared}, point: {point}, element: {element}, damper: {} }}",
+         shared: {shared}, point: {point}, element: {element}, damper: {}, clearance: {clearance} }}",
         index(*a),
         index(*b),
         damper(*coefficients),
@@ -208,6 +226,41 @@ fn point_on_line<R: SourceNumber>(line: &PointOnLine<R>) -> String {
     let (k, l0) = (line.stiffness.number(), line.free_length.number());
     let direction = vector(&line.direction);
     format!("PointOnLine {{ direction: {direction}, stiffness: {k}, free_length: {l0} }}")
+}
+
+fn input<R: SourceNumber>(input: &Input<Float<R>>) -> String {
+    let axes = |frame: LoadFrame| format!("LoadFrame::{frame:?}");
+    let kind = match &input.kind {
+        InputKind::Force { body, point, direction, frame } => format!(
+            "Force {{ body: {}, point: {}, direction: {}, frame: {} }}",
+            index(*body),
+            vector(point),
+            vector(direction),
+            axes(*frame),
+        ),
+        InputKind::Torque { body, axis, frame } => format!(
+            "Torque {{ body: {}, axis: {}, frame: {} }}",
+            index(*body),
+            vector(axis),
+            axes(*frame),
+        ),
+        InputKind::JointTorque { a, b, axis } => {
+            format!("JointTorque {{ a: {}, b: {}, axis: {} }}", index(*a), index(*b), vector(axis),)
+        }
+        InputKind::Actuator { group, element } => {
+            format!("Actuator {{ group: {group}, element: {element} }}")
+        }
+        InputKind::Anchor { direction } => {
+            format!("Anchor {{ direction: {} }}", vector(direction))
+        }
+    };
+    let (value, knot, knots) = (input.value.number(), input.knot, input.knots);
+    format!("Input {{ kind: InputKind::{kind}, value: {value}, knot: {knot}, knots: {knots} }}")
+}
+
+fn knot<R: SourceNumber>(knot: &Knot<R>) -> String {
+    let (time, value, slope) = (knot.time.number(), knot.value.number(), knot.slope.number());
+    format!("Knot {{ time: {time}, value: {value}, slope: {slope} }}")
 }
 
 fn torsion<R: SourceNumber>(spring: &TorsionSpring<R>) -> String {

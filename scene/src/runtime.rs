@@ -5,6 +5,7 @@
 use std::marker::PhantomData;
 
 use dbd_kernel::elements::load::LoadWindow;
+use dbd_kernel::inputs::{Input, Knot, KnotStep, Signal};
 use dbd_kernel::model::{AllTerms, Body, Group, ModelOwner, ModelRef};
 use dbd_kernel::{
     BodyState, F64, Geometry, Load, PointBushing, PointOnLine, Real, State, TorsionSpring, Tsda,
@@ -36,6 +37,12 @@ pub struct SceneModel<P: Geometry> {
     pub loads: Vec<Load<P::Real>>,
     /// Points on lines of the groups.
     pub lines: Vec<PointOnLine<P::Real>>,
+    /// Inputs.
+    pub inputs: Vec<Input<P>>,
+    /// Knots of the inputs' tables.
+    pub knots: Vec<Knot<P::Real>>,
+    /// \[m\] clearances of groups.
+    pub clearances: Vec<P::Real>,
 }
 
 impl<P: Geometry> SceneModel<P> {
@@ -54,6 +61,9 @@ impl<P: Geometry> SceneModel<P> {
             torsions: self.torsions.iter().map(TorsionSpring::convert).collect(),
             loads: self.loads.iter().map(Load::convert).collect(),
             lines: self.lines.iter().map(PointOnLine::convert).collect(),
+            inputs: self.inputs.iter().map(Input::convert).collect(),
+            knots: self.knots.iter().map(Knot::convert).collect(),
+            clearances: self.clearances.iter().map(|c| Q::Real::from_f64(c.to_f64())).collect(),
         }
     }
 
@@ -71,6 +81,7 @@ pub fn widen<M: ModelOwner>(state: &State<M>) -> State<SceneModel<F64>> {
         bodies: state.bodies.as_ref().iter().map(BodyState::convert).collect(),
         turns: state.turns.as_ref().to_vec(),
         step: state.step,
+        signals: state.signals.as_ref().iter().map(Signal::convert).collect(),
     }
 }
 
@@ -80,6 +91,8 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
     type PerBody<T: Copy> = Vec<T>;
     type PerTorsion = Vec<i32>;
     type PerLoad = Vec<LoadWindow>;
+    type PerInput = Vec<Signal<P::Real>>;
+    type PerKnot = Vec<KnotStep<P::Real>>;
 
     fn view(&self) -> ModelRef<'_, P, AllTerms> {
         ModelRef {
@@ -93,6 +106,9 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
             torsions: &self.torsions,
             loads: &self.loads,
             lines: &self.lines,
+            inputs: &self.inputs,
+            knots: &self.knots,
+            clearances: &self.clearances,
             terms: PhantomData,
         }
     }
@@ -111,5 +127,13 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
 
     fn per_load(&self) -> Vec<LoadWindow> {
         vec![LoadWindow::default(); self.loads.len()]
+    }
+
+    fn per_input(&self) -> Self::PerInput {
+        vec![Signal::default(); self.inputs.len()]
+    }
+
+    fn per_knot(&self) -> Self::PerKnot {
+        vec![KnotStep::default(); self.knots.len()]
     }
 }

@@ -29,13 +29,28 @@ mod roots {
                 ) = (leapfrog_f32, dbd_f32, leapfrog_f64, dbd_f64);
             })*
 
+            firmware::shipped_f32!(roots_f32);
+
             /// Where the linker starts to look.
             // The linker finds the entry by this name; the image has no other symbol of it.
             #[allow(unsafe_code)]
             #[unsafe(no_mangle)]
             extern "C" fn audit_roots(keep: extern "C" fn(*const u8)) {
                 $(keep((&raw const $module::STEPS).cast());)*
+                keep((&raw const STEPS_F32).cast());
             }
+        };
+    }
+    macro_rules! roots_f32 {
+        ($($module:ident $scene:literal $step:ident, $f32:ident: $model32:ident;)*) => {
+            $(mod $module {
+                use super::*;
+                use models::$module::$model32;
+                root!(leapfrog_f32, $model32, Leapfrog, ());
+                pub type Step = Root<$model32, Leapfrog>;
+                pub const STEP: Step = leapfrog_f32;
+            })*
+            static STEPS_F32: ($($module::Step,)*) = ($($module::STEP,)*);
         };
     }
     macro_rules! root {

@@ -95,7 +95,7 @@ impl LoadWindow {
 
 /// The first step that starts at or after `time`; a multiple of the step within 1e-9 counts as
 /// exact.
-fn first_step(time: f64, step: f64) -> u64 {
+pub(crate) fn first_step(time: f64, step: f64) -> u64 {
     if time <= 0.0 {
         return 0;
     }

@@ -3,6 +3,7 @@
 //! A law sees displacements, velocities and arms, never a body or an index; grouping and summing
 //! is [`crate::forces`]' work.
 
+pub mod clearance;
 pub mod gravity;
 pub mod load;
 pub mod point_bushing;

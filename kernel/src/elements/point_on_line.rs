@@ -8,6 +8,7 @@
 //! `L0 = 0` simply `k·e + c·ė`, smooth on the line. Energy `½·k·(|e| − L0)²`.
 //! A damper whose `ė` is not along e keeps angular momentum only as far as e vanishes.
 
+use crate::elements::clearance::beyond;
 use crate::real::Real;
 use crate::vector::Vec3;
 
@@ -60,21 +61,30 @@ impl<R: Real> PointOnLine<R> {
         )
     }
 
-    /// Force on A \[N\] for the deflection `e` without damping.
+    /// Force on A \[N\] for the deflection `e` without damping, beyond a clearance \[m\] if there
+    /// is one.
     #[inline(always)]
-    pub fn force(&self, e: Vec3<R>) -> Vec3<R> {
-        if self.free_length == R::ZERO {
+    pub fn force(&self, e: Vec3<R>, clearance: Option<R>) -> Vec3<R> {
+        if clearance.is_none() && self.free_length == R::ZERO {
             return e * self.stiffness;
         }
         let length = e.dot(e).sqrt();
-        let tension = self.stiffness * (length - self.free_length);
+        let tension = self.stiffness * beyond(length - self.free_length, clearance);
         e * (tension * length.reciprocal_or_zero())
     }
 
     /// Force on A \[N\] with the damper's share: `damping` in N·s/m, `rate` is `ė`.
     #[inline(always)]
-    pub fn damped_force(&self, damping: R, e: Vec3<R>, rate: Vec3<R>) -> Vec3<R> {
-        self.force(e) + rate * damping
+    pub fn damped_force(
+        &self,
+        damping: R,
+        e: Vec3<R>,
+        rate: Vec3<R>,
+        clearance: Option<R>,
+    ) -> Vec3<R> {
+        let force = self.force(e, clearance);
+        let engaged = clearance.is_none() || force != Vec3::ZERO;
+        if engaged { force + rate * damping } else { force }
     }
 
     /// `|e| − L0` \[m\].
@@ -85,8 +95,8 @@ impl<R: Real> PointOnLine<R> {
 
     /// Stored energy \[J\].
     #[inline]
-    pub fn energy(&self, e: Vec3<R>) -> R {
-        let extension = self.extension(e);
+    pub fn energy(&self, e: Vec3<R>, clearance: Option<R>) -> R {
+        let extension = beyond(self.extension(e), clearance);
         R::HALF * self.stiffness * extension * extension
     }
 }
@@ -101,10 +111,10 @@ mod tests {
         let line = PointOnLine::<f64>::from_f64(n.to_f64(), 500.0, 0.0);
         let projection = Projection::new(n * 3.0, n);
         assert!((projection.slide - 3.0).abs() < 1e-15);
-        assert!(line.energy(projection.deflection) < 1e-27);
+        assert!(line.energy(projection.deflection, None) < 1e-27);
         let aside = Projection::new(n * 3.0 + Vec3::new(0.2, 0.0, 0.0), n);
-        assert!((line.force(aside.deflection).x - 100.0).abs() < 1e-12);
-        assert!((line.energy(aside.deflection) - 10.0).abs() < 1e-12);
+        assert!((line.force(aside.deflection, None).x - 100.0).abs() < 1e-12);
+        assert!((line.energy(aside.deflection, None) - 10.0).abs() < 1e-12);
     }
 
     #[test]
@@ -112,8 +122,8 @@ mod tests {
         let n = Vec3::new(1.0, 0.0, 0.0);
         let line = PointOnLine::<f64>::from_f64(n.to_f64(), 500.0, 0.01);
         let d = Vec3::new(0.7, 0.012, -0.005);
-        let at = |d: Vec3<f64>| line.energy(Projection::new(d, n).deflection);
-        let force = line.force(Projection::new(d, n).deflection).to_f64();
+        let at = |d: Vec3<f64>| line.energy(Projection::new(d, n).deflection, None);
+        let force = line.force(Projection::new(d, n).deflection, None).to_f64();
         for (axis, force) in force.into_iter().enumerate() {
             let mut step = [0.0; 3];
             step[axis] = 1e-7;
@@ -121,14 +131,14 @@ mod tests {
             let gradient = (at(d + step) - at(d - step)) / 2e-7;
             assert!((gradient - force).abs() < 1e-5, "{gradient} {force}");
         }
-        assert_eq!(line.force(Vec3::ZERO), Vec3::ZERO);
+        assert_eq!(line.force(Vec3::ZERO, None), Vec3::ZERO);
     }
 
     #[test]
     fn the_damper_acts_in_every_direction_of_its_rate() {
         let line = PointOnLine::<f64>::from_f64([1.0, 0.0, 0.0], 0.0, 0.01);
         let rate = Vec3::new(0.0, 2.0, -1.0);
-        let force = line.damped_force(3.0, Vec3::new(0.0, 0.02, 0.0), rate);
+        let force = line.damped_force(3.0, Vec3::new(0.0, 0.02, 0.0), rate, None);
         assert_eq!(force, Vec3::new(0.0, 6.0, -3.0));
     }
 }

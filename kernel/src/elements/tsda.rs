@@ -4,6 +4,7 @@
 //! tension `k·(L − L0) + c·(d·v_rel)/L` along `d/L`; the force on B is the opposite.
 //! Energy `½·k·(L − L0)²`. Where the points coincide the direction is undefined and the force 0.
 
+use crate::elements::clearance::beyond;
 use crate::real::Real;
 use crate::vector::Vec3;
 
@@ -28,22 +29,31 @@ impl<R: Real> Tsda<R> {
         Tsda::from_f64(self.stiffness.to_f64(), self.free_length.to_f64())
     }
 
-    /// Force on A \[N\] without damping.
+    /// Force on A \[N\] without damping, beyond a clearance \[m\] if there is one.
     #[inline(always)]
-    pub fn force(&self, d: Vec3<R>) -> Vec3<R> {
+    pub fn force(&self, d: Vec3<R>, clearance: Option<R>) -> Vec3<R> {
         let length = d.dot(d).sqrt();
         let inverse = length.reciprocal_or_zero();
-        let tension = self.stiffness * (length - self.free_length);
+        let tension = self.stiffness * beyond(length - self.free_length, clearance);
         d * (tension * inverse)
     }
 
     /// Force on A \[N\] with the damper's share, `damping` in N·s/m.
     #[inline(always)]
-    pub fn damped_force(&self, damping: R, d: Vec3<R>, v_rel: Vec3<R>) -> Vec3<R> {
+    pub fn damped_force(
+        &self,
+        damping: R,
+        d: Vec3<R>,
+        v_rel: Vec3<R>,
+        clearance: Option<R>,
+    ) -> Vec3<R> {
         let length = d.dot(d).sqrt();
         let inverse = length.reciprocal_or_zero();
-        let rate = d.dot(v_rel) * inverse;
-        let tension = self.stiffness * (length - self.free_length) + damping * rate;
+        let extension = beyond(length - self.free_length, clearance);
+        let mut tension = self.stiffness * extension;
+        if clearance.is_none() || extension != R::ZERO {
+            tension = tension + damping * (d.dot(v_rel) * inverse);
+        }
         d * (tension * inverse)
     }
 
@@ -55,8 +65,8 @@ impl<R: Real> Tsda<R> {
 
     /// Stored energy \[J\].
     #[inline]
-    pub fn energy(&self, d: Vec3<R>) -> R {
-        let extension = self.extension(d);
+    pub fn energy(&self, d: Vec3<R>, clearance: Option<R>) -> R {
+        let extension = beyond(self.extension(d), clearance);
         R::HALF * self.stiffness * extension * extension
     }
 }
@@ -69,7 +79,7 @@ mod tests {
 
     #[test]
     fn a_stretched_spring_pulls_a_towards_b() {
-        let f = SPRING.force(Vec3::new(0.0, 0.7, 0.0));
+        let f = SPRING.force(Vec3::new(0.0, 0.7, 0.0), None);
         assert!(f.x == 0.0 && f.z == 0.0);
         assert!((f.y - 250.0 * 0.2).abs() < 1e-12);
     }
@@ -77,12 +87,12 @@ mod tests {
     #[test]
     fn the_force_is_minus_the_gradient_of_the_energy() {
         let d = Vec3::new(0.3, -0.4, 0.25);
-        let f = SPRING.force(d).to_f64();
+        let f = SPRING.force(d, None).to_f64();
         for (axis, force) in f.into_iter().enumerate() {
             let at = |s: f64| {
                 let mut p = d.to_f64();
                 p[axis] += s;
-                SPRING.energy(Vec3::from_f64(p))
+                SPRING.energy(Vec3::from_f64(p), None)
             };
             // The force on A is +dU/dd, since d grows when A moves against it.
             let gradient = (at(1e-6) - at(-1e-6)) / 2e-6;
@@ -93,13 +103,29 @@ mod tests {
     #[test]
     fn a_separating_pair_is_damped_along_the_line_only() {
         let d = Vec3::new(0.5, 0.0, 0.0);
-        let f = SPRING.damped_force(3.0, d, Vec3::new(2.0, 5.0, 0.0));
+        let f = SPRING.damped_force(3.0, d, Vec3::new(2.0, 5.0, 0.0), None);
         assert_eq!((f.x, f.y, f.z), (6.0, 0.0, 0.0));
     }
 
     #[test]
+    fn within_its_clearance_neither_spring_nor_damper_acts() {
+        let rate = Vec3::new(0.0, 2.0, 0.0);
+        let at = |length: f64| {
+            let d = Vec3::new(0.0, length, 0.0);
+            let clearance = Some(0.01);
+            (SPRING.damped_force(3.0, d, rate, clearance).y, SPRING.energy(d, clearance))
+        };
+        assert_eq!(at(0.505), (0.0, 0.0));
+        assert_eq!(at(0.495), (0.0, 0.0));
+        let (force, energy) = at(0.52);
+        assert!((force - (250.0 * 0.01 + 6.0)).abs() < 1e-9);
+        assert!((energy - 0.5 * 250.0 * 1e-4).abs() < 1e-12);
+    }
+
+    #[test]
     fn coincident_points_give_no_force() {
-        assert_eq!(SPRING.force(Vec3::ZERO), Vec3::ZERO);
-        assert_eq!(SPRING.damped_force(1.0, Vec3::ZERO, Vec3::new(1.0, 0.0, 0.0)), Vec3::ZERO);
+        assert_eq!(SPRING.force(Vec3::ZERO, None), Vec3::ZERO);
+        let rate = Vec3::new(1.0, 0.0, 0.0);
+        assert_eq!(SPRING.damped_force(1.0, Vec3::ZERO, rate, None), Vec3::ZERO);
     }
 }

@@ -1,0 +1,212 @@
+//! Read-outs: what a plant's sensors see, computed when asked for.
+//!
+//! `(read-out, model, state) => reading`, in the model's precision. A model without read-outs
+//! carries none: a read-out is a constant of its own that names bodies, groups or springs.
+
+use crate::energy::twist_of;
+use crate::forces::{self, Record};
+use crate::geometry::{FrameOf, Geometry, RealOf};
+use crate::groups::{End, Places, place_bodies, placed};
+use crate::inputs::InputKind;
+use crate::model::{BodyIndex, Law, ModelOwner};
+use crate::plant::Plant;
+use crate::real::Real;
+use crate::schemes::Scheme;
+use crate::state::State;
+use crate::vector::Vec3;
+
+/// What is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Readout<P: Geometry> {
+    /// \[rad\] the twist of a torsion spring, unwrapped.
+    JointAngle {
+        /// Its index among the torsion springs.
+        spring: u16,
+    },
+    /// \[rad/s\] the rate of that twist.
+    JointRate {
+        /// The spring's index among the torsion springs.
+        spring: u16,
+    },
+    /// \[m\] the position of a point of a body, world.
+    Point {
+        /// The body.
+        body: BodyIndex,
+        /// The point in body axes.
+        point: P::Local,
+    },
+    /// \[m/s\] the velocity of a point of a body, world.
+    PointVelocity {
+        /// The body.
+        body: BodyIndex,
+        /// The point in body axes.
+        point: P::Local,
+    },
+    /// \[N\] the tension of a TSDA: spring, damper and actuators.
+    TsdaForce {
+        /// The TSDA's group.
+        group: u16,
+        /// Its place in the group.
+        element: u16,
+    },
+    /// \[N\] the force of a joint on its second body, world.
+    JointForce {
+        /// The joint's group.
+        group: u16,
+    },
+    /// \[m/s², rad/s\] specific force and angular rate at a point of a body, body axes: what an
+    /// inertial measurement unit fixed there shows.
+    Imu {
+        /// The body.
+        body: BodyIndex,
+        /// The point in body axes.
+        point: P::Local,
+    },
+}
+
+impl<P: Geometry> Readout<P> {
+    /// The same read-out in another precision.
+    pub fn convert<Q: Geometry>(&self) -> Readout<Q> {
+        let local = |point: P::Local| Q::local_from_f64(P::local_to_f64(&point));
+        match *self {
+            Readout::JointAngle { spring } => Readout::JointAngle { spring },
+            Readout::JointRate { spring } => Readout::JointRate { spring },
+            Readout::Point { body, point } => Readout::Point { body, point: local(point) },
+            Readout::PointVelocity { body, point } => {
+                Readout::PointVelocity { body, point: local(point) }
+            }
+            Readout::TsdaForce { group, element } => Readout::TsdaForce { group, element },
+            Readout::JointForce { group } => Readout::JointForce { group },
+            Readout::Imu { body, point } => Readout::Imu { body, point: local(point) },
+        }
+    }
+}
+
+/// What a read-out shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Reading<R> {
+    /// An angle, a rate or a tension.
+    Scalar(R),
+    /// A position, a velocity or a force, world axes.
+    Vector(Vec3<R>),
+    /// An inertial measurement unit's, body axes.
+    Imu {
+        /// \[m/s²\].
+        specific_force: Vec3<R>,
+        /// \[rad/s\].
+        rate: Vec3<R>,
+    },
+}
+
+impl<R: Real> Reading<R> {
+    /// The reading of a quantity that is a number; `None` for a vector.
+    pub fn scalar(self) -> Option<R> {
+        match self {
+            Reading::Scalar(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// The reading of a quantity that is a vector; `None` for a number.
+    pub fn vector(self) -> Option<Vec3<R>> {
+        match self {
+            Reading::Vector(value) => Some(value),
+            _ => None,
+        }
+    }
+}
+
+impl<M: ModelOwner, S: Scheme> Plant<'_, M, S> {
+    /// Reads a sensor in the present state; `None` where the read-out names what the model lacks
+    /// or the twist is undefined. Only an inertial measurement unit costs a force evaluation.
+    pub fn read(&self, readout: &Readout<M::Precision>) -> Option<Reading<RealOf<M>>> {
+        read(self.model(), self.state(), self.step_size(), readout)
+    }
+}
+
+/// Reads a sensor in a state of a model, loads as they act for steps of `step_size` \[s\].
+pub fn read<M: ModelOwner>(
+    model: &M,
+    state: &State<M>,
+    step_size: f64,
+    readout: &Readout<M::Precision>,
+) -> Option<Reading<RealOf<M>>> {
+    let view = model.view();
+    let bodies = state.bodies.as_ref();
+    let mut frames = model.per_body(FrameOf::<M>::default());
+    place_bodies::<M::Precision>(bodies, frames.as_mut());
+    let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
+    let end = |body: BodyIndex| End::new(&view, places, body, Some(bodies));
+    let there = |body: BodyIndex| bodies.get(body.row());
+    match *readout {
+        Readout::JointAngle { spring } => {
+            let turns = *state.turns.as_ref().get(spring as usize)?;
+            let spring = view.torsions.get(spring as usize)?;
+            twist_of::<M::Precision>(spring, bodies, turns).map(|t| Reading::Scalar(t.angle))
+        }
+        Readout::JointRate { spring } => {
+            let spring = view.torsions.get(spring as usize)?;
+            let twist = twist_of::<M::Precision>(spring, bodies, 0)?;
+            let (a, b) = (end(spring.a), end(spring.b));
+            Some(Reading::Scalar(a.to_axes(b.spin - a.spin).dot(twist.gradient)))
+        }
+        Readout::Point { body, point } => {
+            let position = M::Precision::position(&there(body)?.position);
+            Some(Reading::Vector(position + end(body).place(&point).1))
+        }
+        Readout::PointVelocity { body, point } => {
+            there(body)?;
+            let end = end(body);
+            Some(Reading::Vector(end.point_velocity(end.place(&point).1)))
+        }
+        Readout::TsdaForce { group, element } => {
+            let row = group as usize;
+            let group = view.groups.get(row)?;
+            let place = placed(&view, places, (row, group), element as usize)?;
+            if group.law != Law::Tsda {
+                return None;
+            }
+            let tsda = view.tsdas.get(place.index)?;
+            let d = place.displacement;
+            let (a, b) = (end(group.a), end(group.b));
+            let v_rel = b.point_velocity(place.arm_b) - a.point_velocity(place.arm_a);
+            let clearance = view.clearance(group);
+            let damping =
+                group.damper.row().and_then(|row| view.dampers.get(row + element as usize));
+            let force = match damping {
+                Some(&damping) => tsda.damped_force(damping, d, v_rel, clearance),
+                None => tsda.force(d, clearance),
+            };
+            let mut tension = force.dot(d) * d.dot(d).sqrt().reciprocal_or_zero();
+            for (input, signal) in view.inputs.iter().zip(state.signals.as_ref()) {
+                let this = InputKind::Actuator { group: row as u16, element };
+                if input.kind == this {
+                    tension = tension + signal.value;
+                }
+            }
+            Some(Reading::Scalar(tension))
+        }
+        Readout::JointForce { group } => {
+            let group = view.groups.get(group as usize)?;
+            let record: Record<RealOf<M>> =
+                forces::record::<M::Precision, M::Terms, true>(&view, places, bodies, group);
+            Some(Reading::Vector(-record.force))
+        }
+        Readout::Imu { body, point } => {
+            let constants = view.bodies.get(body.row())?;
+            let wrenches = forces::wrenches(model, state, step_size).ok()?;
+            let wrench = wrenches.as_ref().get(body.row())?;
+            let rate = M::Precision::velocity(&there(body)?.angular_velocity);
+            let gravity = view.gravity.first().copied().unwrap_or(Vec3::ZERO);
+            let end = end(body);
+            // Arm, rates and accelerations in body axes.
+            let arm = end.to_axes(end.place(&point).1);
+            let centre = end.to_axes(wrench.force * constants.inverse_mass - gravity);
+            let torque = wrench.torque - rate.cross(constants.inertia.scale(rate));
+            let angular = torque.scale(constants.inverse_inertia);
+            let specific_force = centre + angular.cross(arm) + rate.cross(rate.cross(arm));
+            Some(Reading::Imu { specific_force, rate })
+        }
+    }
+}

@@ -1,0 +1,355 @@
+//! Snapshots: a plant's state as plain bytes, and back, exactly.
+//!
+//! `plant => bytes => plant`. Little-endian: magic `DBDS`, version (u16), the number of words
+//! (u16), fingerprint of model, precision and step (u64), the state's words in the order of its
+//! hash, then two words per input, then the CRC-32 (IEEE 802.3, reflected) of all before it. A
+//! plant of the same model and step, on whatever target, goes on with the very same bits.
+//! Bytes that do not fit are refused and change nothing.
+
+use crate::geometry::Geometry;
+use crate::inputs::{Input, InputKind};
+use crate::model::{ModelOwner, ModelRef};
+use crate::plant::Plant;
+use crate::real::Real;
+use crate::schemes::Scheme;
+use crate::words::{Fnv1a, Word, WordSource, WordVisitor, Words};
+
+const MAGIC: [u8; 4] = *b"DBDS";
+/// Of the layout; another one is refused.
+const VERSION: u16 = 1;
+/// Magic, version, number of words, fingerprint.
+const HEADER: usize = 16;
+const CHECKSUM: usize = 4;
+
+/// Why a snapshot was not taken, or refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum SnapshotError {
+    /// The buffer is shorter than this many bytes.
+    Buffer(usize),
+    /// The plant has failed; it has no state worth keeping.
+    Failed,
+    /// The bytes are not a snapshot, or not a whole one.
+    Format,
+    /// The layout is that of another version.
+    Version(u16),
+    /// A bit was changed.
+    Checksum,
+    /// It is the state of another model, precision or step.
+    Model,
+    /// It holds a number that is not finite.
+    NotFinite,
+}
+
+impl core::fmt::Display for SnapshotError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            SnapshotError::Buffer(size) => write!(f, "the snapshot takes {size} bytes"),
+            SnapshotError::Failed => f.write_str("the plant has failed"),
+            SnapshotError::Format => f.write_str("these bytes are not a whole snapshot"),
+            SnapshotError::Version(found) => write!(f, "version {found}, known is {VERSION}"),
+            SnapshotError::Checksum => f.write_str("the checksum is wrong"),
+            SnapshotError::Model => f.write_str("a snapshot of another model, precision or step"),
+            SnapshotError::NotFinite => f.write_str("the snapshot holds a number not finite"),
+        }
+    }
+}
+
+impl core::error::Error for SnapshotError {}
+
+impl<M: ModelOwner, S: Scheme> Plant<'_, M, S> {
+    /// The bytes that a snapshot of this plant takes.
+    #[must_use]
+    pub fn snapshot_size(&self) -> usize {
+        let mut count = Count::default();
+        self.visit_all(&mut count);
+        HEADER + count.bytes + CHECKSUM
+    }
+
+    /// Writes the state to the start of `buffer`; the number of bytes written.
+    ///
+    /// # Errors
+    /// [`SnapshotError::Buffer`], [`SnapshotError::Failed`].
+    pub fn snapshot(&self, buffer: &mut [u8]) -> Result<usize, SnapshotError> {
+        if !self.status().is_running() {
+            return Err(SnapshotError::Failed);
+        }
+        let size = self.snapshot_size();
+        let out = buffer.get_mut(..size).ok_or(SnapshotError::Buffer(size))?;
+        let mut count = Count::default();
+        self.visit_all(&mut count);
+        let mut writer = Writer { out, crc: Crc32::default() };
+        writer.bytes(&MAGIC);
+        writer.bytes(&VERSION.to_le_bytes());
+        writer.bytes(&count.words.to_le_bytes());
+        writer.bytes(&self.fingerprint().to_le_bytes());
+        self.visit_all(&mut writer);
+        let crc = writer.crc.finish();
+        writer.bytes(&crc.to_le_bytes());
+        Ok(size)
+    }
+
+    /// Takes the state from a snapshot of the same model, precision and step.
+    ///
+    /// # Errors
+    /// A [`SnapshotError`]; the plant is then as it was. A failed plant runs again after a
+    /// successful call.
+    pub fn restore(&mut self, bytes: &[u8]) -> Result<(), SnapshotError> {
+        let size = self.snapshot_size();
+        let (header, rest) = bytes.split_at_checked(HEADER).ok_or(SnapshotError::Format)?;
+        let mut reader = Reader { bytes: header };
+        if reader.take(4) != u64::from(u32::from_le_bytes(MAGIC)) {
+            return Err(SnapshotError::Format);
+        }
+        let version = reader.take(2) as u16;
+        if version != VERSION {
+            return Err(SnapshotError::Version(version));
+        }
+        let covered = bytes.len().checked_sub(CHECKSUM).ok_or(SnapshotError::Format)?;
+        let (covered, checksum) = bytes.split_at_checked(covered).ok_or(SnapshotError::Format)?;
+        let mut crc = Crc32::default();
+        crc.add(covered);
+        if (Reader { bytes: checksum }).take(4) != u64::from(crc.finish()) {
+            return Err(SnapshotError::Checksum);
+        }
+        let _words = reader.take(2);
+        if reader.take(8) != self.fingerprint() {
+            return Err(SnapshotError::Model);
+        }
+        if bytes.len() != size {
+            return Err(SnapshotError::Format);
+        }
+        let mut state = self.state().clone();
+        let mut source = Reader { bytes: rest };
+        state.fill(&mut source);
+        let mut finite = Finite(true);
+        state.visit(&mut finite);
+        for signal in state.signals.as_mut() {
+            signal.fill(&mut source);
+            signal.visit(&mut finite);
+        }
+        if !finite.0 {
+            return Err(SnapshotError::NotFinite);
+        }
+        self.resume(state);
+        Ok(())
+    }
+
+    /// FNV-1a 64 over the model's constants, its precision and the step: what a state belongs to.
+    #[must_use]
+    pub fn fingerprint(&self) -> u64 {
+        let mut hash = Fnv1a::new();
+        for byte in M::Precision::NAME.bytes() {
+            hash.word(Word::I32(i32::from(byte)));
+        }
+        hash.word(Word::F64(self.step_size()));
+        visit_model(&self.model().view(), &mut hash);
+        hash.finish()
+    }
+
+    fn visit_all(&self, visitor: &mut impl WordVisitor) {
+        self.state().visit(visitor);
+        for signal in self.state().signals.as_ref() {
+            signal.visit(visitor);
+        }
+    }
+}
+
+/// Every constant of a model in the order of its fields, counts first.
+fn visit_model<P: Geometry, T>(model: &ModelRef<'_, P, T>, visitor: &mut impl WordVisitor) {
+    let ModelRef { bodies, gravity, groups, points, tsdas, bushings, dampers, torsions, .. } =
+        model;
+    let ModelRef { loads, lines, inputs, knots, clearances, .. } = model;
+    let counts = [
+        bodies.len(),
+        gravity.len(),
+        groups.len(),
+        points.len(),
+        tsdas.len(),
+        bushings.len(),
+        dampers.len(),
+        torsions.len(),
+        loads.len(),
+        lines.len(),
+        inputs.len(),
+        knots.len(),
+        clearances.len(),
+    ];
+    let mut integer = |value: u64| visitor.word(Word::U64(value));
+    counts.into_iter().for_each(|count| integer(count as u64));
+    for group in *groups {
+        integer(group.law as u64);
+        integer(u64::from(group.a.0) << 16 | u64::from(group.b.0));
+        integer(u64::from(group.stars) << 16 | u64::from(group.arms) << 8 | group.shared as u64);
+        integer(u64::from(group.point) << 16 | u64::from(group.element));
+        integer(u64::from(group.damper.0) << 16 | u64::from(group.clearance.0));
+    }
+    for spring in *torsions {
+        integer(u64::from(spring.a.0) << 16 | u64::from(spring.b.0));
+        integer(u64::from(spring.damper.0));
+    }
+    for load in *loads {
+        integer(u64::from(load.body.0) << 1 | load.frame as u64);
+    }
+    for body in *bodies {
+        visitor.word(body.mass.word());
+        body.inertia.visit(visitor);
+    }
+    gravity.iter().for_each(|field| field.visit(visitor));
+    points.iter().for_each(|point| point.visit(visitor));
+    for tsda in *tsdas {
+        visitor.word(tsda.stiffness.word());
+        visitor.word(tsda.free_length.word());
+    }
+    bushings.iter().for_each(|bushing| visitor.word(bushing.stiffness.word()));
+    dampers.iter().chain(*clearances).for_each(|number| visitor.word(number.word()));
+    for spring in *torsions {
+        spring.axis.visit(visitor);
+        spring.reference.visit(visitor);
+        visitor.word(spring.stiffness.word());
+        visitor.word(spring.preload.word());
+    }
+    for load in *loads {
+        load.force.visit(visitor);
+        load.torque.visit(visitor);
+        visitor.word(Word::F64(load.from));
+        visitor.word(Word::F64(load.until));
+    }
+    for line in *lines {
+        line.direction.visit(visitor);
+        visitor.word(line.stiffness.word());
+        visitor.word(line.free_length.word());
+    }
+    inputs.iter().for_each(|input| visit_input(input, visitor));
+    for knot in *knots {
+        visitor.word(Word::F64(knot.time));
+        visitor.word(knot.value.word());
+        visitor.word(knot.slope.word());
+    }
+}
+
+fn visit_input<P: Geometry>(input: &Input<P>, visitor: &mut impl WordVisitor) {
+    let mut integers = |kind: u64, first: u16, second: u16| {
+        visitor.word(Word::U64(kind << 32 | u64::from(first) << 16 | u64::from(second)));
+    };
+    match &input.kind {
+        InputKind::Force { body, point, direction, frame } => {
+            integers(*frame as u64, body.0, 0);
+            point.visit(visitor);
+            direction.visit(visitor);
+        }
+        InputKind::Torque { body, axis, frame } => {
+            integers(2 + *frame as u64, body.0, 0);
+            axis.visit(visitor);
+        }
+        InputKind::JointTorque { a, b, axis } => {
+            integers(4, a.0, b.0);
+            axis.visit(visitor);
+        }
+        InputKind::Actuator { group, element } => integers(5, *group, *element),
+        InputKind::Anchor { direction } => {
+            integers(6, 0, 0);
+            direction.visit(visitor);
+        }
+    }
+    visitor.word(input.value.word());
+    visitor.word(Word::U64(u64::from(input.knot) << 16 | u64::from(input.knots)));
+}
+
+#[derive(Default)]
+struct Count {
+    words: u16,
+    bytes: usize,
+}
+
+impl WordVisitor for Count {
+    fn word(&mut self, word: Word) {
+        self.words = self.words.wrapping_add(1);
+        self.bytes += word.size();
+    }
+}
+
+struct Finite(bool);
+
+impl WordVisitor for Finite {
+    fn word(&mut self, word: Word) {
+        self.0 &= match word {
+            Word::F32(x) => x.is_finite(),
+            Word::F64(x) => x.is_finite(),
+            Word::I32(_) | Word::U64(_) => true,
+        };
+    }
+}
+
+struct Writer<'b> {
+    out: &'b mut [u8],
+    crc: Crc32,
+}
+
+impl Writer<'_> {
+    fn bytes(&mut self, bytes: &[u8]) {
+        self.crc.add(bytes);
+        let out = core::mem::take(&mut self.out);
+        if let Some((here, rest)) = out.split_at_mut_checked(bytes.len()) {
+            here.iter_mut().zip(bytes).for_each(|(to, from)| *to = *from);
+            self.out = rest;
+        }
+    }
+}
+
+impl WordVisitor for Writer<'_> {
+    fn word(&mut self, word: Word) {
+        let bytes = word.bits().to_le_bytes();
+        self.bytes(bytes.get(..word.size()).unwrap_or(&[]));
+    }
+}
+
+struct Reader<'b> {
+    bytes: &'b [u8],
+}
+
+impl WordSource for Reader<'_> {
+    /// The next bytes as a number; 0 beyond the end, which the length check precedes.
+    fn take(&mut self, size: usize) -> u64 {
+        let (here, rest) = self.bytes.split_at_checked(size).unwrap_or((&[], &[]));
+        self.bytes = rest;
+        here.iter().rev().fold(0, |value, byte| value << 8 | u64::from(*byte))
+    }
+}
+
+/// CRC-32 of IEEE 802.3, reflected, bit by bit: a snapshot is short and seldom taken.
+struct Crc32(u32);
+
+impl Default for Crc32 {
+    fn default() -> Self {
+        Self(u32::MAX)
+    }
+}
+
+impl Crc32 {
+    fn add(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            self.0 ^= u32::from(*byte);
+            for _ in 0..8 {
+                let lowest = self.0 & 1;
+                self.0 = (self.0 >> 1) ^ (0xedb8_8320 & lowest.wrapping_neg());
+            }
+        }
+    }
+
+    fn finish(&self) -> u32 {
+        !self.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_checksum_is_the_published_one() {
+        let mut crc = Crc32::default();
+        crc.add(b"123456789");
+        assert_eq!(crc.finish(), 0xcbf4_3926);
+    }
+}

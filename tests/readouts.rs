@@ -1,0 +1,84 @@
+//! Read-outs against what is known.
+
+use dbd_kernel::readouts::{Reading, Readout};
+use dbd_kernel::{BodyIndex, BodyState, F64, Leapfrog, Plant, Vec3};
+use dbd_tests::{Bench, at, turned};
+
+const WORLD: BodyIndex = BodyIndex::WORLD;
+
+fn near(a: Vec3<f64>, b: [f64; 3], tolerance: f64) -> bool {
+    let d = a - Vec3::from_f64(b);
+    d.dot(d).sqrt() < tolerance
+}
+
+#[test]
+fn angles_are_unwrapped_and_rates_signed() {
+    let mut model = Bench::<F64>::new();
+    let state = BodyState::from_f64([0.0; 3], [1.0, 0.0, 0.0, 0.0], [0.0; 3], [0.0, 0.0, -4.0]);
+    let body = model.add_body(1.0, [0.25; 3], state).unwrap();
+    model.add_torsion_spring([WORLD, body], [0.0, 0.0, 1.0], 0.0, 0.0, 0.0).unwrap();
+    let mut plant = Plant::new(&model, Leapfrog, 1e-3).unwrap();
+    plant.advance(5_000).ok().unwrap();
+    let angle = plant.read(&Readout::JointAngle { spring: 0 }).unwrap().scalar().unwrap();
+    let rate = plant.read(&Readout::JointRate { spring: 0 }).unwrap().scalar().unwrap();
+    assert!((angle + 20.0).abs() < 1e-9 && (rate + 4.0).abs() < 1e-12, "{angle} {rate}");
+    assert_eq!(plant.read(&Readout::JointAngle { spring: 1 }), None);
+}
+
+#[test]
+fn points_of_a_turned_moving_body() {
+    let mut model = Bench::<F64>::new();
+    let quarter = turned([0.0, 0.0, 1.0], std::f64::consts::FRAC_PI_2);
+    let state = BodyState::from_f64([1.0, 2.0, 3.0], quarter, [0.5, 0.0, 0.0], [0.0, 0.0, 2.0]);
+    let body = model.add_body(1.0, [0.25; 3], state).unwrap();
+    let plant = Plant::new(&model, Leapfrog, 1e-3).unwrap();
+    let point = Vec3::new(0.1, 0.0, 0.0);
+    let read = |readout| plant.read(&readout).unwrap().vector().unwrap();
+    assert!(near(read(Readout::Point { body, point }), [1.0, 2.1, 3.0], 1e-12));
+    assert!(near(read(Readout::PointVelocity { body, point }), [0.3, 0.0, 0.0], 1e-12));
+    let missing = Readout::Point { body: BodyIndex(7), point };
+    assert_eq!(plant.read(&missing), None);
+}
+
+#[test]
+fn an_imu_shows_specific_force() {
+    let point = Vec3::new(0.2, 0.0, 0.0);
+    let imu = |model: &Bench<F64>| {
+        let plant = Plant::new(model, Leapfrog, 1e-3).unwrap();
+        match plant.read(&Readout::Imu { body: BodyIndex(0), point }) {
+            Some(Reading::Imu { specific_force, rate }) => (specific_force, rate),
+            other => panic!("{other:?}"),
+        }
+    };
+    // Falling and spinning: weightless but for the centripetal part.
+    let mut falling = Bench::new();
+    falling.set_gravity([0.0, -9.81, 0.0]).unwrap();
+    let spin = BodyState::from_f64([0.0; 3], [1.0, 0.0, 0.0, 0.0], [0.0; 3], [0.0, 0.0, 3.0]);
+    falling.add_body(2.0, [0.1; 3], spin).unwrap();
+    let (force, rate) = imu(&falling);
+    assert!(near(force, [-9.0 * 0.2, 0.0, 0.0], 1e-12), "{force:?}");
+    assert!(near(rate, [0.0, 0.0, 3.0], 1e-15));
+    // Hung at rest, turned by a quarter: gravity's reaction points along body x.
+    let mut hung = Bench::new();
+    hung.set_gravity([0.0, -9.81, 0.0]).unwrap();
+    let quarter = turned([0.0, 0.0, 1.0], std::f64::consts::FRAC_PI_2);
+    let state = BodyState::from_f64([0.0; 3], quarter, [0.0; 3], [0.0; 3]);
+    let body = hung.add_body(2.0, [0.1; 3], state).unwrap();
+    let points = [[0.0, 1.0, 0.0], [0.0; 3]];
+    hung.add_tsda([WORLD, body], points, 1e3, 0.0, 1.0 - 2.0 * 9.81 / 1e3).unwrap();
+    let (force, _) = imu(&hung);
+    assert!(near(force, [9.81, 0.0, 0.0], 1e-9), "{force:?}");
+}
+
+#[test]
+fn tensions_and_joint_forces() {
+    let mut model = Bench::<F64>::new();
+    let moving = BodyState { velocity: Vec3::new(0.5, 0.0, 0.0), ..at([1.2, 0.0, 0.0]) };
+    let body = model.add_body(2.0, [0.1; 3], moving).unwrap();
+    model.add_tsda([WORLD, body], [[0.0; 3]; 2], 100.0, 4.0, 1.0).unwrap();
+    let plant = Plant::new(&model, Leapfrog, 1e-3).unwrap();
+    let tension = plant.read(&Readout::TsdaForce { group: 0, element: 0 }).unwrap();
+    assert!((tension.scalar().unwrap() - (100.0 * 0.2 + 4.0 * 0.5)).abs() < 1e-12);
+    let force = plant.read(&Readout::JointForce { group: 0 }).unwrap().vector().unwrap();
+    assert!(near(force, [-22.0, 0.0, 0.0], 1e-12), "on the second body: {force:?}");
+}

@@ -1,0 +1,90 @@
+//! Snapshots: exact resume, and every kind of wrong bytes.
+
+use dbd_kernel::inputs::InputKind;
+use dbd_kernel::snapshot::SnapshotError;
+use dbd_kernel::{
+    BodyIndex, Dbd, F32, F64, Geometry, Leapfrog, Load, LoadFrame, Plant, Scheme, Vec3,
+};
+use dbd_tests::{Bench, hung_ring};
+
+/// A model with dampers, torsion springs, a load that ends and inputs of both sorts.
+fn busy<P: Geometry>() -> Bench<P> {
+    let mut model = hung_ring::<P>(0.5);
+    let axis = Vec3::from_f64([0.0, 0.0, 1.0]);
+    let torque = Vec3::from_f64([0.0, 0.2, 0.0]);
+    let body = BodyIndex(1);
+    let force = Vec3::ZERO;
+    let frame = LoadFrame::Body;
+    model.add_load(Load { body, frame, force, torque, from: 0.01, until: 0.06 }).unwrap();
+    model.add_input(InputKind::Torque { body, axis, frame }, 0.1).unwrap();
+    let table = [[0.0, 0.0], [0.03, 0.5], [0.07, -0.5]];
+    model.add_table(InputKind::Actuator { group: 2, element: 0 }, &table, true).unwrap();
+    model
+}
+
+fn resumes<P: Geometry, S: Scheme>(scheme: S) {
+    let model = busy::<P>();
+    let input = dbd_kernel::inputs::InputIndex(0);
+    let mut whole = Plant::new(&model, scheme, 1e-4).unwrap();
+    let mut bytes = vec![0; whole.snapshot_size()];
+    // 500 steps lie within the load's window.
+    whole.advance(250).ok().unwrap();
+    whole.set_input(input, 0.7).unwrap();
+    whole.advance(250).ok().unwrap();
+    assert_eq!(whole.snapshot(&mut bytes), Ok(bytes.len()));
+    whole.advance(500).ok().unwrap();
+    let mut other = Plant::new(&model, scheme, 1e-4).unwrap();
+    other.advance(77).ok().unwrap();
+    other.restore(&bytes).unwrap();
+    assert_eq!(other.state().step, 500);
+    other.advance(500).ok().unwrap();
+    assert_eq!(whole.hash(), other.hash(), "{} {}", S::NAME, P::NAME);
+}
+
+#[test]
+fn a_restored_plant_goes_on_with_the_same_bits() {
+    resumes::<F64, _>(Leapfrog);
+    resumes::<F32, _>(Leapfrog);
+    resumes::<F64, _>(Dbd::default());
+    resumes::<F32, _>(Dbd { newton: 1 });
+}
+
+#[test]
+fn every_flipped_bit_is_refused_and_changes_nothing() {
+    let model = busy::<F32>();
+    let mut plant = Plant::new(&model, Leapfrog, 1e-4).unwrap();
+    plant.advance(10).ok().unwrap();
+    let mut bytes = vec![0; plant.snapshot_size()];
+    plant.snapshot(&mut bytes).unwrap();
+    plant.advance(5).ok().unwrap();
+    let before = plant.hash();
+    for bit in 0..bytes.len() * 8 {
+        bytes[bit / 8] ^= 1 << (bit % 8);
+        assert!(plant.restore(&bytes).is_err(), "bit {bit}");
+        bytes[bit / 8] ^= 1 << (bit % 8);
+    }
+    assert_eq!(plant.hash(), before);
+    assert_eq!(plant.restore(&bytes), Ok(()));
+    assert_ne!(plant.hash(), before);
+}
+
+#[test]
+fn snapshots_of_other_models_steps_versions_and_lengths_are_refused() {
+    let model = busy::<F64>();
+    let mut plant = Plant::new(&model, Leapfrog, 1e-4).unwrap();
+    let mut bytes = vec![0; plant.snapshot_size()];
+    plant.snapshot(&mut bytes).unwrap();
+    let mut other_step = Plant::new(&model, Leapfrog, 2e-4).unwrap();
+    assert_eq!(other_step.restore(&bytes), Err(SnapshotError::Model));
+    let other = hung_ring::<F64>(0.25);
+    let mut other = Plant::new(&other, Leapfrog, 1e-4).unwrap();
+    assert_eq!(other.restore(&bytes), Err(SnapshotError::Model));
+    let mut newer = bytes.clone();
+    newer[4] = 9;
+    assert_eq!(plant.restore(&newer), Err(SnapshotError::Version(9)));
+    assert_eq!(plant.restore(&bytes[..7]), Err(SnapshotError::Format));
+    assert_eq!(plant.restore(&bytes[..bytes.len() - 1]), Err(SnapshotError::Checksum));
+    assert_eq!(plant.restore(b"not a snapshot, but long enough"), Err(SnapshotError::Format));
+    let mut short = [0; 8];
+    assert_eq!(plant.snapshot(&mut short), Err(SnapshotError::Buffer(bytes.len())));
+}
