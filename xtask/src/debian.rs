@@ -2,7 +2,7 @@
 
 use anyhow::{Context as _, Result, bail};
 
-use crate::command::{find, output, program, run};
+use crate::command::{find, output, program};
 
 /// Installs packages, or says what to install.
 ///
@@ -22,16 +22,21 @@ pub fn install(purpose: &str, packages: &[&str], otherwise: &str) -> Result<()> 
     if apt(&["install"], packages).is_ok() {
         return Ok(());
     }
+    println!("refreshing the package lists");
     apt(&["update"], &[])
         .and_then(|()| apt(&["install"], packages))
         .with_context(|| format!("{purpose} is missing and could not be installed; {otherwise}"))
 }
 
 fn apt(action: &[&str], packages: &[&str]) -> Result<()> {
-    run(program("apt-get")
-        // Another installation may hold the lock for a while.
-        .args(["-qq", "-o", "DPkg::Lock::Timeout=300", "-y", "--no-install-recommends"])
-        .args(action)
-        .args(packages)
-        .env("DEBIAN_FRONTEND", "noninteractive"))
+    // Its many lines are of interest only where it fails, and then they are part of the error.
+    output(
+        program("apt-get")
+            // Another installation may hold the lock for a while.
+            .args(["-qq", "-o", "DPkg::Lock::Timeout=300", "-y", "--no-install-recommends"])
+            .args(action)
+            .args(packages)
+            .env("DEBIAN_FRONTEND", "noninteractive"),
+    )
+    .map(drop)
 }

@@ -2,7 +2,7 @@
 //!
 //! `machine => toolchain`, installing what is missing where this process may.
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 
 use crate::command::{find, output, program};
 use crate::debian;
@@ -12,6 +12,7 @@ use crate::toolchain::Toolchain;
 pub const TARGET: &str = "thumbv7em-none-eabihf";
 const EMULATOR: &str = "qemu-system-arm";
 const DISASSEMBLER: &str = "arm-none-eabi-objdump";
+const BINUTILS: &str = "binutils-arm-none-eabi";
 
 /// `cargo xtask setup`.
 ///
@@ -24,16 +25,20 @@ pub fn run() -> Result<()> {
 /// Finds or installs everything and prints what was found.
 ///
 /// # Errors
-/// Where something is missing and cannot be installed.
+/// Where something is missing and cannot be installed; all of it is named at once.
 pub fn complete() -> Result<Toolchain> {
-    let toolchain = toolchain()?;
-    need(EMULATOR, "qemu-system-arm", "install QEMU for Arm, version 7 or later")?;
-    let version = output(program(EMULATOR).arg("--version"))?;
-    println!("emulator: {}", version.lines().next().unwrap_or(EMULATOR));
-    need(DISASSEMBLER, "binutils-arm-none-eabi", "install GNU binutils for arm-none-eabi")?;
-    let version = output(program(DISASSEMBLER).arg("--version"))?;
-    println!("disassembler: {}", version.lines().next().unwrap_or(DISASSEMBLER));
-    Ok(toolchain)
+    let toolchain = toolchain();
+    let tools = [
+        tool("emulator", EMULATOR, EMULATOR, "install QEMU for Arm, version 7 or later"),
+        tool("disassembler", DISASSEMBLER, BINUTILS, "install GNU binutils for arm-none-eabi"),
+    ];
+    let missing = toolchain.as_ref().err().into_iter();
+    let missing = missing.chain(tools.iter().filter_map(|tool| tool.as_ref().err()));
+    let missing: Vec<String> = missing.map(|error| format!("{error:#}")).collect();
+    match toolchain {
+        Ok(toolchain) if missing.is_empty() => Ok(toolchain),
+        _ => bail!("{}", missing.join("\nerror: ")),
+    }
 }
 
 fn toolchain() -> Result<Toolchain> {
@@ -42,9 +47,11 @@ fn toolchain() -> Result<Toolchain> {
     Ok(toolchain)
 }
 
-fn need(tool: &str, package: &str, otherwise: &str) -> Result<()> {
-    if find(tool).is_some() {
-        return Ok(());
+fn tool(role: &str, name: &str, package: &str, otherwise: &str) -> Result<()> {
+    if find(name).is_none() {
+        debian::install(&format!("the {role} {name}"), &[package], otherwise)?;
     }
-    debian::install(tool, &[package], otherwise)
+    let version = output(program(name).arg("--version"))?;
+    println!("{role}: {}", version.lines().next().unwrap_or(name));
+    Ok(())
 }
