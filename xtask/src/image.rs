@@ -12,9 +12,17 @@ use crate::command::{output, program};
 /// A linked image.
 #[derive(Debug, Default)]
 pub struct Image {
-    /// Demangled names of all symbols, with their addresses.
-    symbols: Vec<(u64, String)>,
+    symbols: Vec<Symbol>,
     functions: BTreeMap<u64, Function>,
+}
+
+#[derive(Debug, PartialEq)]
+struct Symbol {
+    address: u64,
+    /// The first address after it, where its size is known.
+    end: Option<u64>,
+    /// Demangled.
+    name: String,
 }
 
 /// A function of an image.
@@ -36,13 +44,15 @@ impl Image {
     /// # Errors
     /// Where the tools cannot read it.
     pub fn read(elf: &Path) -> Result<Self> {
-        let names = output(program("arm-none-eabi-nm").arg("--demangle").arg(elf))?;
+        let names = output(program("arm-none-eabi-nm").args(["--demangle", "-S"]).arg(elf))?;
         let listing = output(
             program("arm-none-eabi-objdump")
                 .args(["--disassemble", "--demangle", "--no-show-raw-insn"])
                 .arg(elf),
         )?;
-        let image = Self { symbols: symbols(&names), functions: functions(&listing) };
+        let symbols = symbols(&names);
+        let ends = symbols.iter().map(|symbol| (symbol.address, symbol.end)).collect();
+        let image = Self { functions: functions(&listing, &ends), symbols };
         if image.symbols.is_empty() || image.functions.is_empty() {
             bail!("{} has no symbols or no code", elf.display());
         }
@@ -51,7 +61,7 @@ impl Image {
 
     /// Demangled names of all symbols.
     pub fn symbols(&self) -> impl Iterator<Item = &str> {
-        self.symbols.iter().map(|(_, name)| name.as_str())
+        self.symbols.iter().map(|symbol| symbol.name.as_str())
     }
 
     /// All functions.
@@ -65,9 +75,9 @@ impl Image {
     /// Where there is no function of the name.
     pub fn reach(&self, name: &str) -> Result<Vec<&Function>> {
         // By symbol: two functions of one body may share an address.
-        let root = self.symbols.iter().find(|(_, symbol)| symbol == name);
-        let &(root, _) = root.with_context(|| format!("the image has no function `{name}`"))?;
-        let (mut waiting, mut found) = (vec![root], BTreeMap::new());
+        let root = self.symbols.iter().find(|symbol| symbol.name == name);
+        let root = root.with_context(|| format!("the image has no function `{name}`"))?;
+        let (mut waiting, mut found) = (vec![root.address], BTreeMap::new());
         while let Some(address) = waiting.pop() {
             if let Some(function) = self.functions.get(&address)
                 && found.insert(address, function).is_none()
@@ -79,17 +89,24 @@ impl Image {
     }
 }
 
-/// The names of `nm`'s lines `ADDRESS KIND NAME`.
-fn symbols(names: &str) -> Vec<(u64, String)> {
+/// The symbols of `nm`'s lines `ADDRESS [SIZE] KIND NAME`.
+fn symbols(names: &str) -> Vec<Symbol> {
     let symbol = |line: &str| {
-        let mut words = line.splitn(3, ' ');
-        let address = u64::from_str_radix(words.next()?, 16).ok()?;
-        Some((address, words.nth(1)?.to_owned()))
+        let (address, rest) = line.split_once(' ')?;
+        let address = u64::from_str_radix(address, 16).ok()?;
+        let (size, rest) = match rest.split_once(' ')? {
+            (size, rest) if size.len() > 1 => (u64::from_str_radix(size, 16).ok(), rest),
+            _ => (None, rest),
+        };
+        let (_kind, name) = rest.split_once(' ')?;
+        Some(Symbol { address, end: size.map(|size| address + size), name: name.to_owned() })
     };
     names.lines().filter_map(symbol).collect()
 }
 
-fn functions(listing: &str) -> BTreeMap<u64, Function> {
+/// The functions of a listing. What lies beyond a function's known end is the linker's padding,
+/// which may read as a branch.
+fn functions(listing: &str, ends: &BTreeMap<u64, Option<u64>>) -> BTreeMap<u64, Function> {
     let mut functions: BTreeMap<u64, Function> = BTreeMap::new();
     let (mut start, mut end) = (0, 0);
     for line in listing.lines() {
@@ -100,7 +117,8 @@ fn functions(listing: &str) -> BTreeMap<u64, Function> {
             // A lone instruction of four bytes at the very end counts two too few; padding hides
             // it everywhere else.
             end = address + 2;
-            if let Some(function) = functions.get_mut(&start) {
+            let padding = ends.get(&start).copied().flatten().is_some_and(|last| address >= last);
+            if let (Some(function), false) = (functions.get_mut(&start), padding) {
                 function.mnemonics.insert(mnemonic.to_owned());
                 function.calls.extend(branch(mnemonic, operands));
             }
@@ -168,8 +186,8 @@ mod tests {
 
     #[test]
     fn calls_are_followed_and_sizes_end_at_the_next_function() {
-        let symbols = vec![(0x20000, "roots::dbd_f32".to_owned())];
-        let image = Image { symbols, functions: functions(LISTING) };
+        let symbols = symbols("00020000 00000010 t roots::dbd_f32\n");
+        let image = Image { symbols, functions: functions(LISTING, &BTreeMap::new()) };
         let reach = image.reach("roots::dbd_f32").unwrap();
         let names: Vec<&str> = reach.iter().map(|f| f.name.as_str()).collect();
         assert_eq!(names, ["roots::dbd_f32", "<A as B>::step", "leaf"]);
@@ -181,6 +199,24 @@ mod tests {
     #[test]
     fn names_keep_their_spaces() {
         let symbols = symbols("00020010 t <A as B>::step\n         U free\n");
-        assert_eq!(symbols, [(0x20010, "<A as B>::step".to_owned())]);
+        let name = "<A as B>::step".to_owned();
+        assert_eq!(symbols, [Symbol { address: 0x20010, end: None, name }]);
+    }
+
+    #[test]
+    fn padding_beyond_a_function_is_no_branch() {
+        let listing = "
+00020000 <short>:
+   20000:\tbx\tlr
+   20002:\tbmi.n\t20004 <next>
+
+00020004 <next>:
+   20004:\tbx\tlr
+";
+        let known = symbols("00020000 00000002 t short\n00020004 00000002 t next\n");
+        let ends = known.iter().map(|symbol| (symbol.address, symbol.end)).collect();
+        let functions = functions(listing, &ends);
+        assert!(functions[&0x20000].calls.is_empty());
+        assert!(!functions[&0x20000].mnemonics.contains("bmi.n"));
     }
 }
