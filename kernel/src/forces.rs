@@ -12,9 +12,9 @@ use crate::elements::gravity;
 use crate::elements::load::{LoadFrame, LoadWindow};
 use crate::elements::point_on_line::Projection;
 use crate::geometry::{FrameOf, Geometry, RealOf};
-use crate::groups::{End, Places, place_bodies, placed};
-use crate::inputs::{InputKind, Signal};
-use crate::model::{BodyIndex, Group, Law, ModelOwner, ModelRef, Terms};
+use crate::groups::{End, Places, place_bodies};
+use crate::inputs::{self, Signal};
+use crate::model::{Group, Law, ModelOwner, ModelRef, Terms};
 use crate::real::Real;
 use crate::state::{BodyState, State};
 use crate::vector::Vec3;
@@ -96,7 +96,7 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, const EXPLICIT: bool>(
     start(model, windows, step, frames, wrenches);
     let places = Places { frames, signals };
     if T::INPUTS {
-        inputs(model, places, wrenches);
+        inputs::push(model, places, wrenches);
     }
     if T::TSDAS || T::BUSHINGS || T::LINES {
         for group in model.groups {
@@ -173,58 +173,9 @@ fn start<P: Geometry, T: Terms>(
     }
 }
 
-/// The forces and torques of inputs.
-#[inline(always)]
-fn inputs<P: Geometry, T: Terms>(
-    model: &ModelRef<'_, P, T>,
-    places: Places<'_, P>,
-    wrenches: &mut [Wrench<P::Real>],
-) {
-    let turned = |body: BodyIndex, frame: LoadFrame, v: Vec3<P::Real>| match frame {
-        LoadFrame::World => v,
-        LoadFrame::Body => End::new(model, places, body, None).to_world(v),
-    };
-    for (input, signal) in model.inputs.iter().zip(places.signals) {
-        let value = signal.value;
-        let zero = Vec3::ZERO;
-        match input.kind {
-            InputKind::Force { body, point, direction, frame } => {
-                let force = turned(body, frame, direction) * value;
-                let (_, arm) = End::new(model, places, body, None).place(&point);
-                let record = Record { force, torque_a: arm.cross(force), torque_b: zero };
-                apply(wrenches, body.row(), BodyIndex::WORLD.row(), &record);
-            }
-            InputKind::Torque { body, axis, frame } => {
-                let torque_a = turned(body, frame, axis) * value;
-                let record = Record { force: zero, torque_a, torque_b: zero };
-                apply(wrenches, body.row(), BodyIndex::WORLD.row(), &record);
-            }
-            InputKind::JointTorque { a, b, axis } => {
-                let torque_b = turned(a, LoadFrame::Body, axis) * value;
-                let record = Record { force: zero, torque_a: -torque_b, torque_b };
-                apply(wrenches, a.row(), b.row(), &record);
-            }
-            InputKind::Actuator { group, element } => {
-                let row = group as usize;
-                let element = model
-                    .groups
-                    .get(row)
-                    .and_then(|group| placed(model, places, (row, group), element as usize));
-                let Some(element) = element else { continue };
-                let d = element.displacement;
-                let force = d * (value * d.dot(d).sqrt().reciprocal_or_zero());
-                let torque_a = element.arm_a.cross(force);
-                let record = Record { force, torque_a, torque_b: -element.arm_b.cross(force) };
-                apply(wrenches, element.group.a.row(), element.group.b.row(), &record);
-            }
-            InputKind::Anchor { .. } => {}
-        }
-    }
-}
-
 /// Adds a record to its two bodies; the world takes none.
 #[inline(always)]
-fn apply<R: Real>(wrenches: &mut [Wrench<R>], a: usize, b: usize, record: &Record<R>) {
+pub(crate) fn apply<R: Real>(wrenches: &mut [Wrench<R>], a: usize, b: usize, record: &Record<R>) {
     if let Some(wrench) = wrenches.get_mut(a) {
         wrench.force = wrench.force + record.force;
         wrench.torque = wrench.torque + record.torque_a;

@@ -4,110 +4,25 @@
 //! The builder is the model: lend it to a [`crate::Plant`] when it is complete. It steps through
 //! the same code and bits as a const model with the same elements in the same order.
 
-use core::marker::PhantomData;
+mod error;
+mod inputs;
+mod owner;
+
+pub use error::{BuildError, Part, Quantity};
 
 use heapless::Vec;
 
-use crate::elements::load::{Load, LoadWindow};
+use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_on_line::PointOnLine;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::geometry::Geometry;
-use crate::inputs::{Input, InputIndex, InputKind, Knot, KnotStep, Signal};
-use crate::model::{
-    AllTerms, Body, BodyIndex, ClearanceIndex, DamperIndex, Group, Law, ModelOwner, ModelRef,
-};
+use crate::inputs::{Input, Knot};
+use crate::model::{Body, BodyIndex, ClearanceIndex, DamperIndex, Group, Law};
 use crate::real::Real;
 use crate::state::BodyState;
 use crate::vector::{Quaternion, Vec3};
-
-/// Why an element could not be added; the builder is then as it was.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum BuildError {
-    /// The capacity for this part is used up.
-    Full(Part),
-    /// A body that was not added.
-    UnknownBody(BodyIndex),
-    /// An element between a body and itself.
-    SameBody(BodyIndex),
-    /// A quantity outside of its range, or not finite.
-    OutOfRange(Quantity),
-}
-
-/// What a builder has room for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Part {
-    /// Bodies.
-    Bodies,
-    /// Groups.
-    Groups,
-    /// Points.
-    Points,
-    /// TSDAs.
-    Tsdas,
-    /// Point bushings.
-    Bushings,
-    /// Damping coefficients.
-    Dampers,
-    /// Torsion springs.
-    Torsions,
-    /// Loads.
-    Loads,
-    /// Points on lines.
-    Lines,
-    /// Inputs.
-    Inputs,
-    /// Knots of tables.
-    Knots,
-}
-
-/// What can be out of range.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Quantity {
-    /// Mass: positive.
-    Mass,
-    /// Principal inertia: positive, none above the sum of the other two.
-    Inertia,
-    /// A position, orientation or velocity: finite.
-    State,
-    /// Gravity: finite.
-    Gravity,
-    /// A point: finite.
-    Point,
-    /// Stiffness: finite, not negative.
-    Stiffness,
-    /// Damping: finite, not negative.
-    Damping,
-    /// Free length: finite, not negative.
-    FreeLength,
-    /// Clearance: finite, not negative; none on a point bushing.
-    Clearance,
-    /// An axis: finite and not 0.
-    Axis,
-    /// A preload, force or torque: finite.
-    Load,
-    /// A window of time that ends before it begins, or NaN.
-    Window,
-    /// A joint's points: one or more centres, each with one arm or three, shared or its own.
-    Arms,
-}
-
-impl core::fmt::Display for BuildError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            BuildError::Full(part) => write!(f, "no room for more {part:?}"),
-            BuildError::UnknownBody(body) => write!(f, "body {} was not added", body.0),
-            BuildError::SameBody(body) => write!(f, "body {} joined to itself", body.0),
-            BuildError::OutOfRange(quantity) => write!(f, "{quantity:?} out of range"),
-        }
-    }
-}
-
-impl core::error::Error for BuildError {}
 
 /// Stars of TSDAs between two bodies: what a joint expands into.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -455,64 +370,6 @@ impl<
         self.loads.push(load).map_err(|_| BuildError::Full(Part::Loads))
     }
 
-    /// Adds an input that the caller drives, at first with `value`.
-    ///
-    /// # Errors
-    /// [`BuildError::Full`], a body that is not there, a value that is not finite.
-    pub fn add_input(&mut self, kind: InputKind<P>, value: f64) -> Result<InputIndex, BuildError> {
-        match &kind {
-            InputKind::Force { body, .. } | InputKind::Torque { body, .. } => {
-                if body.row() >= self.bodies.len() {
-                    return Err(BuildError::UnknownBody(*body));
-                }
-            }
-            InputKind::JointTorque { a, b, .. } => self.check_pair([*a, *b])?,
-            InputKind::Actuator { group, element } => {
-                let known = self.groups.get(*group as usize);
-                let there = known.is_some_and(|g| (*element as usize) < g.elements());
-                check(there, Quantity::Arms)?;
-            }
-            InputKind::Anchor { .. } => {}
-        }
-        check(value.is_finite(), Quantity::Load)?;
-        room(&self.inputs, 1, Part::Inputs)?;
-        let index = InputIndex(self.inputs.len() as u16);
-        let input = Input { kind, value: P::Real::from_f64(value), knot: 0, knots: 0 };
-        let _ = self.inputs.push(input);
-        Ok(index)
-    }
-
-    /// Adds an input that follows a table of (time \[s\], value) with ascending times, held from
-    /// each knot on, or linear in between.
-    ///
-    /// # Errors
-    /// As [`Self::add_input`]; [`Quantity::Window`] where times do not ascend.
-    pub fn add_table(
-        &mut self,
-        kind: InputKind<P>,
-        table: &[[f64; 2]],
-        linear: bool,
-    ) -> Result<InputIndex, BuildError> {
-        let ascending = table.windows(2).all(|pair| pair[0][0] < pair[1][0]);
-        let known = table.iter().all(|knot| finite(knot));
-        check(!table.is_empty() && ascending && known, Quantity::Window)?;
-        room(&self.knots, table.len(), Part::Knots)?;
-        let index = self.add_input(kind, 0.0)?;
-        if let Some(input) = self.inputs.get_mut(index.0 as usize) {
-            input.knot = self.knots.len() as u16;
-            input.knots = table.len() as u16;
-        }
-        for (i, [time, value]) in table.iter().enumerate() {
-            let slope = match table.get(i + 1) {
-                Some([next, then]) if linear => (then - value) / (next - time),
-                _ => 0.0,
-            };
-            let (value, slope) = (P::Real::from_f64(*value), P::Real::from_f64(slope));
-            let _ = self.knots.push(Knot { time: *time, value, slope });
-        }
-        Ok(index)
-    }
-
     fn check_pair(&self, between: [BodyIndex; 2]) -> Result<(), BuildError> {
         for body in between {
             if !body.is_world() && body.row() >= self.bodies.len() {
@@ -565,85 +422,4 @@ fn check(holds: bool, quantity: Quantity) -> Result<(), BuildError> {
 fn room<T, const N: usize>(items: &Vec<T, N>, more: usize, part: Part) -> Result<(), BuildError> {
     let fits = items.len() + more <= N.min(usize::from(u16::MAX));
     if fits { Ok(()) } else { Err(BuildError::Full(part)) }
-}
-
-impl<
-    P: Geometry,
-    const BODIES: usize,
-    const GROUPS: usize,
-    const POINTS: usize,
-    const TSDAS: usize,
-    const BUSHINGS: usize,
-    const DAMPERS: usize,
-    const TORSIONS: usize,
-    const LOADS: usize,
-    const LINES: usize,
-    const INPUTS: usize,
-    const KNOTS: usize,
-> ModelOwner
-    for ModelBuilder<
-        P,
-        BODIES,
-        GROUPS,
-        POINTS,
-        TSDAS,
-        BUSHINGS,
-        DAMPERS,
-        TORSIONS,
-        LOADS,
-        LINES,
-        INPUTS,
-        KNOTS,
-    >
-{
-    type Precision = P;
-    type Terms = AllTerms;
-    type PerBody<T: Copy> = Vec<T, BODIES>;
-    type PerTorsion = Vec<i32, TORSIONS>;
-    type PerLoad = Vec<LoadWindow, LOADS>;
-    type PerInput = Vec<Signal<P::Real>, INPUTS>;
-    type PerKnot = Vec<KnotStep<P::Real>, KNOTS>;
-
-    fn view(&self) -> ModelRef<'_, P, AllTerms> {
-        ModelRef {
-            bodies: &self.bodies,
-            gravity: &self.gravity,
-            groups: &self.groups,
-            points: &self.points,
-            tsdas: &self.tsdas,
-            bushings: &self.bushings,
-            dampers: &self.dampers,
-            torsions: &self.torsions,
-            loads: &self.loads,
-            lines: &self.lines,
-            inputs: &self.inputs,
-            knots: &self.knots,
-            clearances: &self.clearances,
-            terms: PhantomData,
-        }
-    }
-
-    fn initial(&self) -> &[BodyState<P>] {
-        &self.initial
-    }
-
-    fn per_body<T: Copy>(&self, value: T) -> Vec<T, BODIES> {
-        self.bodies.iter().map(|_| value).collect()
-    }
-
-    fn per_torsion(&self) -> Vec<i32, TORSIONS> {
-        self.torsions.iter().map(|_| 0).collect()
-    }
-
-    fn per_load(&self) -> Vec<LoadWindow, LOADS> {
-        self.loads.iter().map(|_| LoadWindow::default()).collect()
-    }
-
-    fn per_input(&self) -> Self::PerInput {
-        self.inputs.iter().map(|_| Signal::default()).collect()
-    }
-
-    fn per_knot(&self) -> Self::PerKnot {
-        self.knots.iter().map(|_| KnotStep::default()).collect()
-    }
 }

@@ -1,0 +1,90 @@
+//! Why an element could not be added, and what was meant.
+
+use crate::model::BodyIndex;
+
+/// Why an element could not be added; the builder is then as it was.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum BuildError {
+    /// The capacity for this part is used up.
+    Full(Part),
+    /// A body that was not added.
+    UnknownBody(BodyIndex),
+    /// An element between a body and itself.
+    SameBody(BodyIndex),
+    /// A quantity outside of its range, or not finite.
+    OutOfRange(Quantity),
+}
+
+/// What a builder has room for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Part {
+    /// Bodies.
+    Bodies,
+    /// Groups.
+    Groups,
+    /// Points.
+    Points,
+    /// TSDAs.
+    Tsdas,
+    /// Point bushings.
+    Bushings,
+    /// Damping coefficients.
+    Dampers,
+    /// Torsion springs.
+    Torsions,
+    /// Loads.
+    Loads,
+    /// Points on lines.
+    Lines,
+    /// Inputs.
+    Inputs,
+    /// Knots of tables.
+    Knots,
+}
+
+/// What can be out of range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Quantity {
+    /// Mass: positive.
+    Mass,
+    /// Principal inertia: positive, none above the sum of the other two.
+    Inertia,
+    /// A position, orientation or velocity: finite.
+    State,
+    /// Gravity: finite.
+    Gravity,
+    /// A point: finite.
+    Point,
+    /// Stiffness: finite, not negative.
+    Stiffness,
+    /// Damping: finite, not negative.
+    Damping,
+    /// Free length: finite, not negative.
+    FreeLength,
+    /// Clearance: finite, not negative; none on a point bushing.
+    Clearance,
+    /// An axis: finite and not 0.
+    Axis,
+    /// A preload, force or torque: finite.
+    Load,
+    /// A window of time that ends before it begins, or NaN.
+    Window,
+    /// A joint's points: one or more centres, each with one arm or three, shared or its own.
+    Arms,
+}
+
+impl core::fmt::Display for BuildError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            BuildError::Full(part) => write!(f, "no room for more {part:?}"),
+            BuildError::UnknownBody(body) => write!(f, "body {} was not added", body.0),
+            BuildError::SameBody(body) => write!(f, "body {} joined to itself", body.0),
+            BuildError::OutOfRange(quantity) => write!(f, "{quantity:?} out of range"),
+        }
+    }
+}
+
+impl core::error::Error for BuildError {}

@@ -1,0 +1,94 @@
+//! Inputs of a model under construction: driven by the caller, or by a table.
+
+use crate::builder::{BuildError, ModelBuilder, Part, Quantity, check, finite, room};
+use crate::geometry::Geometry;
+use crate::inputs::{Input, InputIndex, InputKind, Knot};
+use crate::real::Real;
+
+impl<
+    P: Geometry,
+    const BODIES: usize,
+    const GROUPS: usize,
+    const POINTS: usize,
+    const TSDAS: usize,
+    const BUSHINGS: usize,
+    const DAMPERS: usize,
+    const TORSIONS: usize,
+    const LOADS: usize,
+    const LINES: usize,
+    const INPUTS: usize,
+    const KNOTS: usize,
+>
+    ModelBuilder<
+        P,
+        BODIES,
+        GROUPS,
+        POINTS,
+        TSDAS,
+        BUSHINGS,
+        DAMPERS,
+        TORSIONS,
+        LOADS,
+        LINES,
+        INPUTS,
+        KNOTS,
+    >
+{
+    /// Adds an input that the caller drives, at first with `value`.
+    ///
+    /// # Errors
+    /// [`BuildError::Full`], a body that is not there, a value that is not finite.
+    pub fn add_input(&mut self, kind: InputKind<P>, value: f64) -> Result<InputIndex, BuildError> {
+        match &kind {
+            InputKind::Force { body, .. } | InputKind::Torque { body, .. } => {
+                if body.row() >= self.bodies.len() {
+                    return Err(BuildError::UnknownBody(*body));
+                }
+            }
+            InputKind::JointTorque { a, b, .. } => self.check_pair([*a, *b])?,
+            InputKind::Actuator { group, element } => {
+                let known = self.groups.get(*group as usize);
+                let there = known.is_some_and(|g| (*element as usize) < g.elements());
+                check(there, Quantity::Arms)?;
+            }
+            InputKind::Anchor { .. } => {}
+        }
+        check(value.is_finite(), Quantity::Load)?;
+        room(&self.inputs, 1, Part::Inputs)?;
+        let index = InputIndex(self.inputs.len() as u16);
+        let input = Input { kind, value: P::Real::from_f64(value), knot: 0, knots: 0 };
+        let _ = self.inputs.push(input);
+        Ok(index)
+    }
+
+    /// Adds an input that follows a table of (time \[s\], value) with ascending times, held from
+    /// each knot on, or linear in between.
+    ///
+    /// # Errors
+    /// As [`Self::add_input`]; [`Quantity::Window`] where times do not ascend.
+    pub fn add_table(
+        &mut self,
+        kind: InputKind<P>,
+        table: &[[f64; 2]],
+        linear: bool,
+    ) -> Result<InputIndex, BuildError> {
+        let ascending = table.windows(2).all(|pair| pair[0][0] < pair[1][0]);
+        let known = table.iter().all(|knot| finite(knot));
+        check(!table.is_empty() && ascending && known, Quantity::Window)?;
+        room(&self.knots, table.len(), Part::Knots)?;
+        let index = self.add_input(kind, 0.0)?;
+        if let Some(input) = self.inputs.get_mut(index.0 as usize) {
+            input.knot = self.knots.len() as u16;
+            input.knots = table.len() as u16;
+        }
+        for (i, [time, value]) in table.iter().enumerate() {
+            let slope = match table.get(i + 1) {
+                Some([next, then]) if linear => (then - value) / (next - time),
+                _ => 0.0,
+            };
+            let (value, slope) = (P::Real::from_f64(*value), P::Real::from_f64(slope));
+            let _ = self.knots.push(Knot { time: *time, value, slope });
+        }
+        Ok(index)
+    }
+}

@@ -1,0 +1,93 @@
+//! The builder as an owner of its model: memory of fixed capacity, filled as far as needed.
+
+use core::marker::PhantomData;
+
+use heapless::Vec;
+
+use crate::builder::ModelBuilder;
+use crate::elements::load::LoadWindow;
+use crate::geometry::Geometry;
+use crate::inputs::{KnotStep, Signal};
+use crate::model::{AllTerms, ModelOwner, ModelRef};
+use crate::state::BodyState;
+
+impl<
+    P: Geometry,
+    const BODIES: usize,
+    const GROUPS: usize,
+    const POINTS: usize,
+    const TSDAS: usize,
+    const BUSHINGS: usize,
+    const DAMPERS: usize,
+    const TORSIONS: usize,
+    const LOADS: usize,
+    const LINES: usize,
+    const INPUTS: usize,
+    const KNOTS: usize,
+> ModelOwner
+    for ModelBuilder<
+        P,
+        BODIES,
+        GROUPS,
+        POINTS,
+        TSDAS,
+        BUSHINGS,
+        DAMPERS,
+        TORSIONS,
+        LOADS,
+        LINES,
+        INPUTS,
+        KNOTS,
+    >
+{
+    type Precision = P;
+    type Terms = AllTerms;
+    type PerBody<T: Copy> = Vec<T, BODIES>;
+    type PerTorsion = Vec<i32, TORSIONS>;
+    type PerLoad = Vec<LoadWindow, LOADS>;
+    type PerInput = Vec<Signal<P::Real>, INPUTS>;
+    type PerKnot = Vec<KnotStep<P::Real>, KNOTS>;
+
+    fn view(&self) -> ModelRef<'_, P, AllTerms> {
+        ModelRef {
+            bodies: &self.bodies,
+            gravity: &self.gravity,
+            groups: &self.groups,
+            points: &self.points,
+            tsdas: &self.tsdas,
+            bushings: &self.bushings,
+            dampers: &self.dampers,
+            torsions: &self.torsions,
+            loads: &self.loads,
+            lines: &self.lines,
+            inputs: &self.inputs,
+            knots: &self.knots,
+            clearances: &self.clearances,
+            terms: PhantomData,
+        }
+    }
+
+    fn initial(&self) -> &[BodyState<P>] {
+        &self.initial
+    }
+
+    fn per_body<T: Copy>(&self, value: T) -> Vec<T, BODIES> {
+        self.bodies.iter().map(|_| value).collect()
+    }
+
+    fn per_torsion(&self) -> Vec<i32, TORSIONS> {
+        self.torsions.iter().map(|_| 0).collect()
+    }
+
+    fn per_load(&self) -> Vec<LoadWindow, LOADS> {
+        self.loads.iter().map(|_| LoadWindow::default()).collect()
+    }
+
+    fn per_input(&self) -> Self::PerInput {
+        self.inputs.iter().map(|_| Signal::default()).collect()
+    }
+
+    fn per_knot(&self) -> Self::PerKnot {
+        self.knots.iter().map(|_| KnotStep::default()).collect()
+    }
+}

@@ -1,0 +1,84 @@
+//! Indices of a model's parts: small, `Copy`, with a value that stands for the world or for none.
+
+use crate::inputs::InputIndex;
+
+/// The index of a body, or the world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BodyIndex(pub u16);
+
+impl BodyIndex {
+    /// The world: immovable, its points are the ground's.
+    pub const WORLD: Self = Self(u16::MAX);
+
+    /// Indices from here on are the ground's.
+    const FIRST_ANCHOR: u16 = 0xff00;
+
+    /// The ground as moved by input `input`, an [`crate::inputs::InputKind::Anchor`].
+    ///
+    /// # Panics
+    /// Where the input's index is above 254.
+    #[must_use]
+    pub const fn anchor(input: InputIndex) -> Self {
+        assert!(input.0 < u16::MAX - Self::FIRST_ANCHOR, "an anchor is one of the first inputs");
+        Self(Self::FIRST_ANCHOR + input.0)
+    }
+
+    /// The input that moves this part of the ground, if one does.
+    #[inline(always)]
+    #[must_use]
+    pub const fn anchor_row(self) -> Option<usize> {
+        if self.0 >= Self::FIRST_ANCHOR && self.0 != u16::MAX {
+            Some((self.0 - Self::FIRST_ANCHOR) as usize)
+        } else {
+            None
+        }
+    }
+
+    /// Whether this is the world, moved by an input or not: no force moves it.
+    #[must_use]
+    pub const fn is_world(self) -> bool {
+        self.0 >= Self::FIRST_ANCHOR
+    }
+
+    /// The index into slices of bodies; the world's lies beyond any of them.
+    #[inline(always)]
+    #[must_use]
+    pub const fn row(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// The index of the first damping coefficient of a group or spring, or none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct DamperIndex(pub u16);
+
+impl DamperIndex {
+    /// Undamped.
+    pub const NONE: Self = Self(u16::MAX);
+
+    /// The index into the dampers, `None` where undamped.
+    #[inline(always)]
+    #[must_use]
+    pub const fn row(self) -> Option<usize> {
+        if self.0 == u16::MAX { None } else { Some(self.0 as usize) }
+    }
+}
+
+/// The index of a group's clearance, or none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ClearanceIndex(pub u16);
+
+impl ClearanceIndex {
+    /// Without clearance.
+    pub const NONE: Self = Self(u16::MAX);
+
+    /// The index into the clearances, `None` without one.
+    #[inline(always)]
+    #[must_use]
+    pub const fn row(self) -> Option<usize> {
+        if self.0 == u16::MAX { None } else { Some(self.0 as usize) }
+    }
+}

@@ -1,0 +1,203 @@
+//! The model: read-only constants of bodies and elements, in flash or on a heap.
+//!
+//! [`Model`] owns arrays whose lengths are const generics; a run-time-sized owner lives elsewhere
+//! and implements [`ModelOwner`] likewise. All work is done on [`ModelRef`], slices that either
+//! owner lends, so both step through the same code. [`Terms`] tells the compiler which kinds of
+//! element a model has at all: what it lacks leaves no code.
+//!
+//! Elements lie in groups, one per joint and one per raw element. A TSDA group is made of stars:
+//! a point of the first body joined to each of one or three points of the second. A revolute is
+//! two stars that share three points, a spherical joint one star of three, a raw TSDA one of one.
+
+mod indices;
+mod owned;
+mod terms;
+
+pub use indices::{BodyIndex, ClearanceIndex, DamperIndex};
+pub use owned::Model;
+pub use terms::{AllTerms, CountedTerms, Terms};
+
+use core::marker::PhantomData;
+
+use crate::elements::load::{Load, LoadWindow};
+use crate::elements::point_bushing::PointBushing;
+use crate::elements::point_on_line::PointOnLine;
+use crate::elements::torsion_spring::TorsionSpring;
+use crate::elements::tsda::Tsda;
+use crate::geometry::{Geometry, RealOf};
+use crate::inputs::{Input, Knot, KnotStep, Signal};
+use crate::real::Real;
+use crate::state::BodyState;
+use crate::vector::Vec3;
+
+/// The law that a group's elements follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Law {
+    /// Stars of TSDAs with free lengths.
+    Tsda,
+    /// One point bushing.
+    PointBushing,
+    /// Stars on lines: each star's first point and its elements' direction define a line of the
+    /// first body, on which the second body's points are projected.
+    PointOnLine,
+}
+
+/// The elements of one joint or one raw element: one record of force and torques.
+///
+/// Its points lie together from `point` on: the first body's, one per star, then the second
+/// body's, `arms` for each star, or once where the stars share them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Group {
+    /// The law of its elements.
+    pub law: Law,
+    /// First body.
+    pub a: BodyIndex,
+    /// Second body.
+    pub b: BodyIndex,
+    /// Points of the first body, ≥ 1.
+    pub stars: u8,
+    /// Points of the second body per star: 1 or 3; 1 or 2 on a line.
+    pub arms: u8,
+    /// Whether all stars share the second body's points.
+    pub shared: bool,
+    /// First point among the model's points.
+    pub point: u16,
+    /// First element among the model's elements of this law; star by star, arm by arm.
+    pub element: u16,
+    /// First of the elements' damping coefficients among the model's dampers.
+    pub damper: DamperIndex,
+    /// The clearance of all its elements among the model's clearances; bushings have none.
+    pub clearance: ClearanceIndex,
+}
+
+impl Group {
+    /// The number of elements.
+    #[must_use]
+    pub const fn elements(&self) -> usize {
+        self.stars as usize * self.arms as usize
+    }
+
+    /// The number of points.
+    #[must_use]
+    pub const fn points(&self) -> usize {
+        let blocks = if self.shared { 1 } else { self.stars as usize };
+        self.stars as usize + blocks * self.arms as usize
+    }
+}
+
+/// A rigid body: mass, principal inertia and what is derived from them, rounded once each.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Body<R> {
+    /// \[kg\] mass, > 0.
+    pub mass: R,
+    /// \[kg·m²\] principal inertia (Ix, Iy, Iz) about the centre of mass, body axes, > 0.
+    pub inertia: Vec3<R>,
+    /// \[1/kg\] inverse mass.
+    pub inverse_mass: R,
+    /// \[1/(kg·m²)\] inverse inertia.
+    pub inverse_inertia: Vec3<R>,
+    /// (Iz/Iy, Ix/Iz, Iy/Ix): how a rotation about x, y, z carries the next axis' rate over.
+    pub ratio: Vec3<R>,
+    /// (Iy/Iz, Iz/Ix, Ix/Iy).
+    pub inverse_ratio: Vec3<R>,
+}
+
+impl<R: Real> Body<R> {
+    /// A body of mass \[kg\] and principal inertia \[kg·m²\].
+    pub fn from_f64(mass: f64, inertia: [f64; 3]) -> Self {
+        let [x, y, z] = inertia;
+        Self {
+            mass: R::from_f64(mass),
+            inertia: Vec3::from_f64(inertia),
+            inverse_mass: R::from_f64(1.0 / mass),
+            inverse_inertia: Vec3::from_f64([1.0 / x, 1.0 / y, 1.0 / z]),
+            ratio: Vec3::from_f64([z / y, x / z, y / x]),
+            inverse_ratio: Vec3::from_f64([y / z, z / x, x / y]),
+        }
+    }
+
+    /// The same body in another precision: the stored mass and inertia, all else derived anew.
+    pub fn convert<Q: Real>(&self) -> Body<Q> {
+        Body::from_f64(self.mass.to_f64(), self.inertia.to_f64())
+    }
+}
+
+/// A model lent as slices.
+#[derive(Clone, Copy, Debug)]
+pub struct ModelRef<'m, P: Geometry, T> {
+    /// Bodies in scene order.
+    pub bodies: &'m [Body<P::Real>],
+    /// \[m/s²\] the field of gravity, or nothing.
+    pub gravity: &'m [Vec3<P::Real>],
+    /// Groups in the order of their records' sums.
+    pub groups: &'m [Group],
+    /// Points of the groups.
+    pub points: &'m [P::Local],
+    /// TSDAs of the groups.
+    pub tsdas: &'m [Tsda<P::Real>],
+    /// Point bushings of the groups.
+    pub bushings: &'m [PointBushing<P::Real>],
+    /// Damping coefficients of groups and torsion springs.
+    pub dampers: &'m [P::Real],
+    /// Torsion springs, summed after all groups.
+    pub torsions: &'m [TorsionSpring<P::Real>],
+    /// Loads, summed before all groups.
+    pub loads: &'m [Load<P::Real>],
+    /// Points on lines of the groups.
+    pub lines: &'m [PointOnLine<P::Real>],
+    /// Inputs, added after the loads.
+    pub inputs: &'m [Input<P>],
+    /// Knots of the inputs' tables.
+    pub knots: &'m [Knot<P::Real>],
+    /// \[m\] clearances of groups.
+    pub clearances: &'m [P::Real],
+    /// The kinds of element that occur.
+    pub terms: PhantomData<T>,
+}
+
+impl<P: Geometry, T: Terms> ModelRef<'_, P, T> {
+    /// The clearance \[m\] of a group, `None` without one.
+    #[inline(always)]
+    pub(crate) fn clearance(&self, group: &Group) -> Option<P::Real> {
+        if !T::CLEARANCES {
+            return None;
+        }
+        group.clearance.row().and_then(|row| self.clearances.get(row)).copied()
+    }
+}
+
+/// Owns a model's constants and says how much memory a plant of it takes.
+pub trait ModelOwner {
+    /// The precision its constants are stored in.
+    type Precision: Geometry;
+    /// The kinds of element that may occur.
+    type Terms: Terms;
+    /// Memory of one `T` per body.
+    type PerBody<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
+    /// Memory of one turn count per torsion spring.
+    type PerTorsion: Clone + AsRef<[i32]> + AsMut<[i32]>;
+    /// Memory of one window per load.
+    type PerLoad: Clone + AsRef<[LoadWindow]> + AsMut<[LoadWindow]>;
+    /// Memory of one signal per input.
+    type PerInput: Clone + AsRef<[Signal<RealOf<Self>>]> + AsMut<[Signal<RealOf<Self>>]>;
+    /// Memory of one place per knot.
+    type PerKnot: Clone + AsRef<[KnotStep<RealOf<Self>>]> + AsMut<[KnotStep<RealOf<Self>>]>;
+
+    /// The constants.
+    fn view(&self) -> ModelRef<'_, Self::Precision, Self::Terms>;
+    /// The bodies' states at t = 0, as many as bodies.
+    fn initial(&self) -> &[BodyState<Self::Precision>];
+    /// One `value` per body.
+    fn per_body<T: Copy>(&self, value: T) -> Self::PerBody<T>;
+    /// One 0 per torsion spring.
+    fn per_torsion(&self) -> Self::PerTorsion;
+    /// One empty window per load.
+    fn per_load(&self) -> Self::PerLoad;
+    /// One zero signal per input.
+    fn per_input(&self) -> Self::PerInput;
+    /// One place per knot.
+    fn per_knot(&self) -> Self::PerKnot;
+}

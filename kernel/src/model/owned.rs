@@ -1,0 +1,276 @@
+//! A model whose sizes are const generics: arrays in flash, checked by the compiler.
+
+use core::marker::PhantomData;
+
+use crate::elements::load::{Load, LoadWindow};
+use crate::elements::point_bushing::PointBushing;
+use crate::elements::point_on_line::PointOnLine;
+use crate::elements::torsion_spring::TorsionSpring;
+use crate::elements::tsda::Tsda;
+use crate::geometry::Geometry;
+use crate::inputs::{Input, InputKind, Knot, KnotStep, Signal};
+use crate::model::{Body, BodyIndex, CountedTerms, DamperIndex, Group, Law, ModelOwner, ModelRef};
+use crate::real::Real;
+use crate::state::BodyState;
+use crate::vector::Vec3;
+
+/// A model whose sizes are const generics. A kind that a scene lacks has count 0, the default.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Model<
+    P: Geometry,
+    const BODIES: usize,
+    const GROUPS: usize = 0,
+    const POINTS: usize = 0,
+    const TSDAS: usize = 0,
+    const BUSHINGS: usize = 0,
+    const DAMPERS: usize = 0,
+    const TORSIONS: usize = 0,
+    const GRAVITY: usize = 0,
+    const LOADS: usize = 0,
+    const LINES: usize = 0,
+    const INPUTS: usize = 0,
+    const KNOTS: usize = 0,
+    const CLEARANCES: usize = 0,
+> {
+    /// Bodies in scene order.
+    pub bodies: [Body<P::Real>; BODIES],
+    /// The bodies' states at t = 0.
+    pub initial: [BodyState<P>; BODIES],
+    /// \[m/s²\] the field of gravity, or nothing.
+    pub gravity: [Vec3<P::Real>; GRAVITY],
+    /// Groups in the order of their records' sums.
+    pub groups: [Group; GROUPS],
+    /// Points of the groups.
+    pub points: [P::Local; POINTS],
+    /// TSDAs of the groups.
+    pub tsdas: [Tsda<P::Real>; TSDAS],
+    /// Point bushings of the groups.
+    pub bushings: [PointBushing<P::Real>; BUSHINGS],
+    /// Damping coefficients of groups and torsion springs.
+    pub dampers: [P::Real; DAMPERS],
+    /// Torsion springs, summed after all groups.
+    pub torsions: [TorsionSpring<P::Real>; TORSIONS],
+    /// Loads, summed before all groups.
+    pub loads: [Load<P::Real>; LOADS],
+    /// Points on lines of the groups.
+    pub lines: [PointOnLine<P::Real>; LINES],
+    /// Inputs, added after the loads.
+    pub inputs: [Input<P>; INPUTS],
+    /// Knots of the inputs' tables.
+    pub knots: [Knot<P::Real>; KNOTS],
+    /// \[m\] clearances of groups.
+    pub clearances: [P::Real; CLEARANCES],
+}
+
+impl<
+    P: Geometry,
+    const BODIES: usize,
+    const GROUPS: usize,
+    const POINTS: usize,
+    const TSDAS: usize,
+    const BUSHINGS: usize,
+    const DAMPERS: usize,
+    const TORSIONS: usize,
+    const GRAVITY: usize,
+    const LOADS: usize,
+    const LINES: usize,
+    const INPUTS: usize,
+    const KNOTS: usize,
+    const CLEARANCES: usize,
+>
+    Model<
+        P,
+        BODIES,
+        GROUPS,
+        POINTS,
+        TSDAS,
+        BUSHINGS,
+        DAMPERS,
+        TORSIONS,
+        GRAVITY,
+        LOADS,
+        LINES,
+        INPUTS,
+        KNOTS,
+        CLEARANCES,
+    >
+{
+    /// Checks every index of the model; in a `const` the compiler does so.
+    ///
+    /// # Panics
+    /// Where a group, spring or load names a body, point, element or damper that is not there. A
+    /// step on a model that was not checked skips such an element.
+    #[must_use]
+    pub const fn checked(self) -> Self {
+        assert!(BODIES > 0, "a model has at least one body");
+        assert!(GRAVITY <= 1, "a model has at most one field of gravity");
+        let mut i = 0;
+        while i < GROUPS {
+            let group = &self.groups[i];
+            check_pair(group.a, group.b, BODIES);
+            assert!(group.stars >= 1, "a group has at least one star");
+            let arms = group.arms;
+            let whole = match group.law {
+                Law::Tsda => arms == 1 || arms == 3,
+                Law::PointBushing => arms == 1,
+                Law::PointOnLine => arms == 1 || arms == 2,
+            };
+            assert!(whole, "a star has as many arms as its law knows");
+            let elements = group.elements();
+            assert!(group.point as usize + group.points() <= POINTS, "a group's points are there");
+            let count = match group.law {
+                Law::Tsda => TSDAS,
+                Law::PointBushing => {
+                    assert!(elements == 1, "a point bushing stands alone in its group");
+                    BUSHINGS
+                }
+                Law::PointOnLine => LINES,
+            };
+            assert!(group.element as usize + elements <= count, "a group's elements are there");
+            check_damper(group.damper, elements, DAMPERS);
+            if let Some(row) = group.clearance.row() {
+                assert!(row < CLEARANCES, "a group's clearance is there");
+            }
+            i += 1;
+        }
+        i = 0;
+        while i < TORSIONS {
+            let spring = &self.torsions[i];
+            check_pair(spring.a, spring.b, BODIES);
+            check_damper(spring.damper, 1, DAMPERS);
+            i += 1;
+        }
+        i = 0;
+        while i < INPUTS {
+            let input = &self.inputs[i];
+            assert!(
+                input.knot as usize + input.knots as usize <= KNOTS,
+                "an input's knots are there"
+            );
+            match &input.kind {
+                InputKind::Force { body, .. } | InputKind::Torque { body, .. } => {
+                    assert!(body.row() < BODIES, "an input's body is there");
+                }
+                InputKind::JointTorque { a, b, .. } => check_pair(*a, *b, BODIES),
+                InputKind::Actuator { group, element } => {
+                    assert!((*group as usize) < GROUPS, "an actuator's group is there");
+                    let elements = self.groups[*group as usize].elements();
+                    assert!((*element as usize) < elements, "an actuator's element is there");
+                }
+                InputKind::Anchor { .. } => {}
+            }
+            i += 1;
+        }
+        i = 0;
+        while i < LOADS {
+            assert!(self.loads[i].body.row() < BODIES, "a load's body is there");
+            i += 1;
+        }
+        self
+    }
+}
+
+const fn check_pair(a: BodyIndex, b: BodyIndex, bodies: usize) {
+    assert!(a.is_world() || a.row() < bodies, "an element's first body is there");
+    assert!(b.is_world() || b.row() < bodies, "an element's second body is there");
+    let ground = a.is_world() && b.is_world();
+    assert!(a.0 != b.0 && !ground, "an element joins two different bodies");
+}
+
+const fn check_damper(damper: DamperIndex, elements: usize, dampers: usize) {
+    if let Some(row) = damper.row() {
+        assert!(row + elements <= dampers, "an element's damping coefficient is there");
+    }
+}
+
+impl<
+    P: Geometry,
+    const BODIES: usize,
+    const GROUPS: usize,
+    const POINTS: usize,
+    const TSDAS: usize,
+    const BUSHINGS: usize,
+    const DAMPERS: usize,
+    const TORSIONS: usize,
+    const GRAVITY: usize,
+    const LOADS: usize,
+    const LINES: usize,
+    const INPUTS: usize,
+    const KNOTS: usize,
+    const CLEARANCES: usize,
+> ModelOwner
+    for Model<
+        P,
+        BODIES,
+        GROUPS,
+        POINTS,
+        TSDAS,
+        BUSHINGS,
+        DAMPERS,
+        TORSIONS,
+        GRAVITY,
+        LOADS,
+        LINES,
+        INPUTS,
+        KNOTS,
+        CLEARANCES,
+    >
+{
+    type Precision = P;
+    type Terms =
+        CountedTerms<TSDAS, BUSHINGS, DAMPERS, TORSIONS, GRAVITY, LOADS, LINES, INPUTS, CLEARANCES>;
+    type PerBody<T: Copy> = [T; BODIES];
+    type PerTorsion = [i32; TORSIONS];
+    type PerLoad = [LoadWindow; LOADS];
+    type PerInput = [Signal<P::Real>; INPUTS];
+    type PerKnot = [KnotStep<P::Real>; KNOTS];
+
+    #[inline(always)]
+    fn view(&self) -> ModelRef<'_, P, Self::Terms> {
+        ModelRef {
+            bodies: &self.bodies,
+            gravity: &self.gravity,
+            groups: &self.groups,
+            points: &self.points,
+            tsdas: &self.tsdas,
+            bushings: &self.bushings,
+            dampers: &self.dampers,
+            torsions: &self.torsions,
+            loads: &self.loads,
+            lines: &self.lines,
+            inputs: &self.inputs,
+            knots: &self.knots,
+            clearances: &self.clearances,
+            terms: PhantomData,
+        }
+    }
+
+    fn initial(&self) -> &[BodyState<P>] {
+        &self.initial
+    }
+
+    #[inline]
+    fn per_body<T: Copy>(&self, value: T) -> [T; BODIES] {
+        [value; BODIES]
+    }
+
+    #[inline]
+    fn per_torsion(&self) -> [i32; TORSIONS] {
+        [0; TORSIONS]
+    }
+
+    #[inline]
+    fn per_load(&self) -> [LoadWindow; LOADS] {
+        [LoadWindow { first: 0, end: 0 }; LOADS]
+    }
+
+    #[inline]
+    fn per_input(&self) -> [Signal<P::Real>; INPUTS] {
+        [Signal { value: P::Real::ZERO, rate: P::Real::ZERO }; INPUTS]
+    }
+
+    #[inline]
+    fn per_knot(&self) -> [KnotStep<P::Real>; KNOTS] {
+        [KnotStep { first: 0, offset: P::Real::ZERO }; KNOTS]
+    }
+}

@@ -1,0 +1,77 @@
+//! Which kinds of element a model has, told to the compiler: what it lacks leaves no code.
+
+/// Which kinds of element a model has. What is `false` leaves no code in a step.
+pub trait Terms: Copy + Default + 'static {
+    /// Uniform gravity.
+    const GRAVITY: bool;
+    /// Loads.
+    const LOADS: bool;
+    /// TSDAs.
+    const TSDAS: bool;
+    /// Point bushings.
+    const BUSHINGS: bool;
+    /// Torsion springs.
+    const TORSIONS: bool;
+    /// Dampers of any kind.
+    const DAMPERS: bool;
+    /// Points on lines.
+    const LINES: bool;
+    /// Inputs.
+    const INPUTS: bool;
+    /// Clearances.
+    const CLEARANCES: bool;
+}
+
+/// Terms of a model whose sizes are known at run time only: any kind may occur.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct AllTerms;
+
+impl Terms for AllTerms {
+    const GRAVITY: bool = true;
+    const LOADS: bool = true;
+    const TSDAS: bool = true;
+    const BUSHINGS: bool = true;
+    const TORSIONS: bool = true;
+    const DAMPERS: bool = true;
+    const LINES: bool = true;
+    const INPUTS: bool = true;
+    const CLEARANCES: bool = true;
+}
+
+/// Terms of a model whose counts are const generics: a kind occurs where its count is not 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CountedTerms<
+    const TSDAS: usize,
+    const BUSHINGS: usize,
+    const DAMPERS: usize,
+    const TORSIONS: usize,
+    const GRAVITY: usize,
+    const LOADS: usize,
+    const LINES: usize,
+    const INPUTS: usize,
+    const CLEARANCES: usize,
+>;
+
+impl<
+    const TSDAS: usize,
+    const BUSHINGS: usize,
+    const DAMPERS: usize,
+    const TORSIONS: usize,
+    const GRAVITY: usize,
+    const LOADS: usize,
+    const LINES: usize,
+    const INPUTS: usize,
+    const CLEARANCES: usize,
+> Terms
+    for CountedTerms<TSDAS, BUSHINGS, DAMPERS, TORSIONS, GRAVITY, LOADS, LINES, INPUTS, CLEARANCES>
+{
+    const GRAVITY: bool = GRAVITY > 0;
+    const LOADS: bool = LOADS > 0;
+    const TSDAS: bool = TSDAS > 0;
+    const BUSHINGS: bool = BUSHINGS > 0;
+    const TORSIONS: bool = TORSIONS > 0;
+    const DAMPERS: bool = DAMPERS > 0;
+    const LINES: bool = LINES > 0;
+    const INPUTS: bool = INPUTS > 0;
+    const CLEARANCES: bool = CLEARANCES > 0;
+}
