@@ -3,6 +3,9 @@
 //! `(base scene, one edit) => line, column, message, help`. A case replaces a text that occurs once
 //! in the base scene; `«` in the replacement marks where the refusal must point.
 
+#[path = "rejects/joints.rs"]
+mod joints;
+
 use dbd_scene::{Scene, SceneError};
 
 /// One of everything that a scene may hold.
@@ -91,6 +94,13 @@ const fn case(
     help: &'static str,
 ) -> Case {
     Case { at: None, from, to, message, help }
+}
+
+impl Case {
+    /// What must be named is elsewhere.
+    const fn at(self, at: &'static str) -> Case {
+        Case { at: Some(at), ..self }
+    }
 }
 
 /// A missing key: the line `gone` is not there, the place is that of `at`.
@@ -266,12 +276,17 @@ fn the_base_scene_is_accepted() {
 
 #[test]
 fn each_rejection_names_place_reason_and_remedy() {
+    check(BASE, CASES);
+}
+
+/// Makes each edit of the base scene and looks at the refusal.
+fn check(base: &str, cases: &[Case]) {
     let mut failures = String::new();
-    for Case { at, from, to, message, help } in CASES {
-        assert_eq!(BASE.matches(from).count(), 1, "{from:?} occurs once in the base scene");
-        let mut marked = BASE.replacen(from, to, 1);
+    for Case { at, from, to, message, help } in cases {
+        assert_eq!(base.matches(from).count(), 1, "{from:?} occurs once in the base scene");
+        let mut marked = base.replacen(from, to, 1);
         if let Some(at) = at {
-            assert_eq!(BASE.matches(at).count(), 1, "{at:?} occurs once in the base scene");
+            assert_eq!(base.matches(at).count(), 1, "{at:?} occurs once in the base scene");
             marked = marked.replacen(at, &format!("«{at}"), 1);
         }
         let text = marked.replacen('«', "", 1);

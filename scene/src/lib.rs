@@ -9,12 +9,15 @@ mod body;
 mod direction;
 mod error;
 pub mod export;
+mod facts;
 mod joints;
+mod lint;
 mod load;
 mod names;
 mod nearest;
 mod orientation;
 mod pair;
+mod places;
 mod point_on_line;
 mod runtime;
 mod spring;
@@ -26,12 +29,15 @@ use std::ops::Range;
 use std::path::Path;
 
 pub use error::{Refusal, SceneError};
+pub use facts::{Facts, Island, JointFacts};
+pub use lint::{Severity, Warning};
 pub use runtime::{SceneModel, widen};
 
 use dbd_kernel::F64;
 
 use crate::assembly::Assembly;
 use crate::error::Source;
+use crate::places::Places;
 use crate::text::{Number, Numbers, Text};
 
 const KEYS: &[&str] = &[
@@ -71,6 +77,7 @@ pub struct Scene {
     pub torsion_names: Vec<String>,
     /// The assembled model in double precision; every other precision is a rounding of it.
     pub model: SceneModel<F64>,
+    places: Places,
 }
 
 /// What reports say of a joint.
@@ -143,6 +150,7 @@ impl Scene {
             joints,
             torsion_names,
             model,
+            places: Places::of(&root)?,
         })
     }
 }

@@ -81,7 +81,7 @@ impl Kind for Axes {
             Some(normals) if cosine.abs() <= ORTHOGONAL => normals,
             _ => {
                 let angle = libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees();
-                let problem = format!("are {angle} degrees apart");
+                let problem = format!("are {angle:.6} degrees apart");
                 let help = "the axes of a universal joint are orthogonal within 1e-6; two \
                             revolutes and a body between them join axes at another angle";
                 return Err(value.refuse_with(&problem, help));

@@ -149,6 +149,21 @@ impl<'t> Table<'t> {
         Ok(tables)
     }
 
+    /// The lines, from 1, on which the tables of `[[key]]` begin.
+    pub(crate) fn lines(&self, key: &str) -> Result<Vec<usize>, SceneError> {
+        // One pass over the text: a scene may have thousands of tables.
+        let (mut line, mut from) = (1, 0);
+        let mut lines = Vec::new();
+        for table in self.list(key)? {
+            let start = table.start();
+            let between = self.source.text.get(from..start).unwrap_or_default();
+            line += between.matches('\n').count();
+            from = start.max(from);
+            lines.push(line);
+        }
+        Ok(lines)
+    }
+
     /// Where the table begins, in bytes.
     pub(crate) fn start(&self) -> usize {
         self.span.start

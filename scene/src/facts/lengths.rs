@@ -1,0 +1,122 @@
+//! The lengths of elements at the initial pose and how fast they change.
+//!
+//! `scene => per group its free length, its shortest and longest element, the largest rate`.
+//! Points and velocities are placed as the kernel places them.
+
+use dbd_kernel::model::{Group, Law};
+use dbd_kernel::{BodyIndex, F64, Geometry, Vec3};
+
+use crate::Scene;
+use crate::facts::frames;
+
+/// What is known of the elements of a group, or of several.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct GroupFacts {
+    /// \[m\] free length, the largest where groups differ.
+    pub(crate) free_length: f64,
+    /// \[m\] the shortest element.
+    pub(crate) shortest: f64,
+    /// \[m\] the longest element.
+    pub(crate) longest: f64,
+    /// \[m/s\] the largest rate of a length.
+    pub(crate) stretching_rate: f64,
+}
+
+impl GroupFacts {
+    /// Of no element.
+    pub(super) const NONE: Self =
+        Self { free_length: 0.0, shortest: f64::INFINITY, longest: 0.0, stretching_rate: 0.0 };
+
+    /// These and others.
+    pub(super) fn with(&self, other: &Self) -> Self {
+        Self {
+            free_length: self.free_length.max(other.free_length),
+            shortest: self.shortest.min(other.shortest),
+            longest: self.longest.max(other.longest),
+            stretching_rate: self.stretching_rate.max(other.stretching_rate),
+        }
+    }
+}
+
+/// What is known of each group.
+pub(super) fn groups(scene: &Scene) -> Vec<GroupFacts> {
+    let frames = frames(scene);
+    scene.model.groups.iter().map(|group| facts_of(scene, &frames, group)).collect()
+}
+
+fn facts_of(scene: &Scene, frames: &[<F64 as Geometry>::Frame], group: &Group) -> GroupFacts {
+    let (stars, arms) = (usize::from(group.stars), usize::from(group.arms));
+    let points = &scene.model.points[usize::from(group.point)..];
+    let element = usize::from(group.element);
+    let a = End { scene, frames, body: group.a };
+    let b = End { scene, frames, body: group.b };
+    let mut all = GroupFacts::NONE;
+    for i in 0..group.elements() {
+        let centre = a.place(points[i / arms]);
+        let tip = b.place(points[stars + if group.shared { i % arms } else { i }]);
+        let d = tip - centre;
+        let (free_length, d, rate) = match group.law {
+            Law::Tsda => (
+                scene.model.tsdas[element + i].free_length,
+                d,
+                b.velocity(tip) - a.velocity(centre),
+            ),
+            Law::PointBushing => (0.0, d, b.velocity(tip) - a.velocity(centre)),
+            Law::PointOnLine => {
+                let line = &scene.model.lines[element + i];
+                let n = a.to_world(line.direction);
+                let foot = centre + n * d.dot(n);
+                let rate = b.velocity(tip) - a.velocity(foot);
+                (line.free_length, tip - foot, rate - n * rate.dot(n))
+            }
+        };
+        let length = libm::sqrt(d.dot(d));
+        // Without a free length, or at no length, every direction counts.
+        let rate = if free_length > 0.0 && length > 0.0 {
+            (d.dot(rate) / length).abs()
+        } else {
+            libm::sqrt(rate.dot(rate))
+        };
+        all = all.with(&GroupFacts {
+            free_length,
+            shortest: length,
+            longest: length,
+            stretching_rate: rate,
+        });
+    }
+    all
+}
+
+/// One body of a group, or the world.
+struct End<'s> {
+    scene: &'s Scene,
+    frames: &'s [<F64 as Geometry>::Frame],
+    body: BodyIndex,
+}
+
+impl End<'_> {
+    fn place(&self, point: Vec3<f64>) -> Vec3<f64> {
+        match self.frames.get(self.body.row()) {
+            Some(frame) => F64::place(frame, &point).0,
+            None => F64::ground(&point),
+        }
+    }
+
+    fn to_world(&self, vector: Vec3<f64>) -> Vec3<f64> {
+        match self.frames.get(self.body.row()) {
+            Some(frame) => F64::to_world(frame, vector),
+            None => vector,
+        }
+    }
+
+    /// `v + ω × r` at a world point.
+    fn velocity(&self, point_w: Vec3<f64>) -> Vec3<f64> {
+        match self.scene.model.initial.get(self.body.row()) {
+            Some(state) => {
+                let spin = self.to_world(state.angular_velocity);
+                state.velocity + spin.cross(point_w - state.position)
+            }
+            None => Vec3::ZERO,
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! What is known of a scene without running it.
+//!
+//! `scene => counts of freedoms and equations, per joint its lengths and how its velocities pull
+//! at it, islands`. Facts only; what is probably not meant is said by [`Scene::warnings`].
+
+mod equations;
+mod islands;
+mod lengths;
+mod parts;
+
+use dbd_kernel::{F64, Geometry, Vec3};
+
+use crate::Scene;
+
+pub use islands::Island;
+pub(crate) use lengths::GroupFacts;
+
+/// What is known of a scene without running it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Facts {
+    /// Equations of motion: 6 per body.
+    pub equations: usize,
+    /// Equations that a solver with constraints has: 6 per body and one per freedom held, those
+    /// aside that planar loops hold twice (Franco & Degani 2026, Table 7a).
+    pub constraint_equations: usize,
+    /// Independent loops of joints that move in a plane: each holds three freedoms twice.
+    pub planar_loops: usize,
+    /// 6 per body less what the joints hold; too low where joints hold the same twice.
+    pub degrees_of_freedom: i64,
+    /// The joints in scene order.
+    pub joints: Vec<JointFacts>,
+    /// Bodies that hang together, in the order of their first bodies.
+    pub islands: Vec<Island>,
+}
+
+/// What is known of a joint without running it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointFacts {
+    /// \[m\] free length of its elements.
+    pub free_length: f64,
+    /// \[m\] the shortest and the longest of its elements at the initial pose; of a point on a
+    /// line the distance from it.
+    pub initial_length: [f64; 2],
+    /// \[m\] the largest |L − L0| at the initial pose.
+    pub assembly_error: f64,
+    /// \[m/s\] the largest rate of a length at t = 0: what the bodies' velocities do to it.
+    pub stretching_rate: f64,
+}
+
+impl Scene {
+    /// Counts, lengths and islands.
+    #[must_use]
+    pub fn facts(&self) -> Facts {
+        let equations = 6 * self.model.bodies.len();
+        let held: usize = self.joints.iter().map(|joint| joint.holds as usize).sum();
+        let planar_loops = equations::planar_loops(self);
+        let groups = lengths::groups(self);
+        let joints = self.joints.iter().map(|joint| {
+            let groups = &groups[joint.groups.clone()];
+            let all = groups.iter().fold(GroupFacts::NONE, |all, group| all.with(group));
+            JointFacts {
+                free_length: all.free_length,
+                initial_length: [all.shortest, all.longest],
+                assembly_error: joint.assembly_error,
+                stretching_rate: all.stretching_rate,
+            }
+        });
+        Facts {
+            equations,
+            constraint_equations: equations + held.saturating_sub(3 * planar_loops),
+            planar_loops,
+            degrees_of_freedom: equations as i64 - held as i64,
+            joints: joints.collect(),
+            islands: islands::islands(self),
+        }
+    }
+}
+
+/// What is known of each group's elements.
+pub(crate) fn groups(scene: &Scene) -> Vec<GroupFacts> {
+    lengths::groups(scene)
+}
+
+/// The bodies' frames at the initial pose.
+fn frames(scene: &Scene) -> Vec<<F64 as Geometry>::Frame> {
+    let states = scene.model.initial.iter();
+    states.map(|state| F64::frame(&state.position, &state.orientation)).collect()
+}
+
+/// The axis of a joint at the initial pose, world: the line through a revolute's axis points, the
+/// direction of a guide's lines. `group` is one of a joint's; other joints have no axis.
+pub(crate) fn axis_w(scene: &Scene, group: usize) -> Option<Vec3<f64>> {
+    let model = &scene.model;
+    let group = model.groups.get(group)?;
+    let axis = if group.law == dbd_kernel::model::Law::PointOnLine {
+        model.lines.get(group.element as usize)?.direction
+    } else if group.shared && group.stars == 2 {
+        let first = group.point as usize;
+        *model.points.get(first + 1)? - *model.points.get(first)?
+    } else {
+        return None;
+    };
+    let axis = match model.initial.get(group.a.row()) {
+        Some(state) => state.orientation.rotation().to_world(axis),
+        None => axis,
+    };
+    crate::direction::unit(axis)
+}

@@ -1,0 +1,85 @@
+//! Joints and raw elements that do nothing, that are torn from the start or that are pulled at.
+
+use dbd_kernel::model::{Group, Law};
+
+use crate::Scene;
+use crate::facts::{self, GroupFacts};
+use crate::lint::{Severity, Warning, short};
+
+/// \[m/s\] Velocities given with three digits pull less at a joint.
+const STRETCHING_RATE: f64 = 1e-3;
+
+pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
+    let groups = facts::groups(scene);
+    for (number, joint) in scene.joints.iter().enumerate() {
+        let mut warn = |severity, text: &str| {
+            let line = scene.places.joints.get(number).copied();
+            let name = format!("joint `{}`", joint.name);
+            warnings.push(Warning { severity, name, line, text: text.into() });
+        };
+        let Some(group) = scene.model.groups.get(joint.groups.start) else { continue };
+        if stiffness(scene, group) == 0.0 {
+            let text = if group.damper.row().is_none() {
+                "has neither stiffness nor damping: it does nothing"
+            } else {
+                "has damping but no stiffness: it holds no place"
+            };
+            warn(Severity::Warning, text);
+        }
+        let facts = &groups[joint.groups.clone()];
+        let rate = facts.iter().map(|group| group.stretching_rate).fold(0.0, f64::max);
+        if rate > STRETCHING_RATE {
+            let rate = short(rate);
+            warn(
+                Severity::Note,
+                &format!("the initial velocities pull it apart at {rate} m/s: it will ring"),
+            );
+        }
+    }
+    let raw = scene.joints.last().map_or(0, |joint| joint.groups.end);
+    let (mut tsdas, mut lines) = (0, 0);
+    for (group, facts) in scene.model.groups[raw..].iter().zip(&groups[raw..]) {
+        let (kind, number, places) = if group.law == Law::PointOnLine {
+            lines += 1;
+            ("point_on_line", lines, &scene.places.points_on_lines)
+        } else {
+            tsdas += 1;
+            ("tsda", tsdas, &scene.places.tsdas)
+        };
+        let [a, b] = [group.a, group.b].map(|body| {
+            scene.body_names.get(body.row()).map_or(crate::assembly::WORLD, String::as_str)
+        });
+        let name = format!("{kind} {number} ({a}–{b})");
+        let line = places.get(number - 1).copied();
+        let mut warn = |text: String| {
+            let (name, severity) = (name.clone(), Severity::Warning);
+            warnings.push(Warning { severity, name, line, text });
+        };
+        if stiffness(scene, group) == 0.0 && group.damper.row().is_none() {
+            warn("has neither stiffness nor damping: it does nothing".into());
+        }
+        if overstretched(facts) {
+            warn(format!(
+                "is {} m long at first, more than twice its free length of {} m: are its points \
+                 in the axes of their bodies?",
+                short(facts.longest),
+                short(facts.free_length)
+            ));
+        }
+    }
+}
+
+/// Stretched by more than its own free length.
+fn overstretched(facts: &GroupFacts) -> bool {
+    facts.free_length > 0.0 && facts.longest > 2.0 * facts.free_length
+}
+
+/// \[N/m\] of an element; those of a group have one stiffness.
+fn stiffness(scene: &Scene, group: &Group) -> f64 {
+    let element = usize::from(group.element);
+    match group.law {
+        Law::Tsda => scene.model.tsdas[element].stiffness,
+        Law::PointBushing => scene.model.bushings[element].stiffness,
+        Law::PointOnLine => scene.model.lines[element].stiffness,
+    }
+}

@@ -1,0 +1,74 @@
+//! Torsion springs that do nothing or whose twist is not that of a joint.
+
+use dbd_kernel::{BodyIndex, TorsionSpring, Vec3};
+
+use crate::Scene;
+use crate::facts::axis_w;
+use crate::lint::{Severity, Warning, short};
+
+/// Sine of the angle between a spring's axis and its joint's: 0.06°.
+const ASKEW: f64 = 1e-3;
+
+pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
+    for (number, spring) in scene.model.torsions.iter().enumerate() {
+        let mut warn = |severity, text: String| {
+            let name = scene.torsion_names.get(number).cloned().unwrap_or_default();
+            let line = scene.places.torsion_springs.get(number).copied();
+            warnings.push(Warning { severity, name, line, text });
+        };
+        if spring.stiffness == 0.0 && spring.preload == 0.0 && spring.damper.row().is_none() {
+            let text = "has neither stiffness nor damping nor preload: it does nothing";
+            warn(Severity::Warning, text.into());
+        }
+        let revolutes = revolutes(scene, spring.a, spring.b);
+        let axis = axis_of(scene, spring);
+        let sine = |joint_axis: Vec3<f64>| {
+            let cross = joint_axis.cross(axis);
+            libm::sqrt(cross.dot(cross))
+        };
+        let nearest = revolutes.iter().min_by(|a, b| sine(a.1).total_cmp(&sine(b.1)));
+        match nearest {
+            Some((name, joint_axis)) if sine(*joint_axis) > ASKEW => {
+                let degrees = libm::asin(sine(*joint_axis).min(1.0)).to_degrees();
+                warn(
+                    Severity::Warning,
+                    format!(
+                        "its axis is {} degrees off that of the revolute joint `{name}` between the \
+                         same bodies, about which they turn",
+                        short(degrees)
+                    ),
+                );
+            }
+            Some(_) => {}
+            None => warn(
+                Severity::Note,
+                "no revolute joint guides its two bodies: its twist is undefined where they have \
+                 turned by half a turn about another axis"
+                    .into(),
+            ),
+        }
+    }
+}
+
+/// The axis at the initial pose, world.
+fn axis_of(scene: &Scene, spring: &TorsionSpring<f64>) -> Vec3<f64> {
+    match scene.model.initial.get(spring.a.row()) {
+        Some(state) => state.orientation.rotation().to_world(spring.axis),
+        None => spring.axis,
+    }
+}
+
+/// Names and axes of the revolutes between two bodies, those of a universal joint included.
+fn revolutes(scene: &Scene, a: BodyIndex, b: BodyIndex) -> Vec<(&str, Vec3<f64>)> {
+    let mut found = Vec::new();
+    for joint in scene.joints.iter().filter(|j| matches!(j.kind, "revolute" | "universal")) {
+        for number in joint.groups.clone() {
+            let group = &scene.model.groups[number];
+            let same = [group.a, group.b] == [a, b] || [group.a, group.b] == [b, a];
+            if let (true, Some(axis)) = (same, axis_w(scene, number)) {
+                found.push((joint.name.as_str(), axis));
+            }
+        }
+    }
+    found
+}
