@@ -453,7 +453,9 @@ fn check_counts_and_warns_without_running() {
     let scene = folder.scene(&text);
     let done = call(&["check", &scene]);
     assert_eq!(done.exit, Exit::Done);
-    for part in ["no element holds body `stone`", "the scene's step of 50ms", "12 "] {
+    for part in
+        ["body `stone` (line ", "no element holds it", "the scene's step of 50ms", "12; 12 with"]
+    {
         assert!(done.out.contains(part), "{part}: {}", done.out);
     }
 }

@@ -5,12 +5,10 @@
 //! change the exit code.
 
 use dbd_kernel::schemes::{Leapfrog, Scheme};
-use dbd_scene::Scene;
+use dbd_scene::{JointFacts, JointInfo, Scene, Severity};
 use serde::Serialize;
 
 use crate::frequencies::Frequencies;
-use crate::islands::islands;
-use crate::joint_rates::joint_rates;
 use crate::summary::{approximate, significant, table};
 use crate::time::display;
 
@@ -33,6 +31,10 @@ pub struct Check {
     pub degrees_of_freedom: i64,
     /// Equations of motion: 6 per body.
     pub equations: usize,
+    /// Equations of a solver with constraints (Franco & Degani 2026, Table 7a).
+    pub constraint_equations: usize,
+    /// Groups of bodies that nothing connects with each other.
+    pub islands: usize,
     /// \[m\] the largest assembly error of a joint.
     pub assembly_error: f64,
     /// \[Hz\] upper bound of the highest frequency at t = 0.
@@ -63,6 +65,10 @@ pub struct JointCheck {
     pub holds: u32,
     /// Its TSDAs.
     pub tsdas: usize,
+    /// \[m\] free length of its elements.
+    pub free_length: f64,
+    /// \[m\] the shortest and the longest of its elements at t = 0.
+    pub initial_length: [f64; 2],
     /// \[m\] the largest |L − L0| at t = 0.
     pub assembly_error: f64,
     /// \[m/s\] the largest rate of a TSDA's length at t = 0: what the bodies' velocities do to it.
@@ -74,34 +80,31 @@ pub struct JointCheck {
 pub fn check(scene: &Scene) -> Check {
     let model = &scene.model;
     let frequencies = Frequencies::of(scene);
-    let rates = joint_rates(scene);
-    let joints: Vec<JointCheck> = scene
-        .joints
-        .iter()
-        .zip(rates)
-        .map(|(joint, stretching_rate)| JointCheck {
-            name: joint.name.clone(),
-            kind: joint.kind,
-            between: joint.between.clone(),
-            holds: joint.holds,
-            tsdas: joint.tsdas,
-            assembly_error: joint.assembly_error,
-            stretching_rate,
-        })
-        .collect();
-    let held: i64 = joints.iter().map(|joint| i64::from(joint.holds)).sum();
-    let equations = 6 * model.bodies.len();
-    let assembly_error = joints.iter().map(|joint| joint.assembly_error).fold(0.0, f64::max);
+    let facts = scene.facts();
+    let joint = |(joint, facts): (&JointInfo, &JointFacts)| JointCheck {
+        name: joint.name.clone(),
+        kind: joint.kind,
+        between: joint.between.clone(),
+        holds: joint.holds,
+        tsdas: joint.tsdas,
+        free_length: facts.free_length,
+        initial_length: facts.initial_length,
+        assembly_error: facts.assembly_error,
+        stretching_rate: facts.stretching_rate,
+    };
+    let joints: Vec<JointCheck> = scene.joints.iter().zip(&facts.joints).map(joint).collect();
     let mut check = Check {
         scene: scene.name.clone(),
         bodies: model.bodies.len(),
         tsdas: model.tsda_count(),
         torsion_springs: model.torsions.len(),
         loads: model.loads.len(),
-        degrees_of_freedom: equations as i64 - held,
+        degrees_of_freedom: facts.degrees_of_freedom,
+        equations: facts.equations,
+        constraint_equations: facts.constraint_equations,
+        islands: facts.islands.len(),
+        assembly_error: joints.iter().map(|joint| joint.assembly_error).fold(0.0, f64::max),
         joints,
-        equations,
-        assembly_error,
         frequency_bound_hz: frequencies.bound_hz(),
         frequency_estimate_hz: frequencies.estimate_hz(),
         advised_step: frequencies.advised_step(),
@@ -110,9 +113,13 @@ pub fn check(scene: &Scene) -> Check {
         notes: Vec::new(),
     };
     warn_of_step(scene, &frequencies, &mut check);
-    note_count(&mut check);
-    note_islands(scene, &mut check);
-    note_rates(&mut check);
+    note_count(facts.planar_loops, &mut check);
+    for warning in scene.warnings() {
+        match warning.severity {
+            Severity::Warning => check.warnings.push(warning.to_string()),
+            Severity::Note => check.notes.push(warning.to_string()),
+        }
+    }
     check
 }
 
@@ -128,37 +135,18 @@ fn warn_of_step(scene: &Scene, frequencies: &Frequencies, check: &mut Check) {
     }
 }
 
-fn note_count(check: &mut Check) {
-    if check.degrees_of_freedom <= 0 {
-        let note = "the count of degrees of freedom is too low where joints hold the same twice, \
-                    as the revolutes of a planar loop do";
-        check.notes.push(note.into());
-    }
-}
-
-fn note_islands(scene: &Scene, check: &mut Check) {
-    let name = |body: &usize| format!("`{}`", scene.body_names[*body]);
-    for island in islands(scene) {
-        let names: Vec<String> = island.bodies.iter().map(name).collect();
-        let names = names.join(", ");
-        if island.elements == 0 {
-            check.warnings.push(format!("no element holds body {names}"));
-        } else if !island.grounded {
-            check.notes.push(format!("not connected to the world: {names}"));
-        }
-    }
-}
-
-fn note_rates(check: &mut Check) {
-    let rate = |joint: &JointCheck| joint.stretching_rate;
-    let worst = check.joints.iter().max_by(|a, b| rate(a).total_cmp(&rate(b)));
-    // Velocities given with three digits are consistent for every practical purpose.
-    if let Some(joint) = worst.filter(|joint| rate(joint) > 1e-3) {
+fn note_count(planar_loops: usize, check: &mut Check) {
+    if planar_loops > 0 {
+        let twice = 3 * planar_loops as i64;
         check.notes.push(format!(
-            "the initial velocities stretch joint `{}` by {} m/s: it will ring",
-            joint.name,
-            significant(rate(joint), 3),
+            "{planar_loops} planar loop{} hold{} {twice} degrees of freedom twice: {} remain",
+            if planar_loops == 1 { "" } else { "s" },
+            if planar_loops == 1 { "s" } else { "" },
+            check.degrees_of_freedom + twice,
         ));
+    } else if check.degrees_of_freedom <= 0 {
+        let note = "the count of degrees of freedom is too low where joints hold the same twice";
+        check.notes.push(note.into());
     }
 }
 
@@ -179,7 +167,11 @@ impl Check {
             ("torsion springs", self.torsion_springs.to_string()),
             ("loads", self.loads.to_string()),
             ("degrees of freedom", format!("{} by count", self.degrees_of_freedom)),
-            ("equations", self.equations.to_string()),
+            (
+                "equations",
+                format!("{}; {} with constraints", self.equations, self.constraint_equations),
+            ),
+            ("islands", self.islands.to_string()),
             ("assembly error", format!("{} m", significant(self.assembly_error, 3))),
             (
                 "highest frequency",
@@ -203,7 +195,17 @@ impl Check {
     }
 
     fn joint_lines(&self) -> String {
-        let head = ["joint", "type", "between", "holds", "TSDAs", "error [m]", "rate [m/s]"];
+        let head = [
+            "joint",
+            "type",
+            "between",
+            "holds",
+            "TSDAs",
+            "L0 [m]",
+            "L at t = 0",
+            "error [m]",
+            "rate [m/s]",
+        ];
         let mut lines = vec![head.map(str::to_owned)];
         lines.extend(self.joints.iter().map(|joint| {
             [
@@ -212,6 +214,8 @@ impl Check {
                 joint.between.join("–"),
                 joint.holds.to_string(),
                 joint.tsdas.to_string(),
+                significant(joint.free_length, 5),
+                lengths(joint.initial_length),
                 significant(joint.assembly_error, 3),
                 significant(joint.stretching_rate, 3),
             ]
@@ -219,7 +223,7 @@ impl Check {
         let width = |column: usize| {
             lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0)
         };
-        let widths: [usize; 7] = std::array::from_fn(width);
+        let widths: [usize; 9] = std::array::from_fn(width);
         let mut text = String::new();
         for line in &lines {
             for (cell, width) in line.iter().zip(widths) {
@@ -230,4 +234,10 @@ impl Check {
         }
         text
     }
+}
+
+/// One length, or two where they differ by more than rounding.
+fn lengths([shortest, longest]: [f64; 2]) -> String {
+    let [a, b] = [shortest, longest].map(|length| significant(length, 5));
+    if a == b { a } else { format!("{a} to {b}") }
 }

@@ -12,7 +12,6 @@ use dbd_kernel::model::Law;
 use dbd_kernel::{BodyState, Energy, F64, Geometry, State};
 use dbd_scene::{Scene, SceneModel};
 
-use crate::joint_groups::joint_groups;
 use crate::simulate::Trouble;
 
 /// A joint's element that is longer than this many times the largest free length of all joints
@@ -85,7 +84,7 @@ impl Judge {
     pub(crate) fn new<P: Geometry>(scene: &Scene, model: &SceneModel<P>, step_size: f64) -> Self {
         let model_of_judge: SceneModel<F64> = model.convert();
         let mut joints = model_of_judge.clone();
-        let ranges = joint_groups(scene);
+        let ranges: Vec<_> = scene.joints.iter().map(|joint| joint.groups.clone()).collect();
         joints.groups.truncate(ranges.last().map_or(0, |range| range.end));
         let elements = joints.groups.iter().filter(|group| group.law == Law::Tsda);
         let lengths = elements.flat_map(|group| {

@@ -3,8 +3,7 @@
 //! `scene → model → step → trace → report`. The modules in the order in which a run uses them:
 //!
 //! - [`cli`], [`console`], [`error`], [`progress`]: arguments in, text and exit code out.
-//! - [`catalogue`], [`list`], [`check`] with [`islands`], [`joint_groups`],
-//!   [`joint_rates`]: scenes before they run.
+//! - [`catalogue`], [`list`], [`check`]: scenes before they run.
 //! - [`time`], [`method`], [`frequencies`], [`plan`]: what is to be run, in whole numbers.
 //! - [`run`], [`simulate`]: the run; [`failure`]: where one failed and which step works.
 //! - [`numerals`], [`trace`], [`statistics`], [`summary`], [`curves`], [`plot`], [`report`],
@@ -19,9 +18,6 @@ pub mod error;
 pub mod failure;
 mod fitting;
 pub mod frequencies;
-pub mod islands;
-pub mod joint_groups;
-pub mod joint_rates;
 mod judge;
 pub mod list;
 pub mod method;
