@@ -1,0 +1,119 @@
+//! Failures latch and name what failed; a builder refuses what does not fit.
+
+use dbd_kernel::builder::{BuildError, LineLaw, ModelBuilder, Part, Quantity, Stars};
+use dbd_kernel::model::ModelOwner;
+use dbd_kernel::plant::PlantError;
+use dbd_kernel::status::Cause;
+use dbd_kernel::{BodyIndex, BodyState, Dbd, F32, F64, Leapfrog, Plant, Scheme, Status};
+use dbd_tests::{Bench, at, turned};
+
+const WORLD: BodyIndex = BodyIndex::WORLD;
+
+/// Steps until the plant fails, and checks that it stays as it failed.
+fn failure<S: Scheme>(model: &Bench<F32>, scheme: S, step: f64) -> (Cause, u64) {
+    let mut plant = Plant::new(model, scheme, step).unwrap();
+    for _ in 0..100_000 {
+        if let Status::Failed(failure) = plant.step() {
+            let evaluations = plant.evaluations();
+            assert_eq!(failure.step, plant.state().step);
+            assert_eq!(plant.step(), Status::Failed(failure));
+            assert_eq!(plant.advance(10), Status::Failed(failure));
+            assert_eq!(plant.status().ok(), Err(failure));
+            assert_eq!((plant.state().step, plant.evaluations()), (failure.step, evaluations));
+            return (failure.cause, failure.step);
+        }
+    }
+    panic!("it was to fail");
+}
+
+#[test]
+fn a_body_that_is_not_finite_is_named() {
+    // The second body's spring is stiff: ω·h = 3.2; the first keeps still.
+    let mut model = Bench::<F32>::new();
+    model.add_body(1.0, [0.1; 3], at([0.0; 3])).unwrap();
+    let stiff = model.add_body(1.0, [0.1; 3], at([1.1, 0.0, 0.0])).unwrap();
+    model.add_tsda([WORLD, stiff], [[0.0; 3]; 2], 1e7, 0.0, 1.0).unwrap();
+    for (cause, step) in [failure(&model, Leapfrog, 1e-3), failure(&model, Dbd::default(), 1e-3)] {
+        assert_eq!(cause, Cause::NonFinite { body: stiff });
+        assert!(step < 100, "{step}");
+    }
+}
+
+#[test]
+fn a_spring_whose_twist_is_undefined_is_named() {
+    // Two torsion springs; the body turns about x, normal to the second's axis.
+    let mut model = Bench::<F32>::new();
+    let state = BodyState::from_f64([0.0; 3], [1.0, 0.0, 0.0, 0.0], [0.0; 3], [2.0, 0.0, 0.0]);
+    let body = model.add_body(1.0, [0.1; 3], state).unwrap();
+    model.add_torsion_spring([WORLD, body], [1.0, 0.0, 0.0], 0.0, 0.0, 0.0).unwrap();
+    model.add_torsion_spring([WORLD, body], [0.0, 0.0, 1.0], 0.0, 0.0, 0.0).unwrap();
+    let (cause, step) = failure(&model, Leapfrog, 1e-4);
+    assert_eq!(cause, Cause::UndefinedTwist { spring: 1 });
+    // Half a turn at 2 rad/s takes π/2 s.
+    assert!((15_690..15_720).contains(&step), "{step}");
+}
+
+#[test]
+fn steps_that_are_no_steps_are_refused() {
+    let mut model = Bench::<F32>::new();
+    model.add_body(1.0, [0.1; 3], at([0.0; 3])).unwrap();
+    for step in [0.0, -1e-3, f64::NAN, f64::INFINITY, 1e-60] {
+        let refused = Plant::new(&model, Leapfrog, step).err();
+        assert!(matches!(refused, Some(PlantError::Step(_))), "{step}");
+    }
+}
+
+#[test]
+fn a_builder_refuses_and_stays_as_it_was() {
+    type Small = ModelBuilder<F64, 2, 2, 4, 2, 1, 1, 1, 1, 1>;
+    let mut model = Small::new();
+    let refused = model.add_body(-1.0, [0.1; 3], at([0.0; 3]));
+    assert_eq!(refused, Err(BuildError::OutOfRange(Quantity::Mass)));
+    let refused = model.add_body(1.0, [0.1, 0.1, 0.3], at([0.0; 3]));
+    assert_eq!(refused, Err(BuildError::OutOfRange(Quantity::Inertia)));
+    let refused = model.add_body(1.0, [0.1; 3], at([f64::NAN, 0.0, 0.0]));
+    assert_eq!(refused, Err(BuildError::OutOfRange(Quantity::State)));
+    let body = model.add_body(1.0, [0.1; 3], at([0.0; 3])).unwrap();
+    let mut tsda = |between, points, stiffness, damping, free_length| {
+        model.add_tsda(between, points, stiffness, damping, free_length)
+    };
+    let ends = [[0.0; 3], [1.0, 0.0, 0.0]];
+    let absent = BodyIndex(5);
+    let out = |quantity| Err(BuildError::OutOfRange(quantity));
+    assert_eq!(tsda([body, absent], ends, 1.0, 0.0, 1.0), Err(BuildError::UnknownBody(absent)));
+    assert_eq!(tsda([body, body], ends, 1.0, 0.0, 1.0), Err(BuildError::SameBody(body)));
+    assert_eq!(tsda([WORLD, WORLD], ends, 1.0, 0.0, 1.0), Err(BuildError::SameBody(WORLD)));
+    assert_eq!(tsda([WORLD, body], ends, -1.0, 0.0, 1.0), out(Quantity::Stiffness));
+    assert_eq!(tsda([WORLD, body], ends, 1.0, f64::NAN, 1.0), out(Quantity::Damping));
+    assert_eq!(tsda([WORLD, body], ends, 1.0, 0.0, -1.0), out(Quantity::FreeLength));
+    let nowhere = [[f64::INFINITY, 0.0, 0.0], [0.0; 3]];
+    assert_eq!(tsda([WORLD, body], nowhere, 1.0, 0.0, 1.0), out(Quantity::Point));
+    let two_arms = Stars {
+        between: [WORLD, body],
+        centres: &[[0.0; 3]],
+        arms: &[[0.0; 3]; 2],
+        stiffness: 1.0,
+        damping: 0.0,
+        free_length: 1.0,
+        clearance: 0.0,
+    };
+    assert_eq!(model.add_stars(two_arms), out(Quantity::Arms));
+    let law = LineLaw { stiffness: 1.0, damping: 0.0, free_length: 0.0, clearance: 0.0 };
+    let refused = model.add_points_on_line([WORLD, body], [0.0; 3], [0.0; 3], &[[0.0; 3]], law);
+    assert_eq!(refused, out(Quantity::Axis));
+    let refused = model.add_torsion_spring([WORLD, body], [0.0; 3], 1.0, 0.0, 0.0);
+    assert_eq!(refused, out(Quantity::Axis));
+    let view = model.view();
+    assert_eq!((view.bodies.len(), view.groups.len(), view.points.len()), (1, 0, 0));
+
+    // Room for two TSDAs, four points and one damper.
+    model.add_tsda([WORLD, body], ends, 1.0, 0.5, 1.0).unwrap();
+    let full = |part| Err(BuildError::Full(part));
+    assert_eq!(model.add_tsda([WORLD, body], ends, 1.0, 0.5, 1.0), full(Part::Dampers));
+    model.add_tsda([WORLD, body], ends, 1.0, 0.0, 1.0).unwrap();
+    assert_eq!(model.add_tsda([WORLD, body], ends, 1.0, 0.0, 1.0), full(Part::Groups));
+    let quarter = turned([0.0, 0.0, 1.0], 1.0);
+    let state = BodyState::from_f64([0.0; 3], quarter, [0.0; 3], [0.0; 3]);
+    model.add_body(1.0, [0.1; 3], state).unwrap();
+    assert_eq!(model.add_body(1.0, [0.1; 3], state).err(), Some(BuildError::Full(Part::Bodies)));
+}
