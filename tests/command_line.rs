@@ -494,3 +494,20 @@ arm = 0.03
     let check: Value = serde_json::from_str(&done.out).unwrap();
     assert!(check["joints"][0]["stretching_rate"].as_f64().unwrap() < 1e-12);
 }
+
+#[test]
+fn export_writes_the_bits_of_the_model() {
+    let done = call(&["export", "four-bar", "--precision", "f32"]);
+    assert_eq!(done.exit, Exit::Done);
+    // 9 MN/m and the crank's mass of 1 kg in single precision.
+    for part in [
+        "pub type FourBarF32 = Model<F32, 3, 4, 20, 24,",
+        "pub const FOUR_BAR_STEP: f64 = f64::from_bits(0x3ef4f8b588e368f1)",
+        "stiffness: f32::from_bits(0x4b095440)",
+        "mass: f32::from_bits(0x3f800000)",
+    ] {
+        assert!(done.out.contains(part), "{part}: {}", &done.out[..600]);
+    }
+    assert!(!done.out.contains("FOUR_BAR_F64"));
+    assert!(call(&["export", "four-bar"]).out.contains("FOUR_BAR_F64"));
+}

@@ -6,12 +6,14 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum as _};
+use dbd_scene::export;
 
 use crate::catalogue::Catalogue;
 use crate::check::check;
 use crate::console::Console;
 use crate::error::{Error, Exit};
+use crate::frequencies::Frequencies;
 use crate::list::list;
 use crate::method::{Method, PrecisionName, SchemeName};
 use crate::progress::Progress;
@@ -44,6 +46,14 @@ enum Command {
         /// As JSON
         #[arg(long)]
         json: bool,
+    },
+    /// Prints Rust source of a scene's const model, for a firmware
+    Export {
+        #[command(flatten)]
+        scene: SceneArgument,
+        /// The model's precision [default: all]
+        #[arg(long, value_enum)]
+        precision: Option<PrecisionName>,
     },
 }
 
@@ -101,6 +111,9 @@ where
         Command::List { json } => Ok(list(&catalogue, json, console)),
         Command::Run(arguments) => run_scene(&catalogue, &arguments, console),
         Command::Check { scene, json } => check_scene(&catalogue, &scene.scene, json, console),
+        Command::Export { scene, precision } => {
+            export_scene(&catalogue, &scene.scene, precision, console)
+        }
     };
     done.unwrap_or_else(|error| {
         console.report(&error);
@@ -175,6 +188,26 @@ fn check_scene(
 ) -> Result<Exit, Error> {
     let check = check(&catalogue.load(scene)?);
     console.print(&if as_json { json(&check) } else { check.text() });
+    Ok(Exit::Done)
+}
+
+/// The constant of the step is the scene's, else the advised one.
+fn export_scene(
+    catalogue: &Catalogue,
+    scene: &str,
+    precision: Option<PrecisionName>,
+    console: &mut Console<'_>,
+) -> Result<Exit, Error> {
+    let scene = catalogue.load(scene)?;
+    let step = Frequencies::of(&scene).advised_step().unwrap_or(scene.duration / 1000.0);
+    let mut source = export::preamble(&scene, step);
+    for precision in precision.map_or(PrecisionName::value_variants().to_vec(), |one| vec![one]) {
+        source += &match precision {
+            PrecisionName::F64 => export::model::<f64>(&scene),
+            PrecisionName::F32 => export::model::<f32>(&scene),
+        };
+    }
+    console.print(&source);
     Ok(Exit::Done)
 }
 

@@ -48,6 +48,7 @@ pub fn run(scenes: &[String]) -> Result<()> {
     for scene in scenes {
         if !costs.iter().any(|cost| cost.scene == *scene) {
             let mut known: Vec<&str> = costs.iter().map(|cost| cost.scene.as_str()).collect();
+            known.sort_unstable();
             known.dedup();
             bail!("there is no shipped scene `{scene}`; there are: {}", known.join(", "));
         }
