@@ -6,7 +6,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use dbd_scene::Scene;
+use dbd_scene::{Scene, nearest};
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -31,7 +31,7 @@ pub struct UnknownScene {
 
 impl UnknownScene {
     fn help_text(&self) -> String {
-        let nearest = nearest(&self.name, &self.known);
+        let nearest = nearest(&self.name, self.known.iter().map(String::as_str));
         let meant = nearest.map(|name| format!("did you mean {name}? ")).unwrap_or_default();
         let known = if self.known.is_empty() { "none".into() } else { self.known.join(", ") };
         format!("{meant}the scenes in {FOLDER}/: {known}; or a path to a .toml file")
@@ -90,30 +90,6 @@ fn is_path(scene: &str) -> bool {
     scene.ends_with(".toml") || scene.contains(['/', '\\'])
 }
 
-/// The name nearest to a misspelled one, where one is near.
-fn nearest<'n>(word: &str, names: &'n [String]) -> Option<&'n str> {
-    let near = |name: &'n String| {
-        let distance = distance(&word.to_lowercase(), &name.to_lowercase());
-        (distance <= (name.len() / 3).max(1)).then_some((distance, name.as_str()))
-    };
-    names.iter().filter_map(near).min().map(|(_, name)| name)
-}
-
-/// Insertions, deletions and replacements of characters (Levenshtein 1966).
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
-        for (j, y) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(x != *y);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -132,12 +108,5 @@ mod tests {
         assert!(help.contains("four-bar, pendulum"), "{help}");
         let Err(error) = catalogue.load("rocket") else { panic!() };
         assert!(!error.help().unwrap().to_string().contains("did you mean"));
-    }
-
-    #[test]
-    fn distances_between_words() {
-        assert_eq!(distance("kitten", "sitting"), 3);
-        assert_eq!(distance("", "abc"), 3);
-        assert_eq!(distance("abc", "abc"), 0);
     }
 }

@@ -31,6 +31,7 @@ use std::path::Path;
 pub use error::{Refusal, SceneError};
 pub use facts::{Facts, Island, JointFacts};
 pub use lint::{Severity, Warning};
+pub use nearest::nearest;
 pub use runtime::{SceneModel, widen};
 
 use dbd_kernel::F64;

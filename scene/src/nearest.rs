@@ -2,7 +2,8 @@
 
 /// The candidate nearest to a misspelled word, `None` where all are far from it. Of equally near
 /// ones the first.
-pub(crate) fn nearest<'c>(
+#[must_use]
+pub fn nearest<'c>(
     word: &str,
     candidates: impl IntoIterator<Item = &'c str>,
 ) -> Option<&'c str> {
