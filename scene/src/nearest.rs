@@ -3,10 +3,7 @@
 /// The candidate nearest to a misspelled word, `None` where all are far from it. Of equally near
 /// ones the first.
 #[must_use]
-pub fn nearest<'c>(
-    word: &str,
-    candidates: impl IntoIterator<Item = &'c str>,
-) -> Option<&'c str> {
+pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     let mut best = None;
     for candidate in candidates {
         let distance = distance(word, candidate);
