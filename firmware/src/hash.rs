@@ -40,13 +40,16 @@ struct Weights(u64);
 
 impl Visitor for Weights {
     fn visit<M: ModelOwner, S: Scheme>(&mut self, shipped: Shipped<M, S>) {
-        self.0 += weight(&shipped.scheme);
+        self.0 += weight(&shipped);
     }
 }
 
-/// A scheme's weight where instructions are shared out.
-fn weight(scheme: &impl Scheme) -> u64 {
-    12 / u64::from(scheme.evaluations().clamp(1, 12))
+/// A combination's weight where instructions are shared out; one of few steps needs little.
+fn weight<M, S: Scheme>(shipped: &Shipped<M, S>) -> u64 {
+    match shipped.steps {
+        u64::MAX => 12 / u64::from(shipped.scheme.evaluations().clamp(1, 12)),
+        _ => 1,
+    }
 }
 
 struct Hashing<'c, C> {
@@ -66,7 +69,7 @@ impl<C: InstructionCounter> Visitor for Hashing<'_, C> {
             return;
         };
         let start = self.counter.count();
-        let weight = weight(&shipped.scheme);
+        let weight = weight(&shipped);
         let left = self.limits.instructions.saturating_sub(start);
         let share = left / self.waiting.max(1) * weight;
         self.waiting = self.waiting.saturating_sub(weight);
