@@ -6,6 +6,7 @@
 //! - [`catalogue`], [`list`], [`check`]: scenes before they run.
 //! - [`time`], [`method`], [`frequencies`], [`plan`]: what is to be run, in whole numbers.
 //! - [`run`], [`simulate`]: the run; [`failure`]: where one failed and which step works.
+//! - [`mod@reference`]: the same equations in plain std Rust, what runs are held against.
 //! - [`numerals`], [`trace`], [`statistics`], [`summary`], [`curves`], [`plot`], [`report`],
 //!   [`output`]: what is left of it.
 
@@ -26,6 +27,7 @@ pub mod output;
 pub mod plan;
 pub mod plot;
 pub mod progress;
+pub mod reference;
 pub mod report;
 pub mod run;
 pub mod simulate;

@@ -1,0 +1,17 @@
+//! References in plain std Rust: another way to the same equations, sharing no force code with
+//! the kernel.
+//!
+//! `model's data => mechanism => accelerations`, and from them:
+//!
+//! - [`mechanism`], [`elements`], [`state`], [`signals`]: bodies and elements as a std user would
+//!   write them, `Vec`, nalgebra, `Box<dyn Element>`, double precision.
+//! - [`naive`]: semi-implicit Euler and leapfrog on it, the baseline of every timing.
+
+pub mod elements;
+pub mod mechanism;
+pub mod naive;
+pub mod signals;
+pub mod state;
+
+pub use mechanism::Mechanism;
+pub use state::State;
