@@ -1,5 +1,7 @@
 //! Systems and measures that the tests across crates share.
 
+pub mod modes;
+
 use std::path::Path;
 
 use dbd_kernel::builder::{LineLaw, ModelBuilder, Stars};

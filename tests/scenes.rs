@@ -1,9 +1,10 @@
 //! Every scene that ships: counts, a run over its duration, its energy band.
 //!
-//! The band is the largest deviation of the total energy from its value once the last load has
-//! ended, over the largest kinetic energy. Bounds are three times the figure measured when the
-//! row was written; `DBD_PRINT=1 cargo test --release -p dbd-tests --test scenes -- --nocapture`
-//! prints the present figures.
+//! The band is the largest deviation of the total energy from its value once the last load or
+//! table has ended, over the largest kinetic energy from then on; of a damped scene the largest
+//! rise, for dampers may only take. Bounds are three times the figure measured when the row was
+//! written; `DBD_PRINT=1 cargo test --release -p dbd-tests --test scenes -- --nocapture` prints
+//! the present figures.
 
 use std::collections::BTreeSet;
 
@@ -17,19 +18,25 @@ struct Row {
     name: &'static str,
     bodies: usize,
     tsdas: usize,
+    damped: bool,
     f64: f64,
     f32: f64,
 }
 
 const fn row(name: &'static str, bodies: usize, tsdas: usize, f64: f64, f32: f64) -> Row {
-    Row { name, bodies, tsdas, f64, f32 }
+    Row { name, bodies, tsdas, damped: false, f64, f32 }
+}
+
+const fn damped(name: &'static str, bodies: usize, tsdas: usize, f64: f64, f32: f64) -> Row {
+    Row { name, bodies, tsdas, damped: true, f64, f32 }
 }
 
 /// Leapfrog at the scene's step. In f64 the band is that of the modified Hamiltonian, (ω·h)²
 /// times the energy in the joints' vibration, so it is largest where a preload is let go
 /// against stiff joints (five-bar-a, 3rrr-2) and least where gravity acts softly (hexagon,
 /// chains). In f32 rounding adds 1e-5 to 1e-4 of the kinetic energy, whatever the step, and more
-/// in the longest run, the crank-slider's 400,000 steps.
+/// in the longest run, the crank-slider's 400,000 steps, and in the gentlest, the hanging chain's
+/// 50,000 with 0.3 J of kinetic energy in all.
 const SCENES: &[Row] = &[
     row("3rrr", 7, 54, 3.1e-5, 1.1e-4),
     row("3rrr-1", 6, 48, 4.2e-5, 1.1e-4),
@@ -37,6 +44,7 @@ const SCENES: &[Row] = &[
     row("3ruu", 13, 90, 1.7e-5, 6.1e-5),
     row("3ruu-1", 12, 84, 1.2e-5, 1.7e-4),
     row("3ruu-2", 11, 78, 1.2e-5, 9.7e-5),
+    damped("cart-pendulum", 2, 14, 1e-9, 1e-9),
     row("chain-closed", 10, 66, 1.1e-7, 1.1e-4),
     row("chain-open-30", 10, 60, 1.3e-9, 3.5e-5),
     row("chain-open-60", 10, 60, 1.1e-9, 8.2e-6),
@@ -44,6 +52,8 @@ const SCENES: &[Row] = &[
     row("five-bar-a", 4, 30, 3.2e-4, 3.2e-4),
     row("five-bar-b", 4, 30, 3.8e-5, 9.7e-5),
     row("four-bar", 3, 24, 6.5e-5, 2.9e-4),
+    row("gyroscope", 1, 3, 1.2e-8, 1.4e-5),
+    row("hanging-chain", 20, 60, 7.7e-7, 1.4e-3),
     row("hexagon", 5, 36, 2.1e-8, 9.1e-6),
     row("six-bar", 5, 36, 4.3e-5, 8.1e-5),
     row("spring-ball", 1, 1, 7.3e-5, 7.8e-5),
@@ -59,7 +69,7 @@ fn the_table_lists_every_scene_that_ships() {
 }
 
 #[test]
-fn counts_are_those_of_the_paper() {
+fn counts_are_those_of_the_table() {
     for row in SCENES {
         let scene = scene(row.name);
         let counts = (scene.model.bodies.len(), scene.model.tsda_count());
@@ -72,21 +82,28 @@ fn counts_are_those_of_the_paper() {
     }
 }
 
-/// The energy band of a whole run.
-fn band<P: Geometry>(scene: &Scene) -> f64 {
+/// The energy band of a whole run, or its largest rise.
+fn band<P: Geometry>(scene: &Scene, damped: bool) -> f64 {
     let model: SceneModel<P> = scene.model.convert();
     let exact: SceneModel<F64> = model.convert();
     let h = scene.step.unwrap();
     let steps = (scene.duration / h).round() as u64;
-    let loads_end = scene.model.loads.iter().map(|load| load.until).fold(0.0, f64::max);
+    let loads = scene.model.loads.iter().map(|load| load.until);
+    let knots = scene.model.knots.iter().map(|knot| knot.time);
+    let driven = loads.chain(knots).fold(0.0, f64::max);
     let mut plant = Plant::new(&model, Leapfrog, h).unwrap();
     let (mut start, mut worst, mut kinetic) = (None, 0.0_f64, 0.0_f64);
     for n in 0..=steps {
-        if n % 10 == 0 && plant.time() >= loads_end {
+        if n % 10 == 0 && plant.time() >= driven {
             let now = energy(&exact, &widen(plant.state()), h);
-            let start = *start.get_or_insert(now.total());
-            worst = worst.max((now.total() - start).abs());
+            let start = start.get_or_insert(now.total());
             kinetic = kinetic.max(now.kinetic);
+            if damped {
+                worst = worst.max(now.total() - *start);
+                *start = start.min(now.total());
+            } else {
+                worst = worst.max((now.total() - *start).abs());
+            }
         }
         if n < steps {
             plant.step().ok().unwrap_or_else(|failure| panic!("{}: {failure}", scene.name));
@@ -101,9 +118,10 @@ fn every_scene_runs_and_keeps_its_energy() {
     let mut failed = Vec::new();
     for row in SCENES {
         let scene = scene(row.name);
-        for (name, band, figure) in
-            [("f64", band::<F64>(&scene), row.f64), ("f32", band::<F32>(&scene), row.f32)]
-        {
+        for (name, band, figure) in [
+            ("f64", band::<F64>(&scene, row.damped), row.f64),
+            ("f32", band::<F32>(&scene, row.damped), row.f32),
+        ] {
             if std::env::var_os("DBD_PRINT").is_some() {
                 println!("{:14} {name} {band:.1e}", row.name);
             }
