@@ -195,7 +195,7 @@ fn bad_input_ends_with_2_and_writes_nothing() {
     let bad = folder.path("bad.toml");
     fs::write(&bad, PENDULUM.replace("mass = 0.5", "mass = -0.5")).unwrap();
     let bad = bad.to_str().unwrap();
-    let cases: [(&str, &[&str], &str); 15] = [
+    let cases: [(&str, &[&str], &str); 18] = [
         ("fuor-bar", &[], "did you mean four-bar?"),
         ("no-such-thing", &[], "four-bar"),
         ("no/such/file.toml", &[], "no/such/file.toml"),
@@ -208,6 +208,9 @@ fn bad_input_ends_with_2_and_writes_nothing() {
         (&good, &["--step", "1us", "--every", "1ns"], "--step"),
         (&good, &["--every", "1s"], "--every 0.5s"),
         (&good, &["--newton", "1"], "--scheme dbd"),
+        (&good, &["--scheme", "dbd-p2", "--newton", "9"], "--newton 8"),
+        (&good, &["--scheme", "pefrl", "--damping", "explicit"], "leapfrog"),
+        (&good, &["--scheme", "dbd", "--damping", "sweeps"], "--damping"),
         (&good, &["--scheme", "simplectic"], "leapfrog"),
         (&good, &["--precision", "f16"], "f32"),
         (&good, &["--hurry"], "--hurry"),
@@ -419,6 +422,45 @@ fn newton_iterations_count_as_evaluations() {
     assert_eq!((&summary["newton"], &summary["steps"]), (&2.into(), &500.into()));
     assert_eq!(summary["force_evaluations"], 2500);
     assert_eq!(folder.summary(&scene, &options[..2])["newton"], 0);
+}
+
+#[test]
+fn every_scheme_counts_its_evaluations() {
+    let folder = Folder::new();
+    let scene = folder.scene(PENDULUM);
+    let counts = [
+        ("dbd", 1500),
+        ("dbd-p1", 1000),
+        ("dbd-p2", 1500),
+        ("semi-implicit-euler", 500),
+        // The first step begins with one.
+        ("leapfrog", 501),
+        ("pefrl", 2000),
+        ("blanes-moan-s6", 3000),
+        ("rk4", 2000),
+    ];
+    for (scheme, evaluations) in counts {
+        let summary = folder.summary(&scene, &["--scheme", scheme, "--step", "1ms"]);
+        assert_eq!(summary["scheme"], scheme);
+        assert_eq!((&summary["steps"], &summary["status"]), (&500.into(), &"ok".into()));
+        assert_eq!(summary["force_evaluations"], evaluations, "{scheme}");
+        assert_eq!(summary["newton"].is_number(), scheme.starts_with("dbd"));
+    }
+}
+
+#[test]
+fn dampers_are_explicit_on_demand() {
+    let folder = Folder::new();
+    let text = PENDULUM.replace("free_length = 1.0", "free_length = 1.0\ndamping = 5.0");
+    let scene = folder.scene(&text);
+    let own = folder.summary(&scene, &["--step", "1ms"]);
+    assert!(own.get("damping").is_none());
+    let explicit = folder.summary(&scene, &["--step", "1ms", "--damping", "explicit"]);
+    assert_eq!((&explicit["scheme"], &explicit["damping"]), (&own["scheme"], &"explicit".into()));
+    assert_eq!(explicit["force_evaluations"], 1000);
+    assert_ne!(explicit["state_hash"], own["state_hash"]);
+    let sweeps = folder.summary(&scene, &["--step", "1ms", "--damping", "sweeps"]);
+    assert_eq!(sweeps["state_hash"], own["state_hash"]);
 }
 
 #[test]

@@ -7,7 +7,9 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use dbd_kernel::geometry::{F32, F64, Geometry};
-use dbd_kernel::{Dbd, Leapfrog, Plant, Scheme};
+use dbd_kernel::{
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Leapfrog, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler,
+};
 use dbd_scene::{Scene, SceneModel};
 use dbd_tests::{scene, scene_names};
 
@@ -17,19 +19,26 @@ const HEADER: &str = "scene,scheme,precision,step,steps,hash";
 const STEPS: u64 = 1_000;
 const LONG: (&str, u64) = ("four-bar", 10_000);
 
+/// Scenes of all schemes: planar, with torsion springs, with points on lines, in space.
+const ALL_SCHEMES: [&str; 4] = ["four-bar", "3rrr", "crank-slider", "3ruu"];
+
 fn table() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("golden/hashes.csv")
 }
 
 fn row<P: Geometry, S: Scheme>(scene: &Scene, scheme: S, steps: u64) -> String {
+    row_of::<P, S>(scene, S::NAME, scheme, steps)
+}
+
+fn row_of<P: Geometry, S: Scheme>(scene: &Scene, called: &str, scheme: S, steps: u64) -> String {
     let model: SceneModel<P> = scene.model.convert();
     let step = scene.step.expect("a golden scene states its step");
     let mut plant = Plant::new(&model, scheme, step).unwrap();
     for _ in 0..steps {
         plant.step().ok().unwrap();
     }
-    let (name, scheme, precision) = (&scene.name, S::NAME, P::NAME);
-    format!("{name},{scheme},{precision},{step:e},{steps},{:016x}", plant.hash())
+    let (name, precision) = (&scene.name, P::NAME);
+    format!("{name},{called},{precision},{step:e},{steps},{:016x}", plant.hash())
 }
 
 #[test]
@@ -47,6 +56,28 @@ fn states_have_their_golden_hashes() {
         ] {
             writeln!(present, "{row}").unwrap();
         }
+    }
+    for name in ALL_SCHEMES {
+        let scene = scene(name);
+        macro_rules! rows {
+            ($($name:expr => $scheme:expr),*) => {$(
+                for row in [
+                    row_of::<F64, _>(&scene, $name, $scheme, STEPS),
+                    row_of::<F32, _>(&scene, $name, $scheme, STEPS),
+                ] {
+                    writeln!(present, "{row}").unwrap();
+                }
+            )*};
+        }
+        rows!(
+            "dbd-newton-1" => Dbd { newton: 1 },
+            DbdP1::NAME => DbdP1::default(),
+            DbdP2::NAME => DbdP2::default(),
+            SemiImplicitEuler::NAME => SemiImplicitEuler,
+            Pefrl::NAME => Pefrl,
+            BlanesMoanS6::NAME => BlanesMoanS6,
+            Rk4::NAME => Rk4
+        );
     }
     if std::env::var_os("DBD_BLESS").is_some() {
         std::fs::write(table(), &present).unwrap();

@@ -3,7 +3,8 @@
 use dbd_kernel::inputs::InputKind;
 use dbd_kernel::snapshot::SnapshotError;
 use dbd_kernel::{
-    BodyIndex, Dbd, F32, F64, Geometry, Leapfrog, Load, LoadFrame, Plant, Scheme, Vec3,
+    BlanesMoanS6, BodyIndex, Dbd, DbdP2, Explicit, F32, F64, Geometry, Leapfrog, Load, LoadFrame,
+    Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler, Vec3,
 };
 use dbd_tests::{Bench, hung_ring};
 
@@ -47,6 +48,12 @@ fn a_restored_plant_goes_on_with_the_same_bits() {
     resumes::<F32, _>(Leapfrog);
     resumes::<F64, _>(Dbd::default());
     resumes::<F32, _>(Dbd { newton: 1 });
+    resumes::<F64, _>(DbdP2 { newton: 1 });
+    resumes::<F64, _>(Explicit(Leapfrog));
+    resumes::<F32, _>(SemiImplicitEuler);
+    resumes::<F64, _>(Pefrl);
+    resumes::<F32, _>(BlanesMoanS6);
+    resumes::<F64, _>(Rk4);
 }
 
 #[test]

@@ -15,7 +15,7 @@ use crate::console::Console;
 use crate::error::{Error, Exit};
 use crate::frequencies::Frequencies;
 use crate::list::list;
-use crate::method::{Method, PrecisionName, SchemeName};
+use crate::method::{DampingName, Method, PrecisionName, SchemeName};
 use crate::progress::Progress;
 use crate::run::{Outcome, RunOptions, run};
 use crate::summary::{json, table};
@@ -70,9 +70,12 @@ struct RunArguments {
     /// Time-stepping scheme
     #[arg(long, value_enum, default_value_t)]
     scheme: SchemeName,
-    /// Newton iterations per step of the dbd schemes [default: 0]
+    /// Newton iterations per step of the dbd schemes, at most 8 [default: 0]
     #[arg(long, value_name = "N")]
     newton: Option<u32>,
+    /// How dampers act [default: the scheme's own]
+    #[arg(long, value_enum)]
+    damping: Option<DampingName>,
     /// Step, e.g. 20us [default: the scene's, else 1/ω of the frequency bound, shortened to fit]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     step: Option<Time>,
@@ -141,7 +144,10 @@ fn run_scene(
     arguments: &RunArguments,
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
-    let method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
+    let mut method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
+    if let Some(damping) = arguments.damping {
+        method = method.with_damping(damping)?;
+    }
     let scene = catalogue.load(&arguments.scene.scene)?;
     let options = RunOptions {
         method,

@@ -1,21 +1,49 @@
-//! Scheme and precision by name, and the way from the names to the kernel's types.
+//! Scheme, damping and precision by name, and the way from the names to the kernel's types.
 //!
-//! `(scheme, newton, precision) => method; method, visitor => the visitor's generic function`.
-//! A further scheme or precision is one variant and one arm here, nothing elsewhere.
+//! `(scheme, newton, damping, precision) => method; method, visitor => the visitor's generic
+//! function`. A further scheme or precision is one variant and its arms here, nothing elsewhere.
 
 use clap::ValueEnum;
-use dbd_kernel::{Dbd, F32, F64, Geometry, Leapfrog, Real as _, Scheme};
+use dbd_kernel::damping::Damping;
+use dbd_kernel::{
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Geometry, Leapfrog, Pefrl, Real as _, Rk4,
+    Scheme, SemiImplicitEuler,
+};
 use miette::Diagnostic;
 use thiserror::Error;
+
+/// Newton iterations that may be asked for: more change nothing but the stable step.
+pub const MOST_ITERATIONS: u32 = 8;
 
 /// The schemes by name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum SchemeName {
-    /// The paper's step: first order, three evaluations, one more per Newton iteration.
+    /// The paper's step: order 1, three evaluations, one more per Newton iteration.
     Dbd,
-    /// Kick–drift–kick: second order, one evaluation, no energy drift.
+    /// The same with predicted positions: order 1, two evaluations, dissipates.
+    DbdP1,
+    /// The same with corrected positions, too: order 1, three evaluations, dissipates.
+    DbdP2,
+    /// Kick, then drift: order 1, one evaluation, no energy drift.
+    SemiImplicitEuler,
+    /// Kick–drift–kick: order 2, one evaluation, no energy drift.
     #[default]
     Leapfrog,
+    /// Omelyan, Mryglod & Folk: order 4, four evaluations, no energy drift.
+    Pefrl,
+    /// Blanes & Moan: order 4, six evaluations, no energy drift.
+    BlanesMoanS6,
+    /// Classical Runge–Kutta: order 4, four evaluations, dissipates.
+    Rk4,
+}
+
+/// The ways of damping by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum DampingName {
+    /// Exact pairwise impulses before and after: no limit of the step.
+    Sweeps,
+    /// Forces at the velocities of each evaluation: limit the step.
+    Explicit,
 }
 
 /// The precisions by name.
@@ -32,7 +60,15 @@ pub enum PrecisionName {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum SchemeChoice {
     Dbd(Dbd),
+    DbdP1(DbdP1),
+    DbdP2(DbdP2),
+    SemiImplicitEuler(SemiImplicitEuler),
+    ExplicitSemiImplicitEuler(Explicit<SemiImplicitEuler>),
     Leapfrog(Leapfrog),
+    ExplicitLeapfrog(Explicit<Leapfrog>),
+    Pefrl(Pefrl),
+    BlanesMoanS6(BlanesMoanS6),
+    Rk4(Rk4),
 }
 
 /// A scheme with its parameters, in a precision.
@@ -47,11 +83,39 @@ pub struct Method {
 pub enum MethodError {
     /// Newton iterations for a scheme without any.
     #[error("the scheme {scheme} has no Newton iterations")]
-    #[diagnostic(help("--newton goes with --scheme dbd; leave it out for {scheme}"))]
+    #[diagnostic(help(
+        "--newton goes with --scheme dbd, dbd-p1 or dbd-p2; leave it out for {scheme}"
+    ))]
     Newton {
         /// The scheme's name.
         scheme: &'static str,
     },
+    /// More than [`MOST_ITERATIONS`].
+    #[error("{newton} Newton iterations are more than {MOST_ITERATIONS}")]
+    #[diagnostic(help("--newton 0 to --newton {MOST_ITERATIONS}; more of them buy nothing"))]
+    Iterations {
+        /// How many.
+        newton: u32,
+    },
+    /// A damping that the scheme has not.
+    #[error("the scheme {scheme} has no {asked} damping, only {}", other(asked))]
+    #[diagnostic(help(
+        "leapfrog and semi-implicit-euler have both; leave --damping out for {scheme}"
+    ))]
+    Damping {
+        /// The scheme's name.
+        scheme: &'static str,
+        /// What was asked for.
+        asked: &'static str,
+    },
+}
+
+fn other(damping: &str) -> &'static str {
+    if damping == Damping::Sweeps.name() {
+        Damping::Explicit.name()
+    } else {
+        Damping::Sweeps.name()
+    }
 }
 
 /// A function over scheme and precision.
@@ -64,23 +128,69 @@ pub trait MethodVisitor {
 
 impl Method {
     /// A method from names and parameters; `newton` is the number of Newton iterations, for the
-    /// schemes that have them.
+    /// schemes that have them. The damping is the scheme's own.
     ///
     /// # Errors
-    /// [`MethodError::Newton`] where the scheme has none.
+    /// [`MethodError::Newton`] where the scheme has none, [`MethodError::Iterations`].
     pub fn new(
         scheme: SchemeName,
         newton: Option<u32>,
         precision: PrecisionName,
     ) -> Result<Self, MethodError> {
-        let scheme = match (scheme, newton) {
-            (SchemeName::Dbd, newton) => SchemeChoice::Dbd(Dbd { newton: newton.unwrap_or(0) }),
-            (SchemeName::Leapfrog, None) => SchemeChoice::Leapfrog(Leapfrog),
-            (SchemeName::Leapfrog, Some(_)) => {
-                return Err(MethodError::Newton { scheme: Leapfrog::NAME });
-            }
+        let iterations = newton.unwrap_or(0);
+        let scheme = match scheme {
+            SchemeName::Dbd => SchemeChoice::Dbd(Dbd { newton: iterations }),
+            SchemeName::DbdP1 => SchemeChoice::DbdP1(DbdP1 { newton: iterations }),
+            SchemeName::DbdP2 => SchemeChoice::DbdP2(DbdP2 { newton: iterations }),
+            SchemeName::SemiImplicitEuler => SchemeChoice::SemiImplicitEuler(SemiImplicitEuler),
+            SchemeName::Leapfrog => SchemeChoice::Leapfrog(Leapfrog),
+            SchemeName::Pefrl => SchemeChoice::Pefrl(Pefrl),
+            SchemeName::BlanesMoanS6 => SchemeChoice::BlanesMoanS6(BlanesMoanS6),
+            SchemeName::Rk4 => SchemeChoice::Rk4(Rk4),
         };
-        Ok(Self { scheme, precision })
+        let method = Self { scheme, precision };
+        if newton.is_some() && method.newton().is_none() {
+            return Err(MethodError::Newton { scheme: method.scheme_name() });
+        }
+        if iterations > MOST_ITERATIONS {
+            return Err(MethodError::Iterations { newton: iterations });
+        }
+        Ok(method)
+    }
+
+    /// The same method with another damping.
+    ///
+    /// # Errors
+    /// [`MethodError::Damping`] where the scheme has no such one.
+    pub fn with_damping(self, damping: DampingName) -> Result<Self, MethodError> {
+        let scheme = match (self.scheme, damping) {
+            (SchemeChoice::Leapfrog(_) | SchemeChoice::ExplicitLeapfrog(_), damping) => {
+                match damping {
+                    DampingName::Sweeps => SchemeChoice::Leapfrog(Leapfrog),
+                    DampingName::Explicit => SchemeChoice::ExplicitLeapfrog(Explicit(Leapfrog)),
+                }
+            }
+            (
+                SchemeChoice::SemiImplicitEuler(_) | SchemeChoice::ExplicitSemiImplicitEuler(_),
+                damping,
+            ) => match damping {
+                DampingName::Sweeps => SchemeChoice::SemiImplicitEuler(SemiImplicitEuler),
+                DampingName::Explicit => {
+                    SchemeChoice::ExplicitSemiImplicitEuler(Explicit(SemiImplicitEuler))
+                }
+            },
+            (scheme, _) => scheme,
+        };
+        let method = Self { scheme, ..self };
+        let asked = match damping {
+            DampingName::Sweeps => Damping::Sweeps,
+            DampingName::Explicit => Damping::Explicit,
+        };
+        if method.damping() == asked {
+            Ok(method)
+        } else {
+            Err(MethodError::Damping { scheme: method.scheme_name(), asked: asked.name() })
+        }
     }
 
     /// Newton iterations per step, `None` for a scheme without any.
@@ -88,7 +198,9 @@ impl Method {
     pub fn newton(&self) -> Option<u32> {
         match self.scheme {
             SchemeChoice::Dbd(dbd) => Some(dbd.newton),
-            SchemeChoice::Leapfrog(_) => None,
+            SchemeChoice::DbdP1(dbd) => Some(dbd.newton),
+            SchemeChoice::DbdP2(dbd) => Some(dbd.newton),
+            _ => None,
         }
     }
 
@@ -103,8 +215,52 @@ impl Method {
     fn visit_in<P: Geometry, V: MethodVisitor>(&self, visitor: V) -> V::Output {
         match self.scheme {
             SchemeChoice::Dbd(scheme) => visitor.visit::<P, _>(scheme),
+            SchemeChoice::DbdP1(scheme) => visitor.visit::<P, _>(scheme),
+            SchemeChoice::DbdP2(scheme) => visitor.visit::<P, _>(scheme),
+            SchemeChoice::SemiImplicitEuler(scheme) => visitor.visit::<P, _>(scheme),
+            SchemeChoice::ExplicitSemiImplicitEuler(scheme) => visitor.visit::<P, _>(scheme),
             SchemeChoice::Leapfrog(scheme) => visitor.visit::<P, _>(scheme),
+            SchemeChoice::ExplicitLeapfrog(scheme) => visitor.visit::<P, _>(scheme),
+            SchemeChoice::Pefrl(scheme) => visitor.visit::<P, _>(scheme),
+            SchemeChoice::BlanesMoanS6(scheme) => visitor.visit::<P, _>(scheme),
+            SchemeChoice::Rk4(scheme) => visitor.visit::<P, _>(scheme),
         }
+    }
+
+    /// How its dampers act.
+    #[must_use]
+    pub fn damping(&self) -> Damping {
+        struct Name;
+        impl MethodVisitor for Name {
+            type Output = Damping;
+            fn visit<P: Geometry, S: Scheme>(self, _: S) -> Damping {
+                S::DAMPING
+            }
+        }
+        self.visit(Name)
+    }
+
+    /// How its dampers act, where that is not the scheme's own way.
+    #[must_use]
+    pub fn foreign_damping(&self) -> Option<Damping> {
+        let foreign = matches!(
+            self.scheme,
+            SchemeChoice::ExplicitLeapfrog(_) | SchemeChoice::ExplicitSemiImplicitEuler(_)
+        );
+        foreign.then(|| self.damping())
+    }
+
+    /// Largest stable `ω_max·h` of an undamped oscillator.
+    #[must_use]
+    pub fn stability_limit(&self) -> f64 {
+        struct Limit;
+        impl MethodVisitor for Limit {
+            type Output = f64;
+            fn visit<P: Geometry, S: Scheme>(self, scheme: S) -> f64 {
+                scheme.stability_limit()
+            }
+        }
+        self.visit(Limit)
     }
 
     /// The scheme's name, e.g. `leapfrog`.
@@ -180,10 +336,45 @@ mod tests {
     }
 
     #[test]
-    fn newton_iterations_belong_to_dbd() {
-        let method = Method::new(SchemeName::Dbd, Some(2), PrecisionName::F64).unwrap();
-        assert_eq!((method.newton(), method.evaluations()), (Some(2), 5));
-        let refused = Method::new(SchemeName::Leapfrog, Some(0), PrecisionName::F64);
-        assert_eq!(refused, Err(MethodError::Newton { scheme: "leapfrog" }));
+    fn newton_iterations_belong_to_the_dbd_schemes() {
+        for (scheme, evaluations) in
+            [(SchemeName::Dbd, 5), (SchemeName::DbdP1, 4), (SchemeName::DbdP2, 5)]
+        {
+            let method = Method::new(scheme, Some(2), PrecisionName::F64).unwrap();
+            assert_eq!((method.newton(), method.evaluations()), (Some(2), evaluations));
+            assert!(Method::new(scheme, Some(8), PrecisionName::F64).is_ok());
+            let refused = Method::new(scheme, Some(9), PrecisionName::F64);
+            assert_eq!(refused, Err(MethodError::Iterations { newton: 9 }));
+        }
+        for scheme in SchemeName::value_variants() {
+            let method = Method::new(*scheme, None, PrecisionName::F64).unwrap();
+            if method.newton().is_none() {
+                let refused = Method::new(*scheme, Some(0), PrecisionName::F64);
+                assert_eq!(refused, Err(MethodError::Newton { scheme: method.scheme_name() }));
+            }
+        }
+    }
+
+    #[test]
+    fn a_scheme_has_its_own_damping_and_two_have_both() {
+        let both = ["semi-implicit-euler", "leapfrog"];
+        for scheme in SchemeName::value_variants() {
+            let own = Method::new(*scheme, None, PrecisionName::F64).unwrap();
+            for damping in DampingName::value_variants() {
+                let name = damping.to_possible_value().unwrap().get_name().to_owned();
+                match own.with_damping(*damping) {
+                    Ok(method) => {
+                        assert_eq!(method.damping().name(), name);
+                        assert_eq!(method.scheme_name(), own.scheme_name());
+                        assert!(method == own || both.contains(&own.scheme_name()));
+                    }
+                    Err(refused) => {
+                        assert!(!both.contains(&own.scheme_name()));
+                        let text = refused.to_string();
+                        assert!(text.contains(&name) && text.contains(own.damping().name()));
+                    }
+                }
+            }
+        }
     }
 }

@@ -7,6 +7,7 @@
 use std::io;
 use std::path::PathBuf;
 
+use dbd_kernel::damping::Damping;
 use dbd_kernel::plant::PlantError;
 use dbd_scene::Scene;
 
@@ -192,6 +193,7 @@ fn summarise(
         scene: scene.name.clone(),
         scheme: method.scheme_name(),
         newton: method.newton(),
+        damping: method.foreign_damping().map(Damping::name),
         precision: method.precision_name(),
         orientation: "quaternion",
         step: plan.step,

@@ -16,6 +16,9 @@ pub struct Summary {
     pub scheme: &'static str,
     /// Newton iterations per step; `None` for a scheme without any.
     pub newton: Option<u32>,
+    /// How dampers acted, where that is not the scheme's own way.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping: Option<&'static str>,
     /// The precision's name.
     pub precision: &'static str,
     /// How orientations are stored.
@@ -73,7 +76,9 @@ impl Summary {
             Some(error) => format!("{} J", significant(error, 4)),
             None => "– (dampers or loads change the energy)".into(),
         };
-        let method = format!("{}{newton}, {}, {}", self.scheme, self.precision, self.orientation);
+        let damping = self.damping.map(|name| format!(", {name} damping")).unwrap_or_default();
+        let method =
+            format!("{}{newton}{damping}, {}, {}", self.scheme, self.precision, self.orientation);
         let frequency = format!(
             "≤ {} Hz (estimate {} Hz)",
             significant(self.frequency_bound_hz, 5),

@@ -18,6 +18,27 @@ use crate::real::Real;
 use crate::state::BodyState;
 use crate::vector::Vec3;
 
+/// How a scheme treats dampers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Damping {
+    /// Half a step of sweeps before and after the conservative part: of this module.
+    Sweeps,
+    /// Forces at the velocities of each evaluation: limits the step to about 2·m/c.
+    Explicit,
+}
+
+impl Damping {
+    /// The name users give: `sweeps`, `explicit`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Damping::Sweeps => "sweeps",
+            Damping::Explicit => "explicit",
+        }
+    }
+}
+
 /// The fraction of a relative velocity that a damper removes, in \[0, 1), for `x = h·c/μ`.
 #[inline(always)]
 fn removed<R: Real>(x: R) -> R {

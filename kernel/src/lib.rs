@@ -102,7 +102,9 @@ pub use geometry::{F32, F64, Geometry};
 pub use model::{Body, BodyIndex, Model, ModelOwner};
 pub use plant::Plant;
 pub use real::Real;
-pub use schemes::{Dbd, Leapfrog, Scheme};
+pub use schemes::{
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, Leapfrog, Pefrl, Rk4, Scheme, SemiImplicitEuler,
+};
 pub use state::{BodyState, State};
 pub use status::{Failure, Status};
 pub use vector::{Quaternion, Vec3};

@@ -8,7 +8,7 @@ use crate::damping;
 use crate::elements::load::LoadWindow;
 use crate::forces::{self, Wrench};
 use crate::geometry::Geometry;
-use crate::groups::Places;
+use crate::groups::{Places, place_bodies};
 use crate::inputs::Signal;
 use crate::model::{Body, ModelRef, Terms};
 use crate::real::Real;
@@ -140,6 +140,28 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
                 &mut state.angular_velocity,
                 time,
             );
+        }
+    }
+
+    /// [`Self::drift`] with a free rotor of fourth order; `time` may be negative.
+    #[inline]
+    pub fn drift_of_order_four(&mut self, time: P::Real) {
+        for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
+            P::translate(&mut state.position, P::velocity(&state.velocity) * time);
+            rotation::free_rotor_of_order_four::<P>(
+                body,
+                &mut state.orientation,
+                &mut state.angular_velocity,
+                time,
+            );
+        }
+    }
+
+    /// Brings the frames to the present pose where sweeps need them and no evaluation has.
+    #[inline]
+    pub fn place_for_sweep(&mut self) {
+        if T::DAMPERS {
+            place_bodies(self.bodies, self.frames);
         }
     }
 

@@ -1,15 +1,17 @@
 //! Leapfrog: kick–drift–kick (velocity Verlet; Verlet 1967, Swope et al. 1982).
 //!
 //! Second order, symplectic and reversible without dampers: the energy oscillates and does not
-//! drift, a tumbling body's included, whose free rotor is a splitting of second order. One force
-//! evaluation per step: the last of a step is the first of the next, unless a load changes.
+//! drift, a tumbling body's included, whose free rotor is a splitting of second order. Linear and
+//! angular momentum are kept to rounding, with dampers, too. One force evaluation per step: the
+//! last of a step is the first of the next, unless a load or an input changes.
 //! Stable for `ω_max·h < 2`. Dampers are exact pairwise sweeps of half a step before and after
 //! (see [`crate::damping`]); they cost no stability and keep second order.
 
+use crate::damping::Damping;
 use crate::geometry::Geometry;
 use crate::model::Terms;
 use crate::real::Real;
-use crate::schemes::Scheme;
+use crate::schemes::{Kicked, Scheme};
 use crate::status::Cause;
 use crate::step::Stepper;
 
@@ -21,6 +23,8 @@ pub struct Leapfrog;
 impl Scheme for Leapfrog {
     const NAME: &'static str = "leapfrog";
     const ORDER: u32 = 2;
+    const ORDER_DAMPED: u32 = 2;
+    const DAMPING: Damping = Damping::Sweeps;
     const STABILITY_LIMIT: f64 = 2.0;
     type Memory<P: Geometry> = ();
 
@@ -33,16 +37,31 @@ impl Scheme for Leapfrog {
         &self,
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {
-        if !stepper.is_fresh() {
-            stepper.evaluate::<false>(true)?;
+        Self::step_with::<P, T, false>(stepper)
+    }
+}
+
+impl Kicked for Leapfrog {
+    const EXPLICIT_EVALUATIONS: u32 = 2;
+
+    #[inline]
+    fn step_with<P: Geometry, T: Terms, const EXPLICIT: bool>(
+        stepper: &mut Stepper<'_, '_, P, T, ()>,
+    ) -> Result<(), Cause> {
+        if EXPLICIT || !stepper.is_fresh() {
+            stepper.evaluate::<EXPLICIT>(true)?;
         }
-        stepper.sweep_forward();
+        if !EXPLICIT {
+            stepper.sweep_forward();
+        }
         stepper.kick(P::Real::HALF);
         stepper.drift(stepper.h);
-        stepper.evaluate::<false>(true)?;
+        stepper.evaluate::<EXPLICIT>(true)?;
         stepper.kick(P::Real::HALF);
-        stepper.sweep_reverse();
-        stepper.ledger.fresh = true;
+        if !EXPLICIT {
+            stepper.sweep_reverse();
+            stepper.ledger.fresh = true;
+        }
         Ok(())
     }
 }

@@ -1,11 +1,26 @@
 //! Time-stepping schemes, one per file, behind one trait.
 
+mod blanes_moan;
 mod dbd;
+mod dbd_p1;
+mod dbd_p2;
+mod explicit;
 mod leapfrog;
+pub(crate) mod pefrl;
+mod rk4;
+mod semi_implicit_euler;
 
+pub use blanes_moan::BlanesMoanS6;
 pub use dbd::{Dbd, DbdMemory};
+pub use dbd_p1::DbdP1;
+pub use dbd_p2::DbdP2;
+pub use explicit::{Explicit, Kicked};
 pub use leapfrog::Leapfrog;
+pub use pefrl::Pefrl;
+pub use rk4::{Rk4, Rk4Memory};
+pub use semi_implicit_euler::SemiImplicitEuler;
 
+use crate::damping::Damping;
 use crate::geometry::Geometry;
 use crate::model::Terms;
 use crate::status::Cause;
@@ -17,13 +32,22 @@ pub trait Scheme: Copy {
     const NAME: &'static str;
     /// Order of convergence of a trajectory without dampers.
     const ORDER: u32;
-    /// Largest stable `ω_max·h` of an undamped oscillator.
+    /// Order of convergence of a trajectory with dampers.
+    const ORDER_DAMPED: u32;
+    /// How dampers act.
+    const DAMPING: Damping;
+    /// Largest stable `ω_max·h` of an undamped oscillator; all smaller ones are stable, too.
     const STABILITY_LIMIT: f64;
     /// Memory per body that the scheme needs within a step.
     type Memory<P: Geometry>: Copy + Default;
 
     /// Force evaluations per step, when nothing changes between steps.
     fn evaluations(&self) -> u32;
+
+    /// [`Self::STABILITY_LIMIT`] with the scheme's own parameters.
+    fn stability_limit(&self) -> f64 {
+        Self::STABILITY_LIMIT
+    }
 
     /// One step of the size `stepper.h`. Ends with the state at the next step's start; the
     /// caller advances the counter and looks for non-finite velocities.

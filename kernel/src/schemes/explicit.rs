@@ -1,0 +1,55 @@
+//! Explicit dampers in a scheme of kicks and drifts: what sweeps are measured against.
+//!
+//! `Explicit(Leapfrog)` takes the dampers' forces at the velocities of each evaluation, as the
+//! literature's plain steps do, instead of the sweeps of [`crate::damping`]. First order with
+//! dampers; they add to the wrench, so that nothing can be kept from one step to the next, and a
+//! damper of coefficient c on an effective mass μ alone limits the step to about 2·μ/c. Without
+//! dampers the bits are those of the scheme itself. For comparison; not advised.
+
+use crate::damping::Damping;
+use crate::geometry::Geometry;
+use crate::model::Terms;
+use crate::schemes::Scheme;
+use crate::status::Cause;
+use crate::step::Stepper;
+
+/// A scheme whose dampers can be sweeps or, within its kicks, explicit forces. Schemes with
+/// negative sub-steps are none: there a damper would add energy.
+pub trait Kicked: Scheme {
+    /// Evaluations per step with explicit dampers.
+    const EXPLICIT_EVALUATIONS: u32;
+
+    /// A step, with `EXPLICIT` dampers or with sweeps.
+    ///
+    /// # Errors
+    /// As [`Scheme::step`].
+    fn step_with<P: Geometry, T: Terms, const EXPLICIT: bool>(
+        stepper: &mut Stepper<'_, '_, P, T, Self::Memory<P>>,
+    ) -> Result<(), Cause>;
+}
+
+/// A scheme with explicit dampers in place of its sweeps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Explicit<S>(pub S);
+
+impl<S: Kicked> Scheme for Explicit<S> {
+    const NAME: &'static str = S::NAME;
+    const ORDER: u32 = S::ORDER;
+    const ORDER_DAMPED: u32 = 1;
+    const DAMPING: Damping = Damping::Explicit;
+    const STABILITY_LIMIT: f64 = S::STABILITY_LIMIT;
+    type Memory<P: Geometry> = S::Memory<P>;
+
+    fn evaluations(&self) -> u32 {
+        S::EXPLICIT_EVALUATIONS
+    }
+
+    #[inline]
+    fn step<P: Geometry, T: Terms>(
+        &self,
+        stepper: &mut Stepper<'_, '_, P, T, S::Memory<P>>,
+    ) -> Result<(), Cause> {
+        S::step_with::<P, T, true>(stepper)
+    }
+}

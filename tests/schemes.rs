@@ -1,0 +1,246 @@
+//! What each scheme states of itself: stability limit, dissipation, evaluations, what it
+//! conserves, and that inputs are held for all its stages.
+
+use dbd_kernel::energy::energy;
+use dbd_kernel::inputs::InputKind;
+use dbd_kernel::{
+    BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F64, Leapfrog, LoadFrame,
+    ModelOwner, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler, State, Vec3,
+};
+use dbd_tests::{Bench, at, free_ring, hung_ring, momenta};
+
+/// Calls a generic function with every scheme.
+macro_rules! for_every_scheme {
+    ($function:ident $(, $argument:expr)*) => {
+        for newton in 0..=8 {
+            $function(Dbd { newton } $(, $argument)*);
+            $function(DbdP1 { newton } $(, $argument)*);
+            $function(DbdP2 { newton } $(, $argument)*);
+        }
+        $function(SemiImplicitEuler $(, $argument)*);
+        $function(Explicit(SemiImplicitEuler) $(, $argument)*);
+        $function(Leapfrog $(, $argument)*);
+        $function(Explicit(Leapfrog) $(, $argument)*);
+        $function(Pefrl $(, $argument)*);
+        $function(BlanesMoanS6 $(, $argument)*);
+        $function(Rk4 $(, $argument)*);
+    };
+}
+
+/// 1 kg on a spring of 1 N/m without free length, whose frequency is 1 rad/s, with a damper.
+fn oscillator(x: f64, v: f64, damping: f64) -> Bench<F64> {
+    let mut model = Bench::new();
+    let state = BodyState::from_f64([x, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [v, 0.0, 0.0], [0.0; 3]);
+    let body = model.add_body(1.0, [1.0; 3], state).unwrap();
+    model.add_tsda([BodyIndex::WORLD, body], [[0.0; 3]; 2], 1.0, damping, 0.0).unwrap();
+    model
+}
+
+/// The largest magnitude of an eigenvalue of one step of `h` of the [`oscillator`].
+fn spectral_radius<S: Scheme>(scheme: S, h: f64, damping: f64) -> f64 {
+    let column = |x, v| {
+        let model = oscillator(x, v, damping);
+        let mut plant = Plant::new(&model, scheme, h).unwrap();
+        plant.step().ok().unwrap();
+        let body = &plant.state().bodies[0];
+        (body.position.x, body.velocity.x)
+    };
+    let ((a, c), (b, d)) = (column(1.0, 0.0), column(0.0, 1.0));
+    let (half, determinant) = ((a + d) / 2.0, a * d - b * c);
+    let discriminant = half * half - determinant;
+    if discriminant > 0.0 { half.abs() + discriminant.sqrt() } else { determinant.sqrt() }
+}
+
+#[test]
+fn stable_up_to_the_stated_limit_and_not_beyond() {
+    fn check<S: Scheme>(scheme: S) {
+        let limit = scheme.stability_limit();
+        for i in 1..500 {
+            let z = limit * f64::from(i) / 500.0;
+            let radius = spectral_radius(scheme, z, 0.0);
+            assert!(radius < 1.0 + 1e-9, "{} at {z} of {limit}: {radius}", S::NAME);
+        }
+        let beyond = spectral_radius(scheme, limit * 1.002, 0.0);
+        assert!(beyond > 1.0 + 1e-5, "{} beyond {limit}: {beyond}", S::NAME);
+    }
+    for_every_scheme!(check);
+}
+
+#[test]
+fn amplitudes_shrink_as_stated() {
+    // ln|λ| over z² for the first-order schemes, over z⁶ for rk4; 0 for the symplectic ones.
+    fn check<S: Scheme>(scheme: S, power: i32, stated: f64) {
+        let z = 0.02_f64;
+        let seen = spectral_radius(scheme, z, 0.0).ln() / z.powi(power);
+        assert!((seen - stated).abs() < 1e-3, "{}: {seen}, stated {stated}", S::NAME);
+    }
+    check(Dbd { newton: 0 }, 2, 0.0);
+    check(DbdP1 { newton: 0 }, 2, -0.25);
+    check(DbdP2 { newton: 0 }, 2, -0.25);
+    for newton in 1..=8 {
+        check(Dbd { newton }, 2, -0.5);
+        check(DbdP1 { newton }, 2, -0.5);
+        check(DbdP2 { newton }, 2, -0.5);
+    }
+    check(SemiImplicitEuler, 2, 0.0);
+    check(Leapfrog, 2, 0.0);
+    check(Pefrl, 2, 0.0);
+    check(BlanesMoanS6, 2, 0.0);
+    let z = 0.2_f64;
+    let seen = spectral_radius(Rk4, z, 0.0).ln() / z.powi(6);
+    assert!((seen + 1.0 / 144.0).abs() < 1e-4, "rk4: {seen}");
+}
+
+#[test]
+fn sweeps_bear_any_damper_and_explicit_ones_do_not() {
+    fn check<S: Scheme>(scheme: S) {
+        for damping in [0.1, 1.0, 10.0, 1e3, 1e6] {
+            let z = 0.9 * scheme.stability_limit();
+            let radius = spectral_radius(scheme, z, damping);
+            let sweeps = S::DAMPING.name() == "sweeps";
+            assert!(!sweeps || radius < 1.0, "{} with c = {damping}: {radius}", S::NAME);
+            assert!(sweeps || damping < 10.0 || radius > 1.0, "{}: {damping}", S::NAME);
+        }
+        // Within the limits the header states.
+        let light = spectral_radius(scheme, 0.05, 1.0);
+        assert!((light - (-0.025_f64).exp()).abs() < 1e-3, "{}: {light}", S::NAME);
+    }
+    for_every_scheme!(check);
+}
+
+#[test]
+fn evaluations_are_counted_as_performed() {
+    fn check<S: Scheme>(scheme: S) {
+        let model = hung_ring::<F64>(2.0);
+        let mut plant = Plant::new(&model, scheme, 1e-4).unwrap();
+        plant.step().ok().unwrap();
+        let first = plant.evaluations();
+        plant.advance(10).ok().unwrap();
+        assert_eq!(plant.evaluations() - first, 10 * u64::from(scheme.evaluations()));
+        assert!(first <= u64::from(scheme.evaluations()) + 1);
+    }
+    for_every_scheme!(check);
+}
+
+#[test]
+fn explicit_dampers_without_a_damper_are_the_scheme_itself() {
+    fn hash<S: Scheme>(scheme: S) -> u64 {
+        let model = hung_ring::<F64>(0.0);
+        let mut plant = Plant::new(&model, scheme, 1e-4).unwrap();
+        plant.advance(100).ok().unwrap();
+        plant.hash()
+    }
+    assert_eq!(hash(Leapfrog), hash(Explicit(Leapfrog)));
+    assert_eq!(hash(SemiImplicitEuler), hash(Explicit(SemiImplicitEuler)));
+}
+
+/// Relative changes of the linear and the angular momentum of three free bodies over 0.2 s.
+fn momentum_changes<S: Scheme>(scheme: S, damping: f64, h: f64) -> (f64, f64) {
+    let model = free_ring::<F64>(damping);
+    let masses: [_; 3] = std::array::from_fn(|i| {
+        let body = &model.view().bodies[i];
+        (body.mass, body.inertia.to_f64())
+    });
+    let (p0, l0) = momenta(&masses, &State::initial(&model).bodies);
+    let mut plant = Plant::new(&model, scheme, h).unwrap();
+    plant.advance((0.2 / h).round() as u64).ok().unwrap();
+    let (p, l) = momenta(&masses, &plant.state().bodies);
+    let size = |v: Vec3<f64>| v.dot(v).sqrt();
+    (size(p - p0) / size(p0), size(l - l0) / size(l0))
+}
+
+#[test]
+fn momentum_is_kept_as_stated() {
+    for damping in [0.0, 2.0] {
+        fn exact<S: Scheme>(scheme: S, damping: f64) {
+            let (linear, angular) = momentum_changes(scheme, damping, 1e-3);
+            assert!(linear < 1e-12 && angular < 1e-12, "{}: {linear:e} {angular:e}", S::NAME);
+        }
+        exact(SemiImplicitEuler, damping);
+        exact(Leapfrog, damping);
+        exact(Pefrl, damping);
+        exact(BlanesMoanS6, damping);
+        fn drifting<S: Scheme>(scheme: S, damping: f64, h: f64, order: f64) {
+            let (coarse, fine) =
+                (momentum_changes(scheme, damping, h), momentum_changes(scheme, damping, h / 2.0));
+            assert!(coarse.0 < 1e-12 && fine.0 < 1e-12, "{}: {coarse:?} {fine:?}", S::NAME);
+            let seen = (coarse.1 / fine.1).log2();
+            println!(
+                "{:<8} damping {damping}: angular momentum drifts by order {seen:.2}",
+                S::NAME
+            );
+            assert!((seen - order).abs() < 0.25, "{}: {coarse:?} {fine:?}", S::NAME);
+        }
+        drifting(Dbd::default(), damping, 1e-4, 1.0);
+        drifting(DbdP1::default(), damping, 1e-4, 1.0);
+        drifting(DbdP2::default(), damping, 1e-4, 1.0);
+        drifting(Rk4, damping, 1e-3, 4.0);
+    }
+}
+
+/// The mean error of the energy over each quarter of 8 s, and the worst, in parts of the peak
+/// kinetic energy.
+fn energy_errors<S: Scheme>(scheme: S, h: f64) -> ([f64; 4], f64) {
+    let model = hung_ring::<F64>(0.0);
+    let mut plant = Plant::new(&model, scheme, h).unwrap();
+    let start = energy(&model, plant.state(), h).total();
+    let samples = (2.0 / h / 10.0).round();
+    let (mut means, mut worst, mut kinetic) = ([0.0; 4], 0.0_f64, 0.0_f64);
+    for mean in &mut means {
+        for _ in 0..samples as u32 {
+            plant.advance(10).ok().unwrap();
+            let now = energy(&model, plant.state(), h);
+            let error = now.total() - start;
+            kinetic = kinetic.max(now.kinetic);
+            *mean += error / samples;
+            worst = worst.max(error.abs());
+        }
+    }
+    (means.map(|mean| mean / kinetic), worst / kinetic)
+}
+
+#[test]
+fn energy_oscillates_in_symplectic_schemes_and_drifts_in_others() {
+    // ω·h is about 0.4.
+    fn steady<S: Scheme>(scheme: S, bound: f64) {
+        let (means, worst) = energy_errors(scheme, 1e-3);
+        println!("{:<20} {means:.7?} worst {worst:.1e}", S::NAME);
+        assert!(worst < bound, "{}: {worst:e}", S::NAME);
+        for mean in means {
+            assert!((mean - means[0]).abs() < 0.2 * bound, "{}: {means:?}", S::NAME);
+        }
+    }
+    steady(SemiImplicitEuler, 0.2);
+    steady(Leapfrog, 0.02);
+    steady(Pefrl, 5e-5);
+    steady(BlanesMoanS6, 5e-6);
+    fn falling<S: Scheme>(scheme: S) {
+        let (means, _) = energy_errors(scheme, 1e-3);
+        println!("{:<20} {means:.7?}", S::NAME);
+        assert!(means.windows(2).all(|pair| pair[1] < pair[0]), "{}: {means:?}", S::NAME);
+    }
+    falling(DbdP1::default());
+    falling(DbdP2::default());
+    falling(Dbd { newton: 1 });
+    falling(Rk4);
+}
+
+#[test]
+fn inputs_and_loads_are_held_for_all_stages() {
+    // A free mass under a force that a table ramps: h/m times the sum of the forces at the steps'
+    // starts, in every scheme, whatever it does between.
+    fn check<S: Scheme>(scheme: S) {
+        let mut model = Bench::<F64>::new();
+        let body = model.add_body(2.0, [0.1; 3], at([0.0; 3])).unwrap();
+        let (direction, frame) = (Vec3::new(1.0, 0.0, 0.0), LoadFrame::World);
+        let kind = InputKind::Force { body, point: Vec3::ZERO, direction, frame };
+        model.add_table(kind, &[[0.0, 1.0], [0.01, 5.0]], true).unwrap();
+        let (h, steps) = (1e-3, 10);
+        let mut plant = Plant::new(&model, scheme, h).unwrap();
+        plant.advance(steps).ok().unwrap();
+        let sum: f64 = (0..steps).map(|n| 1.0 + 400.0 * h * n as f64).sum();
+        let v = plant.state().bodies[0].velocity.x;
+        assert!((v - sum * h / 2.0).abs() < 1e-15, "{}: {v}, {}", S::NAME, sum * h / 2.0);
+    }
+    for_every_scheme!(check);
+}
