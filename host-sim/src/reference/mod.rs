@@ -6,12 +6,19 @@
 //! - [`mechanism`], [`elements`], [`state`], [`signals`]: bodies and elements as a std user would
 //!   write them, `Vec`, nalgebra, `Box<dyn Element>`, double precision.
 //! - [`naive`]: semi-implicit Euler and leapfrog on it, the baseline of every timing.
+//! - [`truth`], [`trajectory`]: DOP853 with a second opinion; the error of any run against it.
+//! - [`window`]: how long a trajectory can be told from a perturbed one.
 
 pub mod elements;
+pub mod equations;
 pub mod mechanism;
 pub mod naive;
 pub mod signals;
 pub mod state;
+pub mod trajectory;
+pub mod truth;
+pub mod window;
 
 pub use mechanism::Mechanism;
 pub use state::State;
+pub use trajectory::Trajectory;
