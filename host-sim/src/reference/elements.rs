@@ -5,7 +5,6 @@
 
 use std::f64::consts::TAU;
 
-use dbd_kernel::LoadFrame;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::mechanism::{Instant, Wrench};
@@ -14,6 +13,11 @@ use super::mechanism::{Instant, Wrench};
 pub trait Element: Send + Sync {
     /// Adds what it does to the bodies.
     fn act(&self, at: &Instant<'_>, wrenches: &mut [Wrench]);
+
+    /// The ends that its springs join, `None` where it has none.
+    fn between(&self) -> Option<[End; 2]> {
+        None
+    }
 
     /// Visits the linear springs that it is made of at this instant, unloaded: what its tension
     /// would add is left out, so that the sum is positive semidefinite.
@@ -84,16 +88,20 @@ pub struct Pair {
 }
 
 /// A pair at an instant.
-struct Stretch {
+pub(super) struct Stretch {
     a: Placed,
     b: Placed,
-    displacement: Vector3<f64>,
+    pub(super) displacement: Vector3<f64>,
     rate: Vector3<f64>,
     line: Option<Vector3<f64>>,
 }
 
 impl Pair {
-    fn at(&self, at: &Instant<'_>) -> Stretch {
+    fn ends(&self) -> [End; 2] {
+        [self.a.end, self.b.end]
+    }
+
+    pub(super) fn at(&self, at: &Instant<'_>) -> Stretch {
         let (mut a, b) = (at.place(&self.a), at.place(&self.b));
         let line = self.line.map(|line| at.to_world(a.end, line));
         if let Some(line) = line {
@@ -108,7 +116,7 @@ impl Pair {
 
 impl Stretch {
     /// Pulls the ends towards each other with `force` on the first.
-    fn pull(&self, force: Vector3<f64>, wrenches: &mut [Wrench]) {
+    pub(super) fn pull(&self, force: Vector3<f64>, wrenches: &mut [Wrench]) {
         push(wrenches, &self.a, force);
         push(wrenches, &self.b, -force);
     }
@@ -125,14 +133,14 @@ impl Stretch {
     }
 }
 
-fn push(wrenches: &mut [Wrench], at: &Placed, force: Vector3<f64>) {
+pub(super) fn push(wrenches: &mut [Wrench], at: &Placed, force: Vector3<f64>) {
     if let End::Body(row) = at.end {
         wrenches[row].force += force;
         wrenches[row].torque += at.arm.cross(&force);
     }
 }
 
-fn turn(wrenches: &mut [Wrench], end: End, torque: Vector3<f64>) {
+pub(super) fn turn(wrenches: &mut [Wrench], end: End, torque: Vector3<f64>) {
     if let End::Body(row) = end {
         wrenches[row].torque += torque;
     }
@@ -183,6 +191,10 @@ impl Element for Tsda {
         }
     }
 
+    fn between(&self) -> Option<[End; 2]> {
+        Some(self.pair.ends())
+    }
+
     fn springs(&self, at: &Instant<'_>, visit: &mut dyn FnMut(Spring)) {
         let stretch = self.pair.at(at);
         let length = stretch.displacement.norm();
@@ -208,6 +220,10 @@ impl Element for PointBushing {
         let stretch = self.pair.at(at);
         let force = stretch.displacement * self.stiffness + stretch.rate * self.damping;
         stretch.pull(force, wrenches);
+    }
+
+    fn between(&self) -> Option<[End; 2]> {
+        Some(self.pair.ends())
     }
 
     fn springs(&self, at: &Instant<'_>, visit: &mut dyn FnMut(Spring)) {
@@ -244,6 +260,10 @@ impl Element for PointOnLine {
         let Some(extension) = self.law.engaged(length) else { return };
         let along = stretch.displacement.try_normalize(0.0).unwrap_or_default();
         stretch.pull(along * (self.law.stiffness * extension) + damped, wrenches);
+    }
+
+    fn between(&self) -> Option<[End; 2]> {
+        Some(self.pair.ends())
     }
 
     fn springs(&self, at: &Instant<'_>, visit: &mut dyn FnMut(Spring)) {
@@ -315,6 +335,10 @@ impl Element for TorsionSpring {
         turn(wrenches, self.ends[1], twist.gradient * torque);
     }
 
+    fn between(&self) -> Option<[End; 2]> {
+        Some(self.ends)
+    }
+
     fn springs(&self, at: &Instant<'_>, visit: &mut dyn FnMut(Spring)) {
         let twist = self.twist(at);
         visit(Spring {
@@ -325,75 +349,6 @@ impl Element for TorsionSpring {
             stiffness: self.stiffness,
             damping: self.damping,
         });
-    }
-}
-
-/// A constant force and torque over a window of time.
-pub struct Load {
-    /// The body.
-    pub end: End,
-    /// The axes of both.
-    pub frame: LoadFrame,
-    /// \[N\] at the centre of mass.
-    pub force: Vector3<f64>,
-    /// \[N·m\].
-    pub torque: Vector3<f64>,
-    /// \[s\] start and end, the end excluded.
-    pub window: [f64; 2],
-}
-
-impl Element for Load {
-    fn act(&self, at: &Instant<'_>, wrenches: &mut [Wrench]) {
-        let End::Body(row) = self.end else { return };
-        if at.clock.within(self.window[0], self.window[1]) {
-            wrenches[row].force += at.turned(self.end, self.frame, self.force);
-            wrenches[row].torque += at.turned(self.end, self.frame, self.torque);
-        }
-    }
-}
-
-/// An input that pushes.
-pub struct Input {
-    /// Its place among the mechanism's inputs.
-    pub row: usize,
-    /// What it does.
-    pub kind: InputKind,
-}
-
-/// What an input does with its signal.
-pub enum InputKind {
-    /// A force along a direction at a point.
-    Force(Point, Vector3<f64>, LoadFrame),
-    /// A torque about an axis.
-    Torque(End, Vector3<f64>, LoadFrame),
-    /// A torque on the second about an axis of the first, on the first the opposite.
-    JointTorque([End; 2], Vector3<f64>),
-    /// A tension between two points.
-    Actuator(Pair),
-}
-
-impl Element for Input {
-    fn act(&self, at: &Instant<'_>, wrenches: &mut [Wrench]) {
-        let value = at.signals[self.row].value;
-        match &self.kind {
-            InputKind::Force(point, direction, frame) => {
-                let force = at.turned(point.end, *frame, *direction) * value;
-                push(wrenches, &at.place(point), force);
-            }
-            InputKind::Torque(end, axis, frame) => {
-                turn(wrenches, *end, at.turned(*end, *frame, *axis) * value);
-            }
-            InputKind::JointTorque([a, b], axis) => {
-                let torque = at.to_world(*a, *axis) * value;
-                turn(wrenches, *a, -torque);
-                turn(wrenches, *b, torque);
-            }
-            InputKind::Actuator(pair) => {
-                let stretch = pair.at(at);
-                let along = stretch.displacement.try_normalize(0.0).unwrap_or_default();
-                stretch.pull(along * value, wrenches);
-            }
-        }
     }
 }
 

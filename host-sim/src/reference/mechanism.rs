@@ -9,9 +9,9 @@ use dbd_kernel::{BodyIndex, F64, LoadFrame, ModelOwner, State as KernelState};
 use dbd_scene::Scene;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
+use super::driven::{Input, InputKind, Load};
 use super::elements::{
-    Element, End, Input, InputKind, Law, Load, Pair, Placed, Point, PointBushing, PointOnLine,
-    TorsionSpring, Tsda, unit,
+    Element, End, Law, Pair, Placed, Point, PointBushing, PointOnLine, TorsionSpring, Tsda, unit,
 };
 use super::signals::{Clock, Signal, Table};
 use super::state::State;

@@ -3,16 +3,20 @@
 //!
 //! `model's data => mechanism => accelerations`, and from them:
 //!
-//! - [`mechanism`], [`elements`], [`state`], [`signals`]: bodies and elements as a std user would
-//!   write them, `Vec`, nalgebra, `Box<dyn Element>`, double precision.
+//! - [`mechanism`], [`elements`], [`driven`], [`state`], [`signals`]: bodies and elements as a std
+//!   user would write them, `Vec`, nalgebra, `Box<dyn Element>`, double precision.
 //! - [`naive`]: semi-implicit Euler and leapfrog on it, the baseline of every timing.
 //! - [`truth`], [`trajectory`]: DOP853 with a second opinion; the error of any run against it.
 //! - [`window`]: how long a trajectory can be told from a perturbed one.
+//! - [`implicit`]: linearly implicit Euler with a sparse solve, [`ordering`] its elimination.
 
+pub mod driven;
 pub mod elements;
 pub mod equations;
+pub mod implicit;
 pub mod mechanism;
 pub mod naive;
+pub mod ordering;
 pub mod signals;
 pub mod state;
 pub mod trajectory;
