@@ -7,7 +7,7 @@
 use dbd_kernel::model::ModelOwner;
 use dbd_kernel::{Geometry, Plant, Scheme, Status};
 
-use crate::models::{Shipped, Visitor, for_each};
+use crate::models::{Shipped, Visitor, for_each, for_each_further};
 use crate::say;
 
 /// When to stop.
@@ -30,8 +30,10 @@ pub trait InstructionCounter {
 pub fn run(limits: Limits, counter: &mut impl InstructionCounter) -> bool {
     let mut all = Weights(0);
     for_each(&mut all);
+    for_each_further(&mut all);
     let mut hashing = Hashing { limits, counter, waiting: all.0, well: true };
     for_each(&mut hashing);
+    for_each_further(&mut hashing);
     hashing.well
 }
 

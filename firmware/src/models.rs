@@ -5,7 +5,7 @@
 //! [`for_each`] shows pairs of model and scheme to a visitor, which is generic as the step is.
 
 use dbd_kernel::model::ModelOwner;
-use dbd_kernel::{Dbd, Leapfrog, Scheme};
+use dbd_kernel::{BlanesMoanS6, Dbd, DbdP1, Leapfrog, Pefrl, Rk4, Scheme, SemiImplicitEuler};
 
 include!(concat!(env!("OUT_DIR"), "/models.rs"));
 
@@ -66,4 +66,33 @@ fn both<M: ModelOwner>(
     let steps = u64::MAX;
     visitor.visit(Shipped { scene, model, scheme: Leapfrog, step, steps });
     visitor.visit(Shipped { scene, model, scheme: Dbd::default(), step, steps });
+}
+
+/// Shows the further schemes: all of them with the four-bar in single precision, and those of
+/// fourth order with a mechanism that has points on lines, with one in space and, for few steps,
+/// in double precision.
+pub fn for_each_further(visitor: &mut impl Visitor) {
+    macro_rules! visit {
+        ($($scene:literal $module:ident::$model:ident $step:ident $steps:expr, $scheme:expr;)*) => {
+            $(visitor.visit(Shipped {
+                scene: $scene,
+                model: &$module::$model,
+                scheme: $scheme,
+                step: $module::$step,
+                steps: $steps,
+            });)*
+        };
+    }
+    visit! {
+        "four-bar" four_bar::FOUR_BAR_F32 FOUR_BAR_STEP SHORT, DbdP1::default();
+        "four-bar" four_bar::FOUR_BAR_F32 FOUR_BAR_STEP SHORT, SemiImplicitEuler;
+        "four-bar" four_bar::FOUR_BAR_F32 FOUR_BAR_STEP SHORT, Pefrl;
+        "four-bar" four_bar::FOUR_BAR_F32 FOUR_BAR_STEP SHORT, BlanesMoanS6;
+        "four-bar" four_bar::FOUR_BAR_F32 FOUR_BAR_STEP SHORT, Rk4;
+        "crank-slider" crank_slider::CRANK_SLIDER_F32 CRANK_SLIDER_STEP SHORT, Pefrl;
+        "3ruu" _3ruu::_3RUU_F32 _3RUU_STEP SHORT, BlanesMoanS6;
+        "3ruu" _3ruu::_3RUU_F32 _3RUU_STEP SHORT, Rk4;
+        "four-bar" four_bar::FOUR_BAR_F64 FOUR_BAR_STEP 20, Pefrl;
+        "four-bar" four_bar::FOUR_BAR_F64 FOUR_BAR_STEP 20, Rk4;
+    }
 }
