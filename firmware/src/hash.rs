@@ -32,8 +32,9 @@ pub fn run(limits: Limits, counter: &mut impl InstructionCounter) -> bool {
     for_each(&mut all);
     for_each_further(&mut all);
     let mut hashing = Hashing { limits, counter, waiting: all.0, well: true };
-    for_each(&mut hashing);
+    // Cheap ones first: what they leave of their shares goes to the others.
     for_each_further(&mut hashing);
+    for_each(&mut hashing);
     hashing.well
 }
 
