@@ -5,7 +5,7 @@
 //! change the exit code.
 
 use dbd_kernel::schemes::{Leapfrog, Scheme};
-use dbd_scene::{JointFacts, JointInfo, Scene, Severity};
+use dbd_scene::{InputInfo, JointFacts, JointInfo, ReadoutInfo, Scene, Severity};
 use serde::Serialize;
 
 use crate::frequencies::Frequencies;
@@ -25,6 +25,10 @@ pub struct Check {
     pub torsion_springs: usize,
     /// Loads.
     pub loads: usize,
+    /// The inputs: name, type, unit and whether a table drives it.
+    pub inputs: Vec<InputCheck>,
+    /// The read-outs: name, type and units of their columns.
+    pub readouts: Vec<ReadoutCheck>,
     /// The joints.
     pub joints: Vec<JointCheck>,
     /// 6 per body less what the joints hold; too low where joints hold the same twice.
@@ -75,6 +79,53 @@ pub struct JointCheck {
     pub stretching_rate: f64,
 }
 
+/// What is known of an input.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InputCheck {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    #[serde(rename = "type")]
+    pub kind: &'static str,
+    /// The unit of its value.
+    pub unit: &'static str,
+    /// Whether a table of the scene drives it.
+    pub table: bool,
+}
+
+/// What is known of a read-out.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ReadoutCheck {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    #[serde(rename = "type")]
+    pub kind: &'static str,
+    /// Its columns in the trace.
+    pub columns: Vec<String>,
+    /// Their units.
+    pub units: Vec<&'static str>,
+}
+
+impl InputCheck {
+    fn of(input: &InputInfo) -> Self {
+        let InputInfo { name, kind, unit, table, .. } = input;
+        Self { name: name.clone(), kind, unit, table: *table }
+    }
+}
+
+impl ReadoutCheck {
+    fn of(readout: &ReadoutInfo) -> Self {
+        let ReadoutInfo { name, kind, columns, .. } = readout;
+        Self {
+            name: name.clone(),
+            kind,
+            columns: columns.iter().map(|(column, _)| format!("{name}{column}")).collect(),
+            units: columns.iter().map(|(_, unit)| *unit).collect(),
+        }
+    }
+}
+
 /// Checks a scene.
 #[must_use]
 pub fn check(scene: &Scene) -> Check {
@@ -97,8 +148,10 @@ pub fn check(scene: &Scene) -> Check {
         scene: scene.name.clone(),
         bodies: model.bodies.len(),
         tsdas: model.tsda_count(),
-        torsion_springs: model.torsions.len(),
+        torsion_springs: scene.torsion_springs(),
         loads: model.loads.len(),
+        inputs: scene.inputs.iter().map(InputCheck::of).collect(),
+        readouts: scene.readouts.iter().map(ReadoutCheck::of).collect(),
         degrees_of_freedom: facts.degrees_of_freedom,
         equations: facts.equations,
         constraint_equations: facts.constraint_equations,
@@ -166,6 +219,8 @@ impl Check {
             ("TSDAs", self.tsdas.to_string()),
             ("torsion springs", self.torsion_springs.to_string()),
             ("loads", self.loads.to_string()),
+            ("inputs", self.inputs.len().to_string()),
+            ("read-outs", self.readouts.len().to_string()),
             ("degrees of freedom", format!("{} by count", self.degrees_of_freedom)),
             (
                 "equations",
@@ -190,6 +245,10 @@ impl Check {
         if !self.joints.is_empty() {
             text.push('\n');
             text.push_str(&self.joint_lines());
+        }
+        if !(self.inputs.is_empty() && self.readouts.is_empty()) {
+            text.push('\n');
+            text.push_str(&self.signal_lines());
         }
         text
     }
@@ -220,20 +279,38 @@ impl Check {
                 significant(joint.stretching_rate, 3),
             ]
         }));
-        let width = |column: usize| {
-            lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0)
-        };
-        let widths: [usize; 9] = std::array::from_fn(width);
-        let mut text = String::new();
-        for line in &lines {
-            for (cell, width) in line.iter().zip(widths) {
-                text.push_str(&format!("{cell:<width$}  "));
-            }
-            text.truncate(text.trim_end().len());
-            text.push('\n');
-        }
-        text
+        aligned(&lines)
     }
+
+    fn signal_lines(&self) -> String {
+        let mut lines = vec![["signal", "type", "unit", "driven by"].map(str::to_owned)];
+        lines.extend(self.inputs.iter().map(|input| {
+            let by = if input.table { "table" } else { "caller" };
+            [&input.name, input.kind, input.unit, by].map(str::to_owned)
+        }));
+        lines.extend(self.readouts.iter().map(|readout| {
+            let mut units = readout.units.clone();
+            units.dedup();
+            [&readout.name, readout.kind, &units.join(", "), "read-out"].map(str::to_owned)
+        }));
+        aligned(&lines)
+    }
+}
+
+/// Lines of cells in columns.
+fn aligned<const N: usize>(lines: &[[String; N]]) -> String {
+    let width =
+        |column: usize| lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0);
+    let widths: [usize; N] = std::array::from_fn(width);
+    let mut text = String::new();
+    for line in lines {
+        for (cell, width) in line.iter().zip(widths) {
+            text.push_str(&format!("{cell:<width$}  "));
+        }
+        text.truncate(text.trim_end().len());
+        text.push('\n');
+    }
+    text
 }
 
 /// One length, or two where they differ by more than rounding.

@@ -53,20 +53,23 @@ pub struct Curves {
     pub change: Curve,
     /// \[m\] per body x, y, z.
     pub positions: Vec<[Curve; 3]>,
+    /// The read-outs, one curve per column.
+    pub readings: Vec<Curve>,
     initial: Option<f64>,
     samples_per_interval: u64,
     samples: u64,
 }
 
 impl Curves {
-    /// No curves yet, of a run with so many bodies and samples.
+    /// No curves yet, of a run with so many bodies, columns of read-outs and samples.
     #[must_use]
-    pub fn new(bodies: usize, samples: u64) -> Self {
+    pub fn new(bodies: usize, readings: usize, samples: u64) -> Self {
         Self {
             kinetic: Curve::default(),
             potential: Curve::default(),
             change: Curve::default(),
             positions: vec![Default::default(); bodies],
+            readings: vec![Curve::default(); readings],
             initial: None,
             samples_per_interval: samples.div_ceil(INTERVALS).max(1),
             samples: 0,
@@ -76,6 +79,9 @@ impl Curves {
     /// Takes the next sample.
     pub fn push(&mut self, sample: &Sample<'_>) {
         let positions = sample.state.bodies.iter().map(|body| body.position.to_f64());
+        for (curve, value) in self.readings.iter_mut().zip(sample.readings) {
+            curve.push(sample.time, *value);
+        }
         self.push_values(sample.time, &sample.energy, positions);
     }
 
@@ -105,7 +111,7 @@ impl Curves {
         for curve in [&mut self.kinetic, &mut self.potential, &mut self.change] {
             curve.close();
         }
-        for curve in self.positions.as_flattened_mut() {
+        for curve in self.positions.as_flattened_mut().iter_mut().chain(&mut self.readings) {
             curve.close();
         }
     }
@@ -118,7 +124,7 @@ mod tests {
     #[test]
     fn long_runs_stay_small_and_keep_their_peaks() {
         let samples = 123_457;
-        let mut curves = Curves::new(1, samples);
+        let mut curves = Curves::new(1, 0, samples);
         for i in 0..samples {
             let kinetic = if i == 70_001 { 9.0 } else { (i % 7) as f64 * 0.1 };
             let energy = Energy { kinetic, ..Energy::default() };
@@ -134,7 +140,7 @@ mod tests {
 
     #[test]
     fn short_runs_keep_every_sample() {
-        let mut curves = Curves::new(0, 501);
+        let mut curves = Curves::new(0, 0, 501);
         for i in 0..501 {
             let energy = Energy { kinetic: 2.0, ..Energy::default() };
             curves.push_values(f64::from(i), &energy, std::iter::empty());

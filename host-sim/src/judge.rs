@@ -3,7 +3,7 @@
 //! `(model in the precision that runs, state) => energy, largest joint extension | trouble`, in
 //! double precision: the stored words are taken as exact, whatever precision stepped them. A run
 //! that diverges need not reach infinity before its end; it shows in joints that are torn and,
-//! without loads, in energy that came from nowhere.
+//! without loads and inputs, in energy that came from nowhere.
 
 use std::ops::Range;
 
@@ -44,11 +44,11 @@ pub(crate) struct Judge {
     /// \[m\] the extension of a joint's element at which it counts as torn.
     torn: f64,
     step_size: f64,
-    /// Without loads.
+    /// Without loads and inputs.
     growth: Option<Growth>,
 }
 
-/// What the total energy of a run without loads is held against.
+/// What the total energy of a run without loads and inputs is held against.
 struct Growth {
     /// \[J\] energies at t = 0, and of springs stretched by [`SHARE`].
     scale: f64,
@@ -93,7 +93,7 @@ impl Judge {
         });
         let torn = TORN * lengths.fold(0.0, f64::max);
         let start = State::initial(&model_of_judge);
-        let growth = model_of_judge.loads.is_empty().then(|| {
+        let growth = undriven(&model_of_judge).then(|| {
             let energy = energy(&model_of_judge, &start, step_size);
             Growth::new(&model_of_judge, &energy, size(&start))
         });
@@ -126,6 +126,11 @@ impl Judge {
         let extensions = self.ranges.iter().map(extension).enumerate();
         extensions.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(row, _)| row)
     }
+}
+
+/// Whether nothing but the initial state gives energy.
+fn undriven(model: &SceneModel<F64>) -> bool {
+    model.loads.is_empty() && model.inputs.is_empty()
 }
 
 /// \[m\] the largest coordinate.

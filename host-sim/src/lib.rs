@@ -30,6 +30,7 @@ pub mod progress;
 pub mod reference;
 pub mod report;
 pub mod run;
+mod sensors;
 pub mod simulate;
 pub mod statistics;
 pub mod summary;

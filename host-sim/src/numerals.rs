@@ -5,8 +5,8 @@
 
 use std::io::{self, Write};
 
-use dbd_kernel::Geometry;
 use dbd_kernel::words::{Word, WordVisitor, Words};
+use dbd_kernel::{Geometry, Real};
 
 /// Which number a text must read back to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,6 +26,8 @@ pub struct Numerals {
     pub orientation: Digits,
     /// Of a velocity, linear or angular.
     pub velocity: Digits,
+    /// Of a read-out, which is computed in the precision's forces.
+    pub reading: Digits,
 }
 
 impl Numerals {
@@ -36,6 +38,10 @@ impl Numerals {
             position: digits(&P::Position::default(), 3),
             orientation: digits(&P::Orientation::default(), 4),
             velocity: digits(&P::Velocity::default(), 3),
+            reading: match P::Real::ZERO.word() {
+                Word::F32(_) => Digits::Single,
+                _ => Digits::Double,
+            },
         }
     }
 }

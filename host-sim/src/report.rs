@@ -1,7 +1,7 @@
 //! `report.html`: one page that needs no other file.
 //!
-//! `(scene, summary, curves) => HTML` with the summary, the energies and the path of every body,
-//! and what it takes to run it again.
+//! `(scene, summary, curves) => HTML` with the summary, the energies, the read-outs and the path of
+//! every body, and what it takes to run it again.
 
 use std::fmt::Write as _;
 
@@ -84,11 +84,47 @@ fn figures(page: &mut String, scene: &Scene, curves: &Curves) {
     let lines = [("total less that at t = 0", &curves.change)];
     figure(page, "", WIDE, ("change", "J"), &lines);
 
+    if !scene.readouts.is_empty() {
+        readouts(page, scene, curves);
+    }
+
     page.push_str("<h2>Positions</h2>\n<div class=\"grid\">\n");
     for (body, [x, y, z]) in scene.body_names.iter().zip(&curves.positions) {
         figure(page, body, HALF, ("position", "m"), &[("x", x), ("y", y), ("z", z)]);
     }
     page.push_str("</div>\n");
+}
+
+/// A figure for each read-out; two for an inertial measurement unit, whose quantities are two.
+fn readouts(page: &mut String, scene: &Scene, curves: &Curves) {
+    page.push_str("<h2>Read-outs</h2>\n<div class=\"grid\">\n");
+    let mut curves = curves.readings.iter();
+    for readout in &scene.readouts {
+        for columns in readout.columns.chunks(3) {
+            let lines: Vec<_> = columns
+                .iter()
+                .zip(&mut curves)
+                .map(|((column, _), curve)| (column.trim_start_matches('.'), curve))
+                .collect();
+            let unit = columns.first().map_or("", |(_, unit)| unit);
+            figure(page, &readout.name, HALF, (quantity(readout.kind, unit), unit), &lines);
+        }
+    }
+    page.push_str("</div>\n");
+}
+
+/// What a read-out of a type shows.
+fn quantity(kind: &str, unit: &str) -> &'static str {
+    match (kind, unit) {
+        ("joint_angle", _) => "angle",
+        ("joint_rate", _) | ("imu", "rad/s") => "rate",
+        ("point", _) => "position",
+        ("point_velocity", _) => "velocity",
+        ("tsda_force", _) => "tension",
+        ("joint_force", _) => "force",
+        ("imu", _) => "specific force",
+        _ => "input",
+    }
 }
 
 /// The command line of the run, with all that was chosen for it spelled out.
@@ -127,7 +163,7 @@ fn figure(
     if !title.is_empty() {
         let _ = write!(page, "<strong>{}</strong>", escape(title));
     }
-    for ((name, _), RGBColor(r, g, b)) in coloured() {
+    for ((name, _), RGBColor(r, g, b)) in coloured().filter(|((name, _), _)| !name.is_empty()) {
         let _ = write!(
             page,
             "<span class=\"key\"><i style=\"background:#{r:02x}{g:02x}{b:02x}\"></i>{name}</span>"

@@ -104,7 +104,9 @@ pub fn run(
         }
         None => None,
     };
-    let curves = folder.as_ref().map(|_| Curves::new(scene.body_names.len(), plan.samples()));
+    let columns = scene.readouts.iter().map(|readout| readout.columns.len()).sum();
+    let curves =
+        folder.as_ref().map(|_| Curves::new(scene.body_names.len(), columns, plan.samples()));
     let mut recorder = Recorder {
         trace,
         curves,
@@ -217,5 +219,6 @@ fn summarise(
 
 /// Whether the scene's total energy is meant to stay as it is.
 fn conserves_energy(scene: &Scene) -> bool {
-    scene.model.loads.is_empty() && scene.model.dampers.iter().all(|c| c.abs() == 0.0)
+    let undriven = scene.model.loads.is_empty() && scene.model.inputs.is_empty();
+    undriven && scene.model.dampers.iter().all(|c| c.abs() == 0.0)
 }

@@ -15,6 +15,7 @@ use crate::judge::{Judge, Verdict};
 use crate::method::{Method, MethodVisitor};
 use crate::numerals::Numerals;
 use crate::plan::Plan;
+use crate::sensors::Sensors;
 
 /// A run is looked at this often at least, whatever its sampling interval.
 const LOOKS: u64 = 1000;
@@ -30,6 +31,8 @@ pub struct Sample<'s> {
     pub state: &'s State<SceneModel<F64>>,
     /// How many digits its words have.
     pub numerals: Numerals,
+    /// The scene's read-outs, one number per column; NaN where a twist is undefined.
+    pub readings: &'s [f64],
     /// \[J\] its energy.
     pub energy: Energy<f64>,
     /// \[m\] the largest extension of the joints' elements.
@@ -125,6 +128,7 @@ impl MethodVisitor for Simulation<'_> {
     fn visit<P: Geometry, S: Scheme>(self, scheme: S) -> Self::Output {
         let Self { scene, plan, observer } = self;
         let model: SceneModel<P> = scene.model.convert();
+        let mut sensors = Sensors::<P>::new(scene);
         let mut judge = Judge::new(scene, &model, plan.step);
         let mut plant = Plant::new(&model, scheme, plan.step).map_err(SimulationError::Plant)?;
         let stride = (plan.steps / LOOKS).clamp(1, MOST_STEPS_UNSEEN);
@@ -139,7 +143,8 @@ impl MethodVisitor for Simulation<'_> {
             let done = state.step;
             observer.progress(done);
             if done == next_sample {
-                let sample = Sample::new(&plant, &state, &verdict);
+                let readings = sensors.read(&plant);
+                let sample = Sample::new(&plant, &state, readings, &verdict);
                 observer.sample(&sample).map_err(SimulationError::Observer)?;
                 next_sample = plan.steps.min(next_sample + plan.stride);
             }
@@ -162,12 +167,14 @@ impl<'s> Sample<'s> {
     fn new<P: Geometry, S: Scheme>(
         plant: &Plant<'_, SceneModel<P>, S>,
         state: &'s State<SceneModel<F64>>,
+        readings: &'s [f64],
         verdict: &Verdict,
     ) -> Self {
         Self {
             time: plant.time(),
             state,
             numerals: Numerals::of::<P>(),
+            readings,
             energy: verdict.energy,
             extension: verdict.extension,
             hash: plant.hash(),

@@ -74,7 +74,7 @@ impl Summary {
         };
         let rms = match self.energy_rms_error {
             Some(error) => format!("{} J", significant(error, 4)),
-            None => "– (dampers or loads change the energy)".into(),
+            None => "– (dampers, loads or inputs change the energy)".into(),
         };
         let damping = self.damping.map(|name| format!(", {name} damping")).unwrap_or_default();
         let method =

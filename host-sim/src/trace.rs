@@ -1,7 +1,7 @@
 //! `trace.csv`: a header, then one row per sample.
 //!
 //! `samples => rows`, streamed. Columns: time, per body position, quaternion, velocity and angular
-//! velocity, then the energies. Every number is the shortest text that reads back to its bits.
+//! velocity, then the energies, then the read-outs. Every number is the shortest text that reads back to its bits.
 
 use std::io::{self, Write};
 
@@ -39,6 +39,11 @@ impl<W: Write> TraceWriter<W> {
         for column in ENERGY_COLUMNS {
             rows.write_field(column)?;
         }
+        for readout in &scene.readouts {
+            for (column, _) in &readout.columns {
+                rows.write_field(format!("{}{column}", readout.name))?;
+            }
+        }
         rows.write_record(None::<&[u8]>)?;
         Ok(Self { rows, text: Vec::new() })
     }
@@ -58,6 +63,7 @@ impl<W: Write> TraceWriter<W> {
         }
         let energy = &sample.energy;
         self.numbers(Digits::Double, &[energy.kinetic, energy.potential(), energy.total()])?;
+        self.numbers(numerals.reading, sample.readings)?;
         self.rows.write_record(None::<&[u8]>)?;
         Ok(())
     }

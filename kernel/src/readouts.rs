@@ -7,7 +7,7 @@ use crate::energy::twist_of;
 use crate::forces::{self, Record};
 use crate::geometry::{FrameOf, Geometry, RealOf};
 use crate::groups::{End, Places, place_bodies, placed};
-use crate::inputs::InputKind;
+use crate::inputs::{InputIndex, InputKind};
 use crate::model::{BodyIndex, Law, ModelOwner};
 use crate::plant::Plant;
 use crate::real::Real;
@@ -62,6 +62,11 @@ pub enum Readout<P: Geometry> {
         /// The point in body axes.
         point: P::Local,
     },
+    /// \[N, N·m, m\] the value of an input as the last step held it, or as it was set since.
+    Input {
+        /// The input.
+        input: InputIndex,
+    },
 }
 
 impl<P: Geometry> Readout<P> {
@@ -78,6 +83,7 @@ impl<P: Geometry> Readout<P> {
             Readout::TsdaForce { group, element } => Readout::TsdaForce { group, element },
             Readout::JointForce { group } => Readout::JointForce { group },
             Readout::Imu { body, point } => Readout::Imu { body, point: local(point) },
+            Readout::Input { input } => Readout::Input { input },
         }
     }
 }
@@ -86,7 +92,7 @@ impl<P: Geometry> Readout<P> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Reading<R> {
-    /// An angle, a rate or a tension.
+    /// An angle, a rate, a tension or the value of an input.
     Scalar(R),
     /// A position, a velocity or a force, world axes.
     Vector(Vec3<R>),
@@ -207,6 +213,10 @@ pub fn read<M: ModelOwner>(
             let angular = torque.scale(constants.inverse_inertia);
             let specific_force = centre + angular.cross(arm) + rate.cross(rate.cross(arm));
             Some(Reading::Imu { specific_force, rate })
+        }
+        Readout::Input { input } => {
+            let signal = state.signals.as_ref().get(input.0 as usize)?;
+            Some(Reading::Scalar(signal.value))
         }
     }
 }

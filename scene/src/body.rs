@@ -27,10 +27,10 @@ pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), 
             None => root.refuse("has no bodies", help),
         });
     }
-    let mut names = Names::new("body");
+    let mut names = Names::default();
     for table in tables {
         table.only(&[KEYS])?;
-        let name = names.read(&table)?;
+        let name = names.read(&table, "body", ())?;
         if name == WORLD {
             let help = "the world is there without being declared; a body has another name";
             return Err(table.refuse_value("name", "is \"world\"", help));

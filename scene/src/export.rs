@@ -14,6 +14,7 @@ use std::fmt::{Display, Write};
 use dbd_kernel::geometry::{Float, Named};
 use dbd_kernel::inputs::{Input, InputKind, Knot};
 use dbd_kernel::model::{Body, BodyIndex, DamperIndex, Group, ModelOwner};
+use dbd_kernel::readouts::Readout;
 use dbd_kernel::{
     BodyState, Load, LoadFrame, PointBushing, PointOnLine, Quaternion, Real, TorsionSpring, Tsda,
     Vec3,
@@ -66,13 +67,27 @@ pub fn type_name(scene: &str) -> String {
     if name.starts_with(|c: char| c.is_ascii_digit()) { format!("_{name}") } else { name }
 }
 
-/// Source of what all precisions share: `use` lines, the step \[s\] and the bodies' names. `step`
-/// is the default step where the scene gives none.
+/// Source of what all precisions share: `use` lines, the step \[s\], the bodies' names, and the
+/// index of each input: `FOUR_BAR_INPUT_ELBOW`. `step` is the default step where the scene gives
+/// none.
 #[must_use]
 pub fn preamble(scene: &Scene, step: f64) -> String {
     let name = constant_name(&scene.name);
     let step = (scene.step.unwrap_or(step)).number();
     let bodies = list(&scene.body_names, |body| format!("{body:?}"));
+    let names = constant_names(scene.inputs.iter().map(|input| input.name.as_str()));
+    let inputs: String = scene
+        .inputs
+        .iter()
+        .zip(names)
+        .map(|(input, constant)| {
+            format!(
+                "/// \\[{}\\] the input `{}`.\npub const {name}_INPUT_{constant}: InputIndex = \
+             InputIndex({});\n",
+                input.unit, input.name, input.index.0
+            )
+        })
+        .collect();
     format!(
         "// Not every scene has every kind of element.\n\
          #[allow(unused_imports)]\n\
@@ -80,19 +95,35 @@ pub fn preamble(scene: &Scene, step: f64) -> String {
              Body, BodyIndex, BodyState, F32, F64, Load, LoadFrame, Model, PointBushing, PointOnLine,\n    \
              Quaternion, TorsionSpring, Tsda, Vec3,\n    \
              inputs::{{Input, InputIndex, InputKind, Knot}},\n    \
-             model::{{ClearanceIndex, DamperIndex, Group, Law}},\n\
+             model::{{ClearanceIndex, DamperIndex, Group, Law}},\n    \
+             readouts::Readout,\n\
          }};\n\n\
          /// \\[s\\] the step of the scene `{scene_name}`.\n\
          pub const {name}_STEP: f64 = {step};\n\
          /// The bodies of the scene `{scene_name}`, in order.\n\
-         pub const {name}_BODIES: [&str; {count}] = {bodies};\n",
+         pub const {name}_BODIES: [&str; {count}] = {bodies};\n\
+         {inputs}",
         scene_name = scene.name,
         count = scene.body_names.len(),
     )
 }
 
-/// Source of the scene's model in the precision of `R`: a type alias `FourBarF32` with the counts
-/// and a static `FOUR_BAR_F32`.
+/// Names of things of a kind as parts of constants, each its own: a second one that would be the
+/// same gets its number.
+fn constant_names<'n>(names: impl Iterator<Item = &'n str>) -> Vec<String> {
+    let mut constants: Vec<String> = Vec::new();
+    for name in names {
+        let mut constant = constant_name(name);
+        while constants.contains(&constant) {
+            constant = format!("{constant}_{}", constants.len() + 1);
+        }
+        constants.push(constant);
+    }
+    constants
+}
+
+/// Source of the scene's model in the precision of `R`: a type alias `FourBarF32` with the counts,
+/// a static `FOUR_BAR_F32` and a constant for each read-out, `FOUR_BAR_READOUT_ANGLE_F32`.
 #[must_use]
 pub fn model<R: SourceNumber>(scene: &Scene) -> String {
     let model: SceneModel<Float<R>> = scene.model.convert();
@@ -139,6 +170,17 @@ pub fn model<R: SourceNumber>(scene: &Scene) -> String {
     line(&format_args!("    clearances: {},", list(&model.clearances, |c| c.number())));
     line(&"}");
     line(&".checked();");
+    let names = constant_names(scene.readouts.iter().map(|readout| readout.name.as_str()));
+    for (info, constant) in scene.readouts.iter().zip(names) {
+        let scene = constant_name(&scene.name);
+        line(&format_args!("/// The read-out `{}`.", info.name));
+        line(&format_args!(
+            "pub const {scene}_READOUT_{constant}_{}: Readout<{}> = {};",
+            R::TYPE,
+            R::TYPE,
+            readout(&info.readout.convert::<Float<R>>())
+        ));
+    }
     out
 }
 
@@ -258,6 +300,25 @@ fn input<R: SourceNumber>(input: &Input<Float<R>>) -> String {
     format!("Input {{ kind: InputKind::{kind}, value: {value}, knot: {knot}, knots: {knots} }}")
 }
 
+fn readout<R: SourceNumber>(readout: &Readout<Float<R>>) -> String {
+    let at = |kind: &str, body: BodyIndex, point: &Vec3<R>| {
+        format!("{kind} {{ body: {}, point: {} }}", index(body), vector(point))
+    };
+    let kind = match readout {
+        Readout::JointAngle { spring } => format!("JointAngle {{ spring: {spring} }}"),
+        Readout::JointRate { spring } => format!("JointRate {{ spring: {spring} }}"),
+        Readout::Point { body, point } => at("Point", *body, point),
+        Readout::PointVelocity { body, point } => at("PointVelocity", *body, point),
+        Readout::TsdaForce { group, element } => {
+            format!("TsdaForce {{ group: {group}, element: {element} }}")
+        }
+        Readout::JointForce { group } => format!("JointForce {{ group: {group} }}"),
+        Readout::Imu { body, point } => at("Imu", *body, point),
+        Readout::Input { input } => format!("Input {{ input: InputIndex({}) }}", input.0),
+    };
+    format!("Readout::{kind}")
+}
+
 fn knot<R: SourceNumber>(knot: &Knot<R>) -> String {
     let (time, value, slope) = (knot.time.number(), knot.value.number(), knot.slope.number());
     format!("Knot {{ time: {time}, value: {value}, slope: {slope} }}")
@@ -299,6 +360,8 @@ mod tests {
         assert_eq!(constant_name("3rrr-1"), "_3RRR_1");
         assert_eq!(type_name("five-bar-a"), "FiveBarA");
         assert_eq!(type_name("3ruu"), "_3ruu");
+        let names = ["a b", "a-b", "c"].into_iter();
+        assert_eq!(constant_names(names), ["A_B", "A_B_2", "C"]);
     }
 
     #[test]

@@ -10,6 +10,8 @@ mod direction;
 mod error;
 pub mod export;
 mod facts;
+mod hinge;
+mod input;
 mod joints;
 mod lint;
 mod load;
@@ -19,8 +21,10 @@ mod orientation;
 mod pair;
 mod places;
 mod point_on_line;
+mod readout;
 mod runtime;
 mod spring;
+mod target;
 mod text;
 mod torsion_spring;
 mod tsda;
@@ -30,15 +34,22 @@ use std::path::Path;
 
 pub use error::{Refusal, SceneError};
 pub use facts::{Facts, Island, JointFacts};
+pub use hinge::Hinge;
+pub use input::InputInfo;
 pub use lint::{Severity, Warning};
 pub use nearest::nearest;
+pub use readout::ReadoutInfo;
 pub use runtime::{SceneModel, widen};
 
 use dbd_kernel::F64;
+use dbd_kernel::inputs::InputIndex;
+use dbd_kernel::readouts::Readout;
 
 use crate::assembly::Assembly;
 use crate::error::Source;
+use crate::hinge::Known;
 use crate::places::Places;
+use crate::target::Elements;
 use crate::text::{Number, Numbers, Text};
 
 const KEYS: &[&str] = &[
@@ -54,6 +65,8 @@ const KEYS: &[&str] = &[
     "point_on_line",
     "torsion_spring",
     "load",
+    "input",
+    "readout",
 ];
 
 /// A checked and assembled scene.
@@ -74,11 +87,32 @@ pub struct Scene {
     /// The joints in scene order.
     pub joints: Vec<JointInfo>,
     /// What messages call the torsion springs, in the model's order:
-    /// `torsion_spring 1 (world–crank)`.
+    /// `torsion_spring 1 (world–crank)`; after those of the scene file the ones that count the
+    /// turns of a read-out's joint.
     pub torsion_names: Vec<String>,
+    /// The inputs in scene order.
+    pub inputs: Vec<InputInfo>,
+    /// The read-outs in scene order.
+    pub readouts: Vec<ReadoutInfo>,
     /// The assembled model in double precision; every other precision is a rounding of it.
     pub model: SceneModel<F64>,
     places: Places,
+    /// What messages call raw TSDAs, then points on lines.
+    raw_names: Vec<String>,
+}
+
+/// A name that a scene does not have.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the scene `{scene}` has no {kind} `{name}`{}", .meant.as_ref().map_or(String::new(), |m| format!("; did you mean `{m}`?")))]
+pub struct UnknownName {
+    /// The scene.
+    pub scene: String,
+    /// `input` or `readout`.
+    pub kind: &'static str,
+    /// The name that was asked for.
+    pub name: String,
+    /// The one that was probably meant.
+    pub meant: Option<String>,
 }
 
 /// What reports say of a joint.
@@ -97,6 +131,9 @@ pub struct JointInfo {
     pub spider: Option<String>,
     /// Its groups in the model.
     pub groups: Range<usize>,
+    /// The axes about which its second body turns: one of a revolute and a cylindrical joint, the
+    /// two of a universal joint, none where there is none or any will do.
+    pub hinges: Vec<Hinge>,
     /// Its TSDAs, points on lines included.
     pub tsdas: usize,
     /// \[m\] the largest |L − L0| of its elements at the initial pose.
@@ -135,11 +172,15 @@ impl Scene {
         let mut assembly = Assembly::default();
         assembly.set_gravity(gravity.unwrap_or_default());
         body::read_all(&root, &mut assembly)?;
-        let joints = joints::read_all(&root, &mut assembly)?;
-        tsda::read_all(&root, &mut assembly)?;
-        point_on_line::read_all(&root, &mut assembly)?;
-        let torsion_names = torsion_spring::read_all(&root, &mut assembly)?;
+        let mut elements = Elements::default();
+        let joints = joints::read_all(&root, &mut assembly, &mut elements)?;
+        let mut raw_names = tsda::read_all(&root, &mut assembly, &mut elements)?;
+        raw_names.extend(point_on_line::read_all(&root, &mut assembly, &mut elements)?);
+        let mut torsion_names = torsion_spring::read_all(&root, &mut assembly, &mut elements)?;
         load::read_all(&root, &mut assembly)?;
+        let mut known = Known { assembly: &mut assembly, elements: &elements, joints: &joints };
+        let inputs = input::read_all(&root, &mut known)?;
+        let readouts = readout::read_all(&root, &mut known, &inputs, &mut torsion_names)?;
         let (model, body_names) = assembly.finish();
         Ok(Self {
             name,
@@ -150,9 +191,48 @@ impl Scene {
             body_names,
             joints,
             torsion_names,
+            inputs,
+            readouts,
             model,
             places: Places::of(&root)?,
+            raw_names,
         })
+    }
+
+    /// The input of a name, to set it on a plant.
+    ///
+    /// # Errors
+    /// Where the scene has none of that name.
+    pub fn input(&self, name: &str) -> Result<InputIndex, UnknownName> {
+        let names = self.inputs.iter().map(|input| input.name.as_str());
+        let found = self.inputs.iter().find(|input| input.name == name);
+        found.map(|input| input.index).ok_or_else(|| self.unknown("input", name, names))
+    }
+
+    /// The read-out of a name, to read it from a plant.
+    ///
+    /// # Errors
+    /// Where the scene has none of that name.
+    pub fn readout(&self, name: &str) -> Result<Readout<F64>, UnknownName> {
+        let names = self.readouts.iter().map(|readout| readout.name.as_str());
+        let found = self.readouts.iter().find(|readout| readout.name == name);
+        found.map(|found| found.readout).ok_or_else(|| self.unknown("readout", name, names))
+    }
+
+    fn unknown<'n>(
+        &self,
+        kind: &'static str,
+        name: &str,
+        known: impl Iterator<Item = &'n str>,
+    ) -> UnknownName {
+        let meant = nearest(name, known).map(str::to_owned);
+        UnknownName { scene: self.name.clone(), kind, name: name.to_owned(), meant }
+    }
+
+    /// Torsion springs of the scene file, without those that only count turns.
+    #[must_use]
+    pub fn torsion_springs(&self) -> usize {
+        self.places.torsion_springs.len()
     }
 }
 

@@ -5,7 +5,7 @@ use dbd_kernel::BodyIndex;
 use crate::assembly::{Assembly, WORLD};
 use crate::error::SceneError;
 use crate::nearest::nearest;
-use crate::text::{Kind, Value};
+use crate::text::{Kind, Table, Value};
 
 /// Two different bodies, one of which may be the world.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +16,14 @@ pub(crate) struct Pair {
     pub(crate) b: BodyIndex,
     /// Their names.
     pub(crate) names: [String; 2],
+}
+
+impl Pair {
+    /// What messages call the element of a table: `tsda 1 (world–crank)`.
+    pub(crate) fn label(&self, table: &Table<'_>) -> String {
+        let [a, b] = &self.names;
+        format!("{} ({a}–{b})", table.label())
+    }
 }
 
 /// `["FIRST", "SECOND"]`.

@@ -6,18 +6,27 @@ use crate::assembly::{Assembly, Lines, Points};
 use crate::error::SceneError;
 use crate::pair::{Between, Pair};
 use crate::spring;
+use crate::target::{Elements, Target};
 use crate::text::{Direction, Number, Numbers, Table};
 
-const KEYS: &[&str] = &["between", "line_point", "line_direction", "point", "free_length"];
+const KEYS: &[&str] =
+    &["name", "between", "line_point", "line_direction", "point", "free_length", "clearance"];
 
 /// A point nearer to its line than this share of the free length is on it: no direction leads
 /// from the line to the point.
 const COINCIDENT: f64 = 1e-9;
 
-/// Reads all points on lines in scene order.
-pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), SceneError> {
+/// Reads all points on lines in scene order and names them for messages.
+pub(crate) fn read_all(
+    root: &Table<'_>,
+    assembly: &mut Assembly,
+    elements: &mut Elements,
+) -> Result<Vec<String>, SceneError> {
+    let mut labels = Vec::new();
     for table in root.list("point_on_line")? {
         table.only(&[KEYS, spring::KEYS])?;
+        let target = Target::PointOnLine(assembly.groups().len());
+        elements.read_optional(&table, "point_on_line", target)?;
         let pair = table.required("between", Between(assembly))?;
         let point = |key| table.required(key, Numbers(Number::any("m"))).map(Vec3::from_f64);
         let line_point = point("line_point")?;
@@ -37,8 +46,9 @@ pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), 
         assembly
             .add_lines(&pair, points, Lines { direction, free_length }, spring)
             .map_err(|defect| defect.refuse(&table))?;
+        labels.push(pair.label(&table));
     }
-    Ok(())
+    Ok(labels)
 }
 
 /// \[m\] of a point of the second body from a line of the first.

@@ -1,5 +1,7 @@
 //! Stiffness and damping, the keys that joints, raw TSDAs and torsion springs share.
 //!
+//! `clearance` belongs to those of them that list it among their own keys.
+//!
 //! `stiffness = k` or `{ load, deflection }` with `k = load/deflection`; `damping = c`, or
 //! `damping_ratio = ζ` with `frequency = f`: `c = (2·ζ·k)/(2π·f)`.
 
@@ -16,6 +18,8 @@ pub(crate) struct Spring {
     pub(crate) stiffness: f64,
     /// \[N·s/m\] or \[N·m·s/rad\] damping, ≥ 0.
     pub(crate) damping: f64,
+    /// \[m\] extension within which it does not act, ≥ 0.
+    pub(crate) clearance: f64,
 }
 
 /// The units of a spring.
@@ -64,7 +68,8 @@ pub(crate) fn read(table: &Table<'_>, units: Units) -> Result<Spring, SceneError
         let help = "a larger `frequency` or a smaller `damping_ratio`";
         return Err(table.refuse_key("damping_ratio", "gives an infinite damping", help));
     }
-    Ok(Spring { stiffness, damping })
+    let clearance = table.optional("clearance", Number::not_negative("m"))?.unwrap_or(0.0);
+    Ok(Spring { stiffness, damping, clearance })
 }
 
 struct Stiffness(Units);

@@ -4,19 +4,22 @@ use crate::assembly::Assembly;
 use crate::error::SceneError;
 use crate::pair::Between;
 use crate::spring;
+use crate::target::{Elements, Target};
 use crate::text::{Direction, Number, Table};
 
-const KEYS: &[&str] = &["between", "axis", "preload"];
+const KEYS: &[&str] = &["name", "between", "axis", "preload"];
 
 /// Reads all torsion springs in scene order and names them for messages:
 /// `torsion_spring 1 (world–crank)`.
 pub(crate) fn read_all(
     root: &Table<'_>,
     assembly: &mut Assembly,
+    elements: &mut Elements,
 ) -> Result<Vec<String>, SceneError> {
     let mut names = Vec::new();
     for table in root.list("torsion_spring")? {
         table.only(&[KEYS, spring::KEYS])?;
+        elements.read_optional(&table, "torsion_spring", Target::TorsionSpring(names.len()))?;
         let pair = table.required("between", Between(assembly))?;
         let axis = table.required("axis", Direction)?;
         let spring = spring::read(&table, spring::TORSIONAL)?;
@@ -24,8 +27,7 @@ pub(crate) fn read_all(
         assembly
             .add_torsion_spring(&pair, axis, spring, preload)
             .map_err(|defect| defect.refuse(&table))?;
-        let [a, b] = &pair.names;
-        names.push(format!("{} ({a}–{b})", table.label()));
+        names.push(pair.label(&table));
     }
     Ok(names)
 }

@@ -6,17 +6,25 @@ use crate::assembly::{Assembly, Points};
 use crate::error::SceneError;
 use crate::pair::Between;
 use crate::spring;
+use crate::target::{Elements, Target};
 use crate::text::{Kind, Number, Numbers, Table, Value};
 
-const KEYS: &[&str] = &["between", "points", "free_length"];
+const KEYS: &[&str] = &["name", "between", "points", "free_length"];
 
 /// Points closer than this share of the free length give the line no direction.
 const COINCIDENT: f64 = 1e-9;
 
-/// Reads all raw TSDAs in scene order.
-pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), SceneError> {
+/// Reads all raw TSDAs in scene order and names them for messages.
+pub(crate) fn read_all(
+    root: &Table<'_>,
+    assembly: &mut Assembly,
+    elements: &mut Elements,
+) -> Result<Vec<String>, SceneError> {
+    let mut labels = Vec::new();
     for table in root.list("tsda")? {
         table.only(&[KEYS, spring::KEYS])?;
+        let target = Target::Tsda(assembly.groups().len());
+        elements.read_optional(&table, "tsda", target)?;
         let pair = table.required("between", Between(assembly))?;
         let [a, b] = table.required("points", TwoPoints)?;
         let spring = spring::read(&table, spring::AXIAL)?;
@@ -37,8 +45,9 @@ pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), 
             assembly.add_bushing(&pair, points, spring)
         }
         .map_err(|defect| defect.refuse(&table))?;
+        labels.push(pair.label(&table));
     }
-    Ok(())
+    Ok(labels)
 }
 
 /// A point of the first body and one of the second.

@@ -11,8 +11,8 @@ impl BodyIndex {
     /// The world: immovable, its points are the ground's.
     pub const WORLD: Self = Self(u16::MAX);
 
-    /// Indices from here on are the ground's.
-    const FIRST_ANCHOR: u16 = 0xff00;
+    /// Indices from here on are the ground's; a model has at most so many bodies.
+    pub const FIRST_ANCHOR: u16 = 0xff00;
 
     /// The ground as moved by input `input`, an [`crate::inputs::InputKind::Anchor`].
     ///

@@ -103,6 +103,7 @@ impl<
     #[must_use]
     pub const fn checked(self) -> Self {
         assert!(BODIES > 0, "a model has at least one body");
+        assert!(BODIES <= BodyIndex::FIRST_ANCHOR as usize, "a model has at most 65280 bodies");
         assert!(GRAVITY <= 1, "a model has at most one field of gravity");
         let mut i = 0;
         while i < GROUPS {

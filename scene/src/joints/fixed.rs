@@ -6,6 +6,7 @@
 
 use crate::assembly::{Assembly, Points};
 use crate::error::SceneError;
+use crate::hinge::Hinge;
 use crate::joints::triad::{self, Triad};
 use crate::joints::{Joint, JointType};
 use crate::text::{Number, Table};
@@ -13,7 +14,11 @@ use crate::text::{Number, Table};
 pub(super) const TYPE: JointType =
     JointType { name: "fixed", holds: 6, keys: &["axis", "reference", "span", "arm"], expand };
 
-fn expand(table: &Table<'_>, joint: &Joint, assembly: &mut Assembly) -> Result<(), SceneError> {
+fn expand(
+    table: &Table<'_>,
+    joint: &Joint,
+    assembly: &mut Assembly,
+) -> Result<Vec<Hinge>, SceneError> {
     let Triad { e1, e2, axis } = triad::read(table)?;
     let half = 0.5 * table.required("span", Number::positive("m"))?;
     let arm = table.required("arm", Number::positive("m"))?;
@@ -24,7 +29,8 @@ fn expand(table: &Table<'_>, joint: &Joint, assembly: &mut Assembly) -> Result<(
     let points = Points { centres: &centres, tips: tips.as_flattened(), shared: false };
     assembly
         .add_tsdas(&joint.pair, points, arm, joint.spring)
-        .map_err(|defect| defect.refuse(table))
+        .map_err(|defect| defect.refuse(table))?;
+    Ok(Vec::new())
 }
 
 #[cfg(test)]

@@ -16,9 +16,10 @@ use dbd_kernel::Vec3;
 use crate::JointInfo;
 use crate::assembly::Assembly;
 use crate::error::SceneError;
-use crate::names::Names;
+use crate::hinge::Hinge;
 use crate::pair::{Between, Pair};
 use crate::spring::{self, Spring};
+use crate::target::{Elements, Target};
 use crate::text::{Choice, Number, Numbers, Table};
 
 /// A type of joint.
@@ -29,8 +30,8 @@ struct JointType {
     holds: u32,
     /// The keys it has besides those of every joint.
     keys: &'static [&'static str],
-    /// Adds its elements to the assembly.
-    expand: fn(&Table<'_>, &Joint, &mut Assembly) -> Result<(), SceneError>,
+    /// Adds its elements to the assembly and says about which axes it turns.
+    expand: fn(&Table<'_>, &Joint, &mut Assembly) -> Result<Vec<Hinge>, SceneError>,
 }
 
 /// What every joint has.
@@ -62,16 +63,16 @@ const REACH: f64 = 1e-3;
 pub(crate) fn read_all(
     root: &Table<'_>,
     assembly: &mut Assembly,
+    elements: &mut Elements,
 ) -> Result<Vec<JointInfo>, SceneError> {
-    let mut names = Names::new("joint");
     let mut infos = Vec::new();
     let tables = root.list("joint")?;
     for table in &tables {
         let kind = kind(table)?;
         table.only(&[KEYS, kind.keys, spring::KEYS])?;
-        let name = names.read(table)?;
+        let name = elements.read(table, "joint", Target::Joint(infos.len()))?;
         let (groups, bodies) = (assembly.groups().len(), assembly.body_names().len());
-        let pair = read(table, name.clone(), kind, assembly)?;
+        let (pair, hinges) = read(table, name.clone(), kind, assembly)?;
         infos.push(JointInfo {
             name,
             kind: kind.name,
@@ -79,6 +80,7 @@ pub(crate) fn read_all(
             holds: kind.holds,
             spider: assembly.body_names().get(bodies).cloned(),
             groups: groups..assembly.groups().len(),
+            hinges,
             tsdas: 0,
             assembly_error: 0.0,
         });
@@ -125,11 +127,11 @@ fn read(
     name: String,
     kind: &JointType,
     assembly: &mut Assembly,
-) -> Result<Pair, SceneError> {
+) -> Result<(Pair, Vec<Hinge>), SceneError> {
     let pair = table.required("between", Between(assembly))?;
     let at_w = Vec3::from_f64(table.required("at", Numbers(Number::any("m, world")))?);
     let spring = spring::read(table, spring::AXIAL)?;
     let joint = Joint { name, pair, at_w, spring };
-    (kind.expand)(table, &joint, assembly)?;
-    Ok(joint.pair)
+    let hinges = (kind.expand)(table, &joint, assembly)?;
+    Ok((joint.pair, hinges))
 }

@@ -9,18 +9,28 @@ use core::f64::consts::SQRT_2;
 
 use crate::assembly::{Assembly, Defect, Points};
 use crate::error::SceneError;
+use crate::hinge::Hinge;
 use crate::joints::triad::{self, Triad};
 use crate::joints::{Joint, JointType};
 use crate::pair::Pair;
 use crate::text::{Number, Table};
 
-pub(super) const TYPE: JointType =
-    JointType { name: "revolute", holds: 5, keys: &["axis", "reference", "span", "ring"], expand };
+pub(super) const TYPE: JointType = JointType {
+    name: "revolute",
+    holds: 5,
+    keys: &["axis", "reference", "span", "ring", "clearance"],
+    expand,
+};
 
-fn expand(table: &Table<'_>, joint: &Joint, assembly: &mut Assembly) -> Result<(), SceneError> {
+fn expand(
+    table: &Table<'_>,
+    joint: &Joint,
+    assembly: &mut Assembly,
+) -> Result<Vec<Hinge>, SceneError> {
     let triad = triad::read(table)?;
     let size = Size::read(table)?;
-    add(&joint.pair, joint, triad, size, assembly).map_err(|defect| defect.refuse(table))
+    add(&joint.pair, joint, triad, size, assembly).map_err(|defect| defect.refuse(table))?;
+    Ok(vec![assembly.hinge(&joint.pair, triad.axis)])
 }
 
 /// How large a revolute is.

@@ -7,20 +7,26 @@ use dbd_kernel::Vec3;
 
 use crate::assembly::{Assembly, Points};
 use crate::error::SceneError;
+use crate::hinge::Hinge;
 use crate::joints::{Joint, JointType};
 use crate::text::{Number, Table};
 
 pub(super) const TYPE: JointType =
-    JointType { name: "spherical", holds: 3, keys: &["arm"], expand };
+    JointType { name: "spherical", holds: 3, keys: &["arm", "clearance"], expand };
 
-fn expand(table: &Table<'_>, joint: &Joint, assembly: &mut Assembly) -> Result<(), SceneError> {
+fn expand(
+    table: &Table<'_>,
+    joint: &Joint,
+    assembly: &mut Assembly,
+) -> Result<Vec<Hinge>, SceneError> {
     let arm = table.required("arm", Number::positive("m"))?;
     let pair = &joint.pair;
     let centre = assembly.point_in(pair.a, joint.at_w);
     let axes = [Vec3::new(arm, 0.0, 0.0), Vec3::new(0.0, arm, 0.0), Vec3::new(0.0, 0.0, arm)];
     let tips = axes.map(|axis| assembly.point_in(pair.b, joint.at_w + axis));
     let points = Points { centres: &[centre], tips: &tips, shared: false };
-    assembly.add_tsdas(pair, points, arm, joint.spring).map_err(|defect| defect.refuse(table))
+    assembly.add_tsdas(pair, points, arm, joint.spring).map_err(|defect| defect.refuse(table))?;
+    Ok(Vec::new())
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@
 
 use crate::assembly::{Assembly, Lines, Points};
 use crate::error::SceneError;
+use crate::hinge::Hinge;
 use crate::joints::triad;
 use crate::joints::{Joint, JointType};
 use crate::text::{Number, Table};
@@ -19,7 +20,11 @@ pub(super) const TYPE: JointType = JointType {
     expand,
 };
 
-fn expand(table: &Table<'_>, joint: &Joint, assembly: &mut Assembly) -> Result<(), SceneError> {
+fn expand(
+    table: &Table<'_>,
+    joint: &Joint,
+    assembly: &mut Assembly,
+) -> Result<Vec<Hinge>, SceneError> {
     let triad = triad::read(table)?;
     let span = table.required("span", Number::positive("m"))?;
     let gauge = table.required("gauge", Number::positive("m"))?;
@@ -40,7 +45,8 @@ fn expand(table: &Table<'_>, joint: &Joint, assembly: &mut Assembly) -> Result<(
         Lines { direction: assembly.vector_in(joint.pair.a, triad.axis), free_length: offset };
     assembly
         .add_lines(&joint.pair, points, lines, joint.spring)
-        .map_err(|defect| defect.refuse(table))
+        .map_err(|defect| defect.refuse(table))?;
+    Ok(Vec::new())
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ use crate::assembly::Assembly;
 use crate::body::mass_and_inertia;
 use crate::direction::normals;
 use crate::error::SceneError;
+use crate::hinge::Hinge;
 use crate::joints::revolute::{self, Size};
 use crate::joints::triad;
 use crate::joints::{Joint, JointType};
@@ -27,7 +28,11 @@ pub(super) const TYPE: JointType = JointType {
 /// Cosine of the angle between axes that still count as orthogonal.
 const ORTHOGONAL: f64 = 1e-6;
 
-fn expand(table: &Table<'_>, joint: &Joint, assembly: &mut Assembly) -> Result<(), SceneError> {
+fn expand(
+    table: &Table<'_>,
+    joint: &Joint,
+    assembly: &mut Assembly,
+) -> Result<Vec<Hinge>, SceneError> {
     let axes = table.required("axes", Axes)?;
     let [a1, a2, _] = axes;
     let triads = [triad::about(table, a1)?, triad::about(table, a2)?];
@@ -59,7 +64,8 @@ fn expand(table: &Table<'_>, joint: &Joint, assembly: &mut Assembly) -> Result<(
     for (pair, triad) in pairs.iter().zip(triads) {
         revolute::add(pair, joint, triad, size, assembly).map_err(|defect| defect.refuse(table))?;
     }
-    Ok(())
+    let hinges = pairs.iter().zip(triads).map(|(pair, triad)| assembly.hinge(pair, triad.axis));
+    Ok(hinges.collect())
 }
 
 /// Two orthogonal axes and the one normal to both.

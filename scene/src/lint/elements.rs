@@ -37,20 +37,10 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
         }
     }
     let raw = scene.joints.last().map_or(0, |joint| joint.groups.end);
-    let (mut tsdas, mut lines) = (0, 0);
-    for (group, facts) in scene.model.groups[raw..].iter().zip(&groups[raw..]) {
-        let (kind, number, places) = if group.law == Law::PointOnLine {
-            lines += 1;
-            ("point_on_line", lines, &scene.places.points_on_lines)
-        } else {
-            tsdas += 1;
-            ("tsda", tsdas, &scene.places.tsdas)
-        };
-        let [a, b] = [group.a, group.b].map(|body| {
-            scene.body_names.get(body.row()).map_or(crate::assembly::WORLD, String::as_str)
-        });
-        let name = format!("{kind} {number} ({a}–{b})");
-        let line = places.get(number - 1).copied();
+    let mut lines = scene.places.tsdas.iter().chain(&scene.places.points_on_lines);
+    let rows = scene.model.groups[raw..].iter().zip(&groups[raw..]);
+    for ((group, facts), name) in rows.zip(&scene.raw_names) {
+        let line = lines.next().copied();
         let mut warn = |text: String| {
             let (name, severity) = (name.clone(), Severity::Warning);
             warnings.push(Warning { severity, name, line, text });

@@ -10,7 +10,8 @@ use crate::lint::{Severity, Warning, short};
 const ASKEW: f64 = 1e-3;
 
 pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
-    for (number, spring) in scene.model.torsions.iter().enumerate() {
+    let springs = scene.model.torsions.iter().take(scene.torsion_springs());
+    for (number, spring) in springs.enumerate() {
         let mut warn = |severity, text: String| {
             let name = scene.torsion_names.get(number).cloned().unwrap_or_default();
             let line = scene.places.torsion_springs.get(number).copied();

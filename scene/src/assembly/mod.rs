@@ -3,6 +3,10 @@
 //! `checked elements => kernel model` in double precision. World points become points of their
 //! bodies by `Rᵀ·(P − x)` with the very rotation that the kernel places them back with.
 
+mod driven;
+
+pub(crate) use driven::{Drive, NoAnchor};
+
 use std::collections::BTreeMap;
 
 use dbd_kernel::energy::each_extension;
@@ -31,12 +35,14 @@ pub(crate) struct Assembly {
 }
 
 /// Why an element does not fit the model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Defect {
     /// One more than the model can count.
     TooMany(&'static str),
     /// A derived number is beyond what a number can hold.
     OutOfRange,
+    /// A clearance as large as the free length \[m\] of its elements.
+    Clearance(f64),
 }
 
 impl Defect {
@@ -45,12 +51,19 @@ impl Defect {
         match self {
             Self::TooMany(what) => {
                 let problem = format!("is one too many: the model counts {what} in 16 bits");
-                table.refuse(&problem, format!("a scene has at most {LIMIT} {what}"))
+                let most = if what == "bodies" { BodyIndex::FIRST_ANCHOR.into() } else { LIMIT };
+                table.refuse(&problem, format!("a scene has at most {most} {what}"))
             }
             Self::OutOfRange => table.refuse(
                 "has points or lengths that double precision cannot hold",
                 "coordinates of at most 1e150 m, free lengths from 1e-150 to 1e150 m",
             ),
+            Self::Clearance(free_length) => {
+                let problem = format!("is not below the free length of {free_length:?} m");
+                let help = "a clearance is a small part of its joint: m, from 0 to below the \
+                            free length of the joint's elements";
+                table.refuse_value("clearance", &problem, help)
+            }
         }
     }
 }
@@ -164,6 +177,9 @@ impl Assembly {
         state: BodyState<F64>,
     ) -> Result<BodyIndex, Defect> {
         let row = index(self.model.bodies.len(), 1, "bodies")?;
+        if row >= BodyIndex::FIRST_ANCHOR {
+            return Err(Defect::TooMany("bodies"));
+        }
         self.model.bodies.push(body);
         self.model.initial.push(state);
         self.frames.push(F64::frame(&state.position, &state.orientation));
@@ -185,6 +201,9 @@ impl Assembly {
         }
         let count = points.elements();
         let element = index(self.model.tsdas.len(), count, "TSDAs")?;
+        if spring.clearance >= free_length {
+            return Err(Defect::Clearance(free_length));
+        }
         self.add_group(Law::Tsda, pair, points, element, spring)?;
         let tsda = Tsda::from_f64(spring.stiffness, free_length);
         self.model.tsdas.extend(std::iter::repeat_n(tsda, count));
@@ -217,6 +236,9 @@ impl Assembly {
         }
         let count = points.elements();
         let element = index(self.model.lines.len(), count, "points on lines")?;
+        if free_length > 0.0 && spring.clearance >= free_length {
+            return Err(Defect::Clearance(free_length));
+        }
         self.add_group(Law::PointOnLine, pair, points, element, spring)?;
         let line = PointOnLine::from_f64(direction.to_f64(), spring.stiffness, free_length);
         self.model.lines.extend(std::iter::repeat_n(line, count));
@@ -240,7 +262,7 @@ impl Assembly {
         let damper = self.add_dampers(spring.damping, points.elements())?;
         let (stars, arms) = (points.centres.len() as u8, points.arms() as u8);
         let (a, b, shared) = (pair.a, pair.b, points.shared);
-        let clearance = ClearanceIndex::NONE;
+        let clearance = self.add_clearance(spring.clearance)?;
         let group = Group { law, a, b, stars, arms, shared, point, element, damper, clearance };
         self.model.groups.push(group);
         self.model.points.extend(all().map(|p| F64::local_from_f64(p.to_f64())));
@@ -261,6 +283,16 @@ impl Assembly {
         let first = index(self.model.dampers.len(), count, "dampers")?;
         self.model.dampers.extend(std::iter::repeat_n(damping, count));
         Ok(DamperIndex(first))
+    }
+
+    /// One for all elements of a group; none where it is 0.
+    fn add_clearance(&mut self, clearance: f64) -> Result<ClearanceIndex, Defect> {
+        if clearance == 0.0 {
+            return Ok(ClearanceIndex::NONE);
+        }
+        let row = index(self.model.clearances.len(), 1, "clearances")?;
+        self.model.clearances.push(clearance);
+        Ok(ClearanceIndex(row))
     }
 
     /// Adds a torsion spring about the unit axis `axis_w` \[world\], fixed in the first body.

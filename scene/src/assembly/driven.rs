@@ -1,0 +1,128 @@
+//! Inputs and what read-outs need: parts of the model that name other parts.
+
+use dbd_kernel::inputs::{Input, InputIndex, InputKind, Knot};
+use dbd_kernel::{BodyIndex, F64, Vec3};
+
+use crate::assembly::{Assembly, Defect, index};
+use crate::hinge::Hinge;
+use crate::pair::Pair;
+use crate::spring::Spring;
+
+/// Axes closer than this (one less the cosine of their angle) are one axis.
+const SAME_AXIS: f64 = 1e-12;
+
+/// What drives an input.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Drive {
+    /// The caller; this value at first.
+    Caller(f64),
+    /// A table of (time \[s\], value).
+    Table {
+        /// Ascending in time, at least one.
+        knots: Vec<[f64; 2]>,
+        /// Straight lines between the knots instead of steps.
+        linear: bool,
+    },
+}
+
+/// Why a group cannot be an anchor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NoAnchor {
+    /// Neither of its ends is the world.
+    NoGround,
+    /// This input moves it already.
+    Taken(usize),
+    /// The input comes too late in the scene for its index.
+    TooLate,
+}
+
+impl Assembly {
+    /// The hinge between two bodies about the axis `axis_w` \[world\].
+    pub(crate) fn hinge(&self, pair: &Pair, axis_w: Vec3<f64>) -> Hinge {
+        Hinge { a: pair.a, b: pair.b, axis: self.vector_in(pair.a, axis_w) }
+    }
+
+    /// The hinge of a torsion spring.
+    pub(crate) fn torsion_hinge(&self, spring: usize) -> Option<Hinge> {
+        let spring = self.model.torsions.get(spring)?;
+        Some(Hinge { a: spring.a, b: spring.b, axis: spring.axis })
+    }
+
+    /// The torsion spring that counts a hinge's turns: one that is there, or a new one without
+    /// stiffness.
+    pub(crate) fn carrier(&mut self, hinge: &Hinge) -> Result<u16, Defect> {
+        let same = |axis: Vec3<f64>| 1.0 - axis.dot(hinge.axis) < SAME_AXIS;
+        let known = self
+            .model
+            .torsions
+            .iter()
+            .position(|spring| (spring.a, spring.b) == (hinge.a, hinge.b) && same(spring.axis));
+        let row = known.unwrap_or(self.model.torsions.len());
+        if known.is_none() {
+            let pair = Pair { a: hinge.a, b: hinge.b, names: Default::default() };
+            let spring = Spring { stiffness: 0.0, damping: 0.0, clearance: 0.0 };
+            let axis_w = self.direction_w(hinge.a, hinge.axis);
+            self.add_torsion_spring(&pair, axis_w, spring, 0.0)?;
+        }
+        index(row, 0, "torsion springs")
+    }
+
+    /// Torsion springs, those that only count turns included.
+    pub(crate) fn torsions(&self) -> usize {
+        self.model.torsions.len()
+    }
+
+    /// A vector of a body's axes in the world.
+    fn direction_w(&self, body: BodyIndex, vector_b: Vec3<f64>) -> Vec3<f64> {
+        match self.state(body) {
+            Some(state) => state.orientation.rotation().to_world(vector_b),
+            None => vector_b,
+        }
+    }
+
+    /// Lets the next input move the ground's points of a group.
+    pub(crate) fn anchor(&mut self, group: usize) -> Result<(), NoAnchor> {
+        let row = self.model.inputs.len();
+        if row >= usize::from(u16::MAX - BodyIndex::FIRST_ANCHOR) {
+            return Err(NoAnchor::TooLate);
+        }
+        let anchor = BodyIndex::anchor(InputIndex(row as u16));
+        let Some(group) = self.model.groups.get_mut(group) else { return Err(NoAnchor::NoGround) };
+        let ground = if group.a.is_world() { &mut group.a } else { &mut group.b };
+        match ground.anchor_row() {
+            Some(other) if other != row => Err(NoAnchor::Taken(other)),
+            _ if ground.is_world() => {
+                *ground = anchor;
+                Ok(())
+            }
+            _ => Err(NoAnchor::NoGround),
+        }
+    }
+
+    /// Adds an input.
+    pub(crate) fn add_input(
+        &mut self,
+        kind: InputKind<F64>,
+        drive: &Drive,
+    ) -> Result<InputIndex, Defect> {
+        let row = index(self.model.inputs.len(), 1, "inputs")?;
+        let (value, knot, knots) = match drive {
+            Drive::Caller(value) => (*value, 0, 0),
+            Drive::Table { knots, .. } => {
+                let first = index(self.model.knots.len(), knots.len(), "knots")?;
+                (0.0, first, knots.len() as u16)
+            }
+        };
+        if let Drive::Table { knots, linear } = drive {
+            for (i, [time, value]) in knots.iter().enumerate() {
+                let slope = match knots.get(i + 1) {
+                    Some([next, then]) if *linear => (then - value) / (next - time),
+                    _ => 0.0,
+                };
+                self.model.knots.push(Knot { time: *time, value: *value, slope });
+            }
+        }
+        self.model.inputs.push(Input { kind, value, knot, knots });
+        Ok(InputIndex(row))
+    }
+}

@@ -1,0 +1,90 @@
+//! Hinges: the axes about which joints turn, for torques and angles.
+
+use dbd_kernel::{BodyIndex, Vec3};
+
+use crate::JointInfo;
+use crate::assembly::Assembly;
+use crate::error::SceneError;
+use crate::pair::Pair;
+use crate::target::{ElementName, Elements, Kinds, Target};
+use crate::text::{Choice, Direction, Table};
+
+/// An axis about which one body turns in another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hinge {
+    /// The first body.
+    pub a: BodyIndex,
+    /// The second body; its turn about the axis, seen from the first, counts.
+    pub b: BodyIndex,
+    /// Unit axis in the first body's axes.
+    pub axis: Vec3<f64>,
+}
+
+/// The keys that name a hinge, besides `target`.
+pub(crate) const KEYS: &[&str] = &["target", "axis", "about"];
+
+/// What is known where inputs and read-outs are read.
+pub(crate) struct Known<'k> {
+    /// The model so far.
+    pub(crate) assembly: &'k mut Assembly,
+    /// Names of joints and other elements.
+    pub(crate) elements: &'k Elements,
+    /// The joints.
+    pub(crate) joints: &'k [JointInfo],
+}
+
+/// Reads `target`, a joint or a torsion spring, and what it needs: `axis` for a spherical joint,
+/// `about` for a universal one.
+pub(crate) fn read(table: &Table<'_>, known: &Known<'_>) -> Result<Hinge, SceneError> {
+    let name = ElementName { elements: known.elements, kinds: Kinds::TURNING };
+    let (name, target) = table.required("target", name)?;
+    let info = match target {
+        Target::Joint(joint) => known.joints.get(joint),
+        _ => None,
+    };
+    let Some(info) = info else {
+        let Target::TorsionSpring(spring) = target else {
+            return Err(rigid(table, &name, "element"));
+        };
+        refuse_keys(table, &["axis", "about"], "a torsion spring has its axis")?;
+        return known.assembly.torsion_hinge(spring).ok_or_else(|| rigid(table, &name, "spring"));
+    };
+    match (info.kind, &info.hinges[..]) {
+        (_, [hinge]) => {
+            refuse_keys(table, &["axis", "about"], &format!("a {} joint has its axis", info.kind))?;
+            Ok(*hinge)
+        }
+        (_, [first, second]) => {
+            refuse_keys(
+                table,
+                &["axis"],
+                "a universal joint has its axes; `about` is \"first\" or \"second\"",
+            )?;
+            let which = table.required("about", Choice(&["first", "second"]))?;
+            Ok(if which == 0 { *first } else { *second })
+        }
+        ("spherical", _) => {
+            refuse_keys(table, &["about"], "a spherical joint turns about any `axis`")?;
+            let axis = table.required("axis", Direction)?;
+            let group = known.assembly.groups().get(info.groups.start).copied();
+            let (a, b) = group.map_or((BodyIndex::WORLD, BodyIndex::WORLD), |g| (g.a, g.b));
+            let pair = Pair { a, b, names: info.between.clone() };
+            Ok(known.assembly.hinge(&pair, axis))
+        }
+        (kind, _) => Err(rigid(table, &name, &format!("{kind} joint"))),
+    }
+}
+
+fn rigid(table: &Table<'_>, name: &str, kind: &str) -> SceneError {
+    let problem = format!("names the {kind} `{name}`, which does not turn");
+    let help = "a revolute, cylindrical, universal or spherical joint, or a torsion spring";
+    table.refuse_value("target", &problem, help)
+}
+
+/// Refuses keys that this target does not need.
+fn refuse_keys(table: &Table<'_>, keys: &[&str], help: &str) -> Result<(), SceneError> {
+    match keys.iter().find(|key| table.has(key)) {
+        Some(key) => Err(table.refuse_key(key, "says nothing here", help)),
+        None => Ok(()),
+    }
+}

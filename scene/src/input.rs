@@ -1,0 +1,249 @@
+//! `[[input]]`: what a controller, a road or a table drives at run time.
+//!
+//! `table => input of the model`. A type is one row of [`TYPES`]: its keys and what it makes of
+//! them.
+
+use dbd_kernel::inputs::{InputIndex, InputKind};
+use dbd_kernel::{F64, Geometry, LoadFrame, Vec3};
+
+use crate::assembly::{Drive, NoAnchor};
+use crate::error::SceneError;
+use crate::hinge::{self, Known};
+use crate::names::Names;
+use crate::pair::BodyName;
+use crate::target::{ElementName, Kinds, Target};
+use crate::text::{Choice, Direction, Kind, Number, Numbers, Table, Value};
+
+/// What is said of an input.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InputInfo {
+    /// Its name.
+    pub name: String,
+    /// Its type as in the scene file, e.g. `joint_torque`.
+    pub kind: &'static str,
+    /// The unit of its value.
+    pub unit: &'static str,
+    /// Whether a table of the scene drives it; the caller does otherwise.
+    pub table: bool,
+    /// Its index in the model.
+    pub index: InputIndex,
+}
+
+struct InputType {
+    name: &'static str,
+    unit: &'static str,
+    keys: &'static [&'static str],
+    read: fn(&Table<'_>, &mut Known<'_>) -> Result<InputKind<F64>, SceneError>,
+}
+
+static TYPES: [InputType; 5] = [
+    InputType { name: "force", unit: "N", keys: &["body", "point", "axis", "frame"], read: force },
+    InputType { name: "torque", unit: "N·m", keys: &["body", "axis", "frame"], read: torque },
+    InputType { name: "joint_torque", unit: "N·m", keys: hinge::KEYS, read: joint_torque },
+    InputType { name: "actuator", unit: "N", keys: &["target"], read: actuator },
+    InputType { name: "anchor", unit: "m", keys: &["target", "axis"], read: anchor },
+];
+
+const KEYS: &[&str] = &["name", "type", "value", "table", "interpolate"];
+
+/// Reads all inputs in scene order.
+pub(crate) fn read_all(
+    root: &Table<'_>,
+    known: &mut Known<'_>,
+) -> Result<Vec<InputInfo>, SceneError> {
+    let mut names = Names::default();
+    let mut infos: Vec<InputInfo> = Vec::new();
+    for table in root.list("input")? {
+        let kind = kind(&table)?;
+        table.only(&[KEYS, kind.keys])?;
+        let name = names.read(&table, "input", ())?;
+        let made = (kind.read)(&table, known)?;
+        let drive = drive(&table, kind.unit)?;
+        let index =
+            known.assembly.add_input(made, &drive).map_err(|defect| defect.refuse(&table))?;
+        let table = matches!(drive, Drive::Table { .. });
+        infos.push(InputInfo { name, kind: kind.name, unit: kind.unit, table, index });
+    }
+    Ok(infos)
+}
+
+fn kind(table: &Table<'_>) -> Result<&'static InputType, SceneError> {
+    if !table.has("type") {
+        let mut keys = vec![KEYS];
+        keys.extend(TYPES.iter().map(|kind| kind.keys));
+        table.only(&keys)?;
+    }
+    let index = table.required("type", Choice(&TYPES.each_ref().map(|kind| kind.name)))?;
+    Ok(&TYPES[index])
+}
+
+fn force(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {
+    let body = BodyName { assembly: known.assembly, world: false };
+    let (_, body) = table.required("body", body)?;
+    let point = table.optional("point", Numbers(Number::any("m, body axes")))?.unwrap_or_default();
+    let direction = table.required("axis", Direction)?;
+    Ok(InputKind::Force {
+        body,
+        point: F64::local_from_f64(point),
+        direction,
+        frame: frame(table)?,
+    })
+}
+
+fn torque(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {
+    let body = BodyName { assembly: known.assembly, world: false };
+    let (_, body) = table.required("body", body)?;
+    let axis = table.required("axis", Direction)?;
+    Ok(InputKind::Torque { body, axis, frame: frame(table)? })
+}
+
+fn frame(table: &Table<'_>) -> Result<LoadFrame, SceneError> {
+    Ok(match table.optional("frame", Choice(&["world", "body"]))? {
+        Some(1) => LoadFrame::Body,
+        _ => LoadFrame::World,
+    })
+}
+
+fn joint_torque(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {
+    let hinge = hinge::read(table, known)?;
+    Ok(InputKind::JointTorque { a: hinge.a, b: hinge.b, axis: hinge.axis })
+}
+
+fn actuator(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {
+    let name = ElementName { elements: known.elements, kinds: Kinds::TSDA };
+    let (name, target) = table.required("target", name)?;
+    let group = match target {
+        Target::Tsda(group) => group,
+        _ => usize::MAX,
+    };
+    let directed =
+        known.assembly.groups().get(group).is_some_and(|g| known.assembly.free_length(g) > 0.0);
+    if !directed {
+        let problem = format!("names the tsda `{name}`, which has no free length and no direction");
+        let help = "an actuator pulls along a tsda with `free_length` > 0";
+        return Err(table.refuse_value("target", &problem, help));
+    }
+    Ok(InputKind::Actuator { group: group as u16, element: 0 })
+}
+
+fn anchor(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {
+    let direction: Vec3<f64> = table.required("axis", Direction)?;
+    let Some(value) = table.value("target") else {
+        return Err(table.missing("target", &Targets(known).expected()));
+    };
+    for (name, target) in Targets(known).read(&value)? {
+        let groups = match target {
+            Target::Joint(joint) => {
+                known.joints.get(joint).map_or(0..0, |info| info.groups.clone())
+            }
+            Target::Tsda(group) | Target::PointOnLine(group) => group..group + 1,
+            Target::TorsionSpring(_) => 0..0,
+        };
+        let mut moved = Err(NoAnchor::NoGround);
+        for group in groups {
+            // A universal joint stands on the ground with one of its two groups.
+            match known.assembly.anchor(group) {
+                Err(NoAnchor::NoGround) => {}
+                other => moved = other,
+            }
+        }
+        moved.map_err(|why| no_anchor(&value, &name, why))?;
+    }
+    Ok(InputKind::Anchor { direction })
+}
+
+fn no_anchor(value: &Value<'_>, name: &str, why: NoAnchor) -> SceneError {
+    let (problem, help) = match why {
+        NoAnchor::NoGround => (
+            format!("names `{name}`, which is not joined to the world"),
+            "an anchor moves the ground's points of an element: one of its bodies is \"world\""
+                .into(),
+        ),
+        NoAnchor::Taken(input) => (
+            format!("names `{name}`, which input {} moves already", input + 1),
+            "one input moves an element; give another `axis` to that input".into(),
+        ),
+        NoAnchor::TooLate => (
+            "comes after 255 other inputs".into(),
+            String::from("anchors are among the first 255 inputs of a scene"),
+        ),
+    };
+    value.refuse_with(&problem, help)
+}
+
+/// One name of what pulls at points, or an array of them.
+struct Targets<'k, 'a>(&'k Known<'a>);
+
+impl Kind for Targets<'_, '_> {
+    type Output = Vec<(String, Target)>;
+
+    fn expected(&self) -> String {
+        "the name of a joint, a tsda or a point_on_line, or an array of such names".into()
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<Self::Output, SceneError> {
+        let name = ElementName { elements: self.0.elements, kinds: Kinds::PULLING };
+        if value.get().as_str().is_some() {
+            return Ok(vec![name.read(value)?]);
+        }
+        let entries = value.array(&self.expected())?;
+        if entries.is_empty() {
+            return Err(value.refuse("is empty", &self.expected()));
+        }
+        entries.iter().map(|entry| name.read(entry)).collect()
+    }
+}
+
+fn drive(table: &Table<'_>, unit: &'static str) -> Result<Drive, SceneError> {
+    let value = table.optional("value", Number::any(unit))?;
+    let knots = table.optional("table", Knots { unit })?;
+    let interpolate = table.optional("interpolate", Choice(&["held", "linear"]))?;
+    match (value, knots) {
+        (Some(_), Some(_)) => {
+            let help = "a `table` for an input that the scene drives, a `value` for one that holds \
+                        until the caller sets it";
+            Err(table.refuse_key("value", "contradicts `table`", help))
+        }
+        (value, None) if interpolate.is_none() => Ok(Drive::Caller(value.unwrap_or(0.0))),
+        (_, None) => {
+            let help = "`interpolate` says how a `table` goes on between its times";
+            Err(table.refuse_key("interpolate", "stands without `table`", help))
+        }
+        (None, Some(knots)) => Ok(Drive::Table { knots, linear: interpolate == Some(1) }),
+    }
+}
+
+/// Pairs of time and value, ascending in time.
+struct Knots {
+    unit: &'static str,
+}
+
+impl Kind for Knots {
+    type Output = Vec<[f64; 2]>;
+
+    fn expected(&self) -> String {
+        format!("an array of [time in s, value in {}], ascending in time", self.unit)
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<Vec<[f64; 2]>, SceneError> {
+        let mut knots: Vec<[f64; 2]> = Vec::new();
+        for entry in value.array(&self.expected())? {
+            let knot = Numbers(Number::any("")).read(&entry)?;
+            if let Some([last, before]) = knots.last() {
+                if knot[0] <= *last {
+                    let problem = format!("is at {:?} s, not after {last:?} s", knot[0]);
+                    return Err(entry.refuse_with(&problem, "times ascend from knot to knot"));
+                }
+                if !((knot[1] - before) / (knot[0] - last)).is_finite() {
+                    let problem = "rises faster than a number can say";
+                    return Err(entry.refuse_with(problem, "a smaller value, or a later time"));
+                }
+            }
+            knots.push(knot);
+        }
+        if knots.is_empty() {
+            return Err(value.refuse("is empty", &self.expected()));
+        }
+        Ok(knots)
+    }
+}

@@ -1,0 +1,214 @@
+//! `[[readout]]`: what a plant's sensors see.
+//!
+//! `table => read-out of the kernel`. Read-outs are no part of the model, but for an angle or its
+//! rate: where no torsion spring turns about the same axis, one without stiffness is added to
+//! count the turns.
+
+use dbd_kernel::readouts::Readout;
+use dbd_kernel::{F64, Geometry, Vec3};
+
+use crate::InputInfo;
+use crate::error::SceneError;
+use crate::hinge::{self, Known};
+use crate::names::Names;
+use crate::nearest::nearest;
+use crate::pair::BodyName;
+use crate::target::{ElementName, Kinds, Target};
+use crate::text::{Choice, Number, Numbers, Table, Text};
+
+/// A read-out of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReadoutInfo {
+    /// Its name.
+    pub name: String,
+    /// Its type as in the scene file, e.g. `joint_angle`.
+    pub kind: &'static str,
+    /// The quantities it shows, in order: what follows its name, `""` or `".x"`, and the unit.
+    pub columns: Vec<(&'static str, &'static str)>,
+    /// What the kernel reads, in double precision.
+    pub readout: Readout<F64>,
+}
+
+type Read = fn(&Table<'_>, &mut Known<'_>, &[InputInfo]) -> Result<Readout<F64>, SceneError>;
+
+struct ReadoutType {
+    name: &'static str,
+    columns: Columns,
+    keys: &'static [&'static str],
+    read: Read,
+}
+
+/// The quantities of a type.
+enum Columns {
+    /// A number in a unit.
+    Scalar(&'static str),
+    /// x, y, z in a unit.
+    Vector(&'static str),
+    /// Specific force and angular rate.
+    Imu,
+    /// A number in the unit of the input that is shown.
+    Input,
+}
+
+static TYPES: [ReadoutType; 8] = [
+    ReadoutType {
+        name: "joint_angle",
+        columns: Columns::Scalar("rad"),
+        keys: hinge::KEYS,
+        read: |table, known, _| Ok(Readout::JointAngle { spring: spring(table, known)? }),
+    },
+    ReadoutType {
+        name: "joint_rate",
+        columns: Columns::Scalar("rad/s"),
+        keys: hinge::KEYS,
+        read: |table, known, _| Ok(Readout::JointRate { spring: spring(table, known)? }),
+    },
+    ReadoutType {
+        name: "point",
+        columns: Columns::Vector("m"),
+        keys: &["body", "point"],
+        read: |table, known, _| {
+            let (body, point) = point(table, known)?;
+            Ok(Readout::Point { body, point })
+        },
+    },
+    ReadoutType {
+        name: "point_velocity",
+        columns: Columns::Vector("m/s"),
+        keys: &["body", "point"],
+        read: |table, known, _| {
+            let (body, point) = point(table, known)?;
+            Ok(Readout::PointVelocity { body, point })
+        },
+    },
+    ReadoutType {
+        name: "tsda_force",
+        columns: Columns::Scalar("N"),
+        keys: &["target"],
+        read: |table, known, _| tsda_force(table, known),
+    },
+    ReadoutType {
+        name: "joint_force",
+        columns: Columns::Vector("N"),
+        keys: &["target"],
+        read: |table, known, _| joint_force(table, known),
+    },
+    ReadoutType {
+        name: "imu",
+        columns: Columns::Imu,
+        keys: &["body", "point"],
+        read: |table, known, _| {
+            let (body, point) = point(table, known)?;
+            Ok(Readout::Imu { body, point })
+        },
+    },
+    ReadoutType {
+        name: "input",
+        columns: Columns::Input,
+        keys: &["target"],
+        read: |table, _, inputs| Ok(Readout::Input { input: input(table, inputs)?.index }),
+    },
+];
+
+const KEYS: &[&str] = &["name", "type"];
+
+/// Reads all read-outs in scene order, and names the torsion springs that were added for them.
+pub(crate) fn read_all(
+    root: &Table<'_>,
+    known: &mut Known<'_>,
+    inputs: &[InputInfo],
+    torsion_names: &mut Vec<String>,
+) -> Result<Vec<ReadoutInfo>, SceneError> {
+    let mut names = Names::default();
+    let mut infos = Vec::new();
+    for table in root.list("readout")? {
+        let kind = kind(&table)?;
+        table.only(&[KEYS, kind.keys])?;
+        let name = names.read(&table, "readout", ())?;
+        let readout = (kind.read)(&table, known, inputs)?;
+        while torsion_names.len() < known.assembly.torsions() {
+            torsion_names.push(table.label().to_owned());
+        }
+        let columns = match kind.columns {
+            Columns::Scalar(unit) => vec![("", unit)],
+            Columns::Vector(unit) => [".x", ".y", ".z"].map(|column| (column, unit)).to_vec(),
+            Columns::Imu => {
+                let forces = [".ax", ".ay", ".az"].map(|column| (column, "m/s²"));
+                let rates = [".wx", ".wy", ".wz"].map(|column| (column, "rad/s"));
+                [forces, rates].concat()
+            }
+            Columns::Input => vec![("", input(&table, inputs)?.unit)],
+        };
+        infos.push(ReadoutInfo { name, kind: kind.name, columns, readout });
+    }
+    Ok(infos)
+}
+
+fn kind(table: &Table<'_>) -> Result<&'static ReadoutType, SceneError> {
+    if !table.has("type") {
+        let mut keys = vec![KEYS];
+        keys.extend(TYPES.iter().map(|kind| kind.keys));
+        table.only(&keys)?;
+    }
+    let index = table.required("type", Choice(&TYPES.each_ref().map(|kind| kind.name)))?;
+    Ok(&TYPES[index])
+}
+
+/// The torsion spring about the axis of `target`.
+fn spring(table: &Table<'_>, known: &mut Known<'_>) -> Result<u16, SceneError> {
+    let hinge = hinge::read(table, known)?;
+    known.assembly.carrier(&hinge).map_err(|defect| defect.refuse(table))
+}
+
+fn point(
+    table: &Table<'_>,
+    known: &Known<'_>,
+) -> Result<(dbd_kernel::BodyIndex, Vec3<f64>), SceneError> {
+    let body = BodyName { assembly: known.assembly, world: false };
+    let (_, body) = table.required("body", body)?;
+    let point = table.optional("point", Numbers(Number::any("m, body axes")))?.unwrap_or_default();
+    Ok((body, F64::local_from_f64(point)))
+}
+
+fn tsda_force(table: &Table<'_>, known: &Known<'_>) -> Result<Readout<F64>, SceneError> {
+    let name = ElementName { elements: known.elements, kinds: Kinds::TSDA };
+    let (name, target) = table.required("target", name)?;
+    let group = group_of(target, known);
+    let directed =
+        known.assembly.groups().get(group).is_some_and(|g| known.assembly.free_length(g) > 0.0);
+    if !directed {
+        let problem = format!("names the tsda `{name}`, which has no free length and no direction");
+        let help = "a tsda with `free_length` > 0; `type = \"joint_force\"` shows the force of one \
+                    without as a vector";
+        return Err(table.refuse_value("target", &problem, help));
+    }
+    Ok(Readout::TsdaForce { group: group as u16, element: 0 })
+}
+
+fn joint_force(table: &Table<'_>, known: &Known<'_>) -> Result<Readout<F64>, SceneError> {
+    let name = ElementName { elements: known.elements, kinds: Kinds::PULLING };
+    let (_, target) = table.required("target", name)?;
+    Ok(Readout::JointForce { group: group_of(target, known) as u16 })
+}
+
+/// The group of an element; of a joint the last, which acts on its second body.
+fn group_of(target: Target, known: &Known<'_>) -> usize {
+    match target {
+        Target::Joint(joint) => {
+            known.joints.get(joint).map_or(0, |info| info.groups.end.saturating_sub(1))
+        }
+        Target::Tsda(group) | Target::PointOnLine(group) => group,
+        Target::TorsionSpring(_) => usize::MAX,
+    }
+}
+
+fn input<'i>(table: &Table<'_>, inputs: &'i [InputInfo]) -> Result<&'i InputInfo, SceneError> {
+    let name = table.required("target", Text::Name)?;
+    inputs.iter().find(|input| input.name == name).ok_or_else(|| {
+        let help = match nearest(&name, inputs.iter().map(|input| input.name.as_str())) {
+            Some(meant) => format!("did you mean \"{meant}\"?"),
+            None => "it must be the name of an input".into(),
+        };
+        table.refuse_value("target", &format!("names no input: \"{name}\""), help)
+    })
+}

@@ -1,0 +1,94 @@
+//! What inputs and read-outs act on: joints and other elements by their names.
+
+use crate::error::SceneError;
+use crate::names::Names;
+use crate::nearest::nearest;
+use crate::text::{Kind, Value};
+
+/// The names of joints, raw TSDAs, points on lines and torsion springs: no two are alike.
+pub(crate) type Elements = Names<Target>;
+
+/// A named element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Target {
+    /// A joint by its row.
+    Joint(usize),
+    /// A raw TSDA by its group.
+    Tsda(usize),
+    /// A point on a line by its group.
+    PointOnLine(usize),
+    /// A torsion spring by its row.
+    TorsionSpring(usize),
+}
+
+/// Kinds of element that will do.
+#[derive(Clone, Copy)]
+pub(crate) struct Kinds {
+    suits: fn(&Target) -> bool,
+    /// `a joint or …`.
+    expected: &'static str,
+}
+
+impl Kinds {
+    /// What turns about an axis.
+    pub(crate) const TURNING: Self = Self {
+        suits: |target| matches!(target, Target::Joint(_) | Target::TorsionSpring(_)),
+        expected: "the name of a joint or of a torsion_spring",
+    };
+    /// A TSDA.
+    pub(crate) const TSDA: Self =
+        Self { suits: |target| matches!(target, Target::Tsda(_)), expected: "the name of a tsda" };
+    /// What pulls at points.
+    pub(crate) const PULLING: Self = Self {
+        suits: |target| !matches!(target, Target::TorsionSpring(_)),
+        expected: "the name of a joint, a tsda or a point_on_line",
+    };
+}
+
+/// The name of an element of some kinds.
+#[derive(Clone, Copy)]
+pub(crate) struct ElementName<'e> {
+    pub(crate) elements: &'e Elements,
+    pub(crate) kinds: Kinds,
+}
+
+impl Kind for ElementName<'_> {
+    type Output = (String, Target);
+
+    fn expected(&self) -> String {
+        self.kinds.expected.into()
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<Self::Output, SceneError> {
+        let name = value.get().as_str().ok_or_else(|| value.wrong_type(&self.expected()))?;
+        match self.elements.get(name) {
+            Some(target) if (self.kinds.suits)(target) => Ok((name.to_owned(), *target)),
+            Some(target) => {
+                let kind = match target {
+                    Target::Joint(_) => "joint",
+                    Target::Tsda(_) => "tsda",
+                    Target::PointOnLine(_) => "point_on_line",
+                    Target::TorsionSpring(_) => "torsion_spring",
+                };
+                let problem = format!("names the {kind} \"{name}\"");
+                Err(value.refuse(&problem, &self.expected()))
+            }
+            None => Err(value.refuse_with(&format!("names nothing: \"{name}\""), self.help(name))),
+        }
+    }
+}
+
+impl ElementName<'_> {
+    fn help(&self, name: &str) -> String {
+        let suits = |(_, target): &(&str, &Target)| (self.kinds.suits)(target);
+        let known: Vec<_> = self.elements.iter().filter(suits).map(|(name, _)| name).collect();
+        let expected = self.expected();
+        match nearest(name, known.iter().copied()) {
+            Some(meant) => format!("did you mean \"{meant}\"? it must be {expected}"),
+            None if known.is_empty() => {
+                format!("it must be {expected}; the scene has none with a name")
+            }
+            None => format!("it must be {expected}: \"{}\"", known.join("\", \"")),
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! Inputs, read-outs, clearances and names of elements: what a scene file makes of them.
+
+use dbd_kernel::inputs::{InputIndex, InputKind};
+use dbd_kernel::readouts::Readout;
+use dbd_kernel::{BodyIndex, LoadFrame, Vec3};
+use dbd_scene::Scene;
+
+const BODIES: &str = r#"
+name = "driven"
+duration = 1
+[[body]]
+name = "arm"
+mass = 1
+inertia = [0.01, 0.01, 0.01]
+position = [0.5, 0, 0]
+orientation = { axis = [0, 0, 1], angle = 1.5707963267948966 }
+[[body]]
+name = "hand"
+mass = 1
+inertia = [0.01, 0.01, 0.01]
+position = [1.5, 0, 0]
+[[joint]]
+name = "elbow"
+type = "revolute"
+between = ["arm", "hand"]
+at = [1, 0, 0]
+axis = [0, 2, 0]
+stiffness = 1e5
+span = 0.1
+clearance = 1e-4
+[[joint]]
+name = "ball"
+type = "spherical"
+between = ["world", "arm"]
+at = [0, 0, 0]
+stiffness = 1e5
+arm = 0.1
+[[joint]]
+name = "cross"
+type = "universal"
+between = ["arm", "world"]
+at = [0, 1, 0]
+axes = [[1, 0, 0], [0, 0, 1]]
+spider = { mass = 0.1, inertia = [1e-4, 1e-4, 1e-4] }
+stiffness = 1e5
+span = 0.1
+[[tsda]]
+name = "cord"
+between = ["hand", "world"]
+points = [[0, 0, 0], [1.5, 1, 0]]
+stiffness = 10
+free_length = 0.5
+[[point_on_line]]
+name = "rail"
+between = ["world", "hand"]
+line_point = [0, 0, 1]
+line_direction = [1, 0, 0]
+point = [0, 0, 0]
+stiffness = 5
+free_length = 0
+clearance = 0.02
+[[torsion_spring]]
+name = "coil"
+between = ["arm", "hand"]
+axis = [0, 1, 0]
+stiffness = 2
+"#;
+
+fn scene(driven: &str) -> Scene {
+    let text = format!("{BODIES}{driven}");
+    Scene::parse(&text, "driven.toml").unwrap_or_else(|e| panic!("{} ({})", e.message(), e.help()))
+}
+
+fn input(name: &str, keys: &str) -> String {
+    format!("[[input]]\nname = \"{name}\"\n{keys}\n")
+}
+
+fn readout(name: &str, keys: &str) -> String {
+    format!("[[readout]]\nname = \"{name}\"\n{keys}\n")
+}
+
+fn near(a: Vec3<f64>, b: [f64; 3]) {
+    let d = a - Vec3::from_f64(b);
+    assert!(d.dot(d) < 1e-28, "{a:?} {b:?}");
+}
+
+#[test]
+fn inputs_become_what_their_types_say() {
+    let scene = scene(
+        &[
+            input("f", "type = \"force\"\nbody = \"hand\"\npoint = [0, 0, 3]\naxis = [0, 5, 0]"),
+            input("t", "type = \"torque\"\nbody = \"arm\"\naxis = [0, 0, 1]\nframe = \"body\""),
+            input("j", "type = \"joint_torque\"\ntarget = \"elbow\"\nvalue = 3"),
+            input("a", "type = \"actuator\"\ntarget = \"cord\""),
+            input("b", "type = \"joint_torque\"\ntarget = \"ball\"\naxis = [0, 0, 4]"),
+            input("c", "type = \"joint_torque\"\ntarget = \"cross\"\nabout = \"second\""),
+            input("s", "type = \"joint_torque\"\ntarget = \"coil\""),
+        ]
+        .concat(),
+    );
+    let inputs = &scene.model.inputs;
+    assert_eq!(
+        inputs[0].kind,
+        InputKind::Force {
+            body: BodyIndex(1),
+            point: Vec3::new(0.0, 0.0, 3.0),
+            direction: Vec3::new(0.0, 1.0, 0.0),
+            frame: LoadFrame::World
+        }
+    );
+    let axis = Vec3::new(0.0, 0.0, 1.0);
+    assert_eq!(
+        inputs[1].kind,
+        InputKind::Torque { body: BodyIndex(0), axis, frame: LoadFrame::Body }
+    );
+    // The arm is turned by a quarter about z: the world's y is its x.
+    let InputKind::JointTorque { a, b, axis } = inputs[2].kind else { panic!("a joint's torque") };
+    assert_eq!((a, b, inputs[2].value), (BodyIndex(0), BodyIndex(1), 3.0));
+    near(axis, [1.0, 0.0, 0.0]);
+    // The groups are the elbow, the ball, two of the cross, the cord and the rail.
+    assert_eq!(inputs[3].kind, InputKind::Actuator { group: 4, element: 0 });
+    let InputKind::JointTorque { a, b, axis } = inputs[4].kind else { panic!("a ball's torque") };
+    assert_eq!((a, b), (BodyIndex::WORLD, BodyIndex(0)));
+    near(axis, [0.0, 0.0, 1.0]);
+    // The spider's axes are the two axes and their product.
+    let InputKind::JointTorque { a, b, axis } = inputs[5].kind else { panic!("a cross' torque") };
+    assert_eq!((a, b), (BodyIndex(2), BodyIndex::WORLD));
+    near(axis, [0.0, 1.0, 0.0]);
+    let InputKind::JointTorque { axis, .. } = inputs[6].kind else { panic!("a coil's torque") };
+    near(axis, [1.0, 0.0, 0.0]);
+    let infos: Vec<_> = scene.inputs.iter().map(|i| (i.kind, i.unit, i.table)).collect();
+    assert_eq!(infos[..2], [("force", "N", false), ("torque", "N·m", false)]);
+}
+
+#[test]
+fn tables_become_knots_with_slopes() {
+    let table = "type = \"actuator\"\ntarget = \"cord\"\ntable = [[0, 1], [0.5, 2], [1.5, 0]]";
+    let linear = format!("{table}\ninterpolate = \"linear\"");
+    let scene = scene(&(input("held", table) + &input("linear", &linear)));
+    let knots: Vec<_> = scene.model.knots.iter().map(|k| (k.time, k.value, k.slope)).collect();
+    assert_eq!(knots[..3], [(0.0, 1.0, 0.0), (0.5, 2.0, 0.0), (1.5, 0.0, 0.0)]);
+    assert_eq!(knots[3..], [(0.0, 1.0, 2.0), (0.5, 2.0, -2.0), (1.5, 0.0, 0.0)]);
+    assert_eq!((scene.model.inputs[1].knot, scene.model.inputs[1].knots), (3, 3));
+    assert!(scene.inputs[0].table);
+}
+
+#[test]
+fn an_anchor_moves_the_grounds_end_of_its_elements() {
+    let road = "type = \"anchor\"\ntarget = [\"cord\", \"ball\", \"cross\"]\naxis = [0, 0, 2]";
+    let scene =
+        scene(&(input("first", "type = \"actuator\"\ntarget = \"cord\"") + &input("road", road)));
+    let anchor = BodyIndex::anchor(InputIndex(1));
+    let groups: Vec<_> = scene.model.groups.iter().map(|group| (group.a, group.b)).collect();
+    let [arm, hand, spider] = [0, 1, 2].map(BodyIndex);
+    assert_eq!(
+        groups,
+        [
+            (arm, hand),
+            (anchor, arm),
+            (arm, spider),
+            (spider, anchor),
+            (hand, anchor),
+            (BodyIndex::WORLD, hand)
+        ]
+    );
+    assert_eq!(
+        scene.model.inputs[1].kind,
+        InputKind::Anchor { direction: Vec3::new(0.0, 0.0, 1.0) }
+    );
+    let twice = input("a", "type = \"anchor\"\ntarget = \"cord\"\naxis = [0, 0, 1]")
+        + &input("b", "type = \"anchor\"\ntarget = \"cord\"\naxis = [0, 1, 0]");
+    let error = Scene::parse(&format!("{BODIES}{twice}"), "twice.toml").unwrap_err();
+    assert!(error.message().contains("which input 1 moves already"), "{}", error.message());
+}
+
+#[test]
+fn an_angle_is_counted_by_a_torsion_spring_that_is_there_or_added() {
+    let scene = scene(
+        &[
+            readout("coil", "type = \"joint_rate\"\ntarget = \"coil\""),
+            readout("elbow", "type = \"joint_angle\"\ntarget = \"elbow\""),
+            readout("ball", "type = \"joint_angle\"\ntarget = \"ball\"\naxis = [0, 0, 1]"),
+            readout("rate", "type = \"joint_rate\"\ntarget = \"ball\"\naxis = [0, 0, 1]"),
+        ]
+        .concat(),
+    );
+    let springs = scene.readouts.iter().map(|info| match info.readout {
+        Readout::JointAngle { spring } | Readout::JointRate { spring } => spring,
+        other => panic!("{other:?}"),
+    });
+    assert_eq!(springs.collect::<Vec<_>>(), [0, 0, 1, 1]);
+    assert_eq!((scene.torsion_springs(), scene.model.torsions.len()), (1, 2));
+    assert_eq!(scene.torsion_names, ["torsion_spring `coil` (arm–hand)", "readout `ball`"]);
+    let added = &scene.model.torsions[1];
+    assert_eq!((added.stiffness, added.preload, added.damper.row()), (0.0, 0.0, None));
+    // What only counts is not warned of.
+    let about = |name: &str| scene.warnings().iter().any(|warning| warning.name.contains(name));
+    assert!(!about("readout"));
+}
+
+#[test]
+fn read_outs_become_what_their_types_say() {
+    let scene = scene(
+        &[
+            input("i", "type = \"actuator\"\ntarget = \"cord\""),
+            readout("p", "type = \"point\"\nbody = \"hand\"\npoint = [1, 2, 3]"),
+            readout("v", "type = \"point_velocity\"\nbody = \"arm\""),
+            readout("t", "type = \"tsda_force\"\ntarget = \"cord\""),
+            readout("f", "type = \"joint_force\"\ntarget = \"cross\""),
+            readout("m", "type = \"imu\"\nbody = \"arm\""),
+            readout("s", "type = \"input\"\ntarget = \"i\""),
+        ]
+        .concat(),
+    );
+    let readouts: Vec<_> = scene.readouts.iter().map(|info| info.readout).collect();
+    let point = Vec3::new(1.0, 2.0, 3.0);
+    assert_eq!(
+        readouts,
+        [
+            Readout::Point { body: BodyIndex(1), point },
+            Readout::PointVelocity { body: BodyIndex(0), point: Vec3::ZERO },
+            Readout::TsdaForce { group: 4, element: 0 },
+            Readout::JointForce { group: 3 },
+            Readout::Imu { body: BodyIndex(0), point: Vec3::ZERO },
+            Readout::Input { input: InputIndex(0) },
+        ]
+    );
+    let units: Vec<_> = scene.readouts.iter().map(|info| info.columns[0]).collect();
+    assert_eq!(
+        units,
+        [(".x", "m"), (".x", "m/s"), ("", "N"), (".x", "N"), (".ax", "m/s²"), ("", "N")]
+    );
+    assert_eq!(scene.readouts[4].columns.len(), 6);
+}
+
+#[test]
+fn clearances_are_the_groups_that_name_them() {
+    let scene = scene("");
+    let rows: Vec<_> = scene.model.groups.iter().map(|group| group.clearance.row()).collect();
+    assert_eq!(rows, [Some(0), None, None, None, None, Some(1)]);
+    assert_eq!(scene.model.clearances, [1e-4, 0.02]);
+}
+
+#[test]
+fn names_are_looked_up_and_the_nearest_is_offered() {
+    let scene = scene(
+        &(input("drive", "type = \"actuator\"\ntarget = \"cord\"")
+            + &readout("angle", "type = \"joint_angle\"\ntarget = \"elbow\"")),
+    );
+    assert_eq!(scene.input("drive"), Ok(InputIndex(0)));
+    assert_eq!(scene.readout("angle"), Ok(Readout::JointAngle { spring: 0 }));
+    assert_eq!(
+        scene.input("drvie").unwrap_err().to_string(),
+        "the scene `driven` has no input `drvie`; did you mean `drive`?"
+    );
+    assert_eq!(
+        scene.readout("speed").unwrap_err().to_string(),
+        "the scene `driven` has no readout `speed`"
+    );
+}
