@@ -5,13 +5,16 @@
 //! `(j_a·x_a + j_b·x_b)² ≤ 2·(j_a·x_a)² + 2·(j_b·x_b)²`, so `ω² ≤ max_b λ_max(Σ φ·κ·j·jᵀ)` with
 //! φ = 2, or 1 where the other end is the world (Feingold & Varga 1962). A spring under the
 //! tension T adds |T|/L along both normals of its line and |T|·|r| on each body's rotation.
+//! A clearance counts as taken up, an actuator's pull as a tension. Loads and other inputs, whose
+//! share of the stiffness is that of a weight and not of a spring, are left out.
 //! The estimate is power iteration on differences of forces, one pair of evaluations each.
 //! Both speak for the pose, not for the future.
 
 use crate::energy::twist_of;
 use crate::forces::{self, Wrench};
 use crate::geometry::{FrameOf, Geometry, RealOf};
-use crate::groups::{Places, each_element, place_bodies};
+use crate::groups::{Places, each_element, place_bodies, placed};
+use crate::inputs::InputKind;
 use crate::model::{Body, BodyIndex, Law, ModelOwner};
 use crate::real::Real;
 use crate::rotation;
@@ -105,6 +108,25 @@ pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
                 }
             }
         });
+        for (input, signal) in view.inputs.iter().zip(state.signals.as_ref()) {
+            let InputKind::Actuator { group, element } = input.kind else { continue };
+            let row = group as usize;
+            let group = view.groups.get(row);
+            let element = group.and_then(|g| placed(&view, places, (row, g), element as usize));
+            let Some(e) = element else { continue };
+            for (body, other, arm) in
+                [(e.group.a, e.group.b, e.arm_a), (e.group.b, e.group.a, e.arm_b)]
+            {
+                if body == here {
+                    let (d, tension) = (e.displacement, signal.value.abs());
+                    let inverse = d.dot(d).sqrt().reciprocal_or_zero();
+                    for n in (d * inverse).normals() {
+                        add(tension * inverse, other, n, arm.cross(n));
+                    }
+                    turning = turning + tension * arm.dot(arm).sqrt();
+                }
+            }
+        }
         for (spring, &turns) in view.torsions.iter().zip(state.turns.as_ref()) {
             let other = if spring.a == here {
                 spring.b

@@ -9,6 +9,7 @@
 //! - [`truth`], [`trajectory`]: DOP853 with a second opinion; the error of any run against it.
 //! - [`window`]: how long a trajectory can be told from a perturbed one.
 //! - [`implicit`]: linearly implicit Euler with a sparse solve, [`ordering`] its elimination.
+//! - [`spectrum`]: all eigenfrequencies of a pose.
 
 pub mod driven;
 pub mod elements;
@@ -18,11 +19,13 @@ pub mod mechanism;
 pub mod naive;
 pub mod ordering;
 pub mod signals;
+pub mod spectrum;
 pub mod state;
 pub mod trajectory;
 pub mod truth;
 pub mod window;
 
 pub use mechanism::Mechanism;
+pub use spectrum::eigenfrequencies;
 pub use state::State;
 pub use trajectory::Trajectory;
