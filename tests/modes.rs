@@ -39,29 +39,33 @@ fn moved(state: &State<SceneModel<F64>>, freedom: usize, by: f64) -> State<Scene
     state
 }
 
-/// `M⁻½·K·M⁻½` \[1/s²\] and its asymmetry.
-///
-/// # Panics
-/// Where a twist is undefined.
-#[must_use]
-pub fn scaled_stiffness(
-    model: &SceneModel<F64>,
-    state: &State<SceneModel<F64>>,
-) -> (DMatrix<f64>, f64) {
-    let roots: Vec<f64> = model
+/// 1/√m and 1/√I of every freedom.
+fn roots(model: &SceneModel<F64>) -> Vec<f64> {
+    let inertias = model
         .bodies
         .iter()
-        .flat_map(|b| [b.mass, b.mass, b.mass, b.inertia.x, b.inertia.y, b.inertia.z])
-        .map(|m| 1.0 / m.sqrt())
-        .collect();
+        .flat_map(|b| [b.mass, b.mass, b.mass, b.inertia.x, b.inertia.y, b.inertia.z]);
+    inertias.map(|m| 1.0 / m.sqrt()).collect()
+}
+
+/// The state without velocities.
+fn at_rest(state: &State<SceneModel<F64>>) -> State<SceneModel<F64>> {
     let mut rest = state.clone();
     for body in &mut rest.bodies {
         (body.velocity, body.angular_velocity) = (Vec3::ZERO, Vec3::ZERO);
     }
-    let n = roots.len();
-    let mut matrix = DMatrix::zeros(n, n);
-    for column in 0..n {
-        let at = |by: f64| wrenches(model, &moved(&rest, column, by), 1e-3).unwrap();
+    rest
+}
+
+/// How the mass-scaled wrenches answer, with the sign of a stiffness, to `probe(freedom, ±1e-6)`.
+fn scaled(
+    model: &SceneModel<F64>,
+    probe: impl Fn(usize, f64) -> State<SceneModel<F64>>,
+) -> DMatrix<f64> {
+    let roots = roots(model);
+    let mut matrix = DMatrix::zeros(roots.len(), roots.len());
+    for column in 0..roots.len() {
+        let at = |by: f64| wrenches(model, &probe(column, by), 1e-3).unwrap();
         let (plus, minus) = (at(PROBE), at(-PROBE));
         for (body, (plus, minus)) in plus.iter().zip(&minus).enumerate() {
             let force = (plus.force - minus.force).to_f64();
@@ -72,9 +76,43 @@ pub fn scaled_stiffness(
             }
         }
     }
+    matrix
+}
+
+/// `M⁻½·K·M⁻½` \[1/s²\] and its asymmetry.
+///
+/// # Panics
+/// Where a twist is undefined.
+#[must_use]
+pub fn scaled_stiffness(
+    model: &SceneModel<F64>,
+    state: &State<SceneModel<F64>>,
+) -> (DMatrix<f64>, f64) {
+    let rest = at_rest(state);
+    let matrix = scaled(model, |freedom, by| moved(&rest, freedom, by));
     let transpose = matrix.transpose();
     let asymmetry = (&matrix - &transpose).amax() / matrix.amax();
     ((matrix + transpose) * 0.5, asymmetry)
+}
+
+/// `M⁻½·C·M⁻½` \[1/s\].
+///
+/// # Panics
+/// Where a twist is undefined.
+#[must_use]
+pub fn scaled_damping(model: &SceneModel<F64>, state: &State<SceneModel<F64>>) -> DMatrix<f64> {
+    let rest = at_rest(state);
+    scaled(model, |freedom, by| {
+        let mut state = rest.clone();
+        let body = &mut state.bodies[freedom / 6];
+        let rate = Vec3::axes()[freedom % 3] * by;
+        if freedom % 6 < 3 {
+            body.velocity = rate;
+        } else {
+            body.angular_velocity = rate;
+        }
+        state
+    })
 }
 
 /// The modes about the pose of `state`, whatever its velocities.
@@ -94,20 +132,22 @@ pub fn modes(model: &SceneModel<F64>, state: &State<SceneModel<F64>>) -> Modes {
     }
 }
 
-/// The model with the springs of those joints only that `keep` names, and nothing else.
+/// The model with those joints and torsion springs only whose names `keep` likes, without
+/// gravity, loads, inputs and raw elements.
 #[must_use]
-pub fn joints_only(scene: &Scene, keep: impl Fn(&str) -> bool) -> SceneModel<F64> {
+pub fn held_by(scene: &Scene, keep: impl Fn(&str) -> bool) -> SceneModel<F64> {
     let mut model = scene.model.clone();
     model.gravity.clear();
-    model.torsions.clear();
     model.loads.clear();
-    model.inputs.clear();
-    model.knots.clear();
     let kept = |group: usize| {
         scene.joints.iter().any(|joint| joint.groups.contains(&group) && keep(&joint.name))
     };
     let groups: Vec<_> = (0..model.groups.len()).filter(|g| kept(*g)).collect();
     model.groups = groups.iter().map(|g| model.groups[*g]).collect();
+    let springs = model.torsions.iter_mut().zip(&scene.torsion_names);
+    for (spring, _) in springs.filter(|(_, name)| !keep(name)) {
+        (spring.stiffness, spring.preload) = (0.0, 0.0);
+    }
     model
 }
 

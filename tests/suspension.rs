@@ -1,0 +1,166 @@
+//! The suspensions: their modes lie where those of cars do and where Franco & Degani (2026,
+//! section 4.7) say, and the wheel hops after a step of the road as its mode does.
+//!
+//! `DBD_PRINT=1 cargo test --release -p dbd-tests --test suspension -- --nocapture` prints them.
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use dbd_kernel::{F64, Leapfrog, Plant, State};
+use dbd_scene::{Scene, SceneModel};
+use dbd_tests::modes::{Modes, after, held_by, modes, scaled_damping, scaled_stiffness};
+use dbd_tests::scene;
+use nalgebra::SymmetricEigen;
+
+/// \[s\] both scenes have settled by then and the road has not moved.
+const SETTLED: f64 = 0.5;
+
+fn print(line: &str) {
+    if std::env::var_os("DBD_PRINT").is_some() {
+        println!("{line}");
+    }
+}
+
+/// A scene, at rest on its springs, and its modes there.
+fn settled(name: &str) -> (Scene, State<SceneModel<F64>>, Modes) {
+    let scene = scene(name);
+    let state = after(&scene, SETTLED);
+    let modes = modes(&scene.model, &state);
+    assert!(modes.asymmetry < 1e-3, "{name} is not at rest: {:e}", modes.asymmetry);
+    (scene, state, modes)
+}
+
+/// The mode that moves `bodies` most along z, and their share in it.
+fn heave(modes: &Modes, bodies: &[usize]) -> (usize, f64) {
+    let share = |mode: usize| -> f64 {
+        bodies.iter().map(|body| modes.shapes[(6 * body + 2, mode)].powi(2)).sum()
+    };
+    let mode = (0..modes.frequencies.len()).max_by(|a, b| share(*a).total_cmp(&share(*b)));
+    mode.map(|mode| (mode, share(mode))).unwrap()
+}
+
+/// The frequencies \[Hz\] of the modes that keep more than half of their energy in what `rubber`
+/// names.
+fn rubber_modes(
+    scene: &Scene,
+    state: &State<SceneModel<F64>>,
+    modes: &Modes,
+    rubber: impl Fn(&str) -> bool,
+) -> Vec<f64> {
+    let whole = scaled_stiffness(&scene.model, state).0;
+    let part = scaled_stiffness(&held_by(scene, rubber), state).0;
+    let elastic = (0..modes.frequencies.len()).filter(|mode| modes.frequencies[*mode] > 0.5);
+    elastic
+        .filter(|mode| {
+            let x = modes.shapes.column(*mode);
+            x.dot(&(&part * x)) > 0.5 * x.dot(&(&whole * x))
+        })
+        .map(|mode| modes.frequencies[mode])
+        .collect()
+}
+
+fn within(range: Range<f64>, what: &str, frequency: f64) {
+    print(&format!("{what}: {frequency:.2} Hz"));
+    assert!(range.contains(&frequency), "{what}: {frequency} Hz, not in {range:?}");
+}
+
+/// Wheel hop of a corner with a standing body: √((tyre + wheel rate)/unsprung mass), 10 to 15 Hz
+/// for passenger cars (Gillespie, Fundamentals of Vehicle Dynamics, chapter 5).
+#[test]
+fn the_double_wishbone_vibrates_as_a_corner_of_a_car_does() {
+    let (scene, state, modes) = settled("double-wishbone");
+    let knuckle = scene.body_names.iter().position(|name| name == "knuckle").unwrap();
+    let (hop, share) = heave(&modes, &[knuckle]);
+    within(10.0..15.0, "wishbone, hop of the wheel", modes.frequencies[hop]);
+    assert!(share > 0.8, "{share}");
+    let bushing = |name: &str| ["front", "rear"].iter().any(|end| name.ends_with(end));
+    let rubber = rubber_modes(&scene, &state, &modes, bushing);
+    print(&format!("wishbone, modes in rubber: {rubber:.1?} Hz"));
+    within(12.0..25.0, "wishbone, first in rubber", rubber[0]);
+    within(150.0..250.0, "wishbone, last in rubber", rubber[rubber.len() - 1]);
+    assert!(rubber.len() >= 6, "{rubber:?}");
+}
+
+/// The first free cycles of the wheel's height after the step of the road.
+#[test]
+fn the_wheel_hops_after_the_step_as_its_mode_does() {
+    let scene = scene("double-wishbone");
+    let step = scene.step.unwrap();
+    let knuckle = scene.body_names.iter().position(|name| name == "knuckle").unwrap();
+    let mut plant = Plant::new(&scene.model, Leapfrog, step).unwrap();
+    let mut heights = Vec::new();
+    while plant.time() < scene.duration - 0.5 * step {
+        plant.step().ok().unwrap();
+        heights.push((plant.time(), plant.state().bodies[knuckle].position.z));
+    }
+    let end = *heights.last().unwrap();
+    let road = scene.model.knots.iter().map(|knot| knot.value).fold(0.0, f64::max);
+    let before = heights.iter().find(|(t, _)| *t >= SETTLED).unwrap().1;
+    let highest = heights.iter().map(|(_, z)| *z).fold(0.0, f64::max);
+    // The pose after the step has its own modes: springs and dampers have turned a little.
+    let state = plant.state();
+    let modes = modes(&scene.model, state);
+    let (hop, _) = heave(&modes, &[knuckle]);
+    let shape = modes.shapes.column(hop);
+    let omega = TAU * modes.frequencies[hop];
+    let damping = scaled_damping(&scene.model, state);
+    let ratio = shape.dot(&(damping * shape)) / (2.0 * omega);
+    let theory = modes.frequencies[hop] * (1.0 - ratio * ratio).sqrt();
+    let mut crossings = Vec::new();
+    for pair in heights.windows(2) {
+        let [(t0, y0), (t, y)] = [(pair[0].0, pair[0].1 - end.1), (pair[1].0, pair[1].1 - end.1)];
+        if t0 > SETTLED + 0.04 && y0 * y < 0.0 {
+            crossings.push(t0 + (t - t0) * y0 / (y0 - y));
+        }
+    }
+    let measured = 2.5 / (crossings[5] - crossings[0]);
+    print(&format!(
+        "wishbone after the step: {measured:.2} Hz, mode {:.2} Hz damped by {ratio:.3}: {theory:.2} Hz; \
+         wheel {:.1} mm up for {:.0} mm of road, overshoot {:.1} mm",
+        modes.frequencies[hop],
+        1e3 * (end.1 - before),
+        1e3 * road,
+        1e3 * (highest - end.1)
+    ));
+    // The modes are linear and the wheel swings by 10 mm; five half cycles of 42 ms.
+    assert!((measured / theory - 1.0).abs() < 0.03, "{measured} {theory}");
+    assert!((0.1..0.3).contains(&ratio), "{ratio}");
+    // The tyre is seven to nine times as stiff as the wheel's spring rate.
+    let share = (end.1 - before) / road;
+    assert!((0.85..0.93).contains(&share), "{share}");
+    assert!(highest - end.1 > 0.2 * road, "{highest}");
+}
+
+/// Section 4.7: twenty bodies, the first mode of the bushings near 20 Hz, the sixth near 250 Hz.
+#[cfg_attr(debug_assertions, ignore = "half a minute in a debug build; release runs it")]
+#[test]
+fn the_macpherson_axle_vibrates_where_the_paper_says() {
+    let (scene, state, modes) = settled("macpherson");
+    assert_eq!(scene.model.bodies.len(), 20);
+    // An arm alone on its two bushings, as in the paper's source: six freedoms, six modes.
+    for side in ["left", "right"] {
+        let arm = format!("{side} arm");
+        let row = scene.body_names.iter().position(|name| *name == arm).unwrap();
+        let bushings = held_by(&scene, |name| name.contains(&arm));
+        let stiffness = scaled_stiffness(&bushings, &state).0;
+        let block = stiffness.view((6 * row, 6 * row), (6, 6)).into_owned();
+        let squares = SymmetricEigen::new(block).eigenvalues;
+        let mut alone: Vec<f64> = squares.iter().map(|s| s.sqrt() / TAU).collect();
+        alone.sort_by(f64::total_cmp);
+        print(&format!("macpherson, {arm} alone: {alone:.1?} Hz"));
+        within(15.0..25.0, "macpherson, first mode of an arm on its bushings", alone[0]);
+        within(200.0..280.0, "macpherson, sixth mode of an arm on its bushings", alone[5]);
+    }
+    let rubber = ["arm", "mount", "bearing", "subframe"];
+    let bushing = |name: &str| rubber.iter().any(|part| name.contains(part));
+    let rubber = rubber_modes(&scene, &state, &modes, bushing);
+    print(&format!("macpherson, modes in rubber: {rubber:.1?} Hz"));
+    within(12.0..25.0, "macpherson, first in rubber", rubber[0]);
+    within(200.0..280.0, "macpherson, last in rubber", rubber[rubber.len() - 1]);
+    assert!(rubber.len() >= 12, "{rubber:?}");
+    let row = |name: &str| scene.body_names.iter().position(|n| n == name).unwrap();
+    let (bounce, _) = heave(&modes, &[row("body shell")]);
+    within(1.0..2.0, "macpherson, bounce of the body", modes.frequencies[bounce]);
+    let (hop, _) = heave(&modes, &[row("left wheel"), row("right wheel")]);
+    within(10.0..15.0, "macpherson, hop of the wheels", modes.frequencies[hop]);
+}
