@@ -1,13 +1,13 @@
-//! Where a program's arguments come from and its lines go.
+//! Where a program's arguments come from, its lines go and its files lie.
 //!
 //! On the target: semihosting, with lines as defmt frames that the host decodes. On a host:
-//! the command line and standard output.
+//! the command line and standard output. Files are the host's either way.
 
 #[cfg(target_os = "none")]
-pub use target::{exit, numbers};
+pub use target::{exit, load, numbers, save};
 
 #[cfg(not(target_os = "none"))]
-pub use host::{exit, numbers};
+pub use host::{exit, load, numbers, save};
 
 /// Prints one line.
 #[cfg(target_os = "none")]
@@ -25,8 +25,12 @@ macro_rules! say {
 
 #[cfg(target_os = "none")]
 mod target {
+    use core::ffi::CStr;
     use defmt_semihosting as _;
+
     use semihosting::experimental::env;
+    use semihosting::fs;
+    use semihosting::io::Read as _;
 
     /// The program's arguments, as many as are numbers, in order.
     #[must_use]
@@ -47,6 +51,24 @@ mod target {
         semihosting::process::exit(i32::from(!well))
     }
 
+    /// Writes a file; whether it is complete.
+    pub fn save(path: &CStr, bytes: &[u8]) -> bool {
+        fs::write(path, bytes).is_ok()
+    }
+
+    /// Reads a file; `None` where there is none or it does not fit.
+    pub fn load<'b>(path: &CStr, buffer: &'b mut [u8]) -> Option<&'b [u8]> {
+        let mut file = fs::File::open(path).ok()?;
+        let mut filled = 0;
+        while let Some(rest @ [_, ..]) = buffer.get_mut(filled..) {
+            match file.read(rest).ok()? {
+                0 => return buffer.get(..filled),
+                count => filled += count,
+            }
+        }
+        None
+    }
+
     #[cfg(not(feature = "audit"))]
     #[panic_handler]
     fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
@@ -57,6 +79,8 @@ mod target {
 
 #[cfg(not(target_os = "none"))]
 mod host {
+    use core::ffi::CStr;
+
     /// The program's arguments, as many as are numbers, in order.
     #[must_use]
     pub fn numbers<const N: usize>() -> [Option<u64>; N] {
@@ -66,6 +90,19 @@ mod host {
             *number = Some(value);
         }
         numbers
+    }
+
+    /// Writes a file; whether it is complete.
+    pub fn save(path: &CStr, bytes: &[u8]) -> bool {
+        path.to_str().is_ok_and(|path| std::fs::write(path, bytes).is_ok())
+    }
+
+    /// Reads a file; `None` where there is none or it does not fit.
+    pub fn load<'b>(path: &CStr, buffer: &'b mut [u8]) -> Option<&'b [u8]> {
+        let bytes = std::fs::read(path.to_str().ok()?).ok()?;
+        let buffer = buffer.get_mut(..bytes.len())?;
+        buffer.copy_from_slice(&bytes);
+        Some(buffer)
     }
 
     /// Ends the program with a status that tells whether it went well.

@@ -8,6 +8,7 @@ pub mod board;
 pub mod console;
 pub mod hash;
 pub mod models;
+pub mod relay;
 
 #[cfg(target_os = "none")]
 pub mod cost;

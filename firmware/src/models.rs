@@ -29,6 +29,23 @@ pub trait Visitor {
     fn visit<M: ModelOwner, S: Scheme>(&mut self, shipped: Shipped<M, S>);
 }
 
+/// Shows models by name with a number of steps and a scheme.
+macro_rules! show {
+    ($visitor:ident: $($scene:literal $module:ident::$model:ident $step:ident $steps:expr,
+        $scheme:expr;)*) => {
+        $($visitor.visit(Shipped {
+            scene: $scene,
+            model: &$module::$model,
+            scheme: $scheme,
+            step: $module::$step,
+            steps: $steps,
+        });)*
+    };
+}
+
+/// Steps of a run that changes machines half way.
+const LONG: u64 = 10_000;
+
 /// Steps that every golden hash is taken at; the scenes of both precisions go on as asked.
 const SHORT: u64 = 1_000;
 
@@ -68,22 +85,23 @@ fn both<M: ModelOwner>(
     visitor.visit(Shipped { scene, model, scheme: Dbd::default(), step, steps });
 }
 
+/// Shows what a run that changes machines is tried with: both precisions, a scheme that keeps its
+/// last evaluation and ones that do not, torsion springs, loads and points on lines.
+pub fn for_each_relayed(visitor: &mut impl Visitor) {
+    show! { visitor:
+        "four-bar" four_bar::FOUR_BAR_F32 FOUR_BAR_STEP LONG, Leapfrog;
+        "four-bar" four_bar::FOUR_BAR_F32 FOUR_BAR_STEP LONG, Dbd::default();
+        "five-bar-b" five_bar_b::FIVE_BAR_B_F32 FIVE_BAR_B_STEP LONG, Leapfrog;
+        "crank-slider" crank_slider::CRANK_SLIDER_F32 CRANK_SLIDER_STEP LONG, Pefrl;
+        "four-bar" four_bar::FOUR_BAR_F64 FOUR_BAR_STEP SHORT, Leapfrog;
+    }
+}
+
 /// Shows the further schemes: all of them with the four-bar in single precision, and those of
 /// fourth order with a mechanism that has points on lines and, for few steps, with one in space and
 /// in double precision.
 pub fn for_each_further(visitor: &mut impl Visitor) {
-    macro_rules! visit {
-        ($($scene:literal $module:ident::$model:ident $step:ident $steps:expr, $scheme:expr;)*) => {
-            $(visitor.visit(Shipped {
-                scene: $scene,
-                model: &$module::$model,
-                scheme: $scheme,
-                step: $module::$step,
-                steps: $steps,
-            });)*
-        };
-    }
-    visit! {
+    show! { visitor:
         "four-bar" four_bar::FOUR_BAR_F32 FOUR_BAR_STEP SHORT, DbdP1::default();
         "four-bar" four_bar::FOUR_BAR_F32 FOUR_BAR_STEP SHORT, SemiImplicitEuler;
         "four-bar" four_bar::FOUR_BAR_F32 FOUR_BAR_STEP SHORT, Pefrl;

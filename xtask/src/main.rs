@@ -11,6 +11,7 @@ mod emulator;
 mod firmware;
 mod hashes;
 mod image;
+mod relay;
 mod setup;
 mod steps;
 mod test;

@@ -5,7 +5,7 @@ use anyhow::{Result, bail};
 use crate::command::{cargo, run as run_command, succeeds};
 use crate::steps::Steps;
 use crate::toolchain::Toolchain;
-use crate::{audit, cost, firmware, hashes, setup};
+use crate::{audit, cost, firmware, hashes, relay, setup};
 
 const KERNEL: &str = "dbd-kernel";
 const KERNEL_FEATURES: [&str; 3] = ["nalgebra", "defmt", "heapless"];
@@ -98,5 +98,6 @@ fn on_target(toolchain: &Toolchain, long: bool, steps: &mut Steps) {
         firmware::execute(toolchain, "board", false, &[]).map(drop)
     });
     steps.step("same bits on host and target", || hashes::compare(toolchain, long));
+    steps.step("runs that change machines", || relay::compare(toolchain));
     steps.step("costs on the target", || cost::check(toolchain));
 }
