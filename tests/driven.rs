@@ -99,7 +99,7 @@ fn the_gripper_closes_on_the_block_and_lets_go() {
         angle.to_degrees()
     ));
     assert!((0.040..0.050).contains(&closed), "{closed}");
-    // The weights of links and fingers, 3 N in all, close it a little more.
+    // The weights of links, fingers and piston, 3.5 N in all, close it a little more.
     assert!(from_right > 0.0 && from_left < 0.0, "{from_right} {from_left}");
     for force in [from_right, -from_left] {
         assert!((force / theory - 1.0).abs() < 0.1, "{force} {theory}");
