@@ -464,6 +464,28 @@ fn dampers_are_explicit_on_demand() {
 }
 
 #[test]
+fn orientations_are_stored_as_asked() {
+    let folder = Folder::new();
+    let scene = folder.scene(PENDULUM);
+    let mut hashes = Vec::new();
+    for orientation in ["quaternion", "euler-321", "euler-321-single"] {
+        for precision in ["f64", "f32"] {
+            let options = ["--orientation", orientation, "--precision", precision];
+            let summary = folder.summary(&scene, &options);
+            assert_eq!(
+                (&summary["orientation"], &summary["precision"], &summary["status"]),
+                (&orientation.into(), &precision.into(), &"ok".into())
+            );
+            hashes.push(summary["state_hash"].clone());
+        }
+    }
+    assert_eq!(folder.summary(&scene, &[])["state_hash"], hashes[0]);
+    hashes.sort_by_key(ToString::to_string);
+    hashes.dedup();
+    assert_eq!(hashes.len(), 6);
+}
+
+#[test]
 fn list_shows_every_scene_on_a_line() {
     let done = call(&["list"]);
     assert_eq!((done.exit, done.err.as_str()), (Exit::Done, ""));

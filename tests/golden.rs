@@ -1,11 +1,13 @@
 //! Golden bits: the state's hash per scene, scheme, precision, step and number of steps.
 //!
-//! The table `golden/hashes.csv` is part of the interface. `DBD_BLESS=1 cargo test -p dbd-tests
+//! The table `golden/hashes.csv` is part of the interface, `golden/orientations.csv` holds those of
+//! Euler angles. `DBD_BLESS=1 cargo test -p dbd-tests
 //! --test golden` writes the present hashes; a changed one needs its reason in the commit.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
 use dbd_kernel::geometry::{F32, F64, Geometry};
 use dbd_kernel::{
     BlanesMoanS6, Dbd, DbdP1, DbdP2, Leapfrog, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler,
@@ -22,8 +24,17 @@ const LONG: (&str, u64) = ("four-bar", 10_000);
 /// Scenes of all schemes: planar, with torsion springs, with points on lines, in space.
 const ALL_SCHEMES: [&str; 4] = ["four-bar", "3rrr", "crank-slider", "3ruu"];
 
-fn table() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("golden/hashes.csv")
+fn table(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("golden").join(name)
+}
+
+/// Compares what is with the golden table, or blesses it.
+fn compare(name: &str, present: &str) {
+    if std::env::var_os("DBD_BLESS").is_some() {
+        std::fs::write(table(name), present).unwrap();
+    }
+    let golden = std::fs::read_to_string(table(name)).unwrap_or_default();
+    assert!(present == golden, "present hashes:\n{present}golden hashes:\n{golden}");
 }
 
 fn row<P: Geometry, S: Scheme>(scene: &Scene, scheme: S, steps: u64) -> String {
@@ -79,9 +90,27 @@ fn states_have_their_golden_hashes() {
             Rk4::NAME => Rk4
         );
     }
-    if std::env::var_os("DBD_BLESS").is_some() {
-        std::fs::write(table(), &present).unwrap();
+    compare("hashes.csv", &present);
+}
+
+#[test]
+fn states_of_euler_angles_have_their_golden_hashes() {
+    let mut present = "scene,scheme,precision,step,steps,hash,orientation\n".to_owned();
+    for name in ["four-bar", "crank-slider", "3ruu"] {
+        let scene = scene(name);
+        macro_rules! rows {
+            ($($geometry:ty),*) => {$(
+                for row in [
+                    row::<$geometry, _>(&scene, Leapfrog, STEPS),
+                    row::<$geometry, _>(&scene, Pefrl, STEPS),
+                    row::<$geometry, _>(&scene, Rk4, STEPS),
+                ] {
+                    let orientation = <$geometry as Geometry>::ORIENTATION;
+                    writeln!(present, "{row},{orientation}").unwrap();
+                }
+            )*};
+        }
+        rows!(EulerF64, EulerF32, SingleEulerF64, SingleEulerF32);
     }
-    let golden = std::fs::read_to_string(table()).unwrap_or_default();
-    assert!(present == golden, "present hashes:\n{present}golden hashes:\n{golden}");
+    compare("orientations.csv", &present);
 }

@@ -15,7 +15,7 @@ use crate::console::Console;
 use crate::error::{Error, Exit};
 use crate::frequencies::Frequencies;
 use crate::list::list;
-use crate::method::{DampingName, Method, PrecisionName, SchemeName};
+use crate::method::{DampingName, Method, OrientationName, PrecisionName, SchemeName};
 use crate::progress::Progress;
 use crate::run::{Outcome, RunOptions, run};
 use crate::summary::{json, table};
@@ -85,6 +85,9 @@ struct RunArguments {
     /// Precision of all arithmetic in a step
     #[arg(long, value_enum, default_value_t)]
     precision: PrecisionName,
+    /// How orientations are stored
+    #[arg(long, value_enum, default_value_t)]
+    orientation: OrientationName,
     /// Sampling interval, e.g. 1ms [default: the scene's, else about 500 samples]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     every: Option<Time>,
@@ -148,6 +151,7 @@ fn run_scene(
     if let Some(damping) = arguments.damping {
         method = method.with_damping(damping)?;
     }
+    let method = method.with_orientation(arguments.orientation);
     let scene = catalogue.load(&arguments.scene.scene)?;
     let options = RunOptions {
         method,

@@ -1,10 +1,12 @@
-//! Scheme, damping and precision by name, and the way from the names to the kernel's types.
+//! Scheme, damping, precision and orientation by name, and the way from the names to the kernel's
+//! types.
 //!
-//! `(scheme, newton, damping, precision) => method; method, visitor => the visitor's generic
-//! function`. A further scheme or precision is one variant and its arms here, nothing elsewhere.
+//! `(scheme, newton, damping, precision, orientation) => method; method, visitor => the visitor's
+//! generic function`. A further scheme or precision is one variant and its arms here, nothing elsewhere.
 
 use clap::ValueEnum;
 use dbd_kernel::damping::Damping;
+use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
 use dbd_kernel::{
     BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Geometry, Leapfrog, Pefrl, Real as _, Rk4,
     Scheme, SemiImplicitEuler,
@@ -56,6 +58,20 @@ pub enum PrecisionName {
     F32,
 }
 
+/// The ways of storing an orientation by name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum OrientationName {
+    /// Unit quaternions.
+    #[default]
+    Quaternion,
+    /// The paper's yaw, pitch, roll, with a second sequence near the pole.
+    #[value(name = "euler-321")]
+    Euler321,
+    /// Yaw, pitch, roll alone: loses precision near a pitch of ±90°.
+    #[value(name = "euler-321-single")]
+    Euler321Single,
+}
+
 /// A scheme with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum SchemeChoice {
@@ -71,11 +87,12 @@ enum SchemeChoice {
     Rk4(Rk4),
 }
 
-/// A scheme with its parameters, in a precision.
+/// A scheme with its parameters, in a precision, with a way of storing orientations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Method {
     scheme: SchemeChoice,
     precision: PrecisionName,
+    orientation: OrientationName,
 }
 
 /// Why there is no such method.
@@ -128,7 +145,7 @@ pub trait MethodVisitor {
 
 impl Method {
     /// A method from names and parameters; `newton` is the number of Newton iterations, for the
-    /// schemes that have them. The damping is the scheme's own.
+    /// schemes that have them. The damping is the scheme's own, orientations are quaternions.
     ///
     /// # Errors
     /// [`MethodError::Newton`] where the scheme has none, [`MethodError::Iterations`].
@@ -148,7 +165,7 @@ impl Method {
             SchemeName::BlanesMoanS6 => SchemeChoice::BlanesMoanS6(BlanesMoanS6),
             SchemeName::Rk4 => SchemeChoice::Rk4(Rk4),
         };
-        let method = Self { scheme, precision };
+        let method = Self { scheme, precision, orientation: OrientationName::default() };
         if newton.is_some() && method.newton().is_none() {
             return Err(MethodError::Newton { scheme: method.scheme_name() });
         }
@@ -193,6 +210,12 @@ impl Method {
         }
     }
 
+    /// The same method with another way of storing orientations.
+    #[must_use]
+    pub fn with_orientation(self, orientation: OrientationName) -> Self {
+        Self { orientation, ..self }
+    }
+
     /// Newton iterations per step, `None` for a scheme without any.
     #[must_use]
     pub fn newton(&self) -> Option<u32> {
@@ -206,9 +229,14 @@ impl Method {
 
     /// Calls the visitor with the kernel's types.
     pub fn visit<V: MethodVisitor>(&self, visitor: V) -> V::Output {
-        match self.precision {
-            PrecisionName::F64 => self.visit_in::<F64, V>(visitor),
-            PrecisionName::F32 => self.visit_in::<F32, V>(visitor),
+        use OrientationName::{Euler321, Euler321Single, Quaternion};
+        match (self.precision, self.orientation) {
+            (PrecisionName::F64, Quaternion) => self.visit_in::<F64, V>(visitor),
+            (PrecisionName::F32, Quaternion) => self.visit_in::<F32, V>(visitor),
+            (PrecisionName::F64, Euler321) => self.visit_in::<EulerF64, V>(visitor),
+            (PrecisionName::F32, Euler321) => self.visit_in::<EulerF32, V>(visitor),
+            (PrecisionName::F64, Euler321Single) => self.visit_in::<SingleEulerF64, V>(visitor),
+            (PrecisionName::F32, Euler321Single) => self.visit_in::<SingleEulerF32, V>(visitor),
         }
     }
 
@@ -289,6 +317,19 @@ impl Method {
         self.visit(Name)
     }
 
+    /// How orientations are stored, e.g. `quaternion`.
+    #[must_use]
+    pub fn orientation_name(&self) -> &'static str {
+        struct Name;
+        impl MethodVisitor for Name {
+            type Output = &'static str;
+            fn visit<P: Geometry, S: Scheme>(self, _: S) -> &'static str {
+                P::ORIENTATION
+            }
+        }
+        self.visit(Name)
+    }
+
     /// \[s\] the step rounded to the precision.
     #[must_use]
     pub fn rounded(&self, step: f64) -> f64 {
@@ -330,7 +371,12 @@ mod tests {
                 };
                 assert_eq!(name(scheme.to_possible_value()).as_deref(), Some(method.scheme_name()));
                 let precision = name(precision.to_possible_value());
-                assert_eq!(precision.as_deref(), Some(method.precision_name()));
+                for orientation in OrientationName::value_variants() {
+                    let method = method.with_orientation(*orientation);
+                    let orientation = name(orientation.to_possible_value());
+                    assert_eq!(precision.as_deref(), Some(method.precision_name()));
+                    assert_eq!(orientation.as_deref(), Some(method.orientation_name()));
+                }
             }
         }
     }

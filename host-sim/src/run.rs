@@ -197,7 +197,7 @@ fn summarise(
         newton: method.newton(),
         damping: method.foreign_damping().map(Damping::name),
         precision: method.precision_name(),
-        orientation: "quaternion",
+        orientation: method.orientation_name(),
         step: plan.step,
         steps: ending.steps,
         duration,

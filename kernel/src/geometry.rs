@@ -32,6 +32,8 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + 'static {
 
     /// The name users give: `f64`, `f32`.
     const NAME: &'static str;
+    /// How orientations are stored, in users' words.
+    const ORIENTATION: &'static str = "quaternion";
 
     /// Prepares a pose for [`Self::place`].
     fn frame(position: &Self::Position, orientation: &Self::Orientation) -> Self::Frame;
@@ -99,12 +101,12 @@ pub type F64 = Float<f64>;
 /// Single precision throughout.
 pub type F32 = Float<f32>;
 
-/// The pose of a body in [`Float`] geometry.
+/// The pose of a body in floating-point geometry.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Pose<R> {
-    position: Vec3<R>,
-    rotation: Rotation<R>,
+    pub(crate) position: Vec3<R>,
+    pub(crate) rotation: Rotation<R>,
 }
 
 /// The names users give to the floating-point precisions.

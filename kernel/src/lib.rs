@@ -6,7 +6,8 @@
 //!
 //! The modules in the order in which a step uses them:
 //!
-//! - [`real`], [`geometry`], [`vector`]: the arithmetic. A precision is a type: [`F64`], [`F32`].
+//! - [`real`], [`geometry`], [`vector`]: the arithmetic. A precision is a type: [`F64`], [`F32`];
+//!   [`euler`]: the paper's angles in place of quaternions.
 //! - [`model`]: constants of bodies and elements; [`elements`]: their laws, one per file.
 //! - [`state`]: plain data and its hash; [`words`]: its words in order.
 //! - [`forces`]: one evaluation; [`step`]: kick and drift; [`rotation`], [`damping`].
@@ -71,6 +72,7 @@ mod convert;
 pub mod damping;
 pub mod elements;
 pub mod energy;
+pub mod euler;
 pub mod forces;
 #[cfg(feature = "defmt")]
 mod format;

@@ -6,7 +6,7 @@
 //! plant of the same model and step, on whatever target, goes on with the very same bits.
 //! Bytes that do not fit are refused and change nothing.
 
-use crate::geometry::Geometry;
+use crate::geometry::{F64, Geometry};
 use crate::inputs::{Input, InputKind};
 use crate::model::{ModelOwner, ModelRef};
 use crate::plant::Plant;
@@ -141,6 +141,11 @@ impl<M: ModelOwner, S: Scheme> Plant<'_, M, S> {
         let mut hash = Fnv1a::new();
         for byte in M::Precision::NAME.bytes() {
             hash.word(Word::I32(i32::from(byte)));
+        }
+        if M::Precision::ORIENTATION != F64::ORIENTATION {
+            for byte in M::Precision::ORIENTATION.bytes() {
+                hash.word(Word::I32(i32::from(byte)));
+            }
         }
         hash.word(Word::F64(self.step_size()));
         visit_model(&self.model().view(), &mut hash);
