@@ -170,7 +170,7 @@ fn the_delta_picks_and_places() {
 }
 
 /// State feedback of the linear regulator (weights 20, 50, 1, 1 on cart, angle, their rates;
-/// 0.05 on the force), every millisecond.
+/// 0.05 on the force), every millisecond; the example `balance` does it in double precision.
 fn balance<P: Geometry>() -> (f64, f64) {
     const GAINS: [f64; 4] = [-20.0, 88.97, -18.33, 17.54];
     let scene = scene("cart-pendulum");
@@ -205,7 +205,6 @@ fn balance<P: Geometry>() -> (f64, f64) {
 #[cfg_attr(debug_assertions, ignore = "half a minute in a debug build; release runs it")]
 #[test]
 fn state_feedback_balances_the_pendulum() {
-    for (x, angle) in [balance::<F64>(), balance::<F32>()] {
-        assert!(x.abs() < 1e-3 && angle.abs() < 1e-3, "{x} {angle}");
-    }
+    let (x, angle) = balance::<F32>();
+    assert!(x.abs() < 1e-3 && angle.abs() < 1e-3, "{x} {angle}");
 }

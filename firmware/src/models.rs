@@ -86,13 +86,15 @@ fn both<M: ModelOwner>(
 }
 
 /// Shows what a run that changes machines is tried with: both precisions, a scheme that keeps its
-/// last evaluation and ones that do not, torsion springs, loads and points on lines.
+/// last evaluation and ones that do not, torsion springs, loads, points on lines, dampers and inputs.
 pub fn for_each_relayed(visitor: &mut impl Visitor) {
     show! { visitor:
         "four-bar" four_bar::FOUR_BAR_F32 FOUR_BAR_STEP LONG, Leapfrog;
         "four-bar" four_bar::FOUR_BAR_F32 FOUR_BAR_STEP LONG, Dbd::default();
         "five-bar-b" five_bar_b::FIVE_BAR_B_F32 FIVE_BAR_B_STEP LONG, Leapfrog;
         "crank-slider" crank_slider::CRANK_SLIDER_F32 CRANK_SLIDER_STEP LONG, Pefrl;
+        "cart-pendulum" cart_pendulum::CART_PENDULUM_F32 CART_PENDULUM_STEP LONG, Leapfrog;
+        "double-wishbone" double_wishbone::DOUBLE_WISHBONE_F32 DOUBLE_WISHBONE_STEP LONG, Leapfrog;
         "four-bar" four_bar::FOUR_BAR_F64 FOUR_BAR_STEP SHORT, Leapfrog;
     }
 }

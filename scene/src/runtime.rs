@@ -5,7 +5,7 @@
 use std::marker::PhantomData;
 
 use dbd_kernel::elements::load::LoadWindow;
-use dbd_kernel::inputs::{Input, Knot, KnotStep, Signal};
+use dbd_kernel::inputs::{Input, InputIndex, Knot, KnotStep, Signal};
 use dbd_kernel::model::{AllTerms, Body, Group, ModelOwner, ModelRef};
 use dbd_kernel::{
     BodyState, F64, Geometry, Load, PointBushing, PointOnLine, Real, State, TorsionSpring, Tsda,
@@ -64,6 +64,16 @@ impl<P: Geometry> SceneModel<P> {
             inputs: self.inputs.iter().map(Input::convert).collect(),
             knots: self.knots.iter().map(Knot::convert).collect(),
             clearances: self.clearances.iter().map(|c| Q::Real::from_f64(c.to_f64())).collect(),
+        }
+    }
+
+    /// Takes an input from its table, so that the caller drives it; it starts at the table's first
+    /// value.
+    pub fn release(&mut self, input: InputIndex) {
+        let Some(input) = self.inputs.get_mut(usize::from(input.0)) else { return };
+        if input.knots > 0 {
+            input.value = self.knots[usize::from(input.knot)].value;
+            input.knots = 0;
         }
     }
 
