@@ -21,8 +21,8 @@ const HEADER: &str = "scene,scheme,precision,step,steps,hash";
 const STEPS: u64 = 1_000;
 const LONG: (&str, u64) = ("four-bar", 10_000);
 
-/// Scenes of all schemes: planar, with torsion springs, with points on lines, in space.
-const ALL_SCHEMES: [&str; 4] = ["four-bar", "3rrr", "crank-slider", "3ruu"];
+/// Scenes of all schemes: planar, with torsion springs, with points on lines, in space, damped.
+const ALL_SCHEMES: [&str; 5] = ["four-bar", "3rrr", "crank-slider", "3ruu", "double-wishbone"];
 
 fn table(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("golden").join(name)

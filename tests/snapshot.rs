@@ -1,5 +1,6 @@
 //! Snapshots: exact resume, and every kind of wrong bytes.
 
+use dbd_kernel::euler::{EulerF32, SingleEulerF64};
 use dbd_kernel::inputs::InputKind;
 use dbd_kernel::snapshot::SnapshotError;
 use dbd_kernel::{
@@ -54,6 +55,8 @@ fn a_restored_plant_goes_on_with_the_same_bits() {
     resumes::<F64, _>(Pefrl);
     resumes::<F32, _>(BlanesMoanS6);
     resumes::<F64, _>(Rk4);
+    resumes::<EulerF32, _>(Pefrl);
+    resumes::<SingleEulerF64, _>(Leapfrog);
 }
 
 #[test]
@@ -83,6 +86,14 @@ fn snapshots_of_other_models_steps_versions_and_lengths_are_refused() {
     plant.snapshot(&mut bytes).unwrap();
     let mut other_step = Plant::new(&model, Leapfrog, 2e-4).unwrap();
     assert_eq!(other_step.restore(&bytes), Err(SnapshotError::Model));
+    // Four words of four bytes either way.
+    let (angles, quaternions) = (busy::<EulerF32>(), busy::<F32>());
+    let angles = Plant::new(&angles, Leapfrog, 1e-4).unwrap();
+    let mut quaternions = Plant::new(&quaternions, Leapfrog, 1e-4).unwrap();
+    let mut of_angles = vec![0; angles.snapshot_size()];
+    angles.snapshot(&mut of_angles).unwrap();
+    assert_eq!(of_angles.len(), quaternions.snapshot_size());
+    assert_eq!(quaternions.restore(&of_angles), Err(SnapshotError::Model));
     let other = hung_ring::<F64>(0.25);
     let mut other = Plant::new(&other, Leapfrog, 1e-4).unwrap();
     assert_eq!(other.restore(&bytes), Err(SnapshotError::Model));

@@ -100,8 +100,8 @@ pub fn for_each_relayed(visitor: &mut impl Visitor) {
 }
 
 /// Shows the further schemes: all of them with the four-bar in single precision, and those of
-/// fourth order with a mechanism that has points on lines and, for few steps, with one in space and
-/// in double precision.
+/// fourth order with a mechanism that has points on lines and, for few steps, with one that has
+/// dampers, with one in space and in double precision.
 pub fn for_each_further(visitor: &mut impl Visitor) {
     show! { visitor:
         "four-bar" four_bar::FOUR_BAR_F32 FOUR_BAR_STEP SHORT, DbdP1::default();
@@ -110,6 +110,7 @@ pub fn for_each_further(visitor: &mut impl Visitor) {
         "four-bar" four_bar::FOUR_BAR_F32 FOUR_BAR_STEP SHORT, BlanesMoanS6;
         "four-bar" four_bar::FOUR_BAR_F32 FOUR_BAR_STEP SHORT, Rk4;
         "crank-slider" crank_slider::CRANK_SLIDER_F32 CRANK_SLIDER_STEP SHORT, Pefrl;
+        "double-wishbone" double_wishbone::DOUBLE_WISHBONE_F32 DOUBLE_WISHBONE_STEP 200, Pefrl;
         "3ruu" _3ruu::_3RUU_F32 _3RUU_STEP 100, BlanesMoanS6;
         "3ruu" _3ruu::_3RUU_F32 _3RUU_STEP 100, Rk4;
         "four-bar" four_bar::FOUR_BAR_F64 FOUR_BAR_STEP 20, Pefrl;
