@@ -36,3 +36,4 @@ pub mod statistics;
 pub mod summary;
 pub mod time;
 pub mod trace;
+pub mod trade;

@@ -1,0 +1,160 @@
+//! A point of the trade: a way of stepping, what it costs and how far off it is.
+
+use serde::{Deserialize, Serialize};
+
+/// Who steps.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct Stepper {
+    /// The kernel's scheme, `dbd`, or the std reference's: `naive-leapfrog`, `linearly-implicit-euler` ….
+    pub scheme: String,
+    /// Newton iterations, for the schemes that have them.
+    pub newton: Option<u32>,
+    /// How dampers act where that is not the scheme's own way: `explicit`.
+    pub damping: Option<String>,
+    /// `f64`, `f32` ….
+    pub precision: String,
+    /// `quaternion`, `euler-321` ….
+    pub orientation: String,
+    /// Whether it is the kernel, and not a reference in plain std Rust.
+    pub kernel: bool,
+}
+
+/// What a stepper does at a step.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Point {
+    /// Who steps.
+    #[serde(flatten)]
+    pub stepper: Stepper,
+    /// \[s\] the step.
+    pub step: f64,
+    /// Steps over the window.
+    pub steps: u64,
+    /// Whether the run came to its end without growth of energy; accuracy is `None` otherwise.
+    pub stable: bool,
+    /// \[m\] root mean square over bodies and samples of the distance from the truth.
+    pub error: Option<f64>,
+    /// \[J\] root mean square of the energy's error; `None` where dampers, loads or inputs change it.
+    pub energy_rms: Option<f64>,
+    /// \[J\] the largest energy error likewise.
+    pub energy_peak: Option<f64>,
+    /// Force evaluations per simulated second.
+    pub evaluations: f64,
+    /// \[s\] of a host's core per simulated second, the median.
+    pub host_seconds: f64,
+    /// Half the range of the middle half of the measurements over the median.
+    pub host_spread: f64,
+    /// Instructions per simulated second on Cortex-M4F, where they were counted.
+    pub target_instructions: Option<f64>,
+}
+
+impl Stepper {
+    /// What people call it: `leapfrog f32`, `dbd +1 f64`, `leapfrog f64, euler-321`.
+    #[must_use]
+    pub fn label(&self) -> String {
+        let mut label = self.scheme.clone();
+        if let Some(newton) = self.newton.filter(|newton| *newton > 0) {
+            label += &format!(" +{newton}");
+        }
+        if let Some(damping) = &self.damping {
+            label += &format!(" ({damping})");
+        }
+        label += &format!(" {}", self.precision);
+        if self.orientation != "quaternion" {
+            label += &format!(", {}", self.orientation);
+        }
+        label
+    }
+}
+
+/// A machine whose cost is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Machine {
+    /// Seconds of a host's core per simulated second.
+    Host,
+    /// Instructions of a Cortex-M4F per simulated second.
+    Target,
+}
+
+impl Point {
+    /// Its cost on a machine, where known.
+    #[must_use]
+    pub fn cost(&self, machine: Machine) -> Option<f64> {
+        match machine {
+            Machine::Host => Some(self.host_seconds),
+            Machine::Target => self.target_instructions,
+        }
+    }
+}
+
+/// Rows of the points that no other beats on a machine: none is at most as far off for at most the
+/// cost. Ascending in cost.
+#[must_use]
+pub fn front(points: &[Point], machine: Machine) -> Vec<usize> {
+    let mut rows: Vec<(f64, f64, usize)> = points
+        .iter()
+        .enumerate()
+        .filter_map(|(row, point)| Some((point.cost(machine)?, point.error?, row)))
+        .collect();
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+    let mut least = f64::INFINITY;
+    rows.retain(|(_, error, _)| {
+        let better = *error < least;
+        least = least.min(*error);
+        better
+    });
+    rows.into_iter().map(|(.., row)| row).collect()
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    /// A point of the kernel with a cost on both machines and an error.
+    pub(crate) fn point(scheme: &str, step: f64, cost: f64, error: Option<f64>) -> Point {
+        Point {
+            stepper: Stepper {
+                scheme: scheme.into(),
+                newton: None,
+                damping: None,
+                precision: "f64".into(),
+                orientation: "quaternion".into(),
+                kernel: true,
+            },
+            step,
+            steps: (1.0 / step) as u64,
+            stable: error.is_some(),
+            error,
+            energy_rms: None,
+            energy_peak: None,
+            evaluations: 1.0 / step,
+            host_seconds: cost,
+            host_spread: 0.05,
+            target_instructions: Some(cost * 1e9),
+        }
+    }
+
+    #[test]
+    fn the_front_holds_what_nothing_beats() {
+        let points = [
+            point("a", 1e-3, 1.0, Some(1e-3)),
+            point("b", 1e-3, 2.0, Some(2e-3)),
+            point("c", 1e-4, 3.0, Some(1e-5)),
+            point("d", 1e-4, 3.0, Some(1e-4)),
+            point("e", 1e-2, 0.5, None),
+            point("f", 1e-5, 9.0, Some(1e-5)),
+        ];
+        assert_eq!(front(&points, Machine::Host), [0, 2]);
+        let mut uncounted = points.clone();
+        uncounted[0].target_instructions = None;
+        assert_eq!(front(&uncounted, Machine::Target), [1, 2]);
+    }
+
+    #[test]
+    fn labels_name_what_is_not_usual() {
+        let mut stepper = point("dbd", 1.0, 1.0, None).stepper;
+        assert_eq!(stepper.label(), "dbd f64");
+        stepper.newton = Some(1);
+        stepper.orientation = "euler-321".into();
+        assert_eq!(stepper.label(), "dbd +1 f64, euler-321");
+    }
+}
