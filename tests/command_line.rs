@@ -525,6 +525,22 @@ fn check_counts_and_warns_without_running() {
 }
 
 #[test]
+fn check_finds_the_largest_stable_step_on_demand() {
+    let arguments = ["check", "spring-ball", "--stability", "--scheme", "dbd", "--newton", "1"];
+    let done = call(&[&arguments[..], &["--json"]].concat());
+    let check: Value = serde_json::from_str(&done.out).unwrap();
+    let stability = &check["stability"];
+    let step = stability["largest_step"].as_f64().unwrap();
+    assert!((step * 1e3_f64.sqrt() - 1.0).abs() < 0.02, "{stability}");
+    assert_eq!((&stability["scheme"], &stability["newton"]), (&"dbd".into(), &1.into()));
+    assert!(call(&arguments).out.contains("largest stable step"));
+    let without = call(&["check", "spring-ball", "--json"]).out;
+    assert!(!without.contains("stability"));
+    let refused = call(&["check", "spring-ball", "--scheme", "dbd"]);
+    assert!(refused.err.contains("--stability") && refused.out.is_empty());
+}
+
+#[test]
 fn check_says_what_the_initial_velocities_do_to_the_joints() {
     let folder = Folder::new();
     let text = r#"

@@ -9,6 +9,7 @@ use dbd_scene::{InputInfo, JointFacts, JointInfo, ReadoutInfo, Scene, Severity};
 use serde::Serialize;
 
 use crate::frequencies::Frequencies;
+use crate::stability_check::StabilityCheck;
 use crate::summary::{approximate, significant, table};
 use crate::time::display;
 
@@ -49,6 +50,9 @@ pub struct Check {
     pub advised_step: Option<f64>,
     /// \[s\] the scene's own step, where it gives one.
     pub step: Option<f64>,
+    /// The largest stable step of a method, where it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stability: Option<StabilityCheck>,
     /// What is probably not meant.
     pub warnings: Vec<String>,
     /// What is good to know.
@@ -162,6 +166,7 @@ pub fn check(scene: &Scene) -> Check {
         frequency_estimate_hz: frequencies.estimate_hz(),
         advised_step: frequencies.advised_step(),
         step: scene.step,
+        stability: None,
         warnings: Vec::new(),
         notes: Vec::new(),
     };
@@ -239,6 +244,7 @@ impl Check {
             ("advised step", advised),
             ("step of the scene", step),
         ];
+        rows.extend(self.stability.iter().flat_map(StabilityCheck::rows));
         rows.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
         rows.extend(self.notes.iter().map(|note| ("note", note.clone())));
         let mut text = table(&rows);

@@ -18,6 +18,7 @@ use crate::list::list;
 use crate::method::{DampingName, Method, OrientationName, PrecisionName, SchemeName};
 use crate::progress::Progress;
 use crate::run::{Outcome, RunOptions, run};
+use crate::stability_check::StabilityCheck;
 use crate::summary::{json, table};
 use crate::time::Time;
 
@@ -40,13 +41,7 @@ enum Command {
     /// Runs a scene: writes OUT/SCENE/{trace.csv,summary.json,report.html}, prints the summary
     Run(RunArguments),
     /// Reads and assembles a scene without running it: counts, joints, frequencies, warnings
-    Check {
-        #[command(flatten)]
-        scene: SceneArgument,
-        /// As JSON
-        #[arg(long)]
-        json: bool,
-    },
+    Check(CheckArguments),
     /// Prints Rust source of a scene's const model, for a firmware
     Export {
         #[command(flatten)]
@@ -61,6 +56,30 @@ enum Command {
 struct SceneArgument {
     /// A scene in scenes/ by name, or a path to a .toml file
     scene: String,
+}
+
+#[derive(Debug, Args)]
+struct CheckArguments {
+    #[command(flatten)]
+    scene: SceneArgument,
+    /// As JSON
+    #[arg(long)]
+    json: bool,
+    /// Look for the largest stable step about the pose at t = 0; takes seconds
+    #[arg(long)]
+    stability: bool,
+    /// Its time-stepping scheme
+    #[arg(long, value_enum, default_value_t, requires = "stability")]
+    scheme: SchemeName,
+    /// Its Newton iterations per step, at most 8 [default: 0]
+    #[arg(long, value_name = "N", requires = "stability")]
+    newton: Option<u32>,
+    /// How its dampers act [default: the scheme's own]
+    #[arg(long, value_enum, requires = "stability")]
+    damping: Option<DampingName>,
+    /// Its precision
+    #[arg(long, value_enum, default_value_t, requires = "stability")]
+    precision: PrecisionName,
 }
 
 #[derive(Debug, Args)]
@@ -116,7 +135,7 @@ where
     let done = match cli.command {
         Command::List { json } => Ok(list(&catalogue, json, console)),
         Command::Run(arguments) => run_scene(&catalogue, &arguments, console),
-        Command::Check { scene, json } => check_scene(&catalogue, &scene.scene, json, console),
+        Command::Check(arguments) => check_scene(&catalogue, &arguments, console),
         Command::Export { scene, precision } => {
             export_scene(&catalogue, &scene.scene, precision, console)
         }
@@ -147,11 +166,8 @@ fn run_scene(
     arguments: &RunArguments,
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
-    let mut method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
-    if let Some(damping) = arguments.damping {
-        method = method.with_damping(damping)?;
-    }
-    let method = method.with_orientation(arguments.orientation);
+    let method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
+    let method = damped(method, arguments.damping)?.with_orientation(arguments.orientation);
     let scene = catalogue.load(&arguments.scene.scene)?;
     let options = RunOptions {
         method,
@@ -190,14 +206,26 @@ fn summary_table(outcome: &Outcome) -> String {
     table(&rows)
 }
 
+fn damped(method: Method, damping: Option<DampingName>) -> Result<Method, Error> {
+    Ok(match damping {
+        Some(damping) => method.with_damping(damping)?,
+        None => method,
+    })
+}
+
 fn check_scene(
     catalogue: &Catalogue,
-    scene: &str,
-    as_json: bool,
+    arguments: &CheckArguments,
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
-    let check = check(&catalogue.load(scene)?);
-    console.print(&if as_json { json(&check) } else { check.text() });
+    let method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
+    let method = damped(method, arguments.damping)?;
+    let scene = catalogue.load(&arguments.scene.scene)?;
+    let mut check = check(&scene);
+    if arguments.stability {
+        check.stability = Some(StabilityCheck::of(&scene, &method));
+    }
+    console.print(&if arguments.json { json(&check) } else { check.text() });
     Ok(Exit::Done)
 }
 

@@ -6,6 +6,7 @@
 //! - [`catalogue`], [`list`], [`check`]: scenes before they run.
 //! - [`time`], [`method`], [`frequencies`], [`plan`]: what is to be run, in whole numbers.
 //! - [`run`], [`simulate`]: the run; [`failure`]: where one failed and which step works.
+//! - [`stability`] about a [`frozen`] pose, [`stability_check`]: the largest stable step.
 //! - [`mod@reference`]: the same equations in plain std Rust, what runs are held against.
 //! - [`numerals`], [`trace`], [`statistics`], [`summary`], [`curves`], [`plot`], [`report`],
 //!   [`output`]: what is left of it.
@@ -19,6 +20,7 @@ pub mod error;
 pub mod failure;
 mod fitting;
 pub mod frequencies;
+pub mod frozen;
 mod judge;
 pub mod list;
 pub mod method;
@@ -32,6 +34,8 @@ pub mod report;
 pub mod run;
 mod sensors;
 pub mod simulate;
+pub mod stability;
+pub mod stability_check;
 pub mod statistics;
 pub mod summary;
 pub mod time;
