@@ -172,7 +172,8 @@ fn figure(
     let _ = writeln!(page, "</figcaption>\n{}</figure>", drawing.trim_start());
 }
 
-fn escape(text: &str) -> String {
+/// Text as HTML and SVG take it.
+pub(crate) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

@@ -1,0 +1,280 @@
+//! The accuracy-against-speed chart as an SVG.
+//!
+//! `(points, machine) => SVG`: cost to the right, error upwards, both logarithmic; a line for each
+//! stepper through its steps, the front as a band with its points named, what is unstable in a strip
+//! at the top. Written by hand and not with plotters for the titles that hovering shows.
+
+mod axis;
+mod frame;
+mod labels;
+mod place;
+mod style;
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use self::axis::Axis;
+use self::style::{FRONT, INK, Style};
+use super::advice::{self, Cost, is_paper, times};
+use super::point::{Machine, Point, Stepper, front};
+use crate::report::escape;
+use crate::time::display;
+
+/// What a chart is made from.
+pub struct Chart<'c> {
+    /// The scene's name.
+    pub scene: &'c str,
+    /// What it is.
+    pub description: &'c str,
+    /// \[s\] the time compared.
+    pub window: f64,
+    /// \[m\] what the truth is known to.
+    pub uncertainty: f64,
+    /// What was measured.
+    pub points: &'c [Point],
+    /// Instructions per second of the target's processor: what is real time there.
+    pub real_time_instructions: f64,
+    /// Processor, build and whatever else the measurements depend on: lines of text.
+    pub conditions: &'c [String],
+}
+
+/// [pixels] the drawing.
+const WIDTH: f64 = 1200.0;
+const HEIGHT: f64 = 850.0;
+/// [pixels] where the axes lie.
+const LEFT: f64 = 104.0;
+const RIGHT: f64 = 1180.0;
+const TOP: f64 = 172.0;
+const BOTTOM: f64 = 752.0;
+/// [pixels] the strip of what is unstable.
+const STRIP: (f64, f64) = (122.0, 166.0);
+/// [pixels] of the largest text; a character is about 0.6 of that wide.
+const LABEL: f64 = 13.0;
+const MARK: f64 = 4.6;
+
+/// The chart for a machine.
+#[must_use]
+pub fn svg(chart: &Chart<'_>, machine: Machine) -> String {
+    let title = escape(&title(chart, machine));
+    let mut text = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{HEIGHT}\" \
+         viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"{title}\" \
+         font-family=\"system-ui, 'DejaVu Sans', sans-serif\" font-size=\"{LABEL}\" fill=\"{INK}\">\n\
+         <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"#fff\"/>\n\
+         <text x=\"{LEFT}\" y=\"34\" font-size=\"21\" font-weight=\"600\">{title}</text>\n"
+    );
+    match Drawing::new(chart, machine) {
+        Some(drawing) => drawing.draw(&mut text),
+        None => {
+            let _ = writeln!(text, "<text x=\"{LEFT}\" y=\"90\">No point has a cost here.</text>");
+        }
+    }
+    text.push_str("</svg>\n");
+    text
+}
+
+fn title(chart: &Chart<'_>, machine: Machine) -> String {
+    let whose = match machine {
+        Machine::Host => "on this PC",
+        Machine::Target => "on a Cortex-M4F",
+    };
+    format!("{}: accuracy against speed {whose}", chart.scene)
+}
+
+/// The steppers in the order in which both charts and the page number them.
+#[must_use]
+pub fn steppers(points: &[Point]) -> BTreeMap<&Stepper, usize> {
+    let mut rows: BTreeMap<&Stepper, usize> =
+        points.iter().map(|point| (&point.stepper, 0)).collect();
+    rows.values_mut().enumerate().for_each(|(row, number)| *number = row);
+    rows
+}
+
+/// What hovering over a point shows.
+#[must_use]
+pub fn hover(point: &Point, machine: Machine, real_time: f64) -> String {
+    let mut text = format!("{}\nstep {}", point.stepper.label(), display(point.step));
+    text += &match advice::place(point, machine) {
+        Some((_, error)) => format!("\nerror {error:.2e} m"),
+        None => "\nunstable".into(),
+    };
+    if let Some(cost) = point.cost(machine).filter(|cost| cost.is_finite() && *cost > 0.0) {
+        let speed = times(real_time / cost);
+        text += &format!("\n{}\n{speed} × real time", Cost(cost, machine));
+    }
+    if let Some(energy) = point.energy_rms.filter(|energy| energy.is_finite()) {
+        text += &format!("\nenergy off by {energy:.2e} J rms");
+    }
+    text
+}
+
+/// A chart with its axes.
+struct Drawing<'d> {
+    chart: &'d Chart<'d>,
+    machine: Machine,
+    /// Cost that is just real time.
+    real_time: f64,
+    x: Axis,
+    y: Axis,
+    lines: Vec<Line<'d>>,
+    front: Vec<usize>,
+}
+
+/// A stepper on the chart: rows of its points, the cheapest first.
+struct Line<'d> {
+    stepper: &'d Stepper,
+    number: usize,
+    style: Style,
+    stable: Vec<usize>,
+    unstable: Vec<usize>,
+}
+
+impl<'d> Drawing<'d> {
+    fn new(chart: &'d Chart<'d>, machine: Machine) -> Option<Self> {
+        let points = chart.points;
+        let places = || points.iter().filter_map(|point| advice::place(point, machine));
+        let costs = points.iter().filter_map(|point| point.cost(machine));
+        let x = Axis::new(costs, (LEFT, RIGHT), (130.0, 140.0))?;
+        let errors = places().map(|(_, error)| error);
+        // The floor is in sight where it is near enough to matter.
+        let least = places().map(|(_, error)| error).fold(f64::INFINITY, f64::min);
+        let floor = Some(chart.uncertainty).filter(|floor| *floor > least / 100.0);
+        let y = Axis::new(errors.chain(floor), (BOTTOM, TOP), (24.0, 16.0))?;
+        let real_time = match machine {
+            Machine::Host => 1.0,
+            Machine::Target => chart.real_time_instructions,
+        };
+        let mut references = 0;
+        let lines = steppers(points)
+            .into_iter()
+            .map(|(stepper, number)| {
+                let style = Style::of(stepper, if stepper.kernel { number } else { references });
+                references += usize::from(!stepper.kernel);
+                let cost = |row: &usize| points[*row].cost(machine).filter(|cost| *cost > 0.0);
+                let mut rows: Vec<usize> = (0..points.len())
+                    .filter(|row| points[*row].stepper == *stepper)
+                    .filter(|row| cost(row).is_some_and(f64::is_finite))
+                    .collect();
+                rows.sort_by(|a, b| cost(a).unwrap_or(0.0).total_cmp(&cost(b).unwrap_or(0.0)));
+                let (stable, unstable) = rows
+                    .into_iter()
+                    .partition(|row| advice::place(&points[*row], machine).is_some());
+                Line { stepper, number, style, stable, unstable }
+            })
+            .collect();
+        let front = front(points, machine)
+            .into_iter()
+            .filter(|row| advice::place(&points[*row], machine).is_some())
+            .collect();
+        Some(Self { chart, machine, real_time, x, y, lines, front })
+    }
+
+    /// Where a point lies.
+    fn at(&self, row: usize) -> (f64, f64) {
+        let (cost, error) =
+            advice::place(&self.chart.points[row], self.machine).unwrap_or((0.0, 0.0));
+        (self.x.at(cost), self.y.at(error))
+    }
+
+    fn draw(&self, text: &mut String) {
+        self.floor(text);
+        self.grid(text);
+        self.real_time(text);
+        let band = self.band();
+        if !band.is_empty() {
+            let _ = writeln!(
+                text,
+                "<polyline points=\"{}\" fill=\"none\" stroke=\"{FRONT}\" stroke-width=\"11\" \
+                 stroke-linejoin=\"round\" stroke-linecap=\"round\"/>",
+                joined(&band)
+            );
+        }
+        // The paper's line lies beneath the others, so that its width hides none.
+        let (paper, others): (Vec<&Line<'_>>, Vec<&Line<'_>>) =
+            self.lines.iter().partition(|line| is_paper(line.stepper));
+        let (kernel, references): (Vec<_>, Vec<_>) =
+            others.into_iter().partition(|line| line.stepper.kernel);
+        let order: Vec<&Line<'_>> = paper.into_iter().chain(references).chain(kernel).collect();
+        for line in &order {
+            self.line(text, line);
+        }
+        self.strip(text);
+        for line in &order {
+            self.marks(text, line);
+        }
+        self.labels(text, &band);
+        self.key(text);
+    }
+
+    /// The front as steps: at each cost the least error that it buys.
+    fn band(&self) -> Vec<(f64, f64)> {
+        let mut corners: Vec<(f64, f64)> = Vec::new();
+        for row in &self.front {
+            let (x, y) = self.at(*row);
+            if let Some((_, last)) = corners.last().copied() {
+                corners.push((x, last));
+            }
+            corners.push((x, y));
+        }
+        corners
+    }
+
+    fn line(&self, text: &mut String, line: &Line<'_>) {
+        let places: Vec<_> = line.stable.iter().map(|row| self.at(*row)).collect();
+        if places.len() < 2 {
+            return;
+        }
+        let points = joined(&places);
+        let _ = writeln!(
+            text,
+            "<g class=\"stepper\" data-stepper=\"{}\"><polyline points=\"{points}\" {}/>\
+             <polyline points=\"{points}\" fill=\"none\" stroke=\"#000\" stroke-opacity=\"0\" \
+             stroke-width=\"12\"><title>{}</title></polyline></g>",
+            line.number,
+            line.style.line(),
+            escape(&line.stepper.label())
+        );
+    }
+
+    fn marks(&self, text: &mut String, line: &Line<'_>) {
+        let number = line.number;
+        let _ = writeln!(text, "<g class=\"stepper\" data-stepper=\"{number}\">");
+        let title =
+            |row: usize| escape(&hover(&self.chart.points[row], self.machine, self.real_time));
+        for row in &line.stable {
+            if self.front.contains(row) {
+                let (x, y) = self.at(*row);
+                let _ = writeln!(
+                    text,
+                    "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"9\" fill=\"{FRONT}\" \
+                     stroke=\"{INK}\" stroke-width=\"1.4\"/>"
+                );
+            }
+            text.push_str(&line.style.mark(self.at(*row), MARK, false, &title(*row)));
+        }
+        // A row of its own in the strip for each stepper.
+        let (top, bottom) = (STRIP.0 + 6.0, STRIP.1 - 6.0);
+        let share = (number as f64 + 0.5) / self.lines.len() as f64;
+        for row in &line.unstable {
+            let cost = self.chart.points[*row].cost(self.machine).unwrap_or(0.0);
+            let at = (self.x.at(cost), top + share * (bottom - top));
+            text.push_str(&line.style.mark(at, MARK, true, &title(*row)));
+        }
+        text.push_str("</g>\n");
+    }
+}
+
+fn joined(points: &[(f64, f64)]) -> String {
+    points.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect::<Vec<_>>().join(" ")
+}
+
+fn write(text: &mut String, (x, y): (f64, f64), anchor: &str, colour: &str, words: &str) {
+    let words = escape(words);
+    let _ = writeln!(
+        text,
+        "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\" fill=\"{colour}\">{words}</text>"
+    );
+}
+
+#[cfg(test)]
+pub(crate) mod tests;
