@@ -8,8 +8,8 @@ use std::fmt;
 
 use super::need::{Need, paper_need};
 use super::point::{Machine, Point, Stepper, front};
-use crate::summary::significant;
-use crate::time::{display, rounded};
+use crate::summary::{approximate, significant};
+use crate::time::rounded;
 
 /// Decimal exponents of the accuracies spoken of, in metres.
 const DECADES: std::ops::RangeInclusive<i32> = -9..=-3;
@@ -65,7 +65,7 @@ pub fn sentences_above(points: &[Point], machine: Machine, uncertainty: f64) -> 
             let mut sentence = format!(
                 "for 1e{decade} m choose {}, step {} ({})",
                 named(&chosen.stepper),
-                display(chosen.step),
+                approximate(chosen.step),
                 Cost(cost, machine),
             );
             if is_paper(&chosen.stepper) {
@@ -78,7 +78,7 @@ pub fn sentences_above(points: &[Point], machine: Machine, uncertainty: f64) -> 
                 .and_then(|point| Some((point, place(point, machine)?.0 / cost)))
                 .filter(|(_, ratio)| *ratio < 1.0);
             if let Some((point, ratio)) = cheaper {
-                let (who, step) = (named(&point.stepper), display(point.step));
+                let (who, step) = (named(&point.stepper), approximate(point.step));
                 let ratio = times(ratio);
                 sentence +=
                     &format!("; the reference {who}, step {step}, needs {ratio} times as much");
@@ -141,7 +141,7 @@ impl fmt::Display for Against {
         let ratio = |cost: f64| times(cost / self.1);
         match self.0 {
             Need::Largest { cost, step } => {
-                let (ratio, step) = (ratio(cost), display(step));
+                let (ratio, step) = (ratio(cost), approximate(step));
                 write!(f, "needs {ratio} times as much at {step}, its largest stable step here")
             }
             Need::Between { cost } => write!(f, "needs about {} times as much", ratio(cost)),
@@ -192,7 +192,7 @@ pub fn rows(points: &[Point], machine: Machine) -> Vec<(usize, [String; 6])> {
             let cells = [
                 format!("{error:.1e}"),
                 point.stepper.label(),
-                display(point.step),
+                approximate(point.step),
                 significant(rounded(cost * unit, 3), 3),
                 paper,
                 point.energy_rms.map_or("–".into(), |energy| format!("{energy:.1e}")),

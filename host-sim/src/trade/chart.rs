@@ -40,7 +40,7 @@ pub struct Chart<'c> {
 
 /// [pixels] the drawing.
 const WIDTH: f64 = 1200.0;
-const HEIGHT: f64 = 850.0;
+const HEIGHT: f64 = 866.0;
 /// [pixels] where the axes lie.
 const LEFT: f64 = 104.0;
 const RIGHT: f64 = 1180.0;
@@ -125,8 +125,16 @@ struct Line<'d> {
     stepper: &'d Stepper,
     number: usize,
     style: Style,
+    /// A variant that buys nothing: drawn lightly, so that what does stays in sight.
+    quiet: bool,
     stable: Vec<usize>,
     unstable: Vec<usize>,
+}
+
+impl Line<'_> {
+    fn opacity(&self) -> &'static str {
+        if self.quiet { " opacity=\".4\"" } else { "" }
+    }
 }
 
 impl<'d> Drawing<'d> {
@@ -144,6 +152,10 @@ impl<'d> Drawing<'d> {
             Machine::Host => 1.0,
             Machine::Target => chart.real_time_instructions,
         };
+        let front: Vec<usize> = front(points, machine)
+            .into_iter()
+            .filter(|row| advice::place(&points[*row], machine).is_some())
+            .collect();
         let mut references = 0;
         let lines = steppers(points)
             .into_iter()
@@ -159,12 +171,10 @@ impl<'d> Drawing<'d> {
                 let (stable, unstable) = rows
                     .into_iter()
                     .partition(|row| advice::place(&points[*row], machine).is_some());
-                Line { stepper, number, style, stable, unstable }
+                let usual = stepper.precision == "f64" && stepper.orientation == "quaternion";
+                let quiet = !usual && !front.iter().any(|row| points[*row].stepper == *stepper);
+                Line { stepper, number, style, quiet, stable, unstable }
             })
-            .collect();
-        let front = front(points, machine)
-            .into_iter()
-            .filter(|row| advice::place(&points[*row], machine).is_some())
             .collect();
         Some(Self { chart, machine, real_time, x, y, lines, front })
     }
@@ -192,9 +202,11 @@ impl<'d> Drawing<'d> {
         // The paper's line lies beneath the others, so that its width hides none.
         let (paper, others): (Vec<&Line<'_>>, Vec<&Line<'_>>) =
             self.lines.iter().partition(|line| is_paper(line.stepper));
+        let (quiet, others): (Vec<_>, Vec<_>) = others.into_iter().partition(|line| line.quiet);
         let (kernel, references): (Vec<_>, Vec<_>) =
             others.into_iter().partition(|line| line.stepper.kernel);
-        let order: Vec<&Line<'_>> = paper.into_iter().chain(references).chain(kernel).collect();
+        let order: Vec<&Line<'_>> =
+            quiet.into_iter().chain(paper).chain(references).chain(kernel).collect();
         for line in &order {
             self.line(text, line);
         }
@@ -202,7 +214,7 @@ impl<'d> Drawing<'d> {
         for line in &order {
             self.marks(text, line);
         }
-        self.labels(text, &band);
+        self.labels(text, &order, &band);
         self.key(text);
     }
 
@@ -227,10 +239,11 @@ impl<'d> Drawing<'d> {
         let points = joined(&places);
         let _ = writeln!(
             text,
-            "<g class=\"stepper\" data-stepper=\"{}\"><polyline points=\"{points}\" {}/>\
+            "<g class=\"stepper\" data-stepper=\"{}\"{}><polyline points=\"{points}\" {}/>\
              <polyline points=\"{points}\" fill=\"none\" stroke=\"#000\" stroke-opacity=\"0\" \
              stroke-width=\"12\"><title>{}</title></polyline></g>",
             line.number,
+            line.opacity(),
             line.style.line(),
             escape(&line.stepper.label())
         );
@@ -238,7 +251,7 @@ impl<'d> Drawing<'d> {
 
     fn marks(&self, text: &mut String, line: &Line<'_>) {
         let number = line.number;
-        let _ = writeln!(text, "<g class=\"stepper\" data-stepper=\"{number}\">");
+        let _ = writeln!(text, "<g class=\"stepper\" data-stepper=\"{number}\"{}>", line.opacity());
         let title =
             |row: usize| escape(&hover(&self.chart.points[row], self.machine, self.real_time));
         for row in &line.stable {
@@ -250,7 +263,8 @@ impl<'d> Drawing<'d> {
                      stroke=\"{INK}\" stroke-width=\"1.4\"/>"
                 );
             }
-            text.push_str(&line.style.mark(self.at(*row), MARK, false, &title(*row)));
+            let size = if line.quiet { 0.75 * MARK } else { MARK };
+            text.push_str(&line.style.mark(self.at(*row), size, false, &title(*row)));
         }
         // A row of its own in the strip for each stepper.
         let (top, bottom) = (STRIP.0 + 6.0, STRIP.1 - 6.0);

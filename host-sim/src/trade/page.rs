@@ -9,8 +9,7 @@ use super::advice::{self, headings, rows, sentences_above};
 use super::chart::{Chart, steppers, svg};
 use super::point::{Machine, Point};
 use crate::report::escape;
-use crate::summary::significant;
-use crate::time::display;
+use crate::summary::{approximate, significant};
 
 const STYLE: &str = concat!(include_str!("../report.css"), include_str!("trade.css"));
 const SCRIPT: &str = include_str!("trade.js");
@@ -151,7 +150,7 @@ fn all(page: &mut String, chart: &Chart<'_>) {
             None => "–".into(),
         };
         let cells = [
-            display(point.step),
+            approximate(point.step),
             error,
             known(point.energy_rms, 1),
             known(point.energy_peak, 1),

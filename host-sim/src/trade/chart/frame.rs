@@ -146,9 +146,15 @@ impl Drawing<'_> {
              where nothing measured is both faster and more accurate."
         );
         write(text, (LEFT, 58.0), "start", FAINT, &above);
-        let beneath = "Each mark is a step. Lines: solid f64, dashed f32, dash-dotted or dotted \
-                       other orientations; grey: references in plain Rust. Hollow: unstable at \
-                       that step.";
-        write(text, (LEFT, BOTTOM + 76.0), "start", FAINT, beneath);
+        let beneath = [
+            "Each mark is a step; hollow ones ran unstable. Lines: solid f64, dashed f32, \
+             dash-dotted or dotted other orientations.",
+            "Grey: references in plain Rust. Faint: other precisions and orientations without a \
+             point on the front.",
+        ];
+        for (row, words) in beneath.into_iter().enumerate() {
+            let y = BOTTOM + 76.0 + 19.0 * row as f64;
+            write(text, (LEFT, y), "start", FAINT, words);
+        }
     }
 }

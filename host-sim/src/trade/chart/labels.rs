@@ -10,7 +10,7 @@ use crate::trade::advice::is_paper;
 
 impl Drawing<'_> {
     /// Names: of the front's points, then of the lines where they end.
-    pub(super) fn labels(&self, text: &mut String, band: &[(f64, f64)]) {
+    pub(super) fn labels(&self, text: &mut String, order: &[&Line<'_>], band: &[(f64, f64)]) {
         let (x, y) = (LEFT + 4.0, TOP + 4.0);
         let (width, height) = (RIGHT - LEFT - 8.0, BOTTOM - TOP - 8.0);
         let mut places = Places::new(Rectangle { x, y, width, height });
@@ -22,14 +22,18 @@ impl Drawing<'_> {
         band.windows(2).for_each(|pair| places.stroke(pair[0], pair[1]));
         self.remarks(text, &mut places);
         let named = self.front_labels(text, &mut places);
-        for line in &self.lines {
+        // The quiet lines come first to be drawn beneath, and last to be named.
+        let (quiet, loud): (Vec<&Line<'_>>, Vec<&Line<'_>>) =
+            order.iter().copied().partition(|line| line.quiet);
+        for line in loud.into_iter().chain(quiet) {
             let Some(row) = line.stable.last().filter(|row| !named.contains(row)) else { continue };
-            let name = match is_paper(line.stepper) {
+            let paper = is_paper(line.stepper);
+            let name = match paper {
                 true => format!("paper's scheme ({})", line.stepper.label()),
                 false => line.stepper.label(),
             };
-            let bold = is_paper(line.stepper);
-            self.label(text, &mut places, (*row, line), &name, (0.9, 0.3), (300.0, bold));
+            let worst = if line.quiet { 45.0 } else { 300.0 };
+            self.label(text, &mut places, (*row, line), &name, (0.9, 0.3), (worst, paper));
         }
     }
 
