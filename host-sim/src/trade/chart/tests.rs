@@ -1,4 +1,5 @@
-//! Charts of ladders like those measured, from orders, floors and limits.
+//! Charts of ladders like those measured, from orders, floors and limits. `DBD_DRAW=folder` leaves
+//! them and a page there to look at.
 
 use super::*;
 use crate::time::rounded;
