@@ -16,11 +16,13 @@ use crate::error::{Error, Exit};
 use crate::frequencies::Frequencies;
 use crate::list::list;
 use crate::method::{DampingName, Method, OrientationName, PrecisionName, SchemeName};
+use crate::output;
 use crate::progress::Progress;
 use crate::run::{Outcome, RunOptions, run};
 use crate::stability_check::StabilityCheck;
 use crate::summary::{json, table};
 use crate::time::Time;
+use crate::trade::{TradeOptions, files, survey};
 
 /// Discrete Body Dynamics: simulates mechanisms of rigid bodies and springs.
 #[derive(Debug, Parser)]
@@ -42,6 +44,8 @@ enum Command {
     Run(RunArguments),
     /// Reads and assembles a scene without running it: counts, joints, frequencies, warnings
     Check(CheckArguments),
+    /// Surveys speed against accuracy: writes OUT/SCENE/trade.{csv,html} and charts
+    Trade(TradeArguments),
     /// Prints Rust source of a scene's const model, for a firmware
     Export {
         #[command(flatten)]
@@ -121,6 +125,24 @@ struct RunArguments {
     json: bool,
 }
 
+#[derive(Debug, Args)]
+struct TradeArguments {
+    #[command(flatten)]
+    scene: SceneArgument,
+    /// Longest window of comparison, e.g. 0.2s; it ends before chaos takes over [default: 0.5s]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    window: Option<Time>,
+    /// Folder below which results are written, and kept for the next call
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+    /// Print nothing but errors
+    #[arg(long)]
+    quiet: bool,
+    /// Print all points as JSON
+    #[arg(long)]
+    json: bool,
+}
+
 /// Runs a command line, the program's name first.
 pub fn main_with<I>(arguments: I, console: &mut Console<'_>) -> Exit
 where
@@ -136,6 +158,7 @@ where
         Command::List { json } => Ok(list(&catalogue, json, console)),
         Command::Run(arguments) => run_scene(&catalogue, &arguments, console),
         Command::Check(arguments) => check_scene(&catalogue, &arguments, console),
+        Command::Trade(arguments) => trade_scene(&catalogue, &arguments, console),
         Command::Export { scene, precision } => {
             export_scene(&catalogue, &scene.scene, precision, console)
         }
@@ -226,6 +249,32 @@ fn check_scene(
         check.stability = Some(StabilityCheck::of(&scene, &method));
     }
     console.print(&if arguments.json { json(&check) } else { check.text() });
+    Ok(Exit::Done)
+}
+
+fn trade_scene(
+    catalogue: &Catalogue,
+    arguments: &TradeArguments,
+    console: &mut Console<'_>,
+) -> Result<Exit, Error> {
+    let scene = catalogue.load(&arguments.scene.scene)?;
+    let folder = output::folder(&arguments.out, &scene.name)
+        .map_err(|reason| Error::Folder { folder: arguments.out.join(&scene.name), reason })?;
+    let options = TradeOptions {
+        window: arguments.window.map(Time::seconds),
+        cache: Some(folder.join("trade.cache")),
+    };
+    let mut progress = Progress::of(console.terminal && !arguments.quiet, "evaluations");
+    let trade = survey(&scene, &options, &mut |done, all| progress.update(done, all));
+    progress.finish();
+    let trade = trade?;
+    files::write(&folder, &scene, &trade).map_err(Error::Write)?;
+    if arguments.json {
+        console.print(&json(&trade.points));
+    } else if !arguments.quiet {
+        let written = format!("{}/trade.{{csv,svg,html}}", folder.display());
+        console.print(&format!("{}\nwritten  {written}\n", files::text(&scene, &trade)));
+    }
     Ok(Exit::Done)
 }
 

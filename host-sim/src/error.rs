@@ -12,6 +12,7 @@ use thiserror::Error;
 use crate::catalogue::UnknownScene;
 use crate::method::MethodError;
 use crate::plan::PlanError;
+use crate::reference::truth::NoTruth;
 use crate::time::display;
 
 /// How a command ended.
@@ -46,6 +47,9 @@ pub enum Error {
     /// The step does not fit.
     #[error(transparent)]
     Plan(#[from] PlanError),
+    /// There is no truth to compare with.
+    #[error(transparent)]
+    NoTruth(#[from] NoTruth),
     /// The step is zero or infinite once rounded.
     #[error("a step of {} is {rounded} in {precision}", display(*step))]
     Step {
@@ -74,7 +78,7 @@ impl Error {
     #[must_use]
     pub fn exit(&self) -> Exit {
         match self {
-            Self::Write(_) => Exit::Failed,
+            Self::Write(_) | Self::NoTruth(_) => Exit::Failed,
             _ => Exit::Refused,
         }
     }
@@ -85,6 +89,7 @@ impl Error {
             Self::Scene(error) => Some(error),
             Self::Method(error) => Some(error),
             Self::Plan(error) => Some(error),
+            Self::NoTruth(error) => Some(error),
             Self::Step { .. } | Self::Folder { .. } | Self::Write(_) => None,
         }
     }

@@ -11,6 +11,7 @@ const PATIENCE: Duration = Duration::from_millis(500);
 pub struct Progress {
     start: Instant,
     shown: bool,
+    unit: &'static str,
     bar: Option<ProgressBar>,
 }
 
@@ -18,7 +19,13 @@ impl Progress {
     /// A run begins; `shown` where there is a terminal to show it on.
     #[must_use]
     pub fn new(shown: bool) -> Self {
-        Self { start: Instant::now(), shown, bar: None }
+        Self::of(shown, "steps")
+    }
+
+    /// Likewise for work that is counted in another unit.
+    #[must_use]
+    pub fn of(shown: bool, unit: &'static str) -> Self {
+        Self { start: Instant::now(), shown, unit, bar: None }
     }
 
     /// So many steps of all are done.
@@ -27,9 +34,12 @@ impl Progress {
             return;
         }
         let bar = self.bar.get_or_insert_with(|| {
-            let template = "{bar:40} {percent:>3} %  {human_pos} of {human_len} steps  {eta} left";
+            let unit = self.unit;
+            let template = format!(
+                "{{bar:40}} {{percent:>3}} %  {{human_pos}} of {{human_len}} {unit}  {{eta}} left"
+            );
             let bar = ProgressBar::new(all).with_elapsed(self.start.elapsed());
-            match ProgressStyle::with_template(template) {
+            match ProgressStyle::with_template(&template) {
                 Ok(style) => bar.with_style(style),
                 Err(_) => bar,
             }

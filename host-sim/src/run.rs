@@ -218,7 +218,7 @@ fn summarise(
 }
 
 /// Whether the scene's total energy is meant to stay as it is.
-fn conserves_energy(scene: &Scene) -> bool {
+pub(crate) fn conserves_energy(scene: &Scene) -> bool {
     let undriven = scene.model.loads.is_empty() && scene.model.inputs.is_empty();
     undriven && scene.model.dampers.iter().all(|c| c.abs() == 0.0)
 }

@@ -1,0 +1,146 @@
+//! What a survey leaves: `trade.csv`, the charts, the page.
+//!
+//! `survey => files in a folder`. Each appears when it is complete.
+
+use std::io;
+use std::path::Path;
+
+use dbd_scene::Scene;
+
+use crate::output::{self, PendingFile};
+use crate::summary::significant;
+use crate::time::display;
+use crate::trade::advice::{sentences_above, table as table_of};
+use crate::trade::cache::Head;
+use crate::trade::chart::{Chart, svg};
+use crate::trade::page::html;
+use crate::trade::point::{Machine, Point, front};
+use crate::trade::survey::Trade;
+
+/// Columns of `trade.csv`.
+pub const COLUMNS: [&str; 18] = [
+    "scheme",
+    "newton",
+    "damping",
+    "precision",
+    "orientation",
+    "kernel",
+    "step",
+    "steps",
+    "stable",
+    "error",
+    "energy_rms",
+    "energy_peak",
+    "evaluations_per_second",
+    "host_seconds_per_second",
+    "host_spread",
+    "target_instructions_per_second",
+    "host_front",
+    "target_front",
+];
+
+/// \[1/s\] instructions of a Cortex-M4F at 168 MHz, 1.5 cycles each: an estimate, see docs/target.md.
+const REAL_TIME: f64 = 168e6 / 1.5;
+
+/// Writes all files.
+///
+/// # Errors
+/// Where the folder cannot be written to.
+pub fn write(folder: &Path, scene: &Scene, trade: &Trade) -> io::Result<()> {
+    table(folder, &trade.points)?;
+    let conditions = conditions(trade);
+    let chart = Chart {
+        scene: &scene.name,
+        description: &scene.description,
+        window: trade.head.window,
+        uncertainty: trade.head.uncertainty,
+        points: &trade.points,
+        real_time_instructions: REAL_TIME,
+        conditions: &conditions,
+    };
+    output::write(folder, "trade.svg", &svg(&chart, Machine::Host))?;
+    if trade.points.iter().any(|point| point.target_instructions.is_some()) {
+        output::write(folder, "trade-cortex-m4f.svg", &svg(&chart, Machine::Target))?;
+    }
+    output::write(folder, "trade.html", &html(&chart))
+}
+
+/// What people read on a terminal: for both machines what nothing beats, and what to choose.
+#[must_use]
+pub fn text(scene: &Scene, trade: &Trade) -> String {
+    let mut text = format!("{}\n", scene.name);
+    for line in conditions(trade) {
+        text += &format!("  {line}\n");
+    }
+    for (machine, name) in
+        [(Machine::Host, "one core of this machine"), (Machine::Target, "Cortex-M4F")]
+    {
+        if front(&trade.points, machine).is_empty() {
+            continue;
+        }
+        text += &format!("\n{name}: what nothing beats\n{}\n", table_of(&trade.points, machine));
+        for sentence in sentences_above(&trade.points, machine, trade.head.uncertainty) {
+            text += &format!("{sentence}\n");
+        }
+    }
+    text
+}
+
+/// What the figures depend on.
+fn conditions(trade: &Trade) -> Vec<String> {
+    let Head { window, growth, uncertainty, .. } = trade.head;
+    let build = if cfg!(debug_assertions) { "a debug build: times mean little" } else { "release" };
+    vec![
+        format!(
+            "compared over {}, where a perturbation has grown {} times; the truth is known to {:.0e} m",
+            display(window),
+            significant(growth, 2),
+            uncertainty,
+        ),
+        "error: root mean square over bodies and 50 samples of the distance from DOP853 at 1e-12"
+            .into(),
+        "a step counts as unstable beyond the linear limit at t = 0, or where the run fails or loses its way"
+            .into(),
+        format!(
+            "times: median of 15 measurements on one thread, {}, {}, {build}",
+            std::env::consts::ARCH,
+            std::env::consts::OS,
+        ),
+        "Cortex-M4F: instructions per step counted in QEMU (docs/costs.csv); real time at 168 MHz \
+         with 1.5 cycles per instruction is an estimate"
+            .into(),
+    ]
+}
+
+fn table(folder: &Path, points: &[Point]) -> io::Result<()> {
+    let mut rows = csv::Writer::from_writer(PendingFile::create(folder, "trade.csv")?);
+    rows.write_record(COLUMNS)?;
+    let fronts = [Machine::Host, Machine::Target].map(|machine| front(points, machine));
+    let number = |value: Option<f64>| value.map(|value| format!("{value:?}")).unwrap_or_default();
+    for (row, point) in points.iter().enumerate() {
+        let stepper = &point.stepper;
+        let newton = stepper.newton.map(|n| n.to_string()).unwrap_or_default();
+        rows.write_record([
+            stepper.scheme.as_str(),
+            &newton,
+            stepper.damping.as_deref().unwrap_or_default(),
+            &stepper.precision,
+            &stepper.orientation,
+            &stepper.kernel.to_string(),
+            &format!("{:?}", point.step),
+            &point.steps.to_string(),
+            &point.stable.to_string(),
+            &number(point.error),
+            &number(point.energy_rms),
+            &number(point.energy_peak),
+            &format!("{:?}", point.evaluations),
+            &format!("{:?}", point.host_seconds),
+            &format!("{:?}", point.host_spread),
+            &number(point.target_instructions),
+            &fronts[0].contains(&row).to_string(),
+            &fronts[1].contains(&row).to_string(),
+        ])?;
+    }
+    let file = rows.into_inner().map_err(|error| io::Error::other(error.to_string()))?;
+    file.complete()
+}

@@ -1,0 +1,268 @@
+//! How far off a way of stepping is, and what its step costs a host.
+//!
+//! `(scene, truth, way, steps per interval) => error, energy; (scene, way, step) => seconds per
+//! step`. Accuracy is a pure function of its inputs; time is measured on one thread while nothing
+//! else of this program runs.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use dbd_kernel::energy::energy;
+use dbd_kernel::{F64, Geometry, Plant, Scheme, State as KernelState};
+use dbd_scene::{Scene, SceneModel, widen};
+use nalgebra::Vector3;
+
+use crate::judge::Judge;
+use crate::method::MethodVisitor;
+use crate::reference::implicit::Implicit;
+use crate::reference::naive::Naive;
+use crate::reference::trajectory::{Positions, Trajectory};
+use crate::reference::{Mechanism, State};
+use crate::trade::ways::Way;
+
+/// What a run over the window came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accuracy {
+    /// Whether it came to its end without growth beyond all measure.
+    pub stable: bool,
+    /// \[m\] root mean square over bodies and samples of the distance from the truth.
+    pub error: Option<f64>,
+    /// \[J\] root mean square over samples of the energy's error, where energy should stay.
+    pub energy_rms: Option<f64>,
+    /// \[J\] the largest likewise.
+    pub energy_peak: Option<f64>,
+}
+
+/// A run that did not come to its end.
+pub const UNSTABLE: Accuracy =
+    Accuracy { stable: false, error: None, energy_rms: None, energy_peak: None };
+
+/// An error beyond this many times the way that the truth itself goes is no trajectory any more.
+const LOST: f64 = 1.0;
+
+/// What is compared.
+pub struct Comparison<'c> {
+    /// The scene.
+    pub scene: &'c Scene,
+    /// Its truth.
+    pub truth: &'c Trajectory,
+    /// Whether nothing changes its energy.
+    pub conservative: bool,
+    /// \[m\] the largest way of a body from its start, by the truth; root mean square over bodies.
+    travel: f64,
+}
+
+impl<'c> Comparison<'c> {
+    /// Comparisons of a scene with its truth.
+    #[must_use]
+    pub fn new(scene: &'c Scene, truth: &'c Trajectory) -> Self {
+        let first = truth.states.first().map(State::positions).unwrap_or_default();
+        let ways = truth.errors(&vec![first; truth.times.len()]);
+        let travel = ways.into_iter().fold(0.0, f64::max);
+        Self { scene, truth, conservative: crate::run::conserves_energy(scene), travel }
+    }
+
+    /// How far off a way is with so many steps per interval of the truth.
+    #[must_use]
+    pub fn accuracy(&self, way: &Way, steps: u64) -> Accuracy {
+        let step = self.interval() / steps as f64;
+        match way {
+            Way::Kernel(method) => method.visit(KernelRun { of: self, step, steps }),
+            Way::NaiveSemiImplicitEuler => {
+                self.naive(step, steps, |naive| naive.semi_implicit_euler())
+            }
+            Way::NaiveLeapfrog => self.naive(step, steps, |naive| naive.leapfrog()),
+            Way::LinearlyImplicitEuler => {
+                let (mechanism, start) = Mechanism::of(self.scene);
+                let mut implicit = Implicit::new(&mechanism, start, step);
+                self.judge_positions(|samples| {
+                    for sample in 0..self.truth.times.len() {
+                        if sample > 0 && !(0..steps).all(|_| implicit_step(&mut implicit)) {
+                            return;
+                        }
+                        samples.push(implicit.state.positions());
+                    }
+                })
+            }
+        }
+    }
+
+    /// \[s\] between two samples.
+    #[must_use]
+    pub fn interval(&self) -> f64 {
+        self.truth.times.get(1).copied().unwrap_or_default()
+    }
+
+    fn naive(&self, step: f64, steps: u64, advance: impl Fn(&mut Naive<'_>)) -> Accuracy {
+        let (mechanism, start) = Mechanism::of(self.scene);
+        let mut naive = Naive::new(&mechanism, start, step);
+        self.judge_positions(|samples| {
+            for sample in 0..self.truth.times.len() {
+                if sample > 0 {
+                    (0..steps).for_each(|_| advance(&mut naive));
+                }
+                let positions = naive.state.positions();
+                if !positions.iter().all(|p| p.iter().all(|x| x.is_finite())) {
+                    return;
+                }
+                samples.push(positions);
+            }
+        })
+    }
+
+    fn judge_positions(&self, run: impl FnOnce(&mut Vec<Positions>)) -> Accuracy {
+        let mut samples = Vec::with_capacity(self.truth.times.len());
+        run(&mut samples);
+        self.judged(&samples, None)
+    }
+
+    /// The verdict on samples, with the energy error's square sum and peak where it says anything.
+    fn judged(&self, samples: &[Positions], energy: Option<(f64, f64)>) -> Accuracy {
+        let error = self.truth.error(samples);
+        if !error.is_finite() || error > LOST * self.travel {
+            return UNSTABLE;
+        }
+        let energy = energy.filter(|_| self.conservative);
+        Accuracy {
+            stable: true,
+            error: Some(error),
+            energy_rms: energy.map(|(squares, _)| (squares / samples.len() as f64).sqrt()),
+            energy_peak: energy.map(|(_, peak)| peak),
+        }
+    }
+}
+
+fn implicit_step(implicit: &mut Implicit<'_>) -> bool {
+    // Without a finite state there is no factor.
+    let state = &implicit.state;
+    let finite = state.bodies.iter().all(|body| {
+        let vectors = [body.position, body.velocity, body.rate];
+        vectors.iter().all(|v| v.iter().all(|x| x.is_finite()))
+    });
+    if finite {
+        implicit.step();
+    }
+    finite
+}
+
+struct KernelRun<'r, 'c> {
+    of: &'r Comparison<'c>,
+    step: f64,
+    steps: u64,
+}
+
+impl MethodVisitor for KernelRun<'_, '_> {
+    type Output = Accuracy;
+
+    fn visit<P: Geometry, S: Scheme>(self, scheme: S) -> Accuracy {
+        let Self { of, step, steps } = self;
+        let model: SceneModel<P> = of.scene.model.convert();
+        let exact: SceneModel<F64> = model.convert();
+        let mut judge = Judge::new(of.scene, &model, step);
+        let Ok(mut plant) = Plant::new(&model, scheme, step) else { return UNSTABLE };
+        let (mut samples, mut squares, mut peak, mut initial) = (Vec::new(), 0.0, 0.0_f64, None);
+        for sample in 0..of.truth.times.len() {
+            if sample > 0 && !plant.advance(steps).is_running() {
+                return UNSTABLE;
+            }
+            let state: KernelState<SceneModel<F64>> = widen(plant.state());
+            if judge.judge(&state).is_err() {
+                return UNSTABLE;
+            }
+            let total = energy(&exact, &state, step).total();
+            let error: f64 = total - *initial.get_or_insert(total);
+            squares += error * error;
+            peak = peak.max(error.abs());
+            let positions = state.bodies.iter().map(|body| Vector3::from(body.position.to_f64()));
+            samples.push(positions.collect());
+        }
+        of.judged(&samples, Some((squares, peak)))
+    }
+}
+
+/// What a step takes on this host.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cost {
+    /// \[s\] the median of the measurements.
+    pub seconds: f64,
+    /// Half the range of the middle half of the measurements over the median.
+    pub spread: f64,
+}
+
+/// Measurements of a step's time, each of as many steps as take [`BATCH`].
+const BATCHES: usize = 15;
+/// \[s\] per measurement.
+const BATCH: f64 = 2e-3;
+
+/// Measures a way's step of the size `step` \[s\] on this thread, from t = 0 of the scene on.
+#[must_use]
+pub fn cost(scene: &Scene, way: &Way, step: f64) -> Cost {
+    match way {
+        Way::Kernel(method) => method.visit(Timing { scene, step }),
+        Way::NaiveSemiImplicitEuler | Way::NaiveLeapfrog => {
+            let (mechanism, start) = Mechanism::of(scene);
+            let mut naive = Naive::new(&mechanism, start, step);
+            timed(|| {
+                match way {
+                    Way::NaiveLeapfrog => naive.leapfrog(),
+                    _ => naive.semi_implicit_euler(),
+                }
+                black_box(&naive.state);
+            })
+        }
+        Way::LinearlyImplicitEuler => {
+            let (mechanism, start) = Mechanism::of(scene);
+            let mut implicit = Implicit::new(&mechanism, start, step);
+            timed(|| {
+                black_box(implicit_step(&mut implicit));
+            })
+        }
+    }
+}
+
+struct Timing<'s> {
+    scene: &'s Scene,
+    step: f64,
+}
+
+impl MethodVisitor for Timing<'_> {
+    type Output = Cost;
+
+    fn visit<P: Geometry, S: Scheme>(self, scheme: S) -> Cost {
+        let model: SceneModel<P> = self.scene.model.convert();
+        let Ok(mut plant) = Plant::new(&model, scheme, self.step) else {
+            return Cost { seconds: f64::INFINITY, spread: 0.0 };
+        };
+        timed(|| {
+            // A plant that has failed steps no more: it begins again.
+            if !black_box(plant.step().is_running())
+                && let Ok(anew) = Plant::new(&model, scheme, self.step)
+            {
+                plant = anew;
+            }
+        })
+    }
+}
+
+fn timed(mut step: impl FnMut()) -> Cost {
+    let mut batch = |steps: u64| {
+        let start = Instant::now();
+        (0..steps).for_each(|_| step());
+        start.elapsed().as_secs_f64() / steps as f64
+    };
+    // Warms caches and finds how many steps a measurement takes.
+    let mut steps = 1;
+    loop {
+        let seconds = batch(steps);
+        if seconds * steps as f64 >= 0.5 * BATCH {
+            steps = (BATCH / seconds).ceil() as u64;
+            break;
+        }
+        steps *= 4;
+    }
+    let mut times: Vec<f64> = (0..BATCHES).map(|_| batch(steps.max(1))).collect();
+    times.sort_by(f64::total_cmp);
+    let seconds = times[BATCHES / 2];
+    let spread = 0.5 * (times[3 * BATCHES / 4] - times[BATCHES / 4]) / seconds;
+    Cost { seconds, spread }
+}
