@@ -1,6 +1,6 @@
-//! What a step of every shipped model costs in instructions and memory.
+//! What a step of every shipped and every charted model costs in instructions and memory.
 //!
-//! `(models, SysTick) => lines "cost SCENE SCHEME PRECISION STEP MEAN MAX PLANT MODEL STACK"`:
+//! `(models, SysTick) => lines "cost SCENE SCHEMEVARIANT PRECISION STEP MEAN MAX PLANT MODEL STACK"`:
 //! step \[ns\], instructions per step, bytes of the plant (state and scratch), of the const model
 //! and of the stack below the call. The emulator must count instructions (`-icount shift=6`): an
 //! instruction is 64 ns of virtual time, which is 1.6 ticks of SysTick. An empty call is timed
@@ -13,6 +13,7 @@ use dbd_kernel::{Geometry, Plant, Scheme, Status};
 
 use crate::board::stack;
 use crate::board::systick::SysTick;
+use crate::chart::for_each_charted;
 use crate::models::{Shipped, Visitor, for_each};
 use crate::say;
 
@@ -25,6 +26,7 @@ const WARM_UP: u32 = 4;
 pub fn run(systick: &mut SysTick) -> bool {
     let mut costing = Costing { systick, well: true };
     for_each(&mut costing);
+    for_each_charted(&mut costing);
     costing.well
 }
 
@@ -40,7 +42,13 @@ impl Visitor for Costing<'_> {
         let precision = M::Precision::NAME;
         let plant = Plant::new(shipped.model, shipped.scheme, shipped.step);
         let Ok(mut plant) = plant else {
-            say!("cost {} {} {} refused its step", shipped.scene, S::NAME, precision);
+            say!(
+                "cost {} {}{} {} refused its step",
+                shipped.scene,
+                S::NAME,
+                shipped.variant,
+                precision
+            );
             self.well = false;
             return;
         };
@@ -61,9 +69,10 @@ impl Visitor for Costing<'_> {
         });
         let nanoseconds = (shipped.step * 1e9 + 0.5) as u64;
         say!(
-            "cost {} {} {} {} {} {} {} {} {}",
+            "cost {} {}{} {} {} {} {} {} {} {}",
             shipped.scene,
             S::NAME,
+            shipped.variant,
             precision,
             nanoseconds,
             SysTick::instructions(total, STEPS),

@@ -4,7 +4,9 @@
 //! models and programs also compile for a host, where `hash` prints the same lines.
 #![cfg_attr(target_os = "none", no_std)]
 
+pub mod alone;
 pub mod board;
+pub mod chart;
 pub mod console;
 pub mod hash;
 pub mod models;

@@ -17,6 +17,9 @@ pub struct Shipped<M: 'static, S> {
     pub model: &'static M,
     /// The scheme.
     pub scheme: S,
+    /// What follows the scheme's name: nothing, `+1` for a Newton iteration or `-explicit` for
+    /// explicit dampers in place of sweeps.
+    pub variant: &'static str,
     /// \[s\] the step of the shipped programs.
     pub step: f64,
     /// Most steps that a comparison of bits takes.
@@ -37,6 +40,7 @@ macro_rules! show {
             scene: $scene,
             model: &$module::$model,
             scheme: $scheme,
+            variant: "",
             step: $module::$step,
             steps: $steps,
         });)*
@@ -66,6 +70,7 @@ pub fn for_each(visitor: &mut impl Visitor) {
                 scene: $scene,
                 model: &$module::$f32,
                 scheme: Leapfrog,
+                variant: "",
                 step: $module::$step,
                 steps: SHORT,
             });)*
@@ -80,9 +85,9 @@ fn both<M: ModelOwner>(
     model: &'static M,
     step: f64,
 ) {
-    let steps = u64::MAX;
-    visitor.visit(Shipped { scene, model, scheme: Leapfrog, step, steps });
-    visitor.visit(Shipped { scene, model, scheme: Dbd::default(), step, steps });
+    let (variant, steps) = ("", u64::MAX);
+    visitor.visit(Shipped { scene, model, scheme: Leapfrog, variant, step, steps });
+    visitor.visit(Shipped { scene, model, scheme: Dbd::default(), variant, step, steps });
 }
 
 /// Shows what a run that changes machines is tried with: both precisions, a scheme that keeps its

@@ -2,7 +2,7 @@
 //!
 //! `whole: models => lines; begin: models => files; end: files => lines`. The files are
 //! `out/relay-0` and so on, one per model, in the order of
-//! [`for_each_relayed`](crate::models::for_each_relayed). The line `relay SCENE SCHEME PRECISION
+//! [`for_each_relayed`]. The line `relay SCENE SCHEME PRECISION
 //! STEPS HASH` must be the same, whoever took which half.
 
 use core::ffi::CStr;
@@ -55,7 +55,7 @@ impl Visitor for Relay {
 
 impl Relay {
     fn relay<M: ModelOwner, S: Scheme>(&self, shipped: &Shipped<M, S>) -> Result<(), &'static str> {
-        let Shipped { scene, model, scheme, step, steps } = *shipped;
+        let Shipped { scene, model, scheme, step, steps, .. } = *shipped;
         let mut name = *b"out/relay-0\0";
         name[10] += self.number;
         let path = CStr::from_bytes_with_nul(&name).map_err(|_| "no name")?;

@@ -10,11 +10,13 @@
 //! - [`mod@reference`]: the same equations in plain std Rust, what runs are held against.
 //! - [`numerals`], [`trace`], [`statistics`], [`summary`], [`curves`], [`plot`], [`report`],
 //!   [`output`]: what is left of it.
+//! - [`costs`]: what a step costs on the target.
 
 pub mod catalogue;
 pub mod check;
 pub mod cli;
 pub mod console;
+pub mod costs;
 pub mod curves;
 pub mod error;
 pub mod failure;

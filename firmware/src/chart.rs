@@ -1,0 +1,115 @@
+//! The pairs of model and scheme of a chart of speed against accuracy.
+//!
+//! `(models, schemes) => visitor`: what [`models::for_each`] leaves out, the other schemes with the
+//! paper's mechanisms and a damped one in single precision and with the four-bar in double. Each
+//! model is one [`Alone`] with its scheme.
+
+use dbd_kernel::{
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, Leapfrog, Pefrl, Rk4, SemiImplicitEuler,
+};
+
+use crate::alone::Alone;
+use crate::models::{self, Shipped, Visitor};
+
+/// Most steps that a comparison of bits would take.
+const STEPS: u64 = 1_000;
+
+/// Shows all pairs, scene by scene.
+pub fn for_each_charted(visitor: &mut impl Visitor) {
+    // Each scheme as `VALUE => TYPE, VARIANT;`.
+    macro_rules! chart {
+        ($scene:literal $module:ident::$model:ident: $type:ident $step:ident,
+            $($scheme:expr => $scheme_type:ty, $variant:literal;)*) => {
+            $({
+                static MODEL: Alone<models::$module::$type, $scheme_type> =
+                    Alone::new(models::$module::$model);
+                visitor.visit(Shipped {
+                    scene: $scene,
+                    model: &MODEL,
+                    scheme: $scheme,
+                    variant: $variant,
+                    step: models::$module::$step,
+                    steps: STEPS,
+                });
+            })*
+        };
+    }
+    // What no shipped model has: all schemes but leapfrog and, without iterations, dbd.
+    macro_rules! others {
+        ($($of:tt)*) => {
+            chart! { $($of)*,
+                Dbd { newton: 1 } => Dbd, "+1";
+                DbdP1 { newton: 0 } => DbdP1, "";
+                DbdP2 { newton: 0 } => DbdP2, "";
+                SemiImplicitEuler => SemiImplicitEuler, "";
+                Pefrl => Pefrl, "";
+                BlanesMoanS6 => BlanesMoanS6, "";
+                Rk4 => Rk4, "";
+            }
+        };
+    }
+    // What a model lacks that is shipped with leapfrog.
+    macro_rules! all {
+        ($($of:tt)*) => {
+            chart! { $($of)*, Dbd { newton: 0 } => Dbd, ""; }
+            others! { $($of)* }
+        };
+    }
+    others! { "four-bar" four_bar::FOUR_BAR_F32: FourBarF32 FOUR_BAR_STEP }
+    all! { "five-bar-a" five_bar_a::FIVE_BAR_A_F32: FiveBarAF32 FIVE_BAR_A_STEP }
+    all! { "five-bar-b" five_bar_b::FIVE_BAR_B_F32: FiveBarBF32 FIVE_BAR_B_STEP }
+    all! { "six-bar" six_bar::SIX_BAR_F32: SixBarF32 SIX_BAR_STEP }
+    all! { "3rrr" _3rrr::_3RRR_F32: _3rrrF32 _3RRR_STEP }
+    all! { "crank-slider" crank_slider::CRANK_SLIDER_F32: CrankSliderF32 CRANK_SLIDER_STEP }
+    all! { "3ruu" _3ruu::_3RUU_F32: _3ruuF32 _3RUU_STEP }
+    all! { "double-wishbone"
+    double_wishbone::DOUBLE_WISHBONE_F32: DoubleWishboneF32 DOUBLE_WISHBONE_STEP }
+    chart! { "double-wishbone"
+        double_wishbone::DOUBLE_WISHBONE_F32: DoubleWishboneF32 DOUBLE_WISHBONE_STEP,
+        Explicit(SemiImplicitEuler) => Explicit<SemiImplicitEuler>, "-explicit";
+        Explicit(Leapfrog) => Explicit<Leapfrog>, "-explicit";
+    }
+    others! { "four-bar" four_bar::FOUR_BAR_F64: FourBarF64 FOUR_BAR_STEP }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use dbd_kernel::model::ModelOwner;
+    use dbd_kernel::{Geometry, Plant, Scheme};
+
+    use super::*;
+    use crate::models::for_each;
+
+    /// What pairs are called, and whether none was called so before.
+    #[derive(Default)]
+    struct Names {
+        seen: BTreeSet<String>,
+        twice: Vec<String>,
+    }
+
+    impl Visitor for Names {
+        fn visit<M: ModelOwner, S: Scheme>(&mut self, shipped: Shipped<M, S>) {
+            let Shipped { scene, variant, .. } = shipped;
+            let name = format!("{scene} {}{variant} {}", S::NAME, M::Precision::NAME);
+            let mut plant = Plant::new(shipped.model, shipped.scheme, shipped.step).unwrap();
+            assert!(plant.advance(5).is_running(), "{name}");
+            if !self.seen.insert(name.clone()) {
+                self.twice.push(name);
+            }
+        }
+    }
+
+    #[test]
+    fn every_pair_steps_and_has_a_name_of_its_own() {
+        let mut names = Names::default();
+        for_each(&mut names);
+        for_each_charted(&mut names);
+        assert!(names.twice.is_empty(), "{:?}", names.twice);
+        for name in ["3ruu rk4 f32", "four-bar dbd+1 f64", "double-wishbone leapfrog-explicit f32"]
+        {
+            assert!(names.seen.contains(name), "{name}");
+        }
+    }
+}
