@@ -7,8 +7,11 @@ use host_sim::trade::{Machine, Point, Trade, TradeOptions, front, survey};
 
 /// A survey of a scene's first moments; `cache` where results are kept.
 fn trade(name: &str, window: f64, cache: Option<&std::path::Path>) -> Trade {
-    let options =
-        TradeOptions { window: Some(window), cache: cache.map(|path| path.join("trade.cache")) };
+    let options = TradeOptions {
+        window: Some(window),
+        cache: cache.map(|path| path.join("trade.cache")),
+        shipped: true,
+    };
     survey(&scene(name), &options, &mut |_, _| ()).unwrap()
 }
 
@@ -69,6 +72,14 @@ fn a_survey_holds_every_way_and_says_what_is_unstable() {
     assert!(best("pefrl f64") < 1e-3 * best("leapfrog f64"));
     assert!(best("leapfrog f64") < 0.1 * best("dbd f64"));
     assert!(trade.head.uncertainty < 1e-11, "{:e}", trade.head.uncertainty);
+    // Loose square roots are off by far more than single precision is, at any step.
+    assert!(best("leapfrog f32-micromath") > 100.0 * best("leapfrog f32"));
+    let counted = |label: &str| {
+        let mut of = trade.points.iter().filter(|point| point.stepper.label() == label);
+        of.next().and_then(|point| point.target_instructions.map(|count| count * point.step))
+    };
+    assert!(counted("leapfrog f32").is_some_and(|count| (count - 4090.0).abs() < 100.0));
+    assert_eq!(counted("std leapfrog f64"), None);
     let front = front(&trade.points, Machine::Host);
     let errors: Vec<_> = front.iter().map(|row| trade.points[*row].error.unwrap()).collect();
     assert!(errors.len() > 3 && errors.windows(2).all(|pair| pair[1] < pair[0]));

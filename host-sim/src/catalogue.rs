@@ -70,6 +70,12 @@ impl Catalogue {
         names
     }
 
+    /// Whether what a user names is a scene of the catalogue.
+    #[must_use]
+    pub fn ships(&self, scene: &str) -> bool {
+        !is_path(scene) && self.names().iter().any(|name| name == scene)
+    }
+
     /// Loads what a user names: a scene of the catalogue, or a path to a `.toml` file.
     ///
     /// # Errors

@@ -6,7 +6,7 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum as _};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use dbd_scene::export;
 
 use crate::catalogue::Catalogue;
@@ -52,8 +52,15 @@ enum Command {
         scene: SceneArgument,
         /// The model's precision [default: all]
         #[arg(long, value_enum)]
-        precision: Option<PrecisionName>,
+        precision: Option<ExportPrecision>,
     },
+}
+
+/// Precisions that const models are written in.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum ExportPrecision {
+    F64,
+    F32,
 }
 
 #[derive(Debug, Args)]
@@ -263,6 +270,7 @@ fn trade_scene(
     let options = TradeOptions {
         window: arguments.window.map(Time::seconds),
         cache: Some(folder.join("trade.cache")),
+        shipped: catalogue.ships(&arguments.scene.scene),
     };
     let mut progress = Progress::of(console.terminal && !arguments.quiet, "evaluations");
     let trade = survey(&scene, &options, &mut |done, all| progress.update(done, all));
@@ -282,16 +290,16 @@ fn trade_scene(
 fn export_scene(
     catalogue: &Catalogue,
     scene: &str,
-    precision: Option<PrecisionName>,
+    precision: Option<ExportPrecision>,
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
     let scene = catalogue.load(scene)?;
     let step = Frequencies::of(&scene).advised_step().unwrap_or(scene.duration / 1000.0);
     let mut source = export::preamble(&scene, step);
-    for precision in precision.map_or(PrecisionName::value_variants().to_vec(), |one| vec![one]) {
+    for precision in precision.map_or(ExportPrecision::value_variants().to_vec(), |one| vec![one]) {
         source += &match precision {
-            PrecisionName::F64 => export::model::<f64>(&scene),
-            PrecisionName::F32 => export::model::<f32>(&scene),
+            ExportPrecision::F64 => export::model::<f64>(&scene),
+            ExportPrecision::F32 => export::model::<f32>(&scene),
         };
     }
     console.print(&source);

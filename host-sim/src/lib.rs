@@ -8,6 +8,7 @@
 //! - [`run`], [`simulate`]: the run; [`failure`]: where one failed and which step works.
 //! - [`stability`] about a [`frozen`] pose, [`stability_check`]: the largest stable step.
 //! - [`mod@reference`]: the same equations in plain std Rust, what runs are held against.
+//! - [`trade`], [`costs`]: every way of stepping a scene, its accuracy and its cost.
 //! - [`numerals`], [`trace`], [`statistics`], [`summary`], [`curves`], [`plot`], [`report`],
 //!   [`output`]: what is left of it.
 //! - [`costs`]: what a step costs on the target.

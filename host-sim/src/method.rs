@@ -7,6 +7,7 @@
 use clap::ValueEnum;
 use dbd_kernel::damping::Damping;
 use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
+use dbd_kernel::loose::{Loose32, LooseEuler32, LooseSingleEuler32};
 use dbd_kernel::{
     BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Geometry, Leapfrog, Pefrl, Real as _, Rk4,
     Scheme, SemiImplicitEuler,
@@ -56,6 +57,9 @@ pub enum PrecisionName {
     F64,
     /// Single precision.
     F32,
+    /// Single precision with micromath's square root, sine and cosine: what fast and loose costs.
+    #[value(name = "f32-micromath")]
+    F32Micromath,
 }
 
 /// The ways of storing an orientation by name.
@@ -237,6 +241,11 @@ impl Method {
             (PrecisionName::F32, Euler321) => self.visit_in::<EulerF32, V>(visitor),
             (PrecisionName::F64, Euler321Single) => self.visit_in::<SingleEulerF64, V>(visitor),
             (PrecisionName::F32, Euler321Single) => self.visit_in::<SingleEulerF32, V>(visitor),
+            (PrecisionName::F32Micromath, Quaternion) => self.visit_in::<Loose32, V>(visitor),
+            (PrecisionName::F32Micromath, Euler321) => self.visit_in::<LooseEuler32, V>(visitor),
+            (PrecisionName::F32Micromath, Euler321Single) => {
+                self.visit_in::<LooseSingleEuler32, V>(visitor)
+            }
         }
     }
 

@@ -80,6 +80,8 @@ pub mod frequency;
 pub mod geometry;
 mod groups;
 pub mod inputs;
+#[cfg(feature = "micromath")]
+pub mod loose;
 pub mod model;
 pub mod plant;
 pub mod readouts;

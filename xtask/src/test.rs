@@ -8,7 +8,7 @@ use crate::toolchain::Toolchain;
 use crate::{audit, cost, firmware, hashes, relay, setup};
 
 const KERNEL: &str = "dbd-kernel";
-const KERNEL_FEATURES: [&str; 3] = ["nalgebra", "defmt", "heapless"];
+const KERNEL_FEATURES: [&str; 4] = ["nalgebra", "defmt", "heapless", "micromath"];
 /// Targets that the kernel is checked for beside the firmware's: without an FPU, without
 /// instructions for it, with a newer core.
 const OTHER_TARGETS: [&str; 3] =

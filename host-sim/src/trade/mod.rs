@@ -5,7 +5,7 @@
 //! - [`point`]: what a point is, and which of them nothing beats.
 //! - [`ways`]: all ways of stepping a scene, and their ladders of steps.
 //! - [`measure`]: how far off a way is at a step, and what a step costs.
-//! - [`survey`]: all points, in parallel, kept as they come ([`cache`]).
+//! - [`mod@survey`]: all points, in parallel, kept as they come ([`cache`]).
 //! - [`need`], [`advice`]: what an accuracy costs, in sentences and tables.
 //! - [`chart`], [`page`]: what people look at; [`files`] writes it and `trade.csv`.
 

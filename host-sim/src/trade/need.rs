@@ -4,7 +4,7 @@
 //! beyond the last along the last two.
 
 use super::advice::{is_paper, place};
-use super::point::{Machine, Point};
+use super::point::{Machine, Point, Stepper};
 
 /// An error that falls with less than this power of the step does not fall.
 const LEAST_ORDER: f64 = 0.5;
@@ -50,12 +50,36 @@ impl Need {
     }
 }
 
-/// What the paper's scheme costs at an accuracy \[m\]; `None` where it is not among the points.
+/// What the paper's scheme costs at an accuracy \[m\]; `None` where it is not among the points. On the
+/// target, whose FPU has single precision, in the cheaper precision that reaches it.
 #[must_use]
 pub fn paper_need(points: &[Point], machine: Machine, target: f64) -> Option<Need> {
-    let paper = || points.iter().filter(|point| is_paper(&point.stepper));
-    paper().next()?;
-    let mut known: Vec<(f64, f64, f64)> = paper()
+    let double = need_of(points, machine, target, is_paper)?;
+    if machine == Machine::Host {
+        return Some(double);
+    }
+    // In single precision its error stops falling, so only what was measured counts.
+    let single = |stepper: &Stepper| {
+        is_paper(&Stepper { precision: "f64".into(), ..stepper.clone() })
+            && stepper.precision == "f32"
+    };
+    let cheaper = |need: &Need| {
+        let measured = matches!(need, Need::Largest { .. } | Need::Between { .. });
+        measured && need.cost() < Some(double.cost().unwrap_or(f64::INFINITY))
+    };
+    Some(need_of(points, machine, target, single).filter(cheaper).unwrap_or(double))
+}
+
+/// The need of one stepper, `None` where it is not among the points.
+fn need_of(
+    points: &[Point],
+    machine: Machine,
+    target: f64,
+    is: impl Fn(&Stepper) -> bool,
+) -> Option<Need> {
+    let mut of = points.iter().filter(|point| is(&point.stepper)).peekable();
+    of.peek()?;
+    let mut known: Vec<(f64, f64, f64)> = of
         .filter_map(|point| place(point, machine).map(|(cost, error)| (point.step, cost, error)))
         .collect();
     known.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -110,5 +134,18 @@ mod tests {
         assert_eq!(super::need(&flat, 1e-6), Need::Never);
         assert_eq!(super::need(&[], 1e-6), Need::Unknown);
         assert_eq!(paper_need(&points[3..], Machine::Host, 1e-3), None);
+        // Single precision at a tenth of the instructions counts on the target alone.
+        let mut both = points.clone();
+        for mut point in points.into_iter().filter(|point| is_paper(&point.stepper)) {
+            point.stepper.precision = "f32".into();
+            point.target_instructions = point.target_instructions.map(|count| 0.1 * count);
+            both.push(point);
+        }
+        let cost = |points: &[Point], machine| {
+            paper_need(points, machine, 1e-4).and_then(Need::cost).unwrap()
+        };
+        let double = cost(&both[..both.len() - 3], Machine::Target);
+        assert!((cost(&both, Machine::Target) / double - 0.1).abs() < 1e-9);
+        assert!((cost(&both, Machine::Host) / cost(&both[..3], Machine::Host) - 1.0).abs() < 1e-12);
     }
 }

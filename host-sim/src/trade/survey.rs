@@ -11,13 +11,14 @@ use std::thread;
 
 use dbd_scene::Scene;
 
+use crate::costs::Costs;
 use crate::error::Error;
 use crate::frequencies::Frequencies;
 use crate::reference::trajectory::Trajectory;
 use crate::reference::window::{GROWTH, before_chaos};
 use crate::trade::cache::{Cache, Entry, Head, key};
 use crate::trade::measure::{Comparison, UNSTABLE, cost};
-use crate::trade::point::Point;
+use crate::trade::point::{Point, Stepper};
 use crate::trade::ways::{Way, in_space, ways};
 
 /// Samples at which a run is compared with the truth, after t = 0.
@@ -45,6 +46,9 @@ pub struct TradeOptions {
     pub window: Option<f64>,
     /// The file that results are kept in; nothing is kept where `None`.
     pub cache: Option<PathBuf>,
+    /// Whether the scene is the one that ships under its name, whose steps were counted on the
+    /// target.
+    pub shipped: bool,
 }
 
 /// A survey.
@@ -116,7 +120,9 @@ pub fn survey(
             cache.add(entry).map_err(Error::Write)?;
         }
     }
-    let points = jobs.iter().filter_map(|job| point(scene, job, interval, &cache)).collect();
+    let costs = if options.shipped { Costs::shipped() } else { Costs::none() };
+    let points =
+        jobs.iter().filter_map(|job| point(scene, &costs, job, interval, &cache)).collect();
     Ok(Trade { head, points })
 }
 
@@ -197,7 +203,7 @@ fn run(
     })
 }
 
-fn point(scene: &Scene, job: &Job, interval: f64, cache: &Cache) -> Option<Point> {
+fn point(scene: &Scene, costs: &Costs, job: &Job, interval: f64, cache: &Cache) -> Option<Point> {
     let entry = cache.accuracies.get(&(job.label.clone(), job.steps))?;
     let Entry::Accuracy { stable, error, energy_rms, energy_peak, .. } = entry else { return None };
     let (seconds, spread) = cache.costs.get(&job.label)?;
@@ -213,12 +219,17 @@ fn point(scene: &Scene, job: &Job, interval: f64, cache: &Cache) -> Option<Point
         evaluations: f64::from(job.way.evaluations()) / step,
         host_seconds: seconds / step,
         host_spread: *spread,
-        target_instructions: instructions(scene, &job.way).map(|count| count / step),
+        target_instructions: instructions(scene, costs, &job.way).map(|count| count / step),
         stepper,
     })
 }
 
-/// Instructions per step on Cortex-M4F, where they were counted.
-fn instructions(_scene: &Scene, _way: &Way) -> Option<f64> {
-    None
+/// Instructions per step on Cortex-M4F, where they were counted: of the scenes that ship.
+fn instructions(scene: &Scene, costs: &Costs, way: &Way) -> Option<f64> {
+    let Stepper { scheme, newton, damping, precision, orientation, kernel } = &way.stepper();
+    if !kernel {
+        return None;
+    }
+    let explicit = damping.is_some();
+    costs.instructions_per_step(&scene.name, scheme, *newton, explicit, precision, orientation)
 }

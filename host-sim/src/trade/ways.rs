@@ -119,6 +119,14 @@ pub fn ways(scene: &Scene, in_space: bool) -> Vec<Way> {
     for precision in PrecisionName::value_variants() {
         for scheme in SchemeName::value_variants() {
             let Ok(method) = Method::new(*scheme, None, *precision) else { continue };
+            if *precision == PrecisionName::F32Micromath {
+                // One scheme shows what its functions cost; angles need its trigonometry.
+                if *scheme == SchemeName::Leapfrog {
+                    add(method);
+                    add(method.with_orientation(OrientationName::Euler321));
+                }
+                continue;
+            }
             add(method);
             if let Ok(iterated) = Method::new(*scheme, Some(1), *precision)
                 && *scheme == SchemeName::Dbd

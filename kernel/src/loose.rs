@@ -1,0 +1,139 @@
+//! Fast and loose: single precision with the square root, sine and cosine of `micromath`.
+//!
+//! Its square root is an approximation by bit shifts, off by up to several per cent, its sine and
+//! cosine by about 1e-3: a spring whose length is off by a share of itself pulls with a force that
+//! is none. For comparison only, never a default; feature `micromath`.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use micromath::F32Ext;
+
+use crate::euler::{Euler, Trigonometric};
+use crate::geometry::{Float, Named};
+use crate::real::Real;
+use crate::words::{Word, WordSource};
+
+/// A number of single precision whose functions are approximations.
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(transparent)]
+pub struct Loose(pub f32);
+
+/// Loose arithmetic with quaternions.
+pub type Loose32 = Float<Loose>;
+/// Loose arithmetic with Euler angles, two sequences.
+pub type LooseEuler32 = Euler<Loose, true>;
+/// Loose arithmetic with yaw–pitch–roll alone.
+pub type LooseSingleEuler32 = Euler<Loose, false>;
+
+macro_rules! operator {
+    ($($operation:ident $function:ident $sign:tt;)*) => {
+        $(impl $operation for Loose {
+            type Output = Self;
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                Self(self.0 $sign other.0)
+            }
+        })*
+    };
+}
+
+operator! {
+    Add add +;
+    Sub sub -;
+    Mul mul *;
+    Div div /;
+}
+
+impl Neg for Loose {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl Named for Loose {
+    const NAME: &'static str = "f32-micromath";
+}
+
+/// The coefficients of single precision.
+const fn loose<const N: usize>(coefficients: &[f32]) -> [Loose; N] {
+    let mut all = [Loose(0.0); N];
+    let mut i = 0;
+    while i < N {
+        all[i] = Loose(coefficients[i]);
+        i += 1;
+    }
+    all
+}
+
+impl Real for Loose {
+    const ZERO: Self = Self(0.0);
+    const ONE: Self = Self(1.0);
+    const HALF: Self = Self(0.5);
+    const TWO: Self = Self(2.0);
+    const PI: Self = Self(<f32 as Real>::PI);
+    const FRAC_PI_2: Self = Self(<f32 as Real>::FRAC_PI_2);
+    const FRAC_PI_4: Self = Self(<f32 as Real>::FRAC_PI_4);
+    const TAN_PI_8: Self = Self(<f32 as Real>::TAN_PI_8);
+    const ATAN: &'static [Self] = &loose::<{ <f32 as Real>::ATAN.len() }>(<f32 as Real>::ATAN);
+    const COS: &'static [Self] = &loose::<{ <f32 as Real>::COS.len() }>(<f32 as Real>::COS);
+    const SINC: &'static [Self] = &loose::<{ <f32 as Real>::SINC.len() }>(<f32 as Real>::SINC);
+
+    #[inline(always)]
+    fn from_f64(value: f64) -> Self {
+        Self(value as f32)
+    }
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        f64::from(self.0)
+    }
+    #[inline(always)]
+    fn from_u64(value: u64) -> Self {
+        Self(<f32 as Real>::from_u64(value))
+    }
+    #[inline(always)]
+    fn from_i32(value: i32) -> Self {
+        Self(value as f32)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(F32Ext::sqrt(self.0))
+    }
+    #[inline(always)]
+    fn is_finite(self) -> bool {
+        f32::is_finite(self.0)
+    }
+    #[inline(always)]
+    fn word(self) -> Word {
+        Word::F32(self.0)
+    }
+    fn from_words(source: &mut impl WordSource) -> Self {
+        Self(<f32 as Real>::from_words(source))
+    }
+}
+
+impl Trigonometric for Loose {
+    fn sin_cos(self) -> (Self, Self) {
+        let (sine, cosine) = F32Ext::sin_cos(self.0);
+        (Self(sine), Self(cosine))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn square_roots_and_sines_are_as_loose_as_said() {
+        let mut worst = [0.0_f64; 2];
+        for i in 1..2000 {
+            let x = f64::from(i) * 1e-3;
+            let root = Loose::from_f64(x).sqrt().to_f64() / libm::sqrt(x) - 1.0;
+            let sine = Loose::from_f64(x).sin_cos().0.to_f64() - libm::sin(x);
+            worst = [worst[0].max(root.abs()), worst[1].max(sine.abs())];
+        }
+        assert!((1e-3..0.1).contains(&worst[0]) && (1e-5..5e-3).contains(&worst[1]), "{worst:?}");
+    }
+}
