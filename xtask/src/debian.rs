@@ -18,13 +18,13 @@ pub fn install(purpose: &str, packages: &[&str], otherwise: &str) -> Result<()> 
         bail!("{purpose} is missing: sudo apt-get install {packages_line}; or {otherwise}");
     }
     println!("installing {packages_line} for {purpose}");
-    // The package lists of a fresh machine are empty or old: install, else refresh and retry.
-    if apt(&["install"], packages).is_ok() {
-        return Ok(());
+    // The package lists of a fresh machine are empty or old, and old lists offer old compilers. A
+    // machine without a mirror may have the packages all the same: the installation decides.
+    let refreshed = apt(&["update"], &[]);
+    if let Err(error) = &refreshed {
+        println!("the package lists could not be refreshed: {error:#}");
     }
-    println!("refreshing the package lists");
-    apt(&["update"], &[])
-        .and_then(|()| apt(&["install"], packages))
+    apt(&["install"], packages)
         .with_context(|| format!("{purpose} is missing and could not be installed; {otherwise}"))
 }
 

@@ -6,6 +6,7 @@
 //!
 //! Nothing is downloaded through rustup on the user's behalf.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -61,11 +62,7 @@ impl Toolchain {
                     "{OVERRIDE}=rust-src: its sources are missing: rustup component add rust-src"
                 );
             }
-            Way::Debian if !debian_is_complete() => debian::install(
-                &format!("a compiler for {target}"),
-                &DEBIAN_PACKAGES,
-                &format!("rustup target add {target}"),
-            )?,
+            Way::Debian => complete_debian(target)?,
             _ => {}
         }
         let linker = match way {
@@ -176,9 +173,68 @@ fn has_prebuilt(target: &str) -> bool {
     })
 }
 
-fn debian_is_complete() -> bool {
+/// Installs Debian's compiler where it is missing or older than the workspace demands.
+fn complete_debian(target: &str) -> Result<()> {
+    let needed =
+        Version::parse(env!("CARGO_PKG_RUST_VERSION")).context("no rust-version is set")?;
+    let instead = format!("rustup target add {target}");
+    if debian_version().is_none_or(|version| version < needed) {
+        let purpose = format!("a compiler for {target}, version {needed} or later,");
+        debian::install(&purpose, &DEBIAN_PACKAGES, &instead)?;
+    }
+    match debian_version() {
+        Some(version) if version >= needed => Ok(()),
+        Some(version) => bail!(
+            "Debian's compiler for {target} is {version}, {needed} or later is needed: \
+             apt-get install {} from a newer Debian or its security updates; or {instead}",
+            DEBIAN_PACKAGES.join(" ")
+        ),
+        None => bail!("the packages {} brought no compiler", DEBIAN_PACKAGES.join(" ")),
+    }
+}
+
+/// The version of Debian's compiler, where it is complete.
+fn debian_version() -> Option<Version> {
     let source = Path::new(DEBIAN_SYSROOT).join(LIBRARY_SOURCE);
-    [Path::new(DEBIAN_RUSTC), Path::new(DEBIAN_CARGO), &source].iter().all(|file| file.is_file())
+    let files = [Path::new(DEBIAN_RUSTC), Path::new(DEBIAN_CARGO), &source];
+    if !files.iter().all(|file| file.is_file()) {
+        return None;
+    }
+    let version = output(program(DEBIAN_RUSTC).arg("--version")).ok()?;
+    Version::parse(version.split_whitespace().nth(1)?)
+}
+
+/// A compiler's version: major and minor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Version(u32, u32);
+
+impl Version {
+    fn parse(text: &str) -> Option<Self> {
+        let mut parts = text.split('.').map(str::parse);
+        match (parts.next(), parts.next()) {
+            (Some(Ok(major)), Some(Ok(minor))) => Some(Self(major, minor)),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Version {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}", self.0, self.1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Version;
+
+    #[test]
+    fn versions_are_ordered_by_number() {
+        let version = |text| Version::parse(text).expect("it is one");
+        assert!(version("1.85.0") < version("1.89"));
+        assert!(version("1.100.0") > version("1.96.0-beta.1"));
+        assert_eq!(Version::parse("rustc"), None);
+    }
 }
 
 /// An LLVM linker: the host toolchain's own, else one on PATH, else Debian's.
