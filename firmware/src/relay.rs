@@ -7,6 +7,7 @@
 
 use core::ffi::CStr;
 
+use dbd_kernel::inputs::InputIndex;
 use dbd_kernel::model::ModelOwner;
 use dbd_kernel::{Geometry, Plant, Scheme};
 
@@ -25,6 +26,10 @@ pub enum Part {
     End,
 }
 
+/// The input that is held over the run, where the model has one that no table drives.
+const CALLERS: InputIndex = InputIndex(0);
+/// \[N\] its value.
+const HELD: f64 = 0.25;
 /// Bytes of the largest snapshot.
 const LARGEST: usize = 4096;
 
@@ -61,6 +66,10 @@ impl Relay {
         let path = CStr::from_bytes_with_nul(&name).map_err(|_| "no name")?;
         let mut buffer = [0; LARGEST];
         let mut plant = Plant::new(model, scheme, step).map_err(|_| "its step")?;
+        if self.part != Part::End {
+            // What a caller holds travels with the state; a model without such an input refuses.
+            let _ = plant.set_input(CALLERS, HELD);
+        }
         if self.part == Part::End {
             let bytes = load(path, &mut buffer).ok_or("no snapshot")?;
             plant.restore(bytes).map_err(|_| "a snapshot that does not fit")?;
