@@ -210,6 +210,11 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
         Ok(())
     }
 
+    /// The scheme.
+    pub fn scheme(&self) -> &S {
+        &self.scheme
+    }
+
     /// The status of the last step.
     pub fn status(&self) -> Status {
         self.status
