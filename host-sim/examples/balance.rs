@@ -12,7 +12,7 @@ const GAINS: [f64; 4] = [-20.0, 88.97, -18.33, 17.54];
 pub fn balance(milliseconds: u64) -> Result<Vec<[f64; 2]>, Box<dyn Error>> {
     let scene = Scene::load("scenes/cart-pendulum.toml".as_ref())?;
     let drive = scene.input("drive")?;
-    let (cart, speed) = (scene.readout("cart")?, scene.readout("cart_velocity")?);
+    let (cart, speed) = (scene.readout("cart_point")?, scene.readout("cart_velocity")?);
     let (angle, rate) = (scene.readout("angle")?, scene.readout("rate")?);
     let mut plant = Plant::new(&scene.model, Leapfrog, 5e-4)?;
     let mut furthest = vec![[0.0_f64; 2]; milliseconds.div_ceil(1000) as usize];

@@ -26,7 +26,7 @@ pub fn follow(looks: u32) -> Result<f64, Box<dyn Error>> {
     let (tool, mut last, mut furthest) = (scene.readout("tool")?, [0.0; 3], 0.0_f64);
     let mut plant = Plant::new(&scene.model, Leapfrog, 5e-5)?;
     for t in (0..looks).map(|look| H * f64::from(look)) {
-        for (i, drive) in drives.iter().enumerate() {
+        for (i, drive) in scene.inputs.iter().enumerate() {
             let [past, now, next] = [t - H, t, t + H].map(|t| arm(path(t), TAU / 3.0 * i as f64));
             let angle = scene.readout(&format!("angle{}", i + 1))?;
             let off = now - plant.read(&angle).and_then(|r| r.scalar()).ok_or("blind")?;

@@ -6,6 +6,7 @@
 
 mod assembly;
 mod body;
+mod columns;
 mod direction;
 mod error;
 pub mod export;
@@ -32,6 +33,7 @@ mod tsda;
 use std::ops::Range;
 use std::path::Path;
 
+pub use columns::{BODY_COLUMNS, ENERGY_COLUMNS};
 pub use error::{Refusal, SceneError};
 pub use facts::{Facts, Island, JointFacts};
 pub use hinge::Hinge;
