@@ -139,8 +139,8 @@ fn the_delta_picks_and_places() {
     let steps = (scene.duration / step).round() as u64;
     let mut last = [0.0; 3];
     for n in 1..=steps {
-        plant.step().ok().unwrap();
         let torques: Vec<f64> = plant.state().signals.iter().map(|s| s.value).collect();
+        plant.step().ok().unwrap();
         let rates = ["rate1", "rate2", "rate3"].map(|name| read(&scene, &plant, name)[0]);
         for i in 0..3 {
             // The torque is held over the step, the rate is not.

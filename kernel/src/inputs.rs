@@ -1,7 +1,8 @@
 //! Inputs: what a controller, a road or a table does to a plant at run time.
 //!
-//! `(input, signal, frames) => wrenches | the motion of ground points`. A signal is sampled at
-//! the start of a step and held for all its stages. It is set by the caller, or follows a table
+//! `(input, signal, frames) => wrenches | the motion of ground points`. A signal is sampled for
+//! the start of a step, when the one before it ends, and held for all its stages: what is read
+//! between two steps is what the next one begins with. It is set by the caller, or follows a table
 //! that is held or linear between its knots:
 //! `value + slope·((n − first)·h + offset)`, n the step, `first` the knot's first step and
 //! `offset` what lies between the knot's time and that step. Forces and torques of inputs are
