@@ -1,5 +1,6 @@
 //! What inputs, read-outs, clearances and names of elements are refused for.
 
+use dbd_kernel::{F32, F64, Geometry};
 use dbd_scene::Scene;
 
 use crate::{Case, case, check, lacks};
@@ -206,6 +207,7 @@ const CASES: &[Case] = &[
     case("target = \"cord\" # pulled", "target = «\"pad\" # pulled", "names the tsda `pad`, which has no free length", "`free_length` > 0"),
     case("target = \"tyre\"", "target = «\"cord\"", "names `cord`, which is not joined to the world", "one of its bodies is \"world\""),
     case("target = \"tyre\"", "target = [\"tyre\", «\"coil\"]", "names the torsion_spring \"coil\"", "a joint, a tsda or a point_on_line"),
+    case("target = \"tyre\"", "target = [\"tyre\", «\"tyre\"]", "`target`[1] of input `road` names `tyre` a second time", "stands once"),
     case("target = \"tyre\"", "target = «[]", "is empty", "an array of such names"),
     case("target = \"knee\"\nabout = \"second\"", "target = «\"tyre\"\naxis = [1, 0, 0]", "names the tsda \"tyre\"", "a joint or of a torsion_spring"),
 
@@ -233,4 +235,31 @@ const CASES: &[Case] = &[
 fn refusals_name_place_reason_and_remedy() {
     Scene::parse(BASE, "base.toml").unwrap_or_else(|e| panic!("{} ({})", e.message(), e.help()));
     check(BASE, CASES);
+}
+
+/// The base scene with other values and tables of the inputs `push` and `motor`.
+fn driven(value: &str, table: &str) -> Scene {
+    let text = BASE.replace("2.5", value).replace("[[0.0, 0.0], [0.1, 7.5]]", table);
+    Scene::parse(&text, "driven.toml").unwrap()
+}
+
+#[test]
+fn inputs_that_a_precision_cannot_hold_are_named() {
+    let table = "[[0.0, 0.0], [0.1, 7.5]]";
+    for (value, given, named) in [
+        ("1e300", table, "push"),
+        ("2.5", "[[0.0, 0.0], [1e-30, 1e10]]", "motor"),
+        ("2.5", "[[-1e300, 0.0], [1.0, 1.0]]", "motor"),
+        ("2.5", "[[0.0, -3e38], [10.0, 3e38]]", "motor"),
+    ] {
+        let scene = driven(value, given);
+        assert_eq!(scene.check_inputs::<F64>(), Ok(()));
+        let unfit = scene.check_inputs::<F32>().unwrap_err();
+        assert_eq!((unfit.input.as_str(), unfit.precision), (named, F32::NAME));
+        let line = BASE.lines().position(|line| line == format!("[[input]] # {named}")).unwrap();
+        assert_eq!(unfit.line, line + 1);
+        let message = unfit.to_string();
+        assert!(message.contains(&format!("input `{named}`")) && message.contains("f32"));
+    }
+    assert_eq!(driven("2.5", table).check_inputs::<F32>(), Ok(()));
 }
