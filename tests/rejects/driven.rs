@@ -164,6 +164,12 @@ const CASES: &[Case] = &[
     case("name = \"coil\"", "name = «\"wrist\"", "is \"wrist\", as that of the joint on line 26", "names that differ from each other"),
     case("name = \"coil\"", "name = «\"\"", "is empty", "a name in quotes"),
 
+    case("name = \"coil\"", "name = «\"co\\nil\"", "`name` of torsion_spring 1 holds a line break", "one line of visible text"),
+    case("name = \"tip\"", "name = «\"tip\\u0007\"", "`name` of readout 2 holds a line break or another invisible character", "visible text"),
+    case("name = \"push\"", "name = «\"pu\\u202Esh\"", "`name` of input 1 holds", "visible text"),
+    case("name = \"driven\"", "name = «\"dri\\rven\"", "`name` of the scene holds", "visible text"),
+    case("name = \"arm\"\nmass", "name = «\"\\tarm\"\nmass", "`name` of body 1 holds", "visible text"),
+
     // What every input has.
     lacks("[[input]] # push", "name = \"push\"", "input 1 has no `name`", "add `name`"),
     lacks("[[input]] # push", "type = \"force\"", "input `push` has no `type`", "\"joint_torque\""),
