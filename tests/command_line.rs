@@ -591,3 +591,20 @@ fn export_writes_the_bits_of_the_model() {
     assert!(!done.out.contains("FOUR_BAR_F64"));
     assert!(call(&["export", "four-bar"]).out.contains("FOUR_BAR_F64"));
 }
+
+#[test]
+fn an_input_beyond_the_precision_is_refused_by_name() {
+    let folder = Folder::new();
+    let input = "[[input]]\nname = \"gust\"\ntype = \"force\"\nbody = \"bob\"\naxis = [1, 0, 0]\n";
+    for drive in ["value = 1e300", "table = [[0, 0], [1e-30, 1e10]]\ninterpolate = \"linear\""] {
+        let scene = folder.scene(&format!("{PENDULUM}{input}{drive}\n"));
+        let done = folder.run(&scene, &["--precision", "f32"]);
+        assert_eq!(done.exit, Exit::Refused, "{}", done.err);
+        for part in ["input `gust` (line 18)", "f32 cannot hold", "--precision f64"] {
+            assert!(done.err.contains(part), "{part}: {}", done.err);
+        }
+        assert!(!folder.path("out").exists());
+        assert_eq!(call(&["export", &scene, "--precision", "f32"]).exit, Exit::Refused);
+        assert_eq!(call(&["export", &scene, "--precision", "f64"]).exit, Exit::Done);
+    }
+}

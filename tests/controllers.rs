@@ -7,16 +7,9 @@ mod balance;
 #[path = "../host-sim/examples/follow.rs"]
 mod follow;
 
-/// Examples find their scenes from the repository's root.
-fn at_root() {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
-    std::env::set_current_dir(root).unwrap();
-}
-
 #[cfg_attr(debug_assertions, ignore = "a minute in a debug build; release runs it")]
 #[test]
 fn the_pendulum_stays_up_for_a_minute() {
-    at_root();
     let seconds = balance::balance(60_000).unwrap();
     assert_eq!(seconds.len(), 60);
     // Released five degrees off; upright and still after a few seconds, to the end.
@@ -29,7 +22,6 @@ fn the_pendulum_stays_up_for_a_minute() {
 #[cfg_attr(debug_assertions, ignore = "a minute in a debug build; release runs it")]
 #[test]
 fn the_delta_keeps_to_its_path() {
-    at_root();
     let furthest = follow::follow(12_000).unwrap();
     // 1.12 mm: of it the joints' compliance is what no joint controller sees.
     assert!(furthest > 1e-5 && furthest < 1.5e-3, "{furthest}");

@@ -88,7 +88,7 @@ fn the_gripper_closes_on_the_block_and_lets_go() {
     let ideal = IdealGripper { lever: 0.02, rod: 0.03, link: 0.06, pivot: 0.035, pin: 0.008 };
     // Half of the pull less the return spring, by the ratio of the ways.
     let spring = scene.model.tsdas[scene.model.tsdas.len() - 3];
-    let length = 0.1 - read(&scene, &plant, "piston")[1];
+    let length = 0.1 - read(&scene, &plant, "piston_point")[1];
     let net = pull + spring.stiffness * (length - spring.free_length);
     let theory = -0.5 * net / ideal.ratio(angle);
     print(&format!(
@@ -124,7 +124,7 @@ fn the_delta_picks_and_places() {
     let scene = scene("delta-pick-and-place");
     let step = scene.step.unwrap();
     let mut plant = Plant::new(&scene.model, Leapfrog, step).unwrap();
-    let home = read(&scene, &plant, "tool");
+    let home = read(&scene, &plant, "tool_point");
     let start = energy(&scene.model, plant.state(), step).total();
     let places = [
         ("pick", 0.6, 0.75, [-0.16, 0.08, -1.06]),
@@ -139,8 +139,8 @@ fn the_delta_picks_and_places() {
     let steps = (scene.duration / step).round() as u64;
     let mut last = [0.0; 3];
     for n in 1..=steps {
-        plant.step().ok().unwrap();
         let torques: Vec<f64> = plant.state().signals.iter().map(|s| s.value).collect();
+        plant.step().ok().unwrap();
         let rates = ["rate1", "rate2", "rate3"].map(|name| read(&scene, &plant, name)[0]);
         for i in 0..3 {
             // The torque is held over the step, the rate is not.
@@ -149,7 +149,7 @@ fn the_delta_picks_and_places() {
         }
         last = rates;
         let t = n as f64 * step;
-        let tool = read(&scene, &plant, "tool");
+        let tool = read(&scene, &plant, "tool_point");
         for ((_, from, until, place), error) in places.iter().zip(&mut errors) {
             if t > from - 0.5 * step && t < until + 0.5 * step {
                 *error = error.max(distance(tool, *place));
@@ -181,7 +181,7 @@ fn balance<P: Geometry>() -> (f64, f64) {
     let upright = -5_f64.to_radians();
     let mut largest = 0.0_f64;
     for _ in 0..10_000 {
-        let [x, ..] = read(&scene, &plant, "cart");
+        let [x, ..] = read(&scene, &plant, "cart_point");
         let [speed, ..] = read(&scene, &plant, "cart_velocity");
         let [angle, ..] = read(&scene, &plant, "angle");
         let [rate, ..] = read(&scene, &plant, "rate");
@@ -191,7 +191,7 @@ fn balance<P: Geometry>() -> (f64, f64) {
         plant.set_input(drive, force.clamp(-20.0, 20.0)).unwrap();
         plant.advance((1e-3 / step).round() as u64).ok().unwrap();
     }
-    let [x, ..] = read(&scene, &plant, "cart");
+    let [x, ..] = read(&scene, &plant, "cart_point");
     let [angle, ..] = read(&scene, &plant, "angle");
     print(&format!(
         "cart and pendulum, {}: {:.1e} m and {:.1e} rad from upright after 10 s, force to {largest:.1} N",

@@ -1,8 +1,12 @@
 //! Inputs against closed forms, and what may not be set.
 
-use dbd_kernel::inputs::{InputIndex, InputKind};
+use dbd_kernel::builder::{BuildError, Quantity};
+use dbd_kernel::inputs::{Input, InputIndex, InputKind};
+use dbd_kernel::model::{ClearanceIndex, DamperIndex, Group, Law};
 use dbd_kernel::plant::InputError;
-use dbd_kernel::{BodyIndex, Dbd, F32, F64, Geometry, Leapfrog, LoadFrame, Plant, Scheme, Vec3};
+use dbd_kernel::{
+    Body, BodyIndex, Dbd, F32, F64, Geometry, Leapfrog, LoadFrame, Model, Plant, Scheme, Tsda, Vec3,
+};
 use dbd_tests::{Bench, at, free_ring, momenta};
 
 const X: Vec3<f64> = Vec3::new(1.0, 0.0, 0.0);
@@ -143,4 +147,74 @@ fn setting_the_same_value_again_costs_no_evaluation() {
     plant.set_input(pull, 2.0).unwrap();
     plant.step().ok().unwrap();
     assert_eq!(plant.evaluations(), 13);
+}
+
+#[test]
+fn tables_that_a_precision_cannot_hold_are_refused_in_it() {
+    let kind = InputKind::Anchor { direction: X };
+    let single = InputKind::Anchor { direction: Vec3::from_f64([1.0, 0.0, 0.0]) };
+    for (table, linear) in [
+        // A slope, a value, a rise between values, a time of f64 only.
+        (&[[0.0, 0.0], [1e-30, 1e10]], true),
+        (&[[0.0, 0.0], [1.0, 1e300]], false),
+        (&[[0.0, -3e38], [10.0, 3e38]], true),
+        (&[[-1e300, 0.0], [1.0, 1.0]], true),
+        (&[[-1e300, 0.0], [1.0, 1.0]], false),
+    ] {
+        let mut double = Bench::<F64>::new();
+        double.add_table(kind, table, linear).unwrap();
+        let mut model = Bench::<F32>::new();
+        let refused = Err(BuildError::OutOfRange(Quantity::Load));
+        assert_eq!(model.add_table(single, table, linear), refused, "{table:?} {linear}");
+    }
+    let refused = Err(BuildError::OutOfRange(Quantity::Load));
+    assert_eq!(Bench::<F32>::new().add_input(single, 1e300), refused);
+    // What they hold, they hold: steep, early and held beyond all times.
+    let mut model = Bench::<F32>::new();
+    model.add_table(single, &[[-1e30, 0.0], [0.0, 1e10], [1e300, 2e10]], false).unwrap();
+}
+
+/// A const model whose spring hangs from ground that input `row` moves; its one input is a force.
+fn hung_from(row: u16) -> Model<F64, 1, 1, 2, 1, 0, 0, 0, 0, 0, 0, 1> {
+    let body = BodyIndex(0);
+    let kind = InputKind::Force { body, point: Vec3::ZERO, direction: X, frame: LoadFrame::World };
+    Model {
+        bodies: [Body::from_f64(1.0, [0.1; 3])],
+        initial: [at([1.0, 0.0, 0.0])],
+        gravity: [],
+        groups: [Group {
+            law: Law::Tsda,
+            a: BodyIndex::anchor(InputIndex(row)),
+            b: body,
+            stars: 1,
+            arms: 1,
+            shared: false,
+            point: 0,
+            element: 0,
+            damper: DamperIndex::NONE,
+            clearance: ClearanceIndex::NONE,
+        }],
+        points: [Vec3::ZERO; 2],
+        tsdas: [Tsda { stiffness: 50.0, free_length: 1.0 }],
+        bushings: [],
+        dampers: [],
+        torsions: [],
+        loads: [],
+        lines: [],
+        inputs: [Input { kind, value: 0.0, knot: 0, knots: 0 }],
+        knots: [],
+        clearances: [],
+    }
+}
+
+#[test]
+#[should_panic(expected = "an anchor's input is there")]
+fn a_const_model_with_an_anchor_of_no_input_is_refused() {
+    let _ = hung_from(1).checked();
+}
+
+#[test]
+#[should_panic(expected = "an anchor's input moves the ground")]
+fn a_const_model_with_an_anchor_of_another_input_is_refused() {
+    let _ = hung_from(0).checked();
 }

@@ -1,8 +1,10 @@
 //! Read-outs against what is known.
 
+use dbd_kernel::energy::energy;
+use dbd_kernel::inputs::{InputIndex, InputKind};
 use dbd_kernel::readouts::{Reading, Readout};
-use dbd_kernel::{BodyIndex, BodyState, F64, Leapfrog, Plant, Vec3};
-use dbd_tests::{Bench, at, turned};
+use dbd_kernel::{BodyIndex, BodyState, F64, Geometry, Leapfrog, Plant, Vec3};
+use dbd_tests::{Bench, at, scene, scene_names, turned};
 
 const WORLD: BodyIndex = BodyIndex::WORLD;
 
@@ -81,4 +83,65 @@ fn tensions_and_joint_forces() {
     assert!((tension.scalar().unwrap() - (100.0 * 0.2 + 4.0 * 0.5)).abs() < 1e-12);
     let force = plant.read(&Readout::JointForce { group: 0 }).unwrap().vector().unwrap();
     assert!(near(force, [-22.0, 0.0, 0.0], 1e-12), "on the second body: {force:?}");
+}
+
+#[test]
+fn every_column_of_every_scene_has_a_name_of_its_own() {
+    for name in scene_names() {
+        let mut columns = scene(&name).columns();
+        let count = columns.len();
+        columns.sort();
+        columns.dedup();
+        assert_eq!(columns.len(), count, "{name}");
+    }
+}
+
+/// A mass on a TSDA that hangs from an anchor on a held table, which an actuator pulls likewise.
+fn stepped<P: Geometry>() -> Bench<P> {
+    let mut model = Bench::new();
+    let body = model.add_body(2.0, [0.1; 3], at([0.0; 3])).unwrap();
+    let direction = Vec3::from_f64([1.0, 0.0, 0.0]);
+    let road = [[0.0, 0.0], [0.005, 0.25]];
+    let road = model.add_table(InputKind::Anchor { direction }, &road, false).unwrap();
+    let points = [[-1.0, 0.0, 0.0], [0.0; 3]];
+    model.add_tsda([BodyIndex::anchor(road), body], points, 40.0, 0.0, 1.0).unwrap();
+    let pull = InputKind::Actuator { group: 0, element: 0 };
+    model.add_table(pull, &[[0.0, 0.0], [0.005, 100.0]], false).unwrap();
+    model
+}
+
+#[test]
+fn what_a_table_drives_is_read_at_its_time() {
+    let model = stepped::<F64>();
+    let h = 1e-4;
+    let mut plant = Plant::new(&model, Leapfrog, h).unwrap();
+    let scalar = |plant: &Plant<_, Leapfrog>, readout| plant.read(&readout).unwrap().scalar();
+    for n in 0..60 {
+        assert_eq!(plant.state().step, n);
+        let begun = n >= 50;
+        let x = plant.state().bodies[0].position.x;
+        let (road, pull) = if begun { (0.25, 100.0) } else { (0.0, 0.0) };
+        let extension = x - road;
+        let tension = 40.0 * extension + pull;
+        assert_eq!(scalar(&plant, Readout::Input { input: InputIndex(1) }), Some(pull), "{n}");
+        let read = scalar(&plant, Readout::TsdaForce { group: 0, element: 0 }).unwrap();
+        assert!((read - tension).abs() < 1e-9, "step {n}: {read} {tension}");
+        let potential = energy(&model, plant.state(), h).potential();
+        assert!((potential - 20.0 * extension * extension).abs() < 1e-12, "step {n}: {potential}");
+        match plant.read(&Readout::Imu { body: BodyIndex(0), point: Vec3::ZERO }) {
+            Some(Reading::Imu { specific_force, .. }) => {
+                assert!((specific_force.x + 0.5 * tension).abs() < 1e-9, "step {n}");
+            }
+            other => panic!("{other:?}"),
+        }
+        plant.step().ok().unwrap();
+    }
+    // One evaluation per step, one to begin with, one where the tables jump.
+    assert_eq!(plant.evaluations(), 62);
+    // A restored plant reads the same at once.
+    let mut bytes = vec![0; plant.snapshot_size()];
+    plant.snapshot(&mut bytes).unwrap();
+    let mut other = Plant::new(&model, Leapfrog, h).unwrap();
+    other.restore(&bytes).unwrap();
+    assert_eq!(scalar(&other, Readout::Input { input: InputIndex(1) }), Some(100.0));
 }

@@ -7,7 +7,7 @@ use dbd_kernel::{
     BlanesMoanS6, BodyIndex, Dbd, DbdP2, Explicit, F32, F64, Geometry, Leapfrog, Load, LoadFrame,
     Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler, Vec3,
 };
-use dbd_tests::{Bench, hung_ring};
+use dbd_tests::{Bench, at, hung_ring};
 
 /// A model with dampers, torsion springs, a load that ends and inputs of both sorts.
 fn busy<P: Geometry>() -> Bench<P> {
@@ -105,4 +105,46 @@ fn snapshots_of_other_models_steps_versions_and_lengths_are_refused() {
     assert_eq!(plant.restore(b"not a snapshot, but long enough"), Err(SnapshotError::Format));
     let mut short = [0; 8];
     assert_eq!(plant.snapshot(&mut short), Err(SnapshotError::Buffer(bytes.len())));
+}
+
+/// What plants of a model say of the bytes that one of another scheme wrote.
+fn refusal<A: Scheme, B: Scheme>(from: A, to: B) -> Result<(), SnapshotError> {
+    let model = busy::<F64>();
+    let mut plant = Plant::new(&model, from, 1e-4).unwrap();
+    plant.advance(3).ok().unwrap();
+    let mut bytes = vec![0; plant.snapshot_size()];
+    plant.snapshot(&mut bytes).unwrap();
+    let mut other = Plant::new(&model, to, 1e-4).unwrap();
+    let before = other.hash();
+    let outcome = other.restore(&bytes);
+    assert_eq!(other.hash() == before, outcome.is_err());
+    outcome
+}
+
+#[test]
+fn a_snapshot_of_another_scheme_damping_or_number_of_iterations_is_refused() {
+    let refused = Err(SnapshotError::Scheme);
+    assert_eq!(refusal(Leapfrog, Dbd::default()), refused);
+    assert_eq!(refusal(Pefrl, Rk4), refused);
+    assert_eq!(refusal(Leapfrog, Explicit(Leapfrog)), refused);
+    assert_eq!(refusal(Explicit(SemiImplicitEuler), SemiImplicitEuler), refused);
+    assert_eq!(refusal(Dbd { newton: 1 }, Dbd { newton: 2 }), refused);
+    assert_eq!(refusal(DbdP2 { newton: 1 }, Dbd { newton: 1 }), refused);
+    assert_eq!(refusal(Dbd { newton: 1 }, Dbd { newton: 1 }), Ok(()));
+    assert_eq!(refusal(Explicit(Leapfrog), Explicit(Leapfrog)), Ok(()));
+}
+
+#[test]
+fn a_snapshot_of_the_same_mechanism_set_up_elsewhere_is_refused() {
+    let started = |x: f64| {
+        let mut model = Bench::<F64>::new();
+        model.add_body(1.0, [0.1; 3], at([x, 0.0, 0.0])).unwrap();
+        model
+    };
+    let (here, there) = (started(0.0), started(0.5));
+    let here = Plant::new(&here, Leapfrog, 1e-3).unwrap();
+    let mut bytes = vec![0; here.snapshot_size()];
+    here.snapshot(&mut bytes).unwrap();
+    let mut there = Plant::new(&there, Leapfrog, 1e-3).unwrap();
+    assert_eq!(there.restore(&bytes), Err(SnapshotError::Model));
 }

@@ -6,11 +6,12 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use dbd_kernel::{F64, Leapfrog, Plant, State};
+use dbd_kernel::readouts::Reading;
+use dbd_kernel::{F64, Leapfrog, Plant, State, Vec3};
 use dbd_scene::{Scene, SceneModel};
 use dbd_tests::modes::{Modes, after, held_by, modes, scaled_damping, scaled_stiffness};
 use dbd_tests::scene;
-use nalgebra::SymmetricEigen;
+use nalgebra::{DVector, SymmetricEigen};
 
 /// \[s\] both scenes have settled by then and the road has not moved.
 const SETTLED: f64 = 0.5;
@@ -59,6 +60,78 @@ fn rubber_modes(
         .collect()
 }
 
+/// The share of a mode's damping ratio that comes from the joints that `by` names, and all of it.
+fn damping_ratios(
+    scene: &Scene,
+    state: &State<SceneModel<F64>>,
+    modes: &Modes,
+    mode: usize,
+    by: impl Fn(&str) -> bool,
+) -> [f64; 2] {
+    let shape = modes.shapes.column(mode);
+    let of = |model: &SceneModel<F64>| {
+        shape.dot(&(scaled_damping(model, state) * shape)) / (2.0 * TAU * modes.frequencies[mode])
+    };
+    [of(&held_by(scene, by)), of(&scene.model)]
+}
+
+/// The shares of the modes in a rigid heave and in a rigid pitch of `bodies` about their common
+/// centre of mass: the squared projections.
+fn heave_and_pitch(
+    scene: &Scene,
+    state: &State<SceneModel<F64>>,
+    modes: &Modes,
+    bodies: &[usize],
+) -> Vec<[f64; 2]> {
+    let of = |row: usize| (&scene.model.bodies[row], state.bodies[row].position);
+    let mass: f64 = bodies.iter().map(|row| of(*row).0.mass).sum();
+    let moment = |row: &usize| of(*row).1 * of(*row).0.mass;
+    let centre = bodies.iter().map(moment).fold(Vec3::ZERO, |sum, m| sum + m) * (1.0 / mass);
+    let mut heave = DVector::zeros(modes.shapes.nrows());
+    let mut pitch = heave.clone();
+    for row in bodies {
+        let (body, position) = of(*row);
+        let (arm, root) = (position - centre, body.mass.sqrt());
+        heave[6 * row + 2] = root;
+        pitch[6 * row] = root * arm.z;
+        pitch[6 * row + 2] = -root * arm.x;
+        pitch[6 * row + 4] = body.inertia.y.sqrt();
+    }
+    heave.normalize_mut();
+    pitch.normalize_mut();
+    let shapes = modes.shapes.column_iter();
+    shapes.map(|shape| [&heave, &pitch].map(|motion| shape.dot(motion).powi(2))).collect()
+}
+
+/// The smallest of a scene's tyre forces on the wheels \[N\], up, over its run, by read-out.
+fn least_pressure(scene: &Scene, tyres: &[&str]) -> f64 {
+    let step = scene.step.unwrap();
+    let readouts: Vec<_> = tyres.iter().map(|name| scene.readout(name).unwrap()).collect();
+    let mut plant = Plant::new(&scene.model, Leapfrog, step).unwrap();
+    let mut least = f64::INFINITY;
+    while plant.time() < scene.duration - 0.5 * step {
+        plant.step().ok().unwrap();
+        for readout in &readouts {
+            least = least.min(match plant.read(readout) {
+                Some(Reading::Scalar(tension)) => -tension,
+                Some(Reading::Vector(force)) => force.z,
+                other => panic!("{other:?}"),
+            });
+        }
+    }
+    print(&format!("{}: a tyre presses with {least:.0} N at least", scene.name));
+    least
+}
+
+/// Nothing in these tyres would let go of the road, so the road is not to ask for it.
+#[cfg_attr(debug_assertions, ignore = "half a minute in a debug build; release runs it")]
+#[test]
+fn tyres_press_on_the_road_all_the_time() {
+    assert!(least_pressure(&scene("double-wishbone"), &["tyre_force"]) > 1000.0);
+    let tyres = ["left_tyre_force", "right_tyre_force"];
+    assert!(least_pressure(&scene("macpherson"), &tyres) > 500.0);
+}
+
 fn within(range: Range<f64>, what: &str, frequency: f64) {
     print(&format!("{what}: {frequency:.2} Hz"));
     assert!(range.contains(&frequency), "{what}: {frequency} Hz, not in {range:?}");
@@ -79,6 +152,21 @@ fn the_double_wishbone_vibrates_as_a_corner_of_a_car_does() {
     within(12.0..25.0, "wishbone, first in rubber", rubber[0]);
     within(150.0..250.0, "wishbone, last in rubber", rubber[rubber.len() - 1]);
     assert!(rubber.len() >= 6, "{rubber:?}");
+    // The arms on their bushings: rubber damps them by what the scene says of it, the fluid of the
+    // lower rear one more, and the strut's damper adds its share.
+    let arms = (0..modes.frequencies.len())
+        .filter(|mode| (100.0..250.0).contains(&modes.frequencies[*mode]))
+        .map(|mode| (mode, damping_ratios(&scene, &state, &modes, mode, bushing)));
+    let ratios: Vec<[f64; 3]> =
+        arms.map(|(mode, [rubber, all])| [modes.frequencies[mode], rubber, all]).collect();
+    for [frequency, rubber, all] in &ratios {
+        print(&format!("wishbone, {frequency:.1} Hz: rubber {rubber:.3}, in all {all:.3}"));
+        let fluid = *frequency < 180.0;
+        let band = if fluid { 0.06..0.16 } else { 0.01..0.07 };
+        assert!(band.contains(rubber), "{frequency} Hz: {rubber}");
+        assert!((0.02..0.25).contains(all), "{frequency} Hz: {all}");
+    }
+    assert_eq!(ratios.len(), 8);
 }
 
 /// The first free cycles of the wheel's height after the step of the road.
@@ -159,8 +247,23 @@ fn the_macpherson_axle_vibrates_where_the_paper_says() {
     within(200.0..280.0, "macpherson, last in rubber", rubber[rubber.len() - 1]);
     assert!(rubber.len() >= 12, "{rubber:?}");
     let row = |name: &str| scene.body_names.iter().position(|n| n == name).unwrap();
-    let (bounce, _) = heave(&modes, &[row("body shell")]);
-    within(1.0..2.0, "macpherson, bounce of the body", modes.frequencies[bounce]);
+    // The axles' springs differ, so that bounce and pitch each hold a third of the other.
+    let sprung = ["body shell", "power unit", "subframe", "rack"].map(row);
+    let shares = heave_and_pitch(&scene, &state, &modes, &sprung);
+    let most = |motion: usize| {
+        let by = |a: &usize, b: &usize| shares[*a][motion].total_cmp(&shares[*b][motion]);
+        (0..shares.len()).max_by(by).unwrap()
+    };
+    let (bounce, pitch) = (most(0), most(1));
+    print(&format!("macpherson, bounce {:.2?}, pitch {:.2?}", shares[bounce], shares[pitch]));
+    within(1.2..1.6, "macpherson, bounce of the body", modes.frequencies[bounce]);
+    within(1.75..2.25, "macpherson, pitch of the body", modes.frequencies[pitch]);
+    assert!(shares[bounce][0] > 0.6 && shares[pitch][1] > 0.6, "{shares:?}");
+    let above = modes.frequencies.iter().filter(|frequency| **frequency > 250.0).count();
+    let highest = modes.frequencies[modes.frequencies.len() - 1];
+    print(&format!("macpherson: {above} modes above 250 Hz, the highest {highest:.1} Hz"));
+    assert_eq!((above, modes.frequencies.len()), (40, 120));
+    within(640.0..650.0, "macpherson, highest of all", highest);
     let (hop, _) = heave(&modes, &[row("left wheel"), row("right wheel")]);
     within(10.0..15.0, "macpherson, hop of the wheels", modes.frequencies[hop]);
 }

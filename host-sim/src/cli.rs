@@ -7,6 +7,7 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use dbd_kernel::F32;
 use dbd_scene::export;
 
 use crate::catalogue::Catalogue;
@@ -299,7 +300,10 @@ fn export_scene(
     for precision in precision.map_or(ExportPrecision::value_variants().to_vec(), |one| vec![one]) {
         source += &match precision {
             ExportPrecision::F64 => export::model::<f64>(&scene),
-            ExportPrecision::F32 => export::model::<f32>(&scene),
+            ExportPrecision::F32 => {
+                scene.check_inputs::<F32>()?;
+                export::model::<f32>(&scene)
+            }
         };
     }
     console.print(&source);

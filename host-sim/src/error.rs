@@ -5,7 +5,7 @@ use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use dbd_scene::SceneError;
+use dbd_scene::{SceneError, UnfitInput};
 use miette::{Diagnostic, LabeledSpan, SourceCode};
 use thiserror::Error;
 
@@ -47,6 +47,9 @@ pub enum Error {
     /// The step does not fit.
     #[error(transparent)]
     Plan(#[from] PlanError),
+    /// The precision cannot hold what an input is given.
+    #[error(transparent)]
+    Input(#[from] UnfitInput),
     /// There is no truth to compare with.
     #[error(transparent)]
     NoTruth(#[from] NoTruth),
@@ -90,7 +93,7 @@ impl Error {
             Self::Method(error) => Some(error),
             Self::Plan(error) => Some(error),
             Self::NoTruth(error) => Some(error),
-            Self::Step { .. } | Self::Folder { .. } | Self::Write(_) => None,
+            Self::Input(_) | Self::Step { .. } | Self::Folder { .. } | Self::Write(_) => None,
         }
     }
 }
@@ -100,6 +103,9 @@ impl Diagnostic for Error {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         match self {
             Self::Step { .. } => Some(Box::new("a longer step, or --precision f64")),
+            Self::Input(_) => {
+                Some(Box::new("smaller values, gentler rises, a later begin, or --precision f64"))
+            }
             Self::Folder { .. } => Some(Box::new("name another folder with --out DIR")),
             _ => self.inner()?.help(),
         }

@@ -86,7 +86,7 @@ impl FailedRun {
                 let tried: Vec<String> = tried.iter().map(|step| display(*step)).collect();
                 format!(
                     "shorter steps fail, too ({}): look at the scene's pose, stiffnesses, \
-                     preloads and loads",
+                     preloads, loads and inputs",
                     tried.join(", ")
                 )
             }

@@ -9,13 +9,14 @@ use std::path::PathBuf;
 
 use dbd_kernel::damping::Damping;
 use dbd_kernel::plant::PlantError;
-use dbd_scene::Scene;
+use dbd_kernel::{Geometry, Scheme};
+use dbd_scene::{Scene, UnfitInput};
 
 use crate::curves::Curves;
 use crate::error::Error;
 use crate::failure::FailedRun;
 use crate::frequencies::Frequencies;
-use crate::method::Method;
+use crate::method::{Method, MethodVisitor};
 use crate::output::{self, PendingFile};
 use crate::plan::{Plan, Request, StepRequest, plan};
 use crate::report::{self, Report};
@@ -90,6 +91,7 @@ pub fn run(
     let frequencies = Frequencies::of(scene);
     let plan = plan_of(scene, options, &frequencies)?;
     check_step(&options.method, plan.step)?;
+    options.method.visit(InputCheck(scene))?;
     let folder = match &options.out {
         Some(out) => Some(
             output::folder(out, &scene.name)
@@ -136,6 +138,17 @@ pub fn run(
         output::write(folder, "summary.json", &summary.json()).map_err(Error::Write)?;
     }
     Ok(Outcome { summary, folder, failure })
+}
+
+/// Whether the method's precision holds what inputs are given.
+struct InputCheck<'s>(&'s Scene);
+
+impl MethodVisitor for InputCheck<'_> {
+    type Output = Result<(), UnfitInput>;
+
+    fn visit<P: Geometry, S: Scheme>(self, _: S) -> Self::Output {
+        self.0.check_inputs::<P>()
+    }
 }
 
 fn check_step(method: &Method, step: f64) -> Result<(), Error> {

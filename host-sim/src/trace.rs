@@ -1,7 +1,8 @@
 //! `trace.csv`: a header, then one row per sample.
 //!
 //! `samples => rows`, streamed. Columns: time, per body position, quaternion, velocity and angular
-//! velocity, then the energies, then the read-outs. Every number is the shortest text that reads back to its bits.
+//! velocity, then the energies, then the read-outs ([`Scene::columns`]). Every number is the
+//! shortest text that reads back to its bits.
 
 use std::io::{self, Write};
 
@@ -9,13 +10,6 @@ use dbd_scene::Scene;
 
 use crate::numerals::Digits;
 use crate::simulate::Sample;
-
-/// Columns of a body, after its name.
-pub const BODY_COLUMNS: [&str; 13] =
-    ["x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz"];
-
-/// Columns after those of the bodies.
-pub const ENERGY_COLUMNS: [&str; 3] = ["energy.kinetic", "energy.potential", "energy.total"];
 
 /// Writes a trace.
 pub struct TraceWriter<W: Write> {
@@ -30,19 +24,8 @@ impl<W: Write> TraceWriter<W> {
     /// Those of the writer.
     pub fn new(to: W, scene: &Scene) -> io::Result<Self> {
         let mut rows = csv::Writer::from_writer(to);
-        rows.write_field("time")?;
-        for name in &scene.body_names {
-            for column in BODY_COLUMNS {
-                rows.write_field(format!("{name}.{column}"))?;
-            }
-        }
-        for column in ENERGY_COLUMNS {
+        for column in scene.columns() {
             rows.write_field(column)?;
-        }
-        for readout in &scene.readouts {
-            for (column, _) in &readout.columns {
-                rows.write_field(format!("{}{column}", readout.name))?;
-            }
         }
         rows.write_record(None::<&[u8]>)?;
         Ok(Self { rows, text: Vec::new() })

@@ -9,7 +9,7 @@
 //! A TSDA damps along its line, a torsion spring along its gradient, a point bushing along the
 //! world's axes, a point on a line along the line's two normals, one after the other.
 
-use crate::elements::clearance::beyond;
+use crate::elements::clearance;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::geometry::Geometry;
 use crate::groups::{self, End, Placed, Places};
@@ -170,14 +170,14 @@ fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
     let elements = group.elements();
     for i in 0..elements {
         let i = if REVERSE { elements - 1 - i } else { i };
-        let (Some(element), Some(&damping)) =
+        let (Some(element), Some(&whole)) =
             (groups::placed(model, places, (0, group), i), dampers.get(i))
         else {
             continue;
         };
         let d = element.displacement;
-        let clearance = model.clearance(group);
-        if clearance.is_some() && !engaged(model, &element, clearance) {
+        let damping = engaged(model, &element, whole);
+        if T::CLEARANCES && damping == P::Real::ZERO {
             continue;
         }
         // The directions, and how many of them the law damps.
@@ -207,19 +207,24 @@ fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
     }
 }
 
-/// Whether an element is beyond its clearance.
+/// What acts of an element's damper beyond its clearance; without one all of it.
+#[inline(always)]
 fn engaged<P: Geometry, T: Terms>(
     model: &ModelRef<'_, P, T>,
     element: &Placed<'_, P::Real>,
-    clearance: Option<P::Real>,
-) -> bool {
+    damping: P::Real,
+) -> P::Real {
+    let clearance = model.clearance(element.group);
+    if clearance.is_none() {
+        return damping;
+    }
     let d = element.displacement;
     let extension = match element.group.law {
         Law::Tsda => model.tsdas.get(element.index).map(|tsda| tsda.extension(d)),
         Law::PointOnLine => model.lines.get(element.index).map(|line| line.extension(d)),
         Law::PointBushing => None,
     };
-    extension.is_none_or(|extension| beyond(extension, clearance) != P::Real::ZERO)
+    extension.map_or(damping, |extension| clearance::engaged(damping, extension, clearance))
 }
 
 /// A torsion spring's damper, along the gradient of its twist. An undefined twist is left to the

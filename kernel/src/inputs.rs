@@ -1,7 +1,8 @@
 //! Inputs: what a controller, a road or a table does to a plant at run time.
 //!
-//! `(input, signal, frames) => wrenches | the motion of ground points`. A signal is sampled at
-//! the start of a step and held for all its stages. It is set by the caller, or follows a table
+//! `(input, signal, frames) => wrenches | the motion of ground points`. A signal is sampled for
+//! the start of a step, when the one before it ends, and held for all its stages: what is read
+//! between two steps is what the next one begins with. It is set by the caller, or follows a table
 //! that is held or linear between its knots:
 //! `value + slope·((n − first)·h + offset)`, n the step, `first` the knot's first step and
 //! `offset` what lies between the knot's time and that step. Forces and torques of inputs are
@@ -82,6 +83,15 @@ pub struct Input<P: Geometry> {
 }
 
 impl<P: Geometry> Input<P> {
+    /// Whether the precision holds its value and its table; `knots` are those of all inputs.
+    #[must_use]
+    pub fn is_finite(&self, knots: &[Knot<P::Real>]) -> bool {
+        let first = self.knot as usize;
+        let knots = knots.get(first..first + self.knots as usize).unwrap_or(&[]);
+        let mut rows = knots.iter().enumerate();
+        self.value.is_finite() && rows.all(|(i, knot)| knot.is_finite(knots.get(i + 1)))
+    }
+
     /// The same input in another precision.
     pub fn convert<Q: Geometry>(&self) -> Input<Q> {
         let vector = |v: Vec3<P::Real>| Vec3::from_f64(v.to_f64());
@@ -119,6 +129,31 @@ pub struct Knot<R> {
 }
 
 impl<R: Real> Knot<R> {
+    /// Knot `i` of a table of (time \[s\], value) with ascending times; `None` beyond its end.
+    pub fn of_table(table: &[[f64; 2]], i: usize, linear: bool) -> Option<Self> {
+        let [time, value] = *table.get(i)?;
+        let slope = match table.get(i + 1) {
+            Some([next, then]) if linear => (then - value) / (next - time),
+            _ => 0.0,
+        };
+        Some(Self { time, value: R::from_f64(value), slope: R::from_f64(slope) })
+    }
+
+    /// Whether the precision holds every value from t = 0 to the next knot, and what makes it up.
+    #[must_use]
+    pub fn is_finite(&self, next: Option<&Self>) -> bool {
+        let slope = self.slope.to_f64();
+        let rise = match next {
+            Some(next) if slope != 0.0 => slope * (next.time - self.time),
+            _ => 0.0,
+        };
+        // A table may begin long before the first step.
+        let begun = if self.time < 0.0 { self.time } else { 0.0 };
+        self.value.is_finite()
+            && self.slope.is_finite()
+            && [rise, begun].into_iter().all(|number| R::from_f64(number).is_finite())
+    }
+
     /// The same knot in another precision.
     pub fn convert<Q: Real>(&self) -> Knot<Q> {
         let (value, slope) = (self.value.to_f64(), self.slope.to_f64());

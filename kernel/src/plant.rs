@@ -96,12 +96,8 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
         for (place, knot) in knots.as_mut().iter_mut().zip(view.knots) {
             *place = KnotStep::new(knot.time, step_size);
         }
-        let mut state = State::initial(model);
-        if M::Terms::INPUTS {
-            let signals = state.signals.as_mut();
-            inputs::sample(view.inputs, view.knots, knots.as_ref(), 0, h, signals);
-        }
-        Ok(Self {
+        let state = State::initial(model);
+        let mut plant = Self {
             model,
             scheme,
             step_size,
@@ -115,7 +111,22 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
             memory: model.per_body(S::Memory::default()),
             ledger: Ledger::default(),
             status: Status::Running,
-        })
+        };
+        plant.sample();
+        Ok(plant)
+    }
+
+    /// Brings the signals of tables to the present step: the one that comes next.
+    #[inline]
+    fn sample(&mut self) {
+        if M::Terms::INPUTS {
+            let view = self.model.view();
+            let (knots, step) = (self.knots.as_ref(), self.state.step);
+            let signals = self.state.signals.as_mut();
+            if inputs::sample(view.inputs, view.knots, knots, step, self.h, signals) {
+                self.ledger.fresh = false;
+            }
+        }
     }
 
     /// One step. A failure latches: the state stays as the failed step left it, and later calls
@@ -127,12 +138,6 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
         }
         let step = self.state.step;
         let model = self.model.view();
-        if M::Terms::INPUTS {
-            let (knots, signals) = (self.knots.as_ref(), self.state.signals.as_mut());
-            if inputs::sample(model.inputs, model.knots, knots, step, self.h, signals) {
-                self.ledger.fresh = false;
-            }
-        }
         let mut stepper = Stepper {
             model,
             h: self.h,
@@ -155,6 +160,8 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
         if let Some(cause) = cause {
             self.ledger.fresh = false;
             self.status = Status::Failed(Failure { cause, step: self.state.step });
+        } else {
+            self.sample();
         }
         self.status
     }
@@ -210,6 +217,11 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
         Ok(())
     }
 
+    /// The scheme.
+    pub fn scheme(&self) -> &S {
+        &self.scheme
+    }
+
     /// The status of the last step.
     pub fn status(&self) -> Status {
         self.status
@@ -245,6 +257,7 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
         self.state = state;
         self.ledger.fresh = false;
         self.status = Status::Running;
+        self.sample();
     }
 
     /// FNV-1a 64 over the state's words.

@@ -62,7 +62,7 @@ pub enum Readout<P: Geometry> {
         /// The point in body axes.
         point: P::Local,
     },
-    /// \[N, N·m, m\] the value of an input as the last step held it, or as it was set since.
+    /// \[N, N·m, m\] the value of an input at the present time, which the next step holds.
     Input {
         /// The input.
         input: InputIndex,

@@ -1,9 +1,9 @@
 //! Snapshots: a plant's state as plain bytes, and back, exactly.
 //!
-//! `plant => bytes => plant`. Little-endian: magic `DBDS`, version (u16), the number of words
-//! (u16), fingerprint of model, precision and step (u64), the state's words in the order of its
+//! `plant => bytes => plant`. Little-endian: magic `DBDS`, version (u16), fingerprint of the scheme
+//! (u32), fingerprint of model, precision and step (u64), the state's words in the order of its
 //! hash, then two words per input, then the CRC-32 (IEEE 802.3, reflected) of all before it. A
-//! plant of the same model and step, on whatever target, goes on with the very same bits.
+//! plant of the same model, scheme and step, on whatever target, goes on with the very same bits.
 //! Bytes that do not fit are refused and change nothing.
 
 use crate::geometry::{F64, Geometry};
@@ -16,9 +16,9 @@ use crate::words::{Fnv1a, Word, WordSource, WordVisitor, Words};
 
 const MAGIC: [u8; 4] = *b"DBDS";
 /// Of the layout; another one is refused.
-const VERSION: u16 = 1;
-/// Magic, version, number of words, fingerprint.
-const HEADER: usize = 16;
+const VERSION: u16 = 2;
+/// Magic, version, fingerprints of scheme and model.
+const HEADER: usize = 18;
 const CHECKSUM: usize = 4;
 
 /// Why a snapshot was not taken, or refused.
@@ -37,6 +37,8 @@ pub enum SnapshotError {
     Checksum,
     /// It is the state of another model, precision or step.
     Model,
+    /// It is of another scheme, way of damping or number of Newton iterations.
+    Scheme,
     /// It holds a number that is not finite.
     NotFinite,
 }
@@ -50,6 +52,9 @@ impl core::fmt::Display for SnapshotError {
             SnapshotError::Version(found) => write!(f, "version {found}, known is {VERSION}"),
             SnapshotError::Checksum => f.write_str("the checksum is wrong"),
             SnapshotError::Model => f.write_str("a snapshot of another model, precision or step"),
+            SnapshotError::Scheme => {
+                f.write_str("a snapshot of another scheme, damping or number of iterations")
+            }
             SnapshotError::NotFinite => f.write_str("the snapshot holds a number not finite"),
         }
     }
@@ -61,9 +66,9 @@ impl<M: ModelOwner, S: Scheme> Plant<'_, M, S> {
     /// The bytes that a snapshot of this plant takes.
     #[must_use]
     pub fn snapshot_size(&self) -> usize {
-        let mut count = Count::default();
+        let mut count = Count(0);
         self.visit_all(&mut count);
-        HEADER + count.bytes + CHECKSUM
+        HEADER + count.0 + CHECKSUM
     }
 
     /// Writes the state to the start of `buffer`; the number of bytes written.
@@ -76,12 +81,10 @@ impl<M: ModelOwner, S: Scheme> Plant<'_, M, S> {
         }
         let size = self.snapshot_size();
         let out = buffer.get_mut(..size).ok_or(SnapshotError::Buffer(size))?;
-        let mut count = Count::default();
-        self.visit_all(&mut count);
         let mut writer = Writer { out, crc: Crc32::default() };
         writer.bytes(&MAGIC);
         writer.bytes(&VERSION.to_le_bytes());
-        writer.bytes(&count.words.to_le_bytes());
+        writer.bytes(&self.scheme_fingerprint().to_le_bytes());
         writer.bytes(&self.fingerprint().to_le_bytes());
         self.visit_all(&mut writer);
         let crc = writer.crc.finish();
@@ -89,7 +92,7 @@ impl<M: ModelOwner, S: Scheme> Plant<'_, M, S> {
         Ok(size)
     }
 
-    /// Takes the state from a snapshot of the same model, precision and step.
+    /// Takes the state from a snapshot of the same model, precision, scheme and step.
     ///
     /// # Errors
     /// A [`SnapshotError`]; the plant is then as it was. A failed plant runs again after a
@@ -112,9 +115,12 @@ impl<M: ModelOwner, S: Scheme> Plant<'_, M, S> {
         if (Reader { bytes: checksum }).take(4) != u64::from(crc.finish()) {
             return Err(SnapshotError::Checksum);
         }
-        let _words = reader.take(2);
+        let scheme = reader.take(4);
         if reader.take(8) != self.fingerprint() {
             return Err(SnapshotError::Model);
+        }
+        if scheme != u64::from(self.scheme_fingerprint()) {
+            return Err(SnapshotError::Scheme);
         }
         if bytes.len() != size {
             return Err(SnapshotError::Format);
@@ -135,7 +141,8 @@ impl<M: ModelOwner, S: Scheme> Plant<'_, M, S> {
         Ok(())
     }
 
-    /// FNV-1a 64 over the model's constants, its precision and the step: what a state belongs to.
+    /// FNV-1a 64 over the model's constants and initial state, its precision and the step: what a
+    /// state belongs to.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
         let mut hash = Fnv1a::new();
@@ -149,7 +156,20 @@ impl<M: ModelOwner, S: Scheme> Plant<'_, M, S> {
         }
         hash.word(Word::F64(self.step_size()));
         visit_model(&self.model().view(), &mut hash);
+        self.model().initial().iter().for_each(|state| state.visit(&mut hash));
         hash.finish()
+    }
+
+    /// FNV-1a 64 over the scheme's name, its way of damping and its evaluations per step, which
+    /// tell its Newton iterations, folded to 32 bits.
+    fn scheme_fingerprint(&self) -> u32 {
+        let mut hash = Fnv1a::new();
+        for byte in S::NAME.bytes().chain(S::DAMPING.name().bytes()) {
+            hash.word(Word::I32(i32::from(byte)));
+        }
+        hash.word(Word::U64(u64::from(self.scheme().evaluations())));
+        let hash = hash.finish();
+        (hash >> 32) as u32 ^ hash as u32
     }
 
     fn visit_all(&self, visitor: &mut impl WordVisitor) {
@@ -261,16 +281,12 @@ fn visit_input<P: Geometry>(input: &Input<P>, visitor: &mut impl WordVisitor) {
     visitor.word(Word::U64(u64::from(input.knot) << 16 | u64::from(input.knots)));
 }
 
-#[derive(Default)]
-struct Count {
-    words: u16,
-    bytes: usize,
-}
+/// Bytes so far.
+struct Count(usize);
 
 impl WordVisitor for Count {
     fn word(&mut self, word: Word) {
-        self.words = self.words.wrapping_add(1);
-        self.bytes += word.size();
+        self.0 += word.size();
     }
 }
 

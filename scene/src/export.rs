@@ -64,7 +64,22 @@ pub fn type_name(scene: &str) -> String {
             first.to_ascii_uppercase() + rest
         })
         .collect();
-    if name.starts_with(|c: char| c.is_ascii_digit()) { format!("_{name}") } else { name }
+    match name.chars().next() {
+        None => "Scene".into(),
+        Some(first) if first.is_ascii_digit() => format!("_{name}"),
+        Some(_) => name,
+    }
+}
+
+/// A name as code within a documentation comment, whatever quotes it holds: between more backticks
+/// than stand together in it.
+fn quoted(name: &str) -> String {
+    if !name.contains('`') {
+        return format!("`{name}`");
+    }
+    let longest = name.split(|c| c != '`').map(str::len).max().unwrap_or(0);
+    let fence = "`".repeat(longest + 1);
+    format!("{fence} {name} {fence}")
 }
 
 /// Source of what all precisions share: `use` lines, the step \[s\], the bodies' names, and the
@@ -82,9 +97,11 @@ pub fn preamble(scene: &Scene, step: f64) -> String {
         .zip(names)
         .map(|(input, constant)| {
             format!(
-                "/// \\[{}\\] the input `{}`.\npub const {name}_INPUT_{constant}: InputIndex = \
+                "/// \\[{}\\] the input {}.\npub const {name}_INPUT_{constant}: InputIndex = \
              InputIndex({});\n",
-                input.unit, input.name, input.index.0
+                input.unit,
+                quoted(&input.name),
+                input.index.0
             )
         })
         .collect();
@@ -98,12 +115,12 @@ pub fn preamble(scene: &Scene, step: f64) -> String {
              model::{{ClearanceIndex, DamperIndex, Group, Law}},\n    \
              readouts::Readout,\n\
          }};\n\n\
-         /// \\[s\\] the step of the scene `{scene_name}`.\n\
+         /// \\[s\\] the step of the scene {scene_name}.\n\
          pub const {name}_STEP: f64 = {step};\n\
-         /// The bodies of the scene `{scene_name}`, in order.\n\
+         /// The bodies of the scene {scene_name}, in order.\n\
          pub const {name}_BODIES: [&str; {count}] = {bodies};\n\
          {inputs}",
-        scene_name = scene.name,
+        scene_name = quoted(&scene.name),
         count = scene.body_names.len(),
     )
 }
@@ -150,9 +167,9 @@ pub fn model<R: SourceNumber>(scene: &Scene) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(out, "{text}");
     };
-    line(&format_args!("/// The shape of the scene `{}`.", scene.name));
+    line(&format_args!("/// The shape of the scene {}.", quoted(&scene.name)));
     line(&format_args!("pub type {ty} = Model<{}, {counts}>;", R::TYPE));
-    line(&format_args!("/// The scene `{}`.", scene.name));
+    line(&format_args!("/// The scene {}.", quoted(&scene.name)));
     line(&format_args!("pub static {name}: {ty} = Model {{"));
     line(&format_args!("    bodies: {},", list(&model.bodies, body::<R>)));
     line(&format_args!("    initial: {},", list(model.initial(), state::<R>)));
@@ -173,7 +190,7 @@ pub fn model<R: SourceNumber>(scene: &Scene) -> String {
     let names = constant_names(scene.readouts.iter().map(|readout| readout.name.as_str()));
     for (info, constant) in scene.readouts.iter().zip(names) {
         let scene = constant_name(&scene.name);
-        line(&format_args!("/// The read-out `{}`.", info.name));
+        line(&format_args!("/// The read-out {}.", quoted(&info.name)));
         line(&format_args!(
             "pub const {scene}_READOUT_{constant}_{}: Readout<{}> = {};",
             R::TYPE,
@@ -360,8 +377,21 @@ mod tests {
         assert_eq!(constant_name("3rrr-1"), "_3RRR_1");
         assert_eq!(type_name("five-bar-a"), "FiveBarA");
         assert_eq!(type_name("3ruu"), "_3ruu");
+        assert_eq!(type_name("ü"), "Scene");
         let names = ["a b", "a-b", "c"].into_iter();
         assert_eq!(constant_names(names), ["A_B", "A_B_2", "C"]);
+    }
+
+    #[test]
+    fn names_with_quotes_stay_within_their_comment() {
+        assert_eq!(quoted("four-bar"), "`four-bar`");
+        assert_eq!(quoted("a`b``"), "``` a`b`` ```");
+        let scene = crate::example::with(
+            "[[input]]\nname = \"a`\\\" */ [x]\"\ntype = \"force\"\nbody = \"arm\"\naxis = [1, 0, 0]",
+        );
+        let source = preamble(&scene, 1e-3);
+        let line = "/// \\[N\\] the input `` a`\" */ [x] ``.\npub const TWO_BODIES_INPUT_A_";
+        assert!(source.contains(line), "{source}");
     }
 
     #[test]

@@ -190,7 +190,16 @@ impl Kind for Targets<'_, '_> {
         if entries.is_empty() {
             return Err(value.refuse("is empty", &self.expected()));
         }
-        entries.iter().map(|entry| name.read(entry)).collect()
+        let mut targets: Self::Output = Vec::new();
+        for entry in &entries {
+            let target = name.read(entry)?;
+            if targets.iter().any(|(known, _)| *known == target.0) {
+                let problem = format!("names `{}` a second time", target.0);
+                return Err(entry.refuse_with(&problem, "each element stands once in the array"));
+            }
+            targets.push(target);
+        }
+        Ok(targets)
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod assembly;
 mod body;
+mod columns;
 mod direction;
 mod error;
 pub mod export;
@@ -32,6 +33,7 @@ mod tsda;
 use std::ops::Range;
 use std::path::Path;
 
+pub use columns::{BODY_COLUMNS, ENERGY_COLUMNS};
 pub use error::{Refusal, SceneError};
 pub use facts::{Facts, Island, JointFacts};
 pub use hinge::Hinge;
@@ -41,9 +43,9 @@ pub use nearest::nearest;
 pub use readout::ReadoutInfo;
 pub use runtime::{SceneModel, widen};
 
-use dbd_kernel::F64;
 use dbd_kernel::inputs::InputIndex;
 use dbd_kernel::readouts::Readout;
+use dbd_kernel::{F64, Geometry};
 
 use crate::assembly::Assembly;
 use crate::error::Source;
@@ -113,6 +115,20 @@ pub struct UnknownName {
     pub name: String,
     /// The one that was probably meant.
     pub meant: Option<String>,
+}
+
+/// An input whose value or table a precision cannot hold.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the input `{input}` (line {line}) has a value, a rise or a time that {precision} cannot hold"
+)]
+pub struct UnfitInput {
+    /// The input.
+    pub input: String,
+    /// The line on which it begins.
+    pub line: usize,
+    /// The precision's name.
+    pub precision: &'static str,
 }
 
 /// What reports say of a joint.
@@ -217,6 +233,18 @@ impl Scene {
         let names = self.readouts.iter().map(|readout| readout.name.as_str());
         let found = self.readouts.iter().find(|readout| readout.name == name);
         found.map(|found| found.readout).ok_or_else(|| self.unknown("readout", name, names))
+    }
+
+    /// Whether a precision holds what inputs are given.
+    ///
+    /// # Errors
+    /// The first input that it does not.
+    pub fn check_inputs<P: Geometry>(&self) -> Result<(), UnfitInput> {
+        let Some(index) = self.model.convert::<P>().unfit_input() else { return Ok(()) };
+        let row = usize::from(index.0);
+        let input = self.inputs.get(row).map_or_else(String::new, |input| input.name.clone());
+        let line = self.places.inputs.get(row).copied().unwrap_or_default();
+        Err(UnfitInput { input, line, precision: P::NAME })
     }
 
     fn unknown<'n>(

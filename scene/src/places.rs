@@ -10,6 +10,7 @@ pub(crate) struct Places {
     pub(crate) tsdas: Vec<usize>,
     pub(crate) points_on_lines: Vec<usize>,
     pub(crate) torsion_springs: Vec<usize>,
+    pub(crate) inputs: Vec<usize>,
 }
 
 impl Places {
@@ -21,6 +22,7 @@ impl Places {
             tsdas: root.lines("tsda")?,
             points_on_lines: root.lines("point_on_line")?,
             torsion_springs: root.lines("torsion_spring")?,
+            inputs: root.lines("input")?,
         })
     }
 }

@@ -8,6 +8,7 @@ use dbd_kernel::readouts::Readout;
 use dbd_kernel::{F64, Geometry, Vec3};
 
 use crate::InputInfo;
+use crate::columns::Taken;
 use crate::error::SceneError;
 use crate::hinge::{self, Known};
 use crate::names::Names;
@@ -121,6 +122,7 @@ pub(crate) fn read_all(
 ) -> Result<Vec<ReadoutInfo>, SceneError> {
     let mut names = Names::default();
     let mut infos = Vec::new();
+    let mut taken = Taken::new(known.assembly.body_names());
     for table in root.list("readout")? {
         let kind = kind(&table)?;
         table.only(&[KEYS, kind.keys])?;
@@ -139,9 +141,22 @@ pub(crate) fn read_all(
             }
             Columns::Input => vec![("", input(&table, inputs)?.unit)],
         };
+        for (end, _) in &columns {
+            let column = format!("{name}{end}");
+            if let Err(owner) = taken.take(column.clone(), table.label()) {
+                let problem = format!("makes a column `{column}` of the trace, as {owner} does");
+                let help = format!("another name, e.g. \"{}\"", another(&name, kind.name));
+                return Err(table.refuse_value("name", &problem, help));
+            }
+        }
         infos.push(ReadoutInfo { name, kind: kind.name, columns, readout });
     }
     Ok(infos)
+}
+
+/// A name like one that is taken: `tool` of a `point` becomes `tool_point`.
+fn another(name: &str, kind: &str) -> String {
+    format!("{}_{kind}", name.replace('.', "_"))
 }
 
 fn kind(table: &Table<'_>) -> Result<&'static ReadoutType, SceneError> {

@@ -67,6 +67,13 @@ impl<P: Geometry> SceneModel<P> {
         }
     }
 
+    /// The first input whose value or table the precision cannot hold.
+    #[must_use]
+    pub fn unfit_input(&self) -> Option<InputIndex> {
+        let row = self.inputs.iter().position(|input| !input.is_finite(&self.knots))?;
+        Some(InputIndex(row as u16))
+    }
+
     /// Takes an input from its table, so that the caller drives it; it starts at the table's first
     /// value.
     pub fn release(&mut self, input: InputIndex) {

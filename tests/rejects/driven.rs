@@ -1,5 +1,6 @@
 //! What inputs, read-outs, clearances and names of elements are refused for.
 
+use dbd_kernel::{F32, F64, Geometry};
 use dbd_scene::Scene;
 
 use crate::{Case, case, check, lacks};
@@ -163,6 +164,12 @@ const CASES: &[Case] = &[
     case("name = \"coil\"", "name = «\"wrist\"", "is \"wrist\", as that of the joint on line 26", "names that differ from each other"),
     case("name = \"coil\"", "name = «\"\"", "is empty", "a name in quotes"),
 
+    case("name = \"coil\"", "name = «\"co\\nil\"", "`name` of torsion_spring 1 holds a line break", "one line of visible text"),
+    case("name = \"tip\"", "name = «\"tip\\u0007\"", "`name` of readout 2 holds a line break or another invisible character", "visible text"),
+    case("name = \"push\"", "name = «\"pu\\u202Esh\"", "`name` of input 1 holds", "visible text"),
+    case("name = \"driven\"", "name = «\"dri\\rven\"", "`name` of the scene holds", "visible text"),
+    case("name = \"arm\"\nmass", "name = «\"\\tarm\"\nmass", "`name` of body 1 holds", "visible text"),
+
     // What every input has.
     lacks("[[input]] # push", "name = \"push\"", "input 1 has no `name`", "add `name`"),
     lacks("[[input]] # push", "type = \"force\"", "input `push` has no `type`", "\"joint_torque\""),
@@ -206,6 +213,7 @@ const CASES: &[Case] = &[
     case("target = \"cord\" # pulled", "target = «\"pad\" # pulled", "names the tsda `pad`, which has no free length", "`free_length` > 0"),
     case("target = \"tyre\"", "target = «\"cord\"", "names `cord`, which is not joined to the world", "one of its bodies is \"world\""),
     case("target = \"tyre\"", "target = [\"tyre\", «\"coil\"]", "names the torsion_spring \"coil\"", "a joint, a tsda or a point_on_line"),
+    case("target = \"tyre\"", "target = [\"tyre\", «\"tyre\"]", "`target`[1] of input `road` names `tyre` a second time", "stands once"),
     case("target = \"tyre\"", "target = «[]", "is empty", "an array of such names"),
     case("target = \"knee\"\nabout = \"second\"", "target = «\"tyre\"\naxis = [1, 0, 0]", "names the tsda \"tyre\"", "a joint or of a torsion_spring"),
 
@@ -215,6 +223,13 @@ const CASES: &[Case] = &[
     case("target = \"shoulder\" # seen", "target = «\"elbow\" # seen", "names nothing: \"elbow\"", "a torsion_spring"),
     case("target = \"shoulder\" # seen", "target = «\"weld\" # seen", "which does not turn", "a revolute, cylindrical"),
     case("name = \"tip\"", "name = «\"angle\"", "is \"angle\", as that of the readout", "each readout has a name of its own"),
+    case("name = \"tip\"", "name = «\"hand\"", "makes a column `hand.x` of the trace, as the body `hand` does", "e.g. \"hand_point\""),
+    case("name = \"tip\"", "name = «\"knee.spider\"", "column `knee.spider.x` of the trace, as the body `knee.spider` does", "\"knee_spider_point\""),
+    case("name = \"held\"", "name = «\"tip\"", "is \"tip\", as that of the readout", "of its own"),
+    case("name = \"pull\"", "name = «\"tip.y\"", "column `tip.y` of the trace, as readout `tip` does", "\"tip_y_tsda_force\""),
+    case("name = \"pull\"", "name = «\"arm.qw\"", "column `arm.qw` of the trace, as the body `arm` does", "another name"),
+    case("name = \"pull\"", "name = «\"time\"", "column `time` of the trace, as the time does", "\"time_tsda_force\""),
+    case("name = \"set\"", "name = «\"energy.total\"", "column `energy.total` of the trace, as the energy does", "another name"),
     case("body = \"arm\"\npoint", "body = «\"leg\"\npoint", "names no body: \"leg\"", "\"arm\""),
     case("point = [0, 0.25, 0]", "point = «[0, 0.25]", "has 2 entries", "an array of 3"),
     case("target = \"cord\" # read", "target = «\"pad\" # read", "which has no free length", "joint_force"),
@@ -226,4 +241,31 @@ const CASES: &[Case] = &[
 fn refusals_name_place_reason_and_remedy() {
     Scene::parse(BASE, "base.toml").unwrap_or_else(|e| panic!("{} ({})", e.message(), e.help()));
     check(BASE, CASES);
+}
+
+/// The base scene with other values and tables of the inputs `push` and `motor`.
+fn driven(value: &str, table: &str) -> Scene {
+    let text = BASE.replace("2.5", value).replace("[[0.0, 0.0], [0.1, 7.5]]", table);
+    Scene::parse(&text, "driven.toml").unwrap()
+}
+
+#[test]
+fn inputs_that_a_precision_cannot_hold_are_named() {
+    let table = "[[0.0, 0.0], [0.1, 7.5]]";
+    for (value, given, named) in [
+        ("1e300", table, "push"),
+        ("2.5", "[[0.0, 0.0], [1e-30, 1e10]]", "motor"),
+        ("2.5", "[[-1e300, 0.0], [1.0, 1.0]]", "motor"),
+        ("2.5", "[[0.0, -3e38], [10.0, 3e38]]", "motor"),
+    ] {
+        let scene = driven(value, given);
+        assert_eq!(scene.check_inputs::<F64>(), Ok(()));
+        let unfit = scene.check_inputs::<F32>().unwrap_err();
+        assert_eq!((unfit.input.as_str(), unfit.precision), (named, F32::NAME));
+        let line = BASE.lines().position(|line| line == format!("[[input]] # {named}")).unwrap();
+        assert_eq!(unfit.line, line + 1);
+        let message = unfit.to_string();
+        assert!(message.contains(&format!("input `{named}`")) && message.contains("f32"));
+    }
+    assert_eq!(driven("2.5", table).check_inputs::<F32>(), Ok(()));
 }

@@ -160,14 +160,16 @@ pub struct Law {
 }
 
 impl Law {
-    /// \[m\] the extension of a length beyond free length and clearance; `None` within it.
-    fn engaged(&self, length: f64) -> Option<f64> {
+    /// \[m\] the extension of a length beyond free length and clearance, and the damping there,
+    /// which grows over the first clearance beyond the edge; `None` within the band.
+    fn engaged(&self, length: f64) -> Option<(f64, f64)> {
         let extension = length - self.free_length;
-        match self.clearance {
-            None => Some(extension),
-            Some(band) if extension.abs() > band => Some(extension - band.copysign(extension)),
-            Some(_) => None,
-        }
+        let Some(band) = self.clearance else { return Some((extension, self.damping)) };
+        let excess = extension.abs() - band;
+        (excess > 0.0).then(|| {
+            let share = if excess < band { excess / band } else { 1.0 };
+            (excess.copysign(extension), share * self.damping)
+        })
     }
 }
 
@@ -183,10 +185,10 @@ impl Element for Tsda {
     fn act(&self, at: &Instant<'_>, wrenches: &mut [Wrench]) {
         let stretch = self.pair.at(at);
         let length = stretch.displacement.norm();
-        let Some(extension) = self.law.engaged(length) else { return };
+        let Some((extension, damping)) = self.law.engaged(length) else { return };
         if length > 0.0 {
             let along = stretch.displacement / length;
-            let damped = self.law.damping * along.dot(&stretch.rate);
+            let damped = damping * along.dot(&stretch.rate);
             stretch.pull(along * (self.law.stiffness * extension + damped), wrenches);
         }
     }
@@ -198,9 +200,10 @@ impl Element for Tsda {
     fn springs(&self, at: &Instant<'_>, visit: &mut dyn FnMut(Spring)) {
         let stretch = self.pair.at(at);
         let length = stretch.displacement.norm();
-        if length > 0.0 && self.law.engaged(length).is_some() {
+        let Some((_, damping)) = self.law.engaged(length) else { return };
+        if length > 0.0 {
             let along = stretch.displacement / length;
-            visit(stretch.spring(along, self.law.stiffness, self.law.damping));
+            visit(stretch.spring(along, self.law.stiffness, damping));
         }
     }
 }
@@ -251,14 +254,15 @@ impl PointOnLine {
 impl Element for PointOnLine {
     fn act(&self, at: &Instant<'_>, wrenches: &mut [Wrench]) {
         let stretch = self.pair.at(at);
-        let damped = stretch.rate * self.law.damping;
         if self.is_isotropic() {
+            let damped = stretch.rate * self.law.damping;
             stretch.pull(stretch.displacement * self.law.stiffness + damped, wrenches);
             return;
         }
         let length = stretch.displacement.norm();
-        let Some(extension) = self.law.engaged(length) else { return };
+        let Some((extension, damping)) = self.law.engaged(length) else { return };
         let along = stretch.displacement.try_normalize(0.0).unwrap_or_default();
+        let damped = stretch.rate * damping;
         stretch.pull(along * (self.law.stiffness * extension) + damped, wrenches);
     }
 
@@ -270,16 +274,14 @@ impl Element for PointOnLine {
         let stretch = self.pair.at(at);
         let Some(line) = stretch.line else { return };
         let length = stretch.displacement.norm();
-        if self.law.engaged(length).is_none() {
-            return;
-        }
+        let Some((_, damping)) = self.law.engaged(length) else { return };
         let normal = match stretch.displacement.try_normalize(0.0) {
             Some(along) if !self.is_isotropic() => along,
             _ => line.cross(&Vector3::ith(line.iamin(), 1.0)).normalize(),
         };
         let across = if self.is_isotropic() { self.law.stiffness } else { 0.0 };
-        visit(stretch.spring(normal, self.law.stiffness, self.law.damping));
-        visit(stretch.spring(line.cross(&normal), across, self.law.damping));
+        visit(stretch.spring(normal, self.law.stiffness, damping));
+        visit(stretch.spring(line.cross(&normal), across, damping));
     }
 }
 

@@ -53,7 +53,7 @@ impl<
             }
             InputKind::Anchor { .. } => {}
         }
-        check(value.is_finite(), Quantity::Load)?;
+        check(P::Real::from_f64(value).is_finite(), Quantity::Load)?;
         room(&self.inputs, 1, Part::Inputs)?;
         let index = InputIndex(self.inputs.len() as u16);
         let input = Input { kind, value: P::Real::from_f64(value), knot: 0, knots: 0 };
@@ -65,7 +65,8 @@ impl<
     /// each knot on, or linear in between.
     ///
     /// # Errors
-    /// As [`Self::add_input`]; [`Quantity::Window`] where times do not ascend.
+    /// As [`Self::add_input`]; [`Quantity::Window`] where times do not ascend, [`Quantity::Load`]
+    /// where the precision cannot hold a value or what lies between two.
     pub fn add_table(
         &mut self,
         kind: InputKind<P>,
@@ -75,19 +76,17 @@ impl<
         let ascending = table.windows(2).all(|pair| pair[0][0] < pair[1][0]);
         let known = table.iter().all(|knot| finite(knot));
         check(!table.is_empty() && ascending && known, Quantity::Window)?;
+        let knot = |i| Knot::<P::Real>::of_table(table, i, linear);
+        let held = |i| knot(i).is_some_and(|now| now.is_finite(knot(i + 1).as_ref()));
+        check((0..table.len()).all(held), Quantity::Load)?;
         room(&self.knots, table.len(), Part::Knots)?;
         let index = self.add_input(kind, 0.0)?;
         if let Some(input) = self.inputs.get_mut(index.0 as usize) {
             input.knot = self.knots.len() as u16;
             input.knots = table.len() as u16;
         }
-        for (i, [time, value]) in table.iter().enumerate() {
-            let slope = match table.get(i + 1) {
-                Some([next, then]) if linear => (then - value) / (next - time),
-                _ => 0.0,
-            };
-            let (value, slope) = (P::Real::from_f64(*value), P::Real::from_f64(slope));
-            let _ = self.knots.push(Knot { time: *time, value, slope });
+        for knot in (0..table.len()).filter_map(knot) {
+            let _ = self.knots.push(knot);
         }
         Ok(index)
     }

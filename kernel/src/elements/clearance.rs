@@ -1,8 +1,11 @@
 //! Clearance: a dead band of an element's extension, continuous at its edge.
 //!
-//! `(extension, clearance c) => effective extension`: 0 within ±c, less c beyond. A spring acts
-//! on the effective extension, its energy is that of it; its damper acts while it is engaged.
-//! (Flores & Ambrósio 2004 review dry clearance joints; contact here is the joint's own spring.)
+//! `(extension, clearance c) => effective extension x`: 0 within ±c, less c beyond. A spring acts
+//! on the effective extension, its energy is that of it. A damper grows with it, as the contact
+//! does: `d·min(1, |x|/c)`, 0 at the edge and whole from twice the clearance on, so that the force
+//! is continuous whatever the speed, and what it takes is never negative.
+//! (Flores & Ambrósio 2004 review dry clearance joints, whose dampers grow likewise, after Hunt &
+//! Crossley 1975; contact here is the joint's own spring.)
 
 use crate::real::Real;
 
@@ -17,6 +20,14 @@ pub fn beyond<R: Real>(extension: R, clearance: Option<R>) -> R {
     }
 }
 
+/// What acts of a damper \[N·s/m\] at `extension` \[m\]: without a clearance all of it.
+#[inline(always)]
+pub fn engaged<R: Real>(damping: R, extension: R, clearance: Option<R>) -> R {
+    let Some(c) = clearance else { return damping };
+    let x = beyond(extension, clearance).abs();
+    if x < c { damping * (x / c) } else { damping }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -29,5 +40,23 @@ mod tests {
         }
         assert!((beyond(0.1 + 1e-9, Some(0.1)) - 1e-9_f64).abs() < 1e-16);
         assert!((beyond(-0.1 - 1e-9, Some(0.1)) + 1e-9_f64).abs() < 1e-16);
+    }
+
+    #[test]
+    fn a_damper_grows_from_the_edge_on() {
+        assert_eq!(engaged(8.0, 0.0, None), 8.0);
+        for (extension, damping) in [
+            (0.0, 0.0),
+            (0.5, 0.0),
+            (-0.5, 0.0),
+            (0.625, 2.0),
+            (-0.75, 4.0),
+            (1.0, 8.0),
+            (-9.0, 8.0),
+        ] {
+            assert_eq!(engaged(8.0, extension, Some(0.5)), damping, "{extension}");
+        }
+        // A clearance that a precision rounds to nothing is none.
+        assert_eq!(engaged(8.0_f32, 0.0, Some(0.0)), 8.0);
     }
 }

@@ -6,9 +6,10 @@
 //! material points of both bodies at the foot and at the point.
 //! Force on A at the foot `k·(|e| − L0)·e/|e| + c·ė`, on B at the point the opposite; with
 //! `L0 = 0` simply `k·e + c·ė`, smooth on the line. Energy `½·k·(|e| − L0)²`.
+//! A clearance changes `|e| − L0` and c, see [`crate::elements::clearance`].
 //! A damper whose `ė` is not along e keeps angular momentum only as far as e vanishes.
 
-use crate::elements::clearance::beyond;
+use crate::elements::clearance::{beyond, engaged};
 use crate::real::Real;
 use crate::vector::Vec3;
 
@@ -82,9 +83,8 @@ impl<R: Real> PointOnLine<R> {
         rate: Vec3<R>,
         clearance: Option<R>,
     ) -> Vec3<R> {
-        let force = self.force(e, clearance);
-        let engaged = clearance.is_none() || force != Vec3::ZERO;
-        if engaged { force + rate * damping } else { force }
+        let damping = engaged(damping, self.extension(e), clearance);
+        self.force(e, clearance) + rate * damping
     }
 
     /// `|e| − L0` \[m\].

@@ -2,9 +2,10 @@
 //!
 //! `(d, v_rel) => force on A`, with `d = x_b − x_a` and `v_rel` the rate of `d`:
 //! tension `k·(L − L0) + c·(d·v_rel)/L` along `d/L`; the force on B is the opposite.
-//! Energy `½·k·(L − L0)²`. Where the points coincide the direction is undefined and the force 0.
+//! Energy `½·k·(L − L0)²`; a clearance changes `L − L0` and c, see [`crate::elements::clearance`].
+//! Where the points coincide the direction is undefined and the force 0.
 
-use crate::elements::clearance::beyond;
+use crate::elements::clearance::{beyond, engaged};
 use crate::real::Real;
 use crate::vector::Vec3;
 
@@ -49,11 +50,10 @@ impl<R: Real> Tsda<R> {
     ) -> Vec3<R> {
         let length = d.dot(d).sqrt();
         let inverse = length.reciprocal_or_zero();
-        let extension = beyond(length - self.free_length, clearance);
-        let mut tension = self.stiffness * extension;
-        if clearance.is_none() || extension != R::ZERO {
-            tension = tension + damping * (d.dot(v_rel) * inverse);
-        }
+        let extension = length - self.free_length;
+        let damping = engaged(damping, extension, clearance);
+        let tension =
+            self.stiffness * beyond(extension, clearance) + damping * (d.dot(v_rel) * inverse);
         d * (tension * inverse)
     }
 
@@ -117,6 +117,8 @@ mod tests {
         };
         assert_eq!(at(0.505), (0.0, 0.0));
         assert_eq!(at(0.495), (0.0, 0.0));
+        // Half a clearance beyond the edge half of the damper acts, a whole one beyond all of it.
+        assert!((at(0.515).0 - (250.0 * 0.005 + 3.0)).abs() < 1e-9);
         let (force, energy) = at(0.52);
         assert!((force - (250.0 * 0.01 + 6.0)).abs() < 1e-9);
         assert!((energy - 0.5 * 250.0 * 1e-4).abs() < 1e-12);

@@ -129,6 +129,8 @@ impl<
             };
             assert!(group.element as usize + elements <= count, "a group's elements are there");
             check_damper(group.damper, elements, DAMPERS);
+            self.check_anchor(group.a);
+            self.check_anchor(group.b);
             if let Some(row) = group.clearance.row() {
                 assert!(row < CLEARANCES, "a group's clearance is there");
             }
@@ -138,6 +140,8 @@ impl<
         while i < TORSIONS {
             let spring = &self.torsions[i];
             check_pair(spring.a, spring.b, BODIES);
+            self.check_anchor(spring.a);
+            self.check_anchor(spring.b);
             check_damper(spring.damper, 1, DAMPERS);
             i += 1;
         }
@@ -168,6 +172,15 @@ impl<
             i += 1;
         }
         self
+    }
+
+    /// Ground that an input moves names an input that moves ground.
+    const fn check_anchor(&self, body: BodyIndex) {
+        if let Some(row) = body.anchor_row() {
+            assert!(row < INPUTS, "an anchor's input is there");
+            let moves = matches!(&self.inputs[row].kind, InputKind::Anchor { .. });
+            assert!(moves, "an anchor's input moves the ground");
+        }
     }
 }
 

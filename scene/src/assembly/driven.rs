@@ -114,13 +114,8 @@ impl Assembly {
             }
         };
         if let Drive::Table { knots, linear } = drive {
-            for (i, [time, value]) in knots.iter().enumerate() {
-                let slope = match knots.get(i + 1) {
-                    Some([next, then]) if *linear => (then - value) / (next - time),
-                    _ => 0.0,
-                };
-                self.model.knots.push(Knot { time: *time, value: *value, slope });
-            }
+            let rows = (0..knots.len()).filter_map(|i| Knot::of_table(knots, i, *linear));
+            self.model.knots.extend(rows);
         }
         self.model.inputs.push(Input { kind, value, knot, knots });
         Ok(InputIndex(row))

@@ -147,8 +147,21 @@ impl Kind for Text {
         if matches!(self, Self::Name) && text.trim().is_empty() {
             return Err(value.refuse("is empty", &self.expected()));
         }
+        if matches!(self, Self::Name) && text.chars().any(is_invisible) {
+            let problem = "holds a line break or another invisible character";
+            let help = "a name is one line of visible text: it heads a column, and stands in \
+                        exported source";
+            return Err(value.refuse_with(problem, help));
+        }
         Ok(text.to_owned())
     }
+}
+
+/// Whether a character breaks a line or steers what shows it: control characters, Unicode's line
+/// and paragraph separators and those that turn the direction of writing, which compilers refuse.
+pub(super) fn is_invisible(c: char) -> bool {
+    let steers = matches!(c, '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}');
+    c.is_control() || steers
 }
 
 /// One of a few words, by its index.

@@ -9,6 +9,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::error::{SceneError, Source};
 use crate::nearest::nearest;
+use crate::text::kinds::is_invisible;
 use crate::text::value::{Kind, Value};
 
 /// A table and what messages call it.
@@ -141,7 +142,9 @@ impl<'t> Table<'t> {
                 return Err(entry.wrong_type(&format!("a table, opened by [[{key}]]")));
             };
             let label = match entries.get("name").and_then(|name| name.get_ref().as_str()) {
-                Some(name) if !name.trim().is_empty() => format!("{key} `{name}`"),
+                Some(name) if !name.trim().is_empty() && !name.contains(is_invisible) => {
+                    format!("{key} `{name}`")
+                }
                 _ => format!("{key} {}", i + 1),
             };
             tables.push(Table::new(self.source, entries, entry.span(), label));
