@@ -1,4 +1,4 @@
-//! Dampers as pairwise exact impulses: unconditionally stable, momentum kept, energy never added.
+//! Dampers as pairwise exact impulses: unconditionally stable, energy never added.
 //!
 //! `(pose, velocities, h) => velocities`. For each damper along a direction u with rate `u·v_rel`
 //! and effective mass μ, `1/μ = Σ_bodies (1/m + (r×u)ᵀ·I⁻¹·(r×u))`, the impulse
@@ -8,6 +8,9 @@
 //! `1/(1 + x + x²/2)`: in (0, 1], second order, plain arithmetic.
 //! A TSDA damps along its line, a torsion spring along its gradient, a point bushing along the
 //! world's axes, a point on a line along the line's two normals, one after the other.
+//! Linear momentum is always kept. Angular momentum is kept by dampers of TSDAs with a free length
+//! and of torsion springs; a damped bushing or point on a line has the law `c·v_rel`, whose torque
+//! vanishes only with its deflection.
 
 use crate::elements::clearance::beyond;
 use crate::elements::torsion_spring::TorsionSpring;
@@ -39,10 +42,16 @@ impl Damping {
     }
 }
 
-/// The fraction of a relative velocity that a damper removes, in \[0, 1), for `x = h·c/μ`.
+/// The impulse per relative velocity, `μ·s/(1 + s)` with `s = x + x²/2` and `x = h·c/μ`, from
+/// `1/μ > 0`: a share of μ in \[0, 1\].
+///
+/// Written as `1/((1/μ)·(1 + 1/s))`, which neither cancels where x is small nor fails where s
+/// overflows; a damper without a coefficient gives 0.
 #[inline(always)]
-fn removed<R: Real>(x: R) -> R {
-    R::ONE - R::ONE / (R::ONE + x + R::HALF * (x * x))
+fn impulse_per_rate<R: Real>(inverse: R, damping: R, h: R) -> R {
+    let x = h * damping * inverse;
+    let s = x + R::HALF * (x * x);
+    R::ONE / (inverse * (R::ONE + R::ONE / s))
 }
 
 /// What a unit impulse does to one body: `u/m` and `I⁻¹·n`, n its moment in body axes.
@@ -116,7 +125,7 @@ fn damp<P: Geometry>(
     let rate = b.as_ref().map_or(zero, |b| b.rate(bodies))
         - a.as_ref().map_or(zero, |a| a.rate(bodies))
         + ground_rate;
-    let impulse = removed(h * damping * inverse) / inverse * rate;
+    let impulse = impulse_per_rate(inverse, damping, h) * rate;
     if let Some(a) = a {
         a.push(bodies, impulse);
     }
@@ -251,4 +260,42 @@ fn torsion<P: Geometry, T: Terms>(
     };
     let zero = P::Real::ZERO;
     damp(bodies, lever(row_a, frame_a), lever(row_b, frame_b), zero, damping, h);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The share of a relative velocity that a damper takes away.
+    fn removed<R: Real>(x: f64, inverse: f64) -> f64 {
+        let inverse = R::from_f64(inverse);
+        let x = R::from_f64(x);
+        (impulse_per_rate(inverse, x / inverse, R::ONE) * inverse).to_f64()
+    }
+
+    #[test]
+    fn light_and_strong_dampers_lose_no_digits() {
+        for exponent in -12..=12 {
+            let x = 10_f64.powi(exponent);
+            let exact = (x + 0.5 * x * x) / (1.0 + x + 0.5 * x * x);
+            for inverse in [1e-6, 0.7, 1e6] {
+                let (double, single) = (removed::<f64>(x, inverse), removed::<f32>(x, inverse));
+                assert!((double / exact - 1.0).abs() < 1e-15, "{x}: {double} of {exact}");
+                assert!((single / exact - 1.0).abs() < 5e-7, "{x}: {single} of {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_coefficient_takes_nothing_and_none_more_than_all() {
+        assert_eq!(removed::<f32>(0.0, 0.7), 0.0);
+        assert_eq!(removed::<f64>(0.0, 0.7), 0.0);
+        // Beyond 1e19 the square overflows in single precision, beyond 1e154 in double.
+        for x in [1e15, 1e19, 1e25, 1e30, 3e38] {
+            assert!((removed::<f32>(x, 1.0) - 1.0).abs() < 1e-6, "{x}");
+        }
+        for x in [1e100, 1e160, 1e300] {
+            assert_eq!(removed::<f64>(x, 1.0), 1.0);
+        }
+    }
 }
