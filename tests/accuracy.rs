@@ -9,15 +9,17 @@ use dbd_kernel::{
     BlanesMoanS6, Dbd, DbdP1, F64, Leapfrog, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler, State,
 };
 use dbd_scene::SceneModel;
-use dbd_tests::{distance, scene};
+use dbd_tests::scene;
+use host_sim::reference::Trajectory;
+use nalgebra::Vector3;
 
 /// A mechanism, its force evaluations per simulated second and the time looked at \[s\].
 struct Race {
     model: SceneModel<F64>,
     rate: f64,
     time: f64,
-    /// The truth at the samples.
-    truth: Vec<State<SceneModel<F64>>>,
+    /// The truth at t = 0 and at the samples.
+    truth: Trajectory,
 }
 
 /// Samples over the time.
@@ -25,20 +27,15 @@ const SAMPLES: u64 = 20;
 
 impl Race {
     fn new(name: &str, rate: f64, time: f64) -> Self {
-        let mut race = Self { model: scene(name).model.convert(), rate, time, truth: Vec::new() };
-        race.truth = race.samples(BlanesMoanS6, 8.0, false).0;
-        race
+        let scene = scene(name);
+        let truth = Trajectory::truth(&scene, time, SAMPLES as u32).unwrap();
+        Self { model: scene.model.convert(), rate, time, truth }
     }
 
-    /// The states at the samples with so many times the rate, and the RMS of the energy's error
-    /// over the steps if it is watched.
-    fn samples<S: Scheme>(
-        &self,
-        scheme: S,
-        times: f64,
-        watched: bool,
-    ) -> (Vec<State<SceneModel<F64>>>, f64) {
-        let evaluations = self.rate * times * self.time / SAMPLES as f64;
+    /// The states at the samples, and the RMS of the energy's error over the steps if it is
+    /// watched.
+    fn samples<S: Scheme>(&self, scheme: S, watched: bool) -> (Vec<State<SceneModel<F64>>>, f64) {
+        let evaluations = self.rate * self.time / SAMPLES as f64;
         let stride = (evaluations / f64::from(scheme.evaluations())).round() as u64;
         let h = self.time / (stride * SAMPLES) as f64;
         let mut plant = Plant::new(&self.model, scheme, h).unwrap();
@@ -59,20 +56,24 @@ impl Race {
 
     /// The largest distance \[m\] of a body from the truth over the samples.
     fn error(&self, states: &[State<SceneModel<F64>>]) -> f64 {
-        let errors = states.iter().zip(&self.truth).map(|(a, b)| distance(&a.bodies, &b.bodies));
+        let pairs = states.iter().zip(&self.truth.states[1..]);
+        let errors = pairs.flat_map(|(run, truth)| {
+            let bodies = run.bodies.iter().zip(truth.positions());
+            bodies.map(|(body, at)| (Vector3::from(body.position.to_f64()) - at).norm())
+        });
         errors.fold(0.0, f64::max)
     }
 }
 
 fn run(name: &str, rate: f64, time: f64) {
     let race = Race::new(name, rate, time);
-    let doubt = race.error(&race.samples(BlanesMoanS6, 16.0, false).0);
+    let doubt = race.truth.largest_uncertainty();
     // A load does work.
     let watched = race.model.loads.is_empty();
     println!("{name}, {rate:.2e} evaluations/s, first {time} s, truth known to {doubt:.1e} m");
     macro_rules! row {
         ($scheme:expr) => {{
-            let (states, energy) = race.samples($scheme, 1.0, watched);
+            let (states, energy) = race.samples($scheme, watched);
             let (name, position) = (name_of($scheme), race.error(&states));
             let energy = if watched { format!("{energy:.1e} J") } else { "–".into() };
             println!("  {name:<20} {position:.1e} m  {energy}");

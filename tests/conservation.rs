@@ -4,7 +4,8 @@ use dbd_kernel::builder::LineLaw;
 use dbd_kernel::energy::energy;
 use dbd_kernel::forces::wrenches;
 use dbd_kernel::{
-    BodyIndex, BodyState, Dbd, F64, Leapfrog, ModelOwner, Plant, Quaternion, Scheme, State, Vec3,
+    BlanesMoanS6, BodyIndex, BodyState, Dbd, F64, Leapfrog, ModelOwner, Pefrl, Plant, Quaternion,
+    Scheme, SemiImplicitEuler, State, Vec3,
 };
 use dbd_tests::{Bench, free_ring, hung_ring, momenta, turned};
 use proptest::prelude::*;
@@ -61,6 +62,65 @@ fn momentum_is_kept_without_ground_and_gravity() {
         let drift = (l - l0).dot(l - l0).sqrt() / l0.dot(l0).sqrt();
         assert!(drift < 1e-3, "dbd, damping {damping}: {drift:e}");
     }
+}
+
+/// Two bodies of 1 kg, 1 m apart along x, that circle each other at 0.5 m/s, joined by `join`.
+fn circling(join: impl Fn(&mut Bench<F64>, [BodyIndex; 2])) -> Bench<F64> {
+    let mut model = Bench::new();
+    let unturned = [1.0, 0.0, 0.0, 0.0];
+    let body = |x: f64| BodyState::from_f64([x, 0.0, 0.0], unturned, [0.3, x, 0.1], [0.0; 3]);
+    let pair = [-0.5, 0.5].map(|x| model.add_body(1.0, [0.1; 3], body(x)).unwrap());
+    join(&mut model, pair);
+    model
+}
+
+/// The change of the linear momentum and the ratio of the angular momentum about z, over `time`.
+fn momenta_after<S: Scheme>(model: &Bench<F64>, scheme: S, time: f64) -> (f64, f64) {
+    let masses: [_; 2] = [(1.0, [0.1; 3]); 2];
+    let (p0, l0) = momenta(&masses, &State::initial(model).bodies);
+    let h = 1e-3;
+    let mut plant = Plant::new(model, scheme, h).unwrap();
+    plant.advance((time / h).round() as u64).ok().unwrap();
+    let (p, l) = momenta(&masses, &plant.state().bodies);
+    ((p - p0).dot(p - p0).sqrt(), l.z / l0.z)
+}
+
+#[test]
+fn dampers_keep_the_momenta_that_their_law_keeps() {
+    // With c·v_rel between two points the angular momentum of the pair decays by exp(−2·c·t/m),
+    // of 0.5 N·m·s half is left after ln 2 seconds with c = 0.5 N·s/m.
+    let damping = 0.5;
+    let zero = [[0.0; 3]; 2];
+    let bushing = circling(|model, pair| {
+        model.add_tsda(pair, zero, 4.0, damping, 0.0).unwrap();
+    });
+    let line = circling(|model, pair| {
+        let law = LineLaw { stiffness: 4.0, damping, free_length: 0.0, clearance: 0.0 };
+        let (on, z) = ([0.0; 3], [0.0, 0.0, 1.0]);
+        model.add_points_on_line(pair, on, z, &[[0.0; 3]], law).unwrap();
+    });
+    let kept = circling(|model, pair| {
+        let points = [[0.1, 0.2, 0.0], [0.0, -0.3, 0.1]];
+        model.add_tsda(pair, points, 4.0, damping, 0.7).unwrap();
+        model.add_torsion_spring(pair, [0.0, 0.6, 0.8], 1.0, damping, 0.3).unwrap();
+    });
+    fn check<S: Scheme>(scheme: S, [bushing, line, kept]: [&Bench<F64>; 3]) {
+        let time = std::f64::consts::LN_2;
+        for (name, model, left) in [("bushing", bushing, 0.5), ("line", line, 0.5)] {
+            let (linear, angular) = momenta_after(model, scheme, time);
+            println!("{:<20} {name}: {linear:.1e}, of the angular {angular:.4}", S::NAME);
+            assert!(linear < 1e-12, "{} {name}: {linear:e}", S::NAME);
+            assert!((angular - left).abs() < 1e-3, "{} {name}: {angular}", S::NAME);
+        }
+        let (linear, angular) = momenta_after(kept, scheme, time);
+        println!("{:<20} TSDA and torsion: {linear:.1e}, {:.1e}", S::NAME, angular - 1.0);
+        assert!(linear < 1e-12 && (angular - 1.0).abs() < 1e-12, "{}: {angular}", S::NAME);
+    }
+    let models = [&bushing, &line, &kept];
+    check(Leapfrog, models);
+    check(Pefrl, models);
+    check(BlanesMoanS6, models);
+    check(SemiImplicitEuler, models);
 }
 
 /// Mean errors of the total energy \[J\] over quarters of 10 s, the worst, and the peak kinetic.

@@ -64,6 +64,48 @@ fn the_bound_holds_along_the_run_of_every_scene() {
     }
 }
 
+/// A wound spring's torque makes the stiffness unsymmetric, more so than the spring is stiff: the
+/// estimate knows of the symmetric part alone.
+#[test]
+fn the_estimate_holds_for_wound_springs() {
+    for winding in [0.0, 1.0, 4.0, 10.0, 100.0] {
+        for inertia in [[0.01; 3], [0.01, 0.02, 0.015]] {
+            let mut model = Bench::<F64>::new();
+            let state = BodyState::from_f64([0.0; 3], [1.0, 0.0, 0.0, 0.0], [0.0; 3], [0.0; 3]);
+            let body = model.add_body(1.0, inertia, state).unwrap();
+            let (z, k) = ([0.0, 0.0, 1.0], 1e3);
+            model.add_torsion_spring([BodyIndex::WORLD, body], z, k, 0.0, winding * k).unwrap();
+            let start = State::initial(&model);
+            let [highest, ratio] = bound(&model, &start, 0.0);
+            let estimate = frequency::estimate(&model, &start, 200) / highest;
+            if std::env::var_os("DBD_PRINT").is_some() {
+                println!("wound by {winding} rad: {highest:.1} rad/s, estimate {estimate:.6}");
+            }
+            assert!(highest > 250.0 && ratio >= 1.0 - ROUNDING, "{winding}: {highest} {ratio}");
+            assert!((0.99..=1.0 + ROUNDING).contains(&estimate), "{winding}: {estimate}");
+        }
+    }
+}
+
+/// The same at poses where every kind of element pulls, and one is driven by an actuator.
+#[test]
+fn the_estimate_is_close_and_below_at_loaded_poses() {
+    let mut scatter = Scatter(11);
+    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    for i in 0..100 {
+        let model = strained(if i % 2 == 0 { 0.0 } else { 2e3 * scatter.next() });
+        let mut state = State::initial(&model);
+        scatter.scatter(&mut state.bodies, [0.01, 0.1, 0.3, 0.6][i % 4]);
+        let [highest, _] = bound(&model, &state, 0.0);
+        let ratio = frequency::estimate(&model, &state, 200) / highest;
+        assert!((0.95..=1.0 + ROUNDING).contains(&ratio), "pose {i}: {ratio}");
+        (least, most) = (least.min(ratio), most.max(ratio));
+    }
+    if std::env::var_os("DBD_PRINT").is_some() {
+        println!("loaded poses: estimate {least:.4} to {most:.7}");
+    }
+}
+
 /// [`hung_ring`] with looseness, lines that are off their points, and an actuator that pulls.
 fn strained(pull: f64) -> Bench<F64> {
     let mut model = hung_ring::<F64>(0.0);

@@ -188,6 +188,42 @@ fn the_window_ends_where_a_perturbation_has_grown() {
     assert!(regular.end == 0.5 && regular.growth.iter().all(|growth| *growth < 10.0));
 }
 
+#[cfg_attr(debug_assertions, ignore = "minutes in a debug build; release runs it")]
+#[test]
+fn the_papers_mechanisms_are_worth_comparing_for_half_a_second() {
+    for name in [
+        "four-bar",
+        "five-bar-a",
+        "five-bar-b",
+        "six-bar",
+        "hexagon",
+        "3rrr",
+        "3rrr-1",
+        "3rrr-2",
+        "crank-slider",
+        "3ruu",
+    ] {
+        let window = before_chaos(&scene(name), 0.5, 50, f64::INFINITY).unwrap();
+        let last = window.growth[window.growth.len() - 1];
+        let most = window.growth.iter().fold(0.0_f64, |most, growth| most.max(*growth));
+        let passed = window.growth.iter().position(|growth| *growth > GROWTH);
+        let passed = passed.map(|row| window.times[row]);
+        if std::env::var_os("DBD_PRINT").is_some() {
+            println!(
+                "{name:14} grows {last:.1e} fold, {most:.1e} at most, beyond 1e3 at {passed:?}"
+            );
+        }
+        assert_eq!(passed.is_some(), name == "3rrr-2", "{name}: {most:e}");
+    }
+    for (name, bound) in [("five-bar-a", 1e-11), ("3rrr-2", 1e-6)] {
+        let uncertainty = Trajectory::truth(&scene(name), 0.5, 10).unwrap().largest_uncertainty();
+        if std::env::var_os("DBD_PRINT").is_some() {
+            println!("{name:14} {uncertainty:.1e} m over 0.5 s");
+        }
+        assert!(uncertainty < bound, "{name}: {uncertainty:e}");
+    }
+}
+
 #[test]
 fn a_perturbation_moves_every_body_by_the_same_amount() {
     let (_, state) = Mechanism::of(&scene("hexagon"));

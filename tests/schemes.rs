@@ -4,8 +4,8 @@
 use dbd_kernel::energy::energy;
 use dbd_kernel::inputs::InputKind;
 use dbd_kernel::{
-    BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F64, Leapfrog, LoadFrame,
-    ModelOwner, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler, State, Vec3,
+    BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Geometry, Leapfrog,
+    LoadFrame, ModelOwner, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler, State, Vec3,
 };
 use dbd_tests::{Bench, at, free_ring, hung_ring, momenta};
 
@@ -29,6 +29,11 @@ macro_rules! for_every_scheme {
 
 /// 1 kg on a spring of 1 N/m without free length, whose frequency is 1 rad/s, with a damper.
 fn oscillator(x: f64, v: f64, damping: f64) -> Bench<F64> {
+    oscillator_in(x, v, damping)
+}
+
+/// The same in any precision.
+fn oscillator_in<P: Geometry>(x: f64, v: f64, damping: f64) -> Bench<P> {
     let mut model = Bench::new();
     let state = BodyState::from_f64([x, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [v, 0.0, 0.0], [0.0; 3]);
     let body = model.add_body(1.0, [1.0; 3], state).unwrap();
@@ -106,6 +111,40 @@ fn sweeps_bear_any_damper_and_explicit_ones_do_not() {
         assert!((light - (-0.025_f64).exp()).abs() < 1e-3, "{}: {light}", S::NAME);
     }
     for_every_scheme!(check);
+}
+
+/// How fast sweeps with `x = ½·h·c/m` take the energy of an [`oscillator`] away in a precision, as
+/// a share of `2·x` per step, which it should be.
+fn decay<P: Geometry>(x: f64) -> f64 {
+    let h = 0.01;
+    let model: Bench<P> = oscillator_in(1.0, 0.0, 2.0 * x / h);
+    let mut plant = Plant::new(&model, Leapfrog, h).unwrap();
+    // Whole periods of 628.3 steps, over which the share of the kinetic energy is a half.
+    let steps = if x < 1e-5 {
+        1_884_956
+    } else if x < 1e-3 {
+        62_832
+    } else {
+        6_283
+    };
+    let mut total = |n| {
+        plant.advance(n).ok().unwrap();
+        let body: BodyState<F64> = plant.state().bodies[0].convert();
+        body.position.dot(body.position) + body.velocity.dot(body.velocity)
+    };
+    let (start, end) = (total(0), total(steps));
+    (start / end).ln() / (2.0 * x * steps as f64)
+}
+
+#[cfg_attr(debug_assertions, ignore = "a minute in a debug build; release runs it")]
+#[test]
+fn light_dampers_act_in_single_precision_too() {
+    for (x, tolerance) in [(1e-7, 0.1), (1e-6, 0.01), (1e-5, 1e-3), (1e-4, 1e-3), (1e-3, 2e-3)] {
+        let (double, single) = (decay::<F64>(x), decay::<F32>(x));
+        println!("x = {x:e}: damped by {double:.4} in double, {single:.4} in single precision");
+        assert!((double - 1.0).abs() < 1e-2, "{x}: {double}");
+        assert!((single / double - 1.0).abs() < tolerance, "{x}: {single} {double}");
+    }
 }
 
 #[test]

@@ -8,7 +8,7 @@ use dbd_kernel::schemes::{Leapfrog, Scheme};
 use dbd_scene::{InputInfo, JointFacts, JointInfo, ReadoutInfo, Scene, Severity};
 use serde::Serialize;
 
-use crate::frequencies::Frequencies;
+use crate::frequencies::{Frequencies, advised_text};
 use crate::stability_check::StabilityCheck;
 use crate::summary::{approximate, significant, table};
 use crate::time::display;
@@ -46,7 +46,7 @@ pub struct Check {
     pub frequency_bound_hz: f64,
     /// \[Hz\] estimate of the highest frequency at t = 0.
     pub frequency_estimate_hz: f64,
-    /// \[s\] 1/ω of the bound; `None` where nothing vibrates.
+    /// \[s\] 1/ω of the bound, or less where a body spins fast; `None` where nothing does either.
     pub advised_step: Option<f64>,
     /// \[s\] the scene's own step, where it gives one.
     pub step: Option<f64>,
@@ -184,13 +184,15 @@ pub fn check(scene: &Scene) -> Check {
 fn warn_of_step(scene: &Scene, frequencies: &Frequencies, check: &mut Check) {
     let limit = Leapfrog::STABILITY_LIMIT;
     if let Some(step) = scene.step.filter(|step| step * frequencies.bound > limit) {
-        let longest = frequencies.advised_step().map(|advised| limit * advised).unwrap_or(step);
+        let longest = limit / frequencies.bound;
         check.warnings.push(format!(
             "the scene's step of {} is beyond {limit}/ω of the bound, {}: the run may diverge",
             display(step),
             approximate(longest),
         ));
     }
+    let spin = scene.step.and_then(|step| frequencies.warning(scene, step));
+    check.warnings.extend(spin);
 }
 
 fn note_count(planar_loops: usize, check: &mut Check) {
@@ -212,10 +214,7 @@ impl Check {
     /// What people read.
     #[must_use]
     pub fn text(&self) -> String {
-        let advised = match self.advised_step {
-            Some(step) => format!("{} (1/ω of the bound)", approximate(step)),
-            None => "– (nothing vibrates)".into(),
-        };
+        let advised = advised_text(self.advised_step, self.frequency_bound_hz);
         let step = self.step.map_or_else(|| "– (the advised one)".into(), display);
         let mut rows = vec![
             ("scene", self.scene.clone()),

@@ -107,7 +107,7 @@ struct RunArguments {
     /// How dampers act [default: the scheme's own]
     #[arg(long, value_enum)]
     damping: Option<DampingName>,
-    /// Step, e.g. 20us [default: the scene's, else 1/ω of the frequency bound, shortened to fit]
+    /// Step, e.g. 20us [default: the scene's, else the advised one, shortened to fit]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     step: Option<Time>,
     /// Simulated time, e.g. 0.5s [default: the scene's]
@@ -214,6 +214,9 @@ fn run_scene(
     let outcome = outcome?;
     if arguments.json {
         console.print(&outcome.summary.json());
+        for warning in outcome.summary.warnings.iter().filter(|_| !arguments.quiet) {
+            console.warn(warning);
+        }
     } else if !arguments.quiet {
         console.print(&summary_table(&outcome));
     }
@@ -254,7 +257,7 @@ fn check_scene(
     let scene = catalogue.load(&arguments.scene.scene)?;
     let mut check = check(&scene);
     if arguments.stability {
-        check.stability = Some(StabilityCheck::of(&scene, &method));
+        check.stability = Some(StabilityCheck::of(&scene, &method)?);
     }
     console.print(&if arguments.json { json(&check) } else { check.text() });
     Ok(Exit::Done)
@@ -287,7 +290,7 @@ fn trade_scene(
     Ok(Exit::Done)
 }
 
-/// The constant of the step is the scene's, else the advised one.
+/// The constant of the step is the scene's, else the default one before it is shortened to fit.
 fn export_scene(
     catalogue: &Catalogue,
     scene: &str,
@@ -295,7 +298,7 @@ fn export_scene(
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
     let scene = catalogue.load(scene)?;
-    let step = Frequencies::of(&scene).advised_step().unwrap_or(scene.duration / 1000.0);
+    let step = Frequencies::of(&scene).default_limit(scene.duration);
     let mut source = export::preamble(&scene, step);
     for precision in precision.map_or(ExportPrecision::value_variants().to_vec(), |one| vec![one]) {
         source += &match precision {

@@ -24,6 +24,11 @@ impl Console<'_> {
         let _ = self.out.flush();
     }
 
+    /// Writes a warning.
+    pub fn warn(&mut self, warning: &str) {
+        let _ = writeln!(self.err, "warning: {warning}");
+    }
+
     /// Writes an error with its place and its help.
     pub fn report(&mut self, error: &dyn Diagnostic) {
         let theme = match self.terminal {

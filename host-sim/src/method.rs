@@ -129,6 +129,15 @@ pub enum MethodError {
         /// What was asked for.
         asked: &'static str,
     },
+    /// A precision in which no pose is at rest.
+    #[error("there is no stability to look at in {precision}: its square root is off by per cents")]
+    #[diagnostic(help(
+        "no frozen pose is at rest in it, nothing vibrates about one; --precision f64 or f32"
+    ))]
+    Restless {
+        /// The precision's name.
+        precision: &'static str,
+    },
 }
 
 fn other(damping: &str) -> &'static str {
@@ -218,6 +227,12 @@ impl Method {
     #[must_use]
     pub fn with_orientation(self, orientation: OrientationName) -> Self {
         Self { orientation, ..self }
+    }
+
+    /// Its precision.
+    #[must_use]
+    pub fn precision(&self) -> PrecisionName {
+        self.precision
     }
 
     /// Newton iterations per step, `None` for a scheme without any.

@@ -227,6 +227,7 @@ fn summarise(
         advised_step: frequencies.advised_step(),
         state_hash: format!("{:016x}", statistics.hash()),
         status,
+        warnings: frequencies.warning(scene, plan.step).into_iter().collect(),
     }
 }
 

@@ -17,7 +17,7 @@ use dbd_kernel::{F64, Geometry, Plant, Scheme, State, Status, Vec3};
 use dbd_scene::{SceneModel, widen};
 
 use crate::frozen::frozen;
-use crate::method::{Method, MethodVisitor};
+use crate::method::{Method, MethodError, MethodVisitor, PrecisionName};
 use crate::reference::{Mechanism, State as Reference, eigenfrequencies, window::perturbed};
 
 /// The grid of the scan up to `FINE`, and beyond: the window of growth of blanes-moan-s6, 0.027 wide,
@@ -65,12 +65,43 @@ impl Stability {
     }
 }
 
+/// How far rounding lets a vibration be small.
+#[derive(Clone, Copy)]
+struct Size {
+    /// The vibration's amplitude over the shortest spring.
+    amplitude: f64,
+    /// The share of the initial energy that rounding makes of itself.
+    noise: f64,
+}
+
+/// The size of a vibration in a precision, `None` where no frozen pose is at rest.
+fn size(precision: PrecisionName) -> Option<Size> {
+    match precision {
+        PrecisionName::F64 => Some(Size { amplitude: 1e-7, noise: 1e-9 }),
+        PrecisionName::F32 => Some(Size { amplitude: 3e-4, noise: 1e-2 }),
+        PrecisionName::F32Micromath => None,
+    }
+}
+
 /// The stability of a method about a pose of a model; `None` where nothing vibrates.
-#[must_use]
+///
+/// # Errors
+/// [`MethodError::Restless`] in a precision in which no pose is at rest.
 pub fn stability(
     model: &SceneModel<F64>,
     state: &State<SceneModel<F64>>,
     method: &Method,
+) -> Result<Option<Stability>, MethodError> {
+    let precision = method.precision_name();
+    let size = size(method.precision()).ok_or(MethodError::Restless { precision })?;
+    Ok(stability_at(model, state, method, size))
+}
+
+fn stability_at(
+    model: &SceneModel<F64>,
+    state: &State<SceneModel<F64>>,
+    method: &Method,
+    size: Size,
 ) -> Option<Stability> {
     let frozen = frozen(model, state);
     let (mechanism, rest) = Mechanism::of_model(&frozen);
@@ -81,7 +112,7 @@ pub fn stability(
     let kick = kick(&mechanism, &rest, frequency)?;
     let is_stable = |z: f64| {
         let steps = (PERIODS * TAU / z).clamp(STEPS[0], STEPS[1]).ceil() as u64;
-        method.visit(Trial { model: &frozen, kick: &kick, step: z / frequency, steps })
+        method.visit(Trial { model: &frozen, kick: &kick, size, step: z / frequency, steps })
     };
     let ranges = scan(is_stable);
     let first = ranges.first().filter(|range| range[0] == 0.0).map_or(0.0, |range| range[1]);
@@ -141,6 +172,7 @@ fn kick(mechanism: &Mechanism, rest: &Reference, frequency: f64) -> Option<Vec<[
 struct Trial<'s> {
     model: &'s SceneModel<F64>,
     kick: &'s [[Vec3<f64>; 2]],
+    size: Size,
     step: f64,
     steps: u64,
 }
@@ -149,9 +181,7 @@ impl MethodVisitor for Trial<'_> {
     type Output = bool;
 
     fn visit<P: Geometry, S: Scheme>(self, scheme: S) -> bool {
-        let single = P::NAME == "f32";
-        // The share of the initial energy that rounding makes of itself.
-        let (amplitude, noise) = if single { (3e-4, 1e-2) } else { (1e-7, 1e-9) };
+        let Size { amplitude, noise } = self.size;
         let size = amplitude * shortest(self.model);
         let mut model = self.model.clone();
         for (body, [linear, angular]) in model.initial.iter_mut().zip(self.kick) {

@@ -8,7 +8,7 @@ use dbd_kernel::State;
 use dbd_scene::Scene;
 use serde::Serialize;
 
-use crate::method::Method;
+use crate::method::{Method, MethodError};
 use crate::stability::{LARGEST, stability};
 use crate::summary::{approximate, significant};
 
@@ -37,11 +37,13 @@ pub struct StabilityCheck {
 
 impl StabilityCheck {
     /// The stability of a method about a scene's pose at t = 0.
-    #[must_use]
-    pub fn of(scene: &Scene, method: &Method) -> Self {
-        let found = stability(&scene.model, &State::initial(&scene.model), method);
+    ///
+    /// # Errors
+    /// [`MethodError::Restless`] in a precision in which no pose is at rest.
+    pub fn of(scene: &Scene, method: &Method) -> Result<Self, MethodError> {
+        let found = stability(&scene.model, &State::initial(&scene.model), method)?;
         let some = found.as_ref().filter(|found| found.largest_step > 0.0);
-        Self {
+        Ok(Self {
             scheme: method.scheme_name(),
             newton: method.newton(),
             damping: method.damping().name(),
@@ -51,7 +53,7 @@ impl StabilityCheck {
             z: some.map(|found| found.z()),
             linear_limit: method.stability_limit(),
             ranges: found.map_or(Vec::new(), |found| found.ranges),
-        }
+        })
     }
 
     /// What people read: names and texts.
@@ -74,7 +76,8 @@ impl StabilityCheck {
             _ if self.frequency_hz == 0.0 => "– (nothing vibrates)".into(),
             _ => format!("none was found with {method}"),
         };
-        let mut rows = vec![("largest stable step", step)];
+        let about = "the pose at t = 0 without velocities: what a spin allows is not in it";
+        let mut rows = vec![("largest stable step", step), ("stability about", about.into())];
         let range = |[from, to]: &[f64; 2]| {
             let end = if *to < LARGEST { significant(*to, 4) } else { "the scan's end".into() };
             format!("{} to {end}", significant(*from, 4))

@@ -5,6 +5,7 @@
 
 use serde::Serialize;
 
+use crate::frequencies::advised_text;
 use crate::time::{display, rounded};
 
 /// The summary of a run.
@@ -49,12 +50,15 @@ pub struct Summary {
     pub frequency_bound_hz: f64,
     /// \[Hz\] estimate of the highest frequency at t = 0.
     pub frequency_estimate_hz: f64,
-    /// \[s\] 1/ω of the bound; `None` where nothing vibrates.
+    /// \[s\] 1/ω of the bound, or less where a body spins fast; `None` where nothing does either.
     pub advised_step: Option<f64>,
     /// FNV-1a 64 over the state's words, 16 hexadecimal digits.
     pub state_hash: String,
     /// `ok`, or a sentence that names the failure.
     pub status: String,
+    /// What is probably not meant; for people, no key.
+    #[serde(skip)]
+    pub warnings: Vec<String>,
 }
 
 impl Summary {
@@ -90,11 +94,8 @@ impl Summary {
             significant(self.srt, 3),
         );
         let span = format!("{} × {} = {}", self.steps, display(self.step), display(self.duration));
-        let advised = match self.advised_step {
-            Some(step) => format!("{} (1/ω of the bound)", approximate(step)),
-            None => "– (nothing vibrates)".into(),
-        };
-        vec![
+        let advised = advised_text(self.advised_step, self.frequency_bound_hz);
+        let mut rows = vec![
             ("scene", self.scene.clone()),
             ("method", method),
             ("steps", span),
@@ -109,7 +110,9 @@ impl Summary {
             ("advised step", advised),
             ("state hash", self.state_hash.clone()),
             ("status", self.status.clone()),
-        ]
+        ];
+        rows.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
+        rows
     }
 }
 

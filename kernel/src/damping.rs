@@ -1,4 +1,4 @@
-//! Dampers as pairwise exact impulses: unconditionally stable, momentum kept, energy never added.
+//! Dampers as pairwise exact impulses: unconditionally stable, energy never added.
 //!
 //! `(pose, velocities, h) => velocities`. For each damper along a direction u with rate `u·v_rel`
 //! and effective mass μ, `1/μ = Σ_bodies (1/m + (r×u)ᵀ·I⁻¹·(r×u))`, the impulse
@@ -8,6 +8,9 @@
 //! `1/(1 + x + x²/2)`: in (0, 1], second order, plain arithmetic.
 //! A TSDA damps along its line, a torsion spring along its gradient, a point bushing along the
 //! world's axes, a point on a line along the line's two normals, one after the other.
+//! Linear momentum is always kept. Angular momentum is kept by dampers of TSDAs with a free length
+//! and of torsion springs; a damped bushing or point on a line has the law `c·v_rel`, whose torque
+//! vanishes only with its deflection.
 
 use crate::elements::clearance;
 use crate::elements::torsion_spring::TorsionSpring;
@@ -39,10 +42,16 @@ impl Damping {
     }
 }
 
-/// The fraction of a relative velocity that a damper removes, in \[0, 1), for `x = h·c/μ`.
+/// The impulse per relative velocity, `μ·s/(1 + s)` with `s = x + x²/2` and `x = h·c/μ`, from
+/// `1/μ > 0`: a share of μ in \[0, 1\].
+///
+/// Written as `1/((1/μ)·(1 + 1/s))`, which neither cancels where x is small nor fails where s
+/// overflows; a damper without a coefficient gives 0.
 #[inline(always)]
-fn removed<R: Real>(x: R) -> R {
-    R::ONE - R::ONE / (R::ONE + x + R::HALF * (x * x))
+fn impulse_per_rate<R: Real>(inverse: R, damping: R, h: R) -> R {
+    let x = h * damping * inverse;
+    let s = x + R::HALF * (x * x);
+    R::ONE / (inverse * (R::ONE + R::ONE / s))
 }
 
 /// What a unit impulse does to one body: `u/m` and `I⁻¹·n`, n its moment in body axes.
@@ -116,7 +125,7 @@ fn damp<P: Geometry>(
     let rate = b.as_ref().map_or(zero, |b| b.rate(bodies))
         - a.as_ref().map_or(zero, |a| a.rate(bodies))
         + ground_rate;
-    let impulse = removed(h * damping * inverse) / inverse * rate;
+    let impulse = impulse_per_rate(inverse, damping, h) * rate;
     if let Some(a) = a {
         a.push(bodies, impulse);
     }
@@ -167,6 +176,13 @@ fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
     let Some(dampers) = group.damper.row().and_then(|row| model.dampers.get(row..)) else {
         return;
     };
+    if T::TSDAS && group.law == Law::Tsda && group.clearance.row().is_none() {
+        let both = (model, places);
+        return match group.arms {
+            3 => sweep_stars::<P, T, REVERSE, 3>(both, group, dampers, h, bodies),
+            _ => sweep_stars::<P, T, REVERSE, 1>(both, group, dampers, h, bodies),
+        };
+    }
     let elements = group.elements();
     for i in 0..elements {
         let i = if REVERSE { elements - 1 - i } else { i };
@@ -203,6 +219,63 @@ fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
             };
             let (a, b) = (lever(group.a, element.arm_a), lever(group.b, element.arm_b));
             damp(bodies, a, b, u.dot(element.ground_rate), damping, h);
+        }
+    }
+}
+
+/// Where a point lies, and its arm.
+type Place<P> = (<P as Geometry>::Location, Vec3<<P as Geometry>::Real>);
+
+/// The stars of a group without clearance: each point is placed once, for a sweep moves nothing,
+/// and the two bodies' velocities are at hand until the last element.
+#[inline(always)]
+fn sweep_stars<P: Geometry, T: Terms, const REVERSE: bool, const ARMS: usize>(
+    (model, places): (&ModelRef<'_, P, T>, Places<'_, P>),
+    group: &Group,
+    dampers: &[P::Real],
+    h: P::Real,
+    bodies: &mut [BodyState<P>],
+) {
+    let Some(points) = model.points.get(group.point as usize..) else { return };
+    let stars = group.stars as usize;
+    let Some((centres, arms)) = points.split_at_checked(stars) else { return };
+    let ((arms, _), (dampers, _)) = (arms.as_chunks::<ARMS>(), dampers.as_chunks::<ARMS>());
+    let end_a = End::new(model, places, group.a, None);
+    let end_b = End::new(model, places, group.b, None);
+    let ground_rate = end_b.velocity - end_a.velocity;
+    let ends = [group.a, group.b].map(BodyIndex::row);
+    let [body_a, body_b] = ends.map(|row| model.bodies.get(row));
+    let mut pair = ends.map(|row| bodies.get(row).copied().unwrap_or_default());
+    let mut tips = [(P::Location::default(), Vec3::ZERO); ARMS];
+    for i in 0..stars {
+        let star = if REVERSE { stars - 1 - i } else { i };
+        let block = if group.shared { 0 } else { star };
+        let (Some(centre), Some(arms), Some(dampers)) =
+            (centres.get(star), arms.get(block), dampers.get(star))
+        else {
+            break;
+        };
+        if i == 0 || !group.shared {
+            tips = arms.each_ref().map(|point| end_b.place(point));
+        }
+        let (centre, arm_a) = end_a.place(centre);
+        let mut element = |((tip, arm_b), damping): (&Place<P>, &P::Real)| {
+            let d = P::displacement(&centre, tip);
+            let u = d * d.dot(d).sqrt().reciprocal_or_zero();
+            let a = Lever::new(0, body_a, u, end_a.to_axes(arm_a.cross(u)));
+            let b = Lever::new(1, body_b, u, end_b.to_axes(arm_b.cross(u)));
+            damp(&mut pair, a, b, u.dot(ground_rate), *damping, h);
+        };
+        let elements = tips.iter().zip(dampers);
+        if REVERSE {
+            elements.rev().for_each(&mut element);
+        } else {
+            elements.for_each(&mut element);
+        }
+    }
+    for (row, moved) in ends.into_iter().zip(pair) {
+        if let Some(state) = bodies.get_mut(row) {
+            *state = moved;
         }
     }
 }
@@ -256,4 +329,42 @@ fn torsion<P: Geometry, T: Terms>(
     };
     let zero = P::Real::ZERO;
     damp(bodies, lever(row_a, frame_a), lever(row_b, frame_b), zero, damping, h);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The share of a relative velocity that a damper takes away.
+    fn removed<R: Real>(x: f64, inverse: f64) -> f64 {
+        let inverse = R::from_f64(inverse);
+        let x = R::from_f64(x);
+        (impulse_per_rate(inverse, x / inverse, R::ONE) * inverse).to_f64()
+    }
+
+    #[test]
+    fn light_and_strong_dampers_lose_no_digits() {
+        for exponent in -12..=12 {
+            let x = 10_f64.powi(exponent);
+            let exact = (x + 0.5 * x * x) / (1.0 + x + 0.5 * x * x);
+            for inverse in [1e-6, 0.7, 1e6] {
+                let (double, single) = (removed::<f64>(x, inverse), removed::<f32>(x, inverse));
+                assert!((double / exact - 1.0).abs() < 1e-15, "{x}: {double} of {exact}");
+                assert!((single / exact - 1.0).abs() < 5e-7, "{x}: {single} of {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_coefficient_takes_nothing_and_none_more_than_all() {
+        assert_eq!(removed::<f32>(0.0, 0.7), 0.0);
+        assert_eq!(removed::<f64>(0.0, 0.7), 0.0);
+        // Beyond 1e19 the square overflows in single precision, beyond 1e154 in double.
+        for x in [1e15, 1e19, 1e25, 1e30, 3e38] {
+            assert!((removed::<f32>(x, 1.0) - 1.0).abs() < 1e-6, "{x}");
+        }
+        for x in [1e100, 1e160, 1e300] {
+            assert_eq!(removed::<f64>(x, 1.0), 1.0);
+        }
+    }
 }

@@ -39,7 +39,8 @@ impl<P: Geometry> Copy for Places<'_, P> {}
 pub(crate) struct End<'s, P: Geometry> {
     frame: Option<&'s P::Frame>,
     moved: Option<Vec3<P::Real>>,
-    velocity: Vec3<P::Real>,
+    /// \[m/s\] world axes.
+    pub(crate) velocity: Vec3<P::Real>,
     /// \[rad/s\] world axes.
     pub(crate) spin: Vec3<P::Real>,
 }

@@ -20,8 +20,9 @@ pub fn turn_by<P: Geometry>(orientation: &mut P::Orientation, half: Vec3<P::Real
     P::renormalise(orientation);
 }
 
-/// The free rigid rotor over `time` \[s\]: second order, reversible, and the world's angular
-/// momentum is kept to rounding whatever the step.
+/// The free rigid rotor over `time` \[s\]: second order, reversible; with quaternions the world's
+/// angular momentum is kept to rounding up to h·ω = 0.3, beyond that as well as the truncated
+/// turns are exact: within 4e-13 of it over 20 s at 0.6, 3e-10 at 1.1 (`tests/orientation.rs`).
 ///
 /// Symmetric splitting of the kinetic energy into its three axes (McLachlan 1993; Dullweber,
 /// Leimkuhler & McLachlan 1997): turns about x, y, z, y, x by h/2, h/2, h, h/2, h/2. Each is
@@ -43,8 +44,8 @@ pub fn free_rotor<P: Geometry>(
     P::renormalise(orientation);
 }
 
-/// The free rigid rotor over `time` \[s\], which may be negative: fourth order, reversible, and the
-/// world's angular momentum L is kept to rounding whatever the step.
+/// The free rigid rotor over `time` \[s\], which may be negative: fourth order, reversible; with
+/// quaternions the world's angular momentum L is kept to rounding as by [`free_rotor`].
 ///
 /// A turn about one principal axis is exact and the only one made. Otherwise the kinetic energy
 /// `L²/2I₂ + ½(1/I₁ − 1/I₂)·L₁² + ½(1/I₃ − 1/I₂)·L₃²`, I₂ the middle inertia, is split (Touma &

@@ -1,8 +1,9 @@
 //! Leapfrog: kick–drift–kick (velocity Verlet; Verlet 1967, Swope et al. 1982).
 //!
 //! Second order, symplectic and reversible without dampers: the energy oscillates and does not
-//! drift, a tumbling body's included, whose free rotor is a splitting of second order. Linear and
-//! angular momentum are kept to rounding, with dampers, too. One force evaluation per step: the
+//! drift, a tumbling body's included, whose free rotor is a splitting of second order. Linear and,
+//! with quaternions, angular momentum are kept to rounding; with damped bushings and points on
+//! lines, whose law does not keep it, the linear one alone. One force evaluation per step: the
 //! last of a step is the first of the next, unless a load or an input changes.
 //! Stable for `ω_max·h < 2`. Dampers are exact pairwise sweeps of half a step before and after
 //! (see [`crate::damping`]); they cost no stability and keep second order.

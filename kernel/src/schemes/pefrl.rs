@@ -2,8 +2,9 @@
 //!
 //! Drifts and kicks `ξ, ½ − λ, χ, λ, 1 − 2(χ + ξ), λ, χ, ½ − λ, ξ` of a step. Fourth order, four
 //! evaluations, stable for `ω_max·h < 2.989`. Symplectic and reversible without dampers: the energy
-//! oscillates by O(h⁴) and does not drift; linear and angular momentum are kept to rounding, with
-//! dampers, too. The free rotor is of fourth order; planar motion takes one exact turn.
+//! oscillates by O(h⁴) and does not drift; linear and, with quaternions, angular momentum are kept
+//! to rounding; with damped bushings and points on lines, whose law does not keep it, the linear
+//! one alone. The free rotor is of fourth order; planar motion takes one exact turn.
 //! Dampers are exact pairwise sweeps of half a step before and after (see [`crate::damping`]), never
 //! within a step, some of whose parts go backwards: second order then.
 

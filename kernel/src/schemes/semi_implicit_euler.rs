@@ -3,7 +3,8 @@
 //! What [`crate::schemes::Dbd`] collapses to without dampers, at a third of its evaluations; the
 //! free rotor is a splitting that keeps the world's angular momentum. First order, one evaluation,
 //! stable for `ω_max·h < 2`. Symplectic without dampers: the energy oscillates by O(h) and does
-//! not drift; linear and angular momentum are kept to rounding, with dampers, too. Dampers are
+//! not drift; linear and, with quaternions, angular momentum are kept to rounding; with damped
+//! bushings and points on lines, whose law does not keep it, the linear one alone. Dampers are
 //! exact pairwise sweeps of half a step before and after the kick (see [`crate::damping`]); around the
 //! drift, too, they would lower the limit towards √2.
 

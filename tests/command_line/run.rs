@@ -1,0 +1,264 @@
+//! What `run` computes, prints and writes.
+
+use std::fs;
+
+use dbd_kernel::words::{Fnv1a, Word, WordVisitor};
+use host_sim::error::Exit;
+use serde_json::Value;
+
+use crate::{Folder, PENDULUM};
+
+#[test]
+fn one_step_has_one_hash_however_it_is_written() {
+    let folder = Folder::new();
+    let hash = |options: &[&str]| {
+        let summary = folder.summary("four-bar", &[&["--duration", "20ms"], options].concat());
+        assert_eq!(summary["status"], "ok");
+        assert_eq!(summary["step"].as_f64().map(f64::to_bits), Some(2e-5_f64.to_bits()));
+        summary["state_hash"].as_str().unwrap().to_owned()
+    };
+    // The scene's own step is 2e-5.
+    let of_the_scene = hash(&[]);
+    assert_eq!(of_the_scene.len(), 16);
+    for step in ["20us", "20µs", "0.02ms", "2e-5s", "20000ns"] {
+        assert_eq!(hash(&["--step", step]), of_the_scene, "{step}");
+    }
+}
+
+#[test]
+fn the_summary_has_its_keys_in_order_and_is_the_file() {
+    let folder = Folder::new();
+    let scene = folder.scene(PENDULUM);
+    let done = folder.run(&scene, &["--json"]);
+    assert_eq!((done.exit, done.err.as_str()), (Exit::Done, ""));
+    let keys = [
+        "scene",
+        "scheme",
+        "newton",
+        "precision",
+        "orientation",
+        "step",
+        "steps",
+        "duration",
+        "force_evaluations",
+        "wall_seconds",
+        "srt",
+        "energy_initial",
+        "energy_final",
+        "energy_drift_rate",
+        "energy_rms_error",
+        "max_joint_extension",
+        "frequency_bound_hz",
+        "frequency_estimate_hz",
+        "advised_step",
+        "state_hash",
+        "status",
+    ];
+    let found: Vec<&str> = done
+        .out
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix('"')?.split_once("\":").map(|(key, _)| key))
+        .collect();
+    assert_eq!(found, keys);
+    let written = fs::read_to_string(folder.path("out/pendulum/summary.json")).unwrap();
+    assert_eq!(written, done.out);
+    let summary: Value = serde_json::from_str(&done.out).unwrap();
+    assert_eq!(summary["scheme"], "leapfrog");
+    assert_eq!(summary["newton"], Value::Null);
+    assert!(summary["energy_rms_error"].as_f64().unwrap() > 0.0);
+    // ω² = k/m = 4000: the estimate meets it, the bound is not below it.
+    let omega = 4e3_f64.sqrt() / std::f64::consts::TAU;
+    assert!((summary["frequency_estimate_hz"].as_f64().unwrap() / omega - 1.0).abs() < 1e-3);
+    assert!(summary["frequency_bound_hz"].as_f64().unwrap() >= omega);
+    let report = fs::read_to_string(folder.path("out/pendulum/report.html")).unwrap();
+    assert!(report.contains(summary["state_hash"].as_str().unwrap()));
+}
+
+#[test]
+fn dampers_and_loads_leave_no_energy_error() {
+    let folder = Folder::new();
+    let damped = PENDULUM.replace("free_length = 1.0", "free_length = 1.0\ndamping = 0.1");
+    let loaded = format!("{PENDULUM}\n[[load]]\nbody = \"bob\"\nforce = [0, 1, 0]\n");
+    for text in [damped, loaded] {
+        let summary = folder.summary(&folder.scene(&text), &[]);
+        assert_eq!(
+            (&summary["status"], &summary["energy_rms_error"]),
+            (&"ok".into(), &Value::Null)
+        );
+    }
+}
+
+#[test]
+fn our_step_is_half_the_limit_shortened_to_fit() {
+    let folder = Folder::new();
+    let scene = folder.scene(PENDULUM);
+    for options in [&["--every", "1ms"][..], &["--every", "7ms"], &[]] {
+        let summary = folder.summary(&scene, options);
+        let step = summary["step"].as_f64().unwrap();
+        let advised = summary["advised_step"].as_f64().unwrap();
+        assert!(step <= advised * (1.0 + 1e-15), "{step}");
+        let end = summary["steps"].as_f64().unwrap() * step;
+        assert!((end - 0.5).abs() < 1e-12);
+    }
+    // The step is a function of the scene, not of the precision.
+    let step = |precision| folder.summary(&scene, &["--precision", precision])["step"].clone();
+    assert_eq!(step("f64"), step("f32"));
+}
+
+#[test]
+fn rows_are_multiples_of_the_step_from_0_to_the_duration() {
+    let folder = Folder::new();
+    let scene = folder.scene(PENDULUM);
+    let rows = |options: &[&str]| {
+        assert_eq!(folder.summary(&scene, options)["status"], "ok");
+        folder.trace("pendulum").times()
+    };
+    let times = rows(&["--step", "0.1ms", "--every", "1ms"]);
+    assert_eq!(times.len(), 501);
+    for (row, time) in times.iter().enumerate() {
+        assert_eq!(time.to_bits(), ((10 * row) as f64 * 1e-4).to_bits());
+    }
+    // The last interval is shorter where `every` does not divide the duration.
+    let times = rows(&["--step", "1ms", "--every", "150ms"]);
+    assert_eq!(times, [0.0, 150.0 * 1e-3, 300.0 * 1e-3, 450.0 * 1e-3, 0.5]);
+    // About 500 without it.
+    let samples = rows(&["--step", "10us"]).len();
+    assert_eq!(samples, 501);
+    assert_eq!(rows(&["--step", "1ms", "--every", "0.5s"]), [0.0, 0.5]);
+}
+
+#[test]
+fn the_last_row_of_a_trace_reads_back_to_the_bits_of_the_hash() {
+    let folder = Folder::new();
+    for precision in ["f64", "f32"] {
+        let options = ["--duration", "20ms", "--precision", precision];
+        let summary = folder.summary("four-bar", &options);
+        let trace = folder.trace("four-bar");
+        let last = trace.rows.last().unwrap();
+        let bodies = 3;
+        assert_eq!(trace.header.len(), 1 + 13 * bodies + 3);
+        assert_eq!(trace.header[..5], ["time", "crank.x", "crank.y", "crank.z", "crank.qw"]);
+        assert_eq!(
+            trace.header[13 * bodies + 1..],
+            ["energy.kinetic", "energy.potential", "energy.total"]
+        );
+        let mut hash = Fnv1a::new();
+        for text in &last[1..=13 * bodies] {
+            hash.word(match precision {
+                "f64" => Word::F64(text.parse().unwrap()),
+                _ => Word::F32(text.parse().unwrap()),
+            });
+        }
+        // Two torsion springs that have not turned, then the step counter.
+        for word in [Word::I32(0), Word::I32(0), Word::U64(1000)] {
+            hash.word(word);
+        }
+        let hash = format!("{:016x}", hash.finish());
+        assert_eq!(summary["state_hash"], Value::String(hash), "{precision}");
+    }
+}
+
+#[test]
+fn energies_of_a_trace_are_those_of_the_summary() {
+    let folder = Folder::new();
+    let scene = folder.scene(PENDULUM);
+    let summary = folder.summary(&scene, &["--precision", "f32"]);
+    let trace = folder.trace("pendulum");
+    let energies: Vec<f64> =
+        trace.rows.iter().map(|row| row.last().unwrap().parse().unwrap()).collect();
+    let number = |key: &str| summary[key].as_f64().unwrap();
+    assert_eq!(energies[0].to_bits(), number("energy_initial").to_bits());
+    assert_eq!(energies.last().unwrap().to_bits(), number("energy_final").to_bits());
+    let squares: f64 = energies.iter().map(|e| (e - energies[0]) * (e - energies[0])).sum();
+    let rms = (squares / energies.len() as f64).sqrt();
+    assert!((number("energy_rms_error") / rms - 1.0).abs() < 1e-12);
+    for row in &trace.rows {
+        let [kinetic, potential, total] =
+            [3, 2, 1].map(|back| row[row.len() - back].parse::<f64>().unwrap());
+        assert_eq!((kinetic + potential).to_bits(), total.to_bits());
+    }
+}
+
+#[test]
+fn quiet_prints_nothing_and_the_table_has_units() {
+    let folder = Folder::new();
+    let scene = folder.scene(PENDULUM);
+    let done = folder.run(&scene, &["--quiet"]);
+    assert_eq!((done.exit, done.out.as_str(), done.err.as_str()), (Exit::Done, "", ""));
+    let done = folder.run(&scene, &[]);
+    for part in ["pendulum", "leapfrog, f64", " J\n", " W\n", " Hz", "state hash", "trace.csv"] {
+        assert!(done.out.contains(part), "{part}: {}", done.out);
+    }
+}
+
+#[test]
+fn newton_iterations_count_as_evaluations() {
+    let folder = Folder::new();
+    let scene = folder.scene(PENDULUM);
+    let options = ["--scheme", "dbd", "--newton", "2", "--step", "1ms"];
+    let summary = folder.summary(&scene, &options);
+    assert_eq!((&summary["newton"], &summary["steps"]), (&2.into(), &500.into()));
+    assert_eq!(summary["force_evaluations"], 2500);
+    assert_eq!(folder.summary(&scene, &options[..2])["newton"], 0);
+}
+
+#[test]
+fn every_scheme_counts_its_evaluations() {
+    let folder = Folder::new();
+    let scene = folder.scene(PENDULUM);
+    let counts = [
+        ("dbd", 1500),
+        ("dbd-p1", 1000),
+        ("dbd-p2", 1500),
+        ("semi-implicit-euler", 500),
+        // The first step begins with one.
+        ("leapfrog", 501),
+        ("pefrl", 2000),
+        ("blanes-moan-s6", 3000),
+        ("rk4", 2000),
+    ];
+    for (scheme, evaluations) in counts {
+        let summary = folder.summary(&scene, &["--scheme", scheme, "--step", "1ms"]);
+        assert_eq!(summary["scheme"], scheme);
+        assert_eq!((&summary["steps"], &summary["status"]), (&500.into(), &"ok".into()));
+        assert_eq!(summary["force_evaluations"], evaluations, "{scheme}");
+        assert_eq!(summary["newton"].is_number(), scheme.starts_with("dbd"));
+    }
+}
+
+#[test]
+fn dampers_are_explicit_on_demand() {
+    let folder = Folder::new();
+    let text = PENDULUM.replace("free_length = 1.0", "free_length = 1.0\ndamping = 5.0");
+    let scene = folder.scene(&text);
+    let own = folder.summary(&scene, &["--step", "1ms"]);
+    assert!(own.get("damping").is_none());
+    let explicit = folder.summary(&scene, &["--step", "1ms", "--damping", "explicit"]);
+    assert_eq!((&explicit["scheme"], &explicit["damping"]), (&own["scheme"], &"explicit".into()));
+    assert_eq!(explicit["force_evaluations"], 1000);
+    assert_ne!(explicit["state_hash"], own["state_hash"]);
+    let sweeps = folder.summary(&scene, &["--step", "1ms", "--damping", "sweeps"]);
+    assert_eq!(sweeps["state_hash"], own["state_hash"]);
+}
+
+#[test]
+fn orientations_are_stored_as_asked() {
+    let folder = Folder::new();
+    let scene = folder.scene(PENDULUM);
+    let mut hashes = Vec::new();
+    for orientation in ["quaternion", "euler-321", "euler-321-single"] {
+        for precision in ["f64", "f32"] {
+            let options = ["--orientation", orientation, "--precision", precision];
+            let summary = folder.summary(&scene, &options);
+            assert_eq!(
+                (&summary["orientation"], &summary["precision"], &summary["status"]),
+                (&orientation.into(), &precision.into(), &"ok".into())
+            );
+            hashes.push(summary["state_hash"].clone());
+        }
+    }
+    assert_eq!(folder.summary(&scene, &[])["state_hash"], hashes[0]);
+    hashes.sort_by_key(ToString::to_string);
+    hashes.dedup();
+    assert_eq!(hashes.len(), 6);
+}
