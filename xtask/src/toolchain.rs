@@ -224,19 +224,6 @@ impl fmt::Display for Version {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::Version;
-
-    #[test]
-    fn versions_are_ordered_by_number() {
-        let version = |text| Version::parse(text).expect("it is one");
-        assert!(version("1.85.0") < version("1.89"));
-        assert!(version("1.100.0") > version("1.96.0-beta.1"));
-        assert_eq!(Version::parse("rustc"), None);
-    }
-}
-
 /// An LLVM linker: the host toolchain's own, else one on PATH, else Debian's.
 fn linker(sysroot: &Path) -> Result<PathBuf> {
     let version = output(host_rustc().arg("-vV"))?;
@@ -250,4 +237,17 @@ fn linker(sysroot: &Path) -> Result<PathBuf> {
         debian::install("the linker lld", &["lld"], "install LLVM's lld")?;
     }
     find("ld.lld").context("the linker ld.lld is not on PATH")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Version;
+
+    #[test]
+    fn versions_are_ordered_by_number() {
+        let version = |text| Version::parse(text).expect("it is one");
+        assert!(version("1.85.0") < version("1.89"));
+        assert!(version("1.100.0") > version("1.96.0-beta.1"));
+        assert_eq!(Version::parse("rustc"), None);
+    }
 }
