@@ -1,7 +1,7 @@
 //! Const models of the shipped scenes, and link arguments of the target's programs.
 //!
-//! `scenes/*.toml => models.rs`: one module per scene and the macros `shipped` and `shipped_f32`
-//! that list them.
+//! `scenes/*.toml => models.rs`: one module per scene and the macros `shipped`, `shipped_f32` and
+//! `charted` that list them.
 //! Link arguments stand here and not in a configuration, so that RUSTFLAGS in the environment
 //! cannot lose them; a host build gets none.
 
@@ -34,6 +34,17 @@ const SCENES_F32: &[&str] = &[
     "six-bar",
     "spring-ball",
 ];
+/// Scenes of `SCENES_F32` whose steps are counted with every scheme in both precisions.
+const CHARTED: &[&str] = &[
+    "3rrr",
+    "3ruu",
+    "crank-slider",
+    "double-wishbone",
+    "five-bar-a",
+    "five-bar-b",
+    "hexagon",
+    "six-bar",
+];
 /// Linked from its own entry without start-up code: see its head.
 const AUDIT: &str = "audit";
 
@@ -47,7 +58,7 @@ fn main() {
 }
 
 fn models(root: &Path) {
-    let (mut modules, mut both, mut f32) = (String::new(), String::new(), String::new());
+    let [mut modules, mut both, mut f32, mut charted] = [const { String::new() }; 4];
     let all = SCENES.iter().map(|name| (name, true));
     for (name, double) in all.chain(SCENES_F32.iter().map(|name| (name, false))) {
         let file = format!("scenes/{name}.toml");
@@ -62,17 +73,24 @@ fn models(root: &Path) {
         let (module, model) = (constant.to_lowercase(), export::type_name(name));
         let mut source = export::preamble(&scene, step) + &export::model::<f32>(&scene);
         let single = format!("{module} \"{name}\" {constant}_STEP, {constant}_F32: {model}F32");
-        if double {
+        let counted = CHARTED.contains(name);
+        if double || counted {
             source += &export::model::<f64>(&scene);
-            both += &format!("            {single}, {constant}_F64: {model}F64;\n");
+        }
+        let line = format!("            {single}, {constant}_F64: {model}F64;\n");
+        if double {
+            both += &line;
         } else {
             f32 += &format!("            {single};\n");
+        }
+        if counted {
+            charted += &line;
         }
         modules += &format!("/// The scene `{name}`.\npub mod {module} {{\n{source}}}\n");
     }
     let list = |name: &str, of: &str, lines: &str| {
         format!(
-            "/// Calls a macro with all models shipped {of}: module, name, step, static and type.\n\
+            "/// Calls a macro with all models {of}: module, name, step, static and type.\n\
              #[macro_export]\n\
              macro_rules! {name} {{\n    \
                  ($then:path) => {{\n        \
@@ -82,8 +100,9 @@ fn models(root: &Path) {
         )
     };
     let source = modules
-        + &list("shipped", "in both precisions", &both)
-        + &list("shipped_f32", "in single precision", &f32);
+        + &list("shipped", "shipped in both precisions", &both)
+        + &list("shipped_f32", "shipped in single precision", &f32)
+        + &list("charted", "of those that are counted in both", &charted);
     let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     std::fs::write(out.join("models.rs"), source).expect("OUT_DIR can be written");
 }

@@ -1,18 +1,31 @@
-//! Speed against accuracy: what a survey of a small scene comes to, kept, interrupted, repeated.
+//! Speed against accuracy: what a survey of a small scene comes to, kept, interrupted, repeated; and
+//! the command as users and their scripts meet it.
 
 use std::fs;
+use std::path::{Path, PathBuf};
 
+use dbd_scene::Scene;
 use dbd_tests::scene;
+use host_sim::cli::main_with;
+use host_sim::console::Console;
+use host_sim::error::Exit;
+use host_sim::plan::{Request, StepRequest, plan};
+use host_sim::time::Time;
+use host_sim::trade::advice::{advice, choice, remark};
+use host_sim::trade::command::Command;
 use host_sim::trade::{Machine, Point, Trade, TradeOptions, front, survey};
 
 /// A survey of a scene's first moments; `cache` where results are kept.
-fn trade(name: &str, window: f64, cache: Option<&std::path::Path>) -> Trade {
-    let options = TradeOptions {
-        window: Some(window),
-        cache: cache.map(|path| path.join("trade.cache")),
-        shipped: true,
-    };
-    survey(&scene(name), &options, &mut |_, _| ()).unwrap()
+fn trade(name: &str, window: f64, cache: Option<&Path>) -> Trade {
+    let options =
+        TradeOptions { window: Some(window), cache: cache.map(Path::to_owned), shipped: true };
+    survey(&scene(name), &options, &mut |_| ()).unwrap()
+}
+
+/// The files of results in a folder.
+fn caches(folder: &Path) -> Vec<PathBuf> {
+    let files = fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
+    files.filter(|file| file.extension().is_some_and(|extension| extension == "cache")).collect()
 }
 
 /// What does not depend on a clock.
@@ -35,7 +48,7 @@ fn two_surveys_give_the_same_accuracy_to_the_last_bit_however_they_are_interrupt
     // The second call reads what the first has kept, times included.
     assert_eq!(trade(Some(folder.path())), kept);
 
-    let path = folder.path().join("trade.cache");
+    let path = caches(folder.path()).remove(0);
     let text = fs::read_to_string(&path).unwrap();
     // Interrupted in the middle of a line.
     fs::write(&path, &text[..text.len() / 2]).unwrap();
@@ -46,6 +59,11 @@ fn two_surveys_give_the_same_accuracy_to_the_last_bit_however_they_are_interrupt
     // The lines that were there are there still.
     let whole = &text[..text[..before].rfind('\n').unwrap()];
     assert!(fs::read_to_string(&path).unwrap().starts_with(whole));
+    // Another window has a file of its own.
+    let all = fs::read(&path).unwrap();
+    self::trade("four-bar", 5e-4, Some(folder.path()));
+    assert_eq!(caches(folder.path()).len(), 2);
+    assert_eq!(fs::read(&path).unwrap(), all);
 }
 
 #[cfg_attr(debug_assertions, ignore = "a minute in a debug build; release runs it")]
@@ -62,6 +80,11 @@ fn a_survey_holds_every_way_and_says_what_is_unstable() {
     assert!(has("std linearly-implicit-euler f64"));
     // The four-bar moves in a plane and has no dampers.
     assert!(!has("leapfrog f64, euler-321") && !has("leapfrog (explicit) f64"));
+    // Every step divides the scene's sampling interval.
+    assert!(trade.points.iter().all(|point| {
+        let parts = 1e-3 / point.step;
+        (parts - parts.round()).abs() < 1e-9 * parts
+    }));
     let unstable: Vec<_> = trade.points.iter().filter(|point| !point.stable).collect();
     assert!(!unstable.is_empty());
     assert!(unstable.iter().all(|point| point.error.is_none() && point.energy_rms.is_none()));
@@ -70,7 +93,15 @@ fn a_survey_holds_every_way_and_says_what_is_unstable() {
         of.filter_map(|point| point.error).fold(f64::INFINITY, f64::min)
     };
     assert!(best("pefrl f64") < 1e-3 * best("leapfrog f64"));
-    assert!(best("leapfrog f64") < 0.1 * best("dbd f64"));
+    // The paper's ladder goes further down; compared are equal steps.
+    let points = |label: &'static str| {
+        trade.points.iter().filter(move |point| point.stepper.label() == label)
+    };
+    let smallest = points("leapfrog f64").map(|point| point.step).fold(1.0, f64::min);
+    let paper = points("dbd f64").filter(|point| point.step > 0.9 * smallest);
+    let paper = paper.filter_map(|point| point.error).fold(f64::INFINITY, f64::min);
+    assert!(best("leapfrog f64") < 0.1 * paper);
+    assert!(points("dbd f64").map(|point| point.step).fold(1.0, f64::min) < 0.1 * smallest);
     assert!(trade.head.uncertainty < 1e-11, "{:e}", trade.head.uncertainty);
     // Loose square roots are off by far more than single precision is, at any step.
     assert!(best("leapfrog f32-micromath") > 100.0 * best("leapfrog f32"));
@@ -80,7 +111,245 @@ fn a_survey_holds_every_way_and_says_what_is_unstable() {
     };
     assert!(counted("leapfrog f32").is_some_and(|count| (count - 4090.0).abs() < 100.0));
     assert_eq!(counted("std leapfrog f64"), None);
+    // The paper's scheme is the reference on the target, too.
+    assert!(counted("dbd f64").is_some_and(|count| (count / 409_658.0 - 1.0).abs() < 0.01));
+    for advice in advice(&trade.points, Machine::Target, trade.head.uncertainty) {
+        assert!(!advice.sentence.contains("stable step"), "{}", advice.sentence);
+    }
     let front = front(&trade.points, Machine::Host);
     let errors: Vec<_> = front.iter().map(|row| trade.points[*row].error.unwrap()).collect();
     assert!(errors.len() > 3 && errors.windows(2).all(|pair| pair[1] < pair[0]));
+}
+
+/// A scene with one body.
+fn body(name: &str, more: &str) -> Scene {
+    let text = format!(
+        "name = \"{name}\"\nduration = 0.2\nstep = 1e-3\nevery = 5e-3\n[[body]]\nname = \"b\"\nmass = 1.0\n\
+         inertia = [0.02, 0.03, 0.04]\nposition = [0.0, 0.0, 0.0]\n{more}"
+    );
+    Scene::parse(&text, "a.toml").unwrap()
+}
+
+fn survey_of(scene: &Scene) -> Trade {
+    survey(scene, &TradeOptions::default(), &mut |_| ()).unwrap()
+}
+
+#[test]
+fn a_free_rotors_error_is_that_of_its_attitude() {
+    let trade = survey_of(&body("rotor", "angular_velocity = [9.0, 20.0, 3.0]\n"));
+    let points = &trade.points;
+    assert_eq!(remark(points, Machine::Host), None);
+    let errors = |label: &str| -> Vec<f64> {
+        let of = points.iter().filter(|point| point.stepper.label() == label);
+        of.filter_map(|point| point.error).collect()
+    };
+    let (leapfrog, pefrl) = (errors("leapfrog f64"), errors("pefrl f64"));
+    assert!(leapfrog.iter().all(|error| *error > 0.0), "{leapfrog:?}");
+    // A smaller step is better, and so is a better scheme.
+    assert!(leapfrog.last() < leapfrog.first() && pefrl.last() < leapfrog.last());
+    for target in [1e-2, 1e-4, 1e-6] {
+        if let Some(row) = choice(points, Machine::Host, target, true) {
+            assert_ne!(points[row].stepper.precision, "f32-micromath");
+        }
+    }
+}
+
+#[test]
+fn a_body_at_rest_has_no_unstable_step_and_no_error() {
+    let trade = survey_of(&body("rest", ""));
+    let points = &trade.points;
+    assert!(points.iter().all(|point| point.stable && !point.lost));
+    assert_eq!(remark(points, Machine::Host), Some("every error is zero"));
+}
+
+/// Calls the command line.
+fn call(arguments: &[&str]) -> (Exit, String, String) {
+    let (mut out, mut err) = (Vec::new(), Vec::new());
+    let mut console = Console { out: &mut out, err: &mut err, terminal: false };
+    let exit = main_with(["host-sim"].iter().chain(arguments), &mut console);
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (exit, text(out), text(err))
+}
+
+/// The columns of accuracy of a `trade.csv`: the first twelve.
+fn accuracy_columns(folder: &Path) -> Vec<String> {
+    let text = fs::read_to_string(folder.join("trade.csv")).unwrap();
+    text.lines().map(|line| line.split(',').take(12).collect::<Vec<_>>().join(",")).collect()
+}
+
+#[test]
+fn the_command_leaves_its_files_and_says_how_to_run_what_it_chose() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let (exit, said, errors) = call(&["trade", "spring-ball", "--window", "0.1s", "--out", out]);
+    assert_eq!((exit, errors.as_str()), (Exit::Done, ""));
+    let results = folder.path().join("spring-ball");
+    let table = fs::read_to_string(results.join("trade.csv")).unwrap();
+    let columns: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    assert_eq!(columns, host_sim::trade::files::COLUMNS);
+    assert_eq!((columns.len(), *columns.last().unwrap()), (19, "lost"));
+    for file in ["trade.svg", "trade-cortex-m4f.svg", "trade.html"] {
+        assert!(results.join(file).is_file(), "{file}");
+    }
+    assert_eq!(caches(&results).len(), 1);
+
+    // Every command that is printed is one; the first is run.
+    let lines: Vec<&str> =
+        said.lines().filter_map(|line| line.trim().strip_prefix("host-sim ")).collect();
+    assert!(lines.len() >= 4, "{said}");
+    let page = fs::read_to_string(results.join("trade.html")).unwrap();
+    for line in &lines {
+        assert!(line.starts_with("run spring-ball --scheme "), "{line}");
+        assert!(page.contains(&format!("<code>host-sim {line}</code>")), "{line}");
+    }
+    let words: Vec<&str> =
+        lines[0].split(' ').chain(["--out", out, "--duration", "0.1s"]).collect();
+    let (exit, _, errors) = call(&words);
+    assert_eq!((exit, errors.as_str()), (Exit::Done, ""));
+
+    // The second call reads, for programs.
+    let (exit, said, _) =
+        call(&["trade", "spring-ball", "--window", "0.1s", "--out", out, "--json"]);
+    assert_eq!(exit, Exit::Done);
+    let json: serde_json::Value = serde_json::from_str(&said).unwrap();
+    assert_eq!(json["scene"], "spring-ball");
+    assert!((json["window"].as_f64().unwrap() - 0.1).abs() < 1e-12);
+    assert!(json["growth"].is_f64() && json["uncertainty"].is_f64());
+    let points = json["points"].as_array().unwrap();
+    assert_eq!(points.len(), table.lines().count() - 1);
+    assert!(points.iter().all(|point| point["lost"].is_boolean()));
+    assert_eq!(fs::read_to_string(results.join("trade.csv")).unwrap(), table);
+    let (exit, said, _) =
+        call(&["trade", "spring-ball", "--window", "0.1s", "--out", out, "--quiet"]);
+    assert_eq!((exit, said.as_str()), (Exit::Done, ""));
+}
+
+#[test]
+fn every_step_of_a_survey_is_one_that_a_run_accepts() {
+    for (name, window) in [("spring-ball", 0.137), ("four-bar", 1e-3), ("gyroscope", 1e-3)] {
+        let scene = scene(name);
+        let trade = trade(name, window, None);
+        let command = Command::new(&scene, name);
+        for point in trade.points.iter().filter(|point| point.stepper.kernel) {
+            let line = command.line(point).unwrap();
+            let step = line.split(" --step ").nth(1).unwrap().parse::<Time>().unwrap().seconds();
+            assert_eq!(step.to_bits(), point.step.to_bits(), "{line}");
+            let step = StepRequest::Given(step);
+            let request = Request { step, duration: scene.duration, every: scene.every };
+            assert!(plan(&request).is_ok(), "{line}");
+        }
+    }
+}
+
+#[test]
+fn a_window_that_is_none_is_refused_and_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    for (window, message) in [
+        ("1e-300s", "too short"),
+        ("100s", "beyond the scene's duration of 5s"),
+        ("0s", "a time must be positive"),
+        ("-1s", "a time must be positive"),
+        ("1", "a time needs a unit"),
+    ] {
+        let window = format!("--window={window}");
+        let (exit, said, errors) = call(&["trade", "spring-ball", &window, "--out", out]);
+        assert_eq!((exit, said.as_str()), (Exit::Refused, ""), "{window}");
+        assert!(errors.contains(message), "{window}: {errors}");
+    }
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+/// A scene file as stiff as numbers allow, or with a name that no folder can have.
+fn file(folder: &Path, changes: [&str; 2]) -> String {
+    let text = fs::read_to_string(
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/spring-ball.toml"),
+    );
+    let changed = text.unwrap().replace(changes[0], changes[1]);
+    assert!(changed.contains(changes[1]));
+    let path = folder.join("scene.toml");
+    fs::write(&path, changed).unwrap();
+    path.to_str().unwrap().into()
+}
+
+#[test]
+fn what_would_take_hours_or_has_no_folder_is_refused_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let out = out.to_str().unwrap();
+    let path = file(folder.path(), ["name = \"spring-ball\"", "name = 'a\"<b>'"]);
+    let (exit, _, errors) = call(&["trade", &path, "--out", out]);
+    assert_eq!(exit, Exit::Refused);
+    assert!(
+        errors.contains("it contains '\"'") && errors.contains("change its `name`"),
+        "{errors}"
+    );
+    let path = file(folder.path(), ["stiffness = 1e3", "stiffness = 1e40"]);
+    let (exit, _, errors) = call(&["trade", &path, "--out", out]);
+    assert_eq!(exit, Exit::Refused);
+    assert!(errors.contains("would take hours") && errors.contains("--window"), "{errors}");
+}
+
+/// The other half of the test below: surveys until it is killed.
+#[test]
+#[ignore = "called by the test of a kill"]
+fn survey_until_killed() {
+    let Ok(out) = std::env::var("DBD_TRADE_KILLED") else { return };
+    call(&["trade", "spring-ball", "--window", "0.5s", "--out", &out]);
+}
+
+#[test]
+fn a_survey_that_is_killed_is_gone_on_with() {
+    let folder = tempfile::tempdir().unwrap();
+    let [killed, whole] = ["killed", "whole"].map(|name| folder.path().join(name));
+    let mut child = std::process::Command::new(std::env::current_exe().unwrap())
+        .args(["--ignored", "--exact", "survey_until_killed"])
+        .env("DBD_TRADE_KILLED", &killed)
+        .stdout(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    let results = killed.join("spring-ball");
+    // Until some results are kept.
+    let kept = || {
+        let caches = if results.is_dir() { caches(&results) } else { Vec::new() };
+        caches.first().map_or(0, |file| fs::read_to_string(file).unwrap().lines().count())
+    };
+    while kept() < 20 && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let before = kept();
+    assert!(
+        before >= 20 && !results.join("trade.csv").exists(),
+        "{before}: it was not killed in time"
+    );
+    for out in [&killed, &whole] {
+        let out = out.to_str().unwrap();
+        let (exit, ..) =
+            call(&["trade", "spring-ball", "--window", "0.5s", "--quiet", "--out", out]);
+        assert_eq!(exit, Exit::Done);
+    }
+    assert!(kept() > before);
+    assert_eq!(accuracy_columns(&results), accuracy_columns(&whole.join("spring-ball")));
+}
+
+#[test]
+fn two_surveys_do_not_write_to_one_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let arguments = ["trade", "spring-ball", "--window", "0.1s", "--quiet", "--out", out];
+    assert_eq!(call(&arguments).0, Exit::Done);
+    let path = caches(&folder.path().join("spring-ball")).remove(0);
+    let (file, before) = (fs::File::open(&path).unwrap(), fs::read(&path).unwrap());
+    file.try_lock().unwrap();
+    let (exit, _, errors) = call(&arguments);
+    assert_eq!(exit, Exit::Failed);
+    assert!(
+        errors.contains("another survey of this scene") && errors.contains("--out"),
+        "{errors}"
+    );
+    assert_eq!(fs::read(&path).unwrap(), before);
+    drop(file);
+    assert_eq!(call(&arguments).0, Exit::Done);
 }

@@ -1,8 +1,8 @@
 //! The pairs of model and scheme of a chart of speed against accuracy.
 //!
-//! `(models, schemes) => visitor`: what [`models::for_each`] leaves out, the other schemes with the
-//! paper's mechanisms and a damped one in single precision and with the four-bar in double. Each
-//! model is one [`Alone`] with its scheme.
+//! `(models, schemes) => visitor`: what [`models::for_each`] leaves out, all schemes with the
+//! paper's mechanisms and a damped one, in both precisions. Each model is one [`Alone`] with its
+//! scheme.
 
 use dbd_kernel::{
     BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, Leapfrog, Pefrl, Rk4, SemiImplicitEuler,
@@ -55,21 +55,40 @@ pub fn for_each_charted(visitor: &mut impl Visitor) {
             others! { $($of)* }
         };
     }
-    others! { "four-bar" four_bar::FOUR_BAR_F32: FourBarF32 FOUR_BAR_STEP }
-    all! { "five-bar-a" five_bar_a::FIVE_BAR_A_F32: FiveBarAF32 FIVE_BAR_A_STEP }
-    all! { "five-bar-b" five_bar_b::FIVE_BAR_B_F32: FiveBarBF32 FIVE_BAR_B_STEP }
-    all! { "six-bar" six_bar::SIX_BAR_F32: SixBarF32 SIX_BAR_STEP }
-    all! { "3rrr" _3rrr::_3RRR_F32: _3rrrF32 _3RRR_STEP }
-    all! { "crank-slider" crank_slider::CRANK_SLIDER_F32: CrankSliderF32 CRANK_SLIDER_STEP }
-    all! { "3ruu" _3ruu::_3RUU_F32: _3ruuF32 _3RUU_STEP }
-    all! { "double-wishbone"
-    double_wishbone::DOUBLE_WISHBONE_F32: DoubleWishboneF32 DOUBLE_WISHBONE_STEP }
-    chart! { "double-wishbone"
-        double_wishbone::DOUBLE_WISHBONE_F32: DoubleWishboneF32 DOUBLE_WISHBONE_STEP,
-        Explicit(SemiImplicitEuler) => Explicit<SemiImplicitEuler>, "-explicit";
-        Explicit(Leapfrog) => Explicit<Leapfrog>, "-explicit";
+    // Scenes shipped in both precisions have leapfrog and dbd already.
+    macro_rules! shipped_in_both {
+        ($($module:ident $scene:literal $step:ident,
+            $f32:ident: $model32:ident, $f64:ident: $model64:ident;)*) => {
+            $(others! { $scene $module::$f32: $model32 $step })*
+            $(others! { $scene $module::$f64: $model64 $step })*
+        };
     }
-    others! { "four-bar" four_bar::FOUR_BAR_F64: FourBarF64 FOUR_BAR_STEP }
+    // Of the others, leapfrog in single precision is shipped.
+    macro_rules! shipped_in_single {
+        ($($module:ident $scene:literal $step:ident,
+            $f32:ident: $model32:ident, $f64:ident: $model64:ident;)*) => {
+            $(all! { $scene $module::$f32: $model32 $step })*
+            $(
+                chart! { $scene $module::$f64: $model64 $step, Leapfrog => Leapfrog, ""; }
+                all! { $scene $module::$f64: $model64 $step }
+            )*
+        };
+    }
+    // Dampers that act explicitly where the scheme's own way is another.
+    macro_rules! damped {
+        ($($of:tt)*) => {
+            chart! { $($of)*,
+                Explicit(SemiImplicitEuler) => Explicit<SemiImplicitEuler>, "-explicit";
+                Explicit(Leapfrog) => Explicit<Leapfrog>, "-explicit";
+            }
+        };
+    }
+    shipped!(shipped_in_both);
+    charted!(shipped_in_single);
+    damped! { "double-wishbone"
+    double_wishbone::DOUBLE_WISHBONE_F32: DoubleWishboneF32 DOUBLE_WISHBONE_STEP }
+    damped! { "double-wishbone"
+    double_wishbone::DOUBLE_WISHBONE_F64: DoubleWishboneF64 DOUBLE_WISHBONE_STEP }
 }
 
 #[cfg(test)]
@@ -107,8 +126,13 @@ mod tests {
         for_each(&mut names);
         for_each_charted(&mut names);
         assert!(names.twice.is_empty(), "{:?}", names.twice);
-        for name in ["3ruu rk4 f32", "four-bar dbd+1 f64", "double-wishbone leapfrog-explicit f32"]
-        {
+        for name in [
+            "3ruu rk4 f32",
+            "3ruu dbd f64",
+            "hexagon leapfrog f64",
+            "four-bar dbd+1 f64",
+            "double-wishbone leapfrog-explicit f32",
+        ] {
             assert!(names.seen.contains(name), "{name}");
         }
     }

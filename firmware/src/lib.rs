@@ -4,12 +4,15 @@
 //! models and programs also compile for a host, where `hash` prints the same lines.
 #![cfg_attr(target_os = "none", no_std)]
 
+// First, for its macros.
+#[macro_use]
+pub mod models;
+
 pub mod alone;
 pub mod board;
 pub mod chart;
 pub mod console;
 pub mod hash;
-pub mod models;
 pub mod relay;
 
 #[cfg(target_os = "none")]

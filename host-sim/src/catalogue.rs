@@ -70,10 +70,13 @@ impl Catalogue {
         names
     }
 
-    /// Whether what a user names is a scene of the catalogue.
+    /// Whether a scene is the one of its name in the catalogue, wherever it was loaded from.
     #[must_use]
-    pub fn ships(&self, scene: &str) -> bool {
-        !is_path(scene) && self.names().iter().any(|name| name == scene)
+    pub fn ships(&self, scene: &Scene) -> bool {
+        // The catalogue's own are named as their files are. What steps is the model.
+        let text = |scene: &Scene| format!("{:?}", scene.model);
+        let own = if is_path(&scene.name) { None } else { self.load(&scene.name).ok() };
+        own.is_some_and(|own| text(&own) == text(scene))
     }
 
     /// Loads what a user names: a scene of the catalogue, or a path to a `.toml` file.
@@ -99,6 +102,20 @@ fn is_path(scene: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_scene_ships_by_its_content_and_not_by_its_path() {
+        let body = "[[body]]\nname = \"b\"\nmass = 1.0\nposition = [0.0, 0.0, 0.0]\ninertia = [1.0, 1.0, 1.0]\n";
+        let text = format!("name = \"ball\"\nduration = 1.0\n{body}");
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("ball.toml"), &text).unwrap();
+        let catalogue = Catalogue::new(folder.path().into());
+        assert!(catalogue.ships(&catalogue.load("ball").unwrap()));
+        assert!(catalogue.ships(&Scene::parse(&text, "elsewhere/copy.toml").unwrap()));
+        for changed in [text.replace("mass = 1.0", "mass = 2.0"), text.replace("ball", "other")] {
+            assert!(!catalogue.ships(&Scene::parse(&changed, "ball.toml").unwrap()));
+        }
+    }
 
     #[test]
     fn an_unknown_name_is_refused_with_those_that_exist() {

@@ -23,7 +23,8 @@ use crate::run::{Outcome, RunOptions, run};
 use crate::stability_check::StabilityCheck;
 use crate::summary::{json, table};
 use crate::time::Time;
-use crate::trade::{TradeOptions, files, survey};
+use crate::trade::survey::longest_window;
+use crate::trade::{Phase, TradeOptions, files, survey};
 
 /// Discrete Body Dynamics: simulates mechanisms of rigid bodies and springs.
 #[derive(Debug, Parser)]
@@ -45,7 +46,8 @@ enum Command {
     Run(RunArguments),
     /// Reads and assembles a scene without running it: counts, joints, frequencies, warnings
     Check(CheckArguments),
-    /// Surveys speed against accuracy: writes OUT/SCENE/trade.{csv,html} and charts
+    /// Surveys speed against accuracy: writes OUT/SCENE/trade.{csv,svg,html}, trade-cortex-m4f.svg
+    /// where steps were counted, and trade-*.cache; prints what to choose
     Trade(TradeArguments),
     /// Prints Rust source of a scene's const model, for a firmware
     Export {
@@ -137,7 +139,8 @@ struct RunArguments {
 struct TradeArguments {
     #[command(flatten)]
     scene: SceneArgument,
-    /// Longest window of comparison, e.g. 0.2s; it ends before chaos takes over [default: 0.5s]
+    /// Longest window of comparison, e.g. 0.2s; it ends before chaos takes over [default: 0.5s or
+    /// the scene's duration]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     window: Option<Time>,
     /// Folder below which results are written, and kept for the next call
@@ -146,7 +149,7 @@ struct TradeArguments {
     /// Print nothing but errors
     #[arg(long)]
     quiet: bool,
-    /// Print all points as JSON
+    /// Print window and all points as JSON
     #[arg(long)]
     json: bool,
 }
@@ -268,24 +271,33 @@ fn trade_scene(
     arguments: &TradeArguments,
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
-    let scene = catalogue.load(&arguments.scene.scene)?;
+    let called = &arguments.scene.scene;
+    let scene = catalogue.load(called)?;
+    let window = arguments.window.map(Time::seconds);
+    // Bad input leaves no folder behind.
+    longest_window(&scene, window)?;
     let folder = output::folder(&arguments.out, &scene.name)
         .map_err(|reason| Error::Folder { folder: arguments.out.join(&scene.name), reason })?;
-    let options = TradeOptions {
-        window: arguments.window.map(Time::seconds),
-        cache: Some(folder.join("trade.cache")),
-        shipped: catalogue.ships(&arguments.scene.scene),
-    };
+    let shipped = catalogue.ships(&scene);
+    let options = TradeOptions { window, cache: Some(folder.clone()), shipped };
     let mut progress = Progress::of(console.terminal && !arguments.quiet, "evaluations");
-    let trade = survey(&scene, &options, &mut |done, all| progress.update(done, all));
+    let trade = survey(&scene, &options, &mut |phase| match phase {
+        Phase::Window => progress.begin("how long before chaos"),
+        Phase::Truth => progress.begin("the truth"),
+        Phase::Opinion => progress.begin("the truth, a second opinion"),
+        Phase::Runs(done, all) => progress.update(done, all),
+        Phase::Times(0, _) => progress.begin("measuring times"),
+        Phase::Times(..) => {}
+    });
     progress.finish();
     let trade = trade?;
-    files::write(&folder, &scene, &trade).map_err(Error::Write)?;
+    let report = files::Report { scene: &scene, called, trade: &trade };
+    report.write(&folder).map_err(Error::Write)?;
     if arguments.json {
-        console.print(&json(&trade.points));
+        console.print(&json(&report.json()));
     } else if !arguments.quiet {
         let written = format!("{}/trade.{{csv,svg,html}}", folder.display());
-        console.print(&format!("{}\nwritten  {written}\n", files::text(&scene, &trade)));
+        console.print(&format!("{}\nwritten  {written}\n", report.text()));
     }
     Ok(Exit::Done)
 }

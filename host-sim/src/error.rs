@@ -14,6 +14,7 @@ use crate::method::MethodError;
 use crate::plan::PlanError;
 use crate::reference::truth::NoTruth;
 use crate::time::display;
+use crate::trade::survey::WindowError;
 
 /// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,6 +54,15 @@ pub enum Error {
     /// There is no truth to compare with.
     #[error(transparent)]
     NoTruth(#[from] NoTruth),
+    /// The window of a survey is none.
+    #[error(transparent)]
+    Window(#[from] WindowError),
+    /// Another survey of the same keeps its results in the folder.
+    #[error("another survey of this scene writes to {}", folder.display())]
+    Busy {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// The step is zero or infinite once rounded.
     #[error("a step of {} is {rounded} in {precision}", display(*step))]
     Step {
@@ -81,7 +91,7 @@ impl Error {
     #[must_use]
     pub fn exit(&self) -> Exit {
         match self {
-            Self::Write(_) | Self::NoTruth(_) => Exit::Failed,
+            Self::Write(_) | Self::NoTruth(_) | Self::Busy { .. } => Exit::Failed,
             _ => Exit::Refused,
         }
     }
@@ -93,7 +103,12 @@ impl Error {
             Self::Method(error) => Some(error),
             Self::Plan(error) => Some(error),
             Self::NoTruth(error) => Some(error),
-            Self::Input(_) | Self::Step { .. } | Self::Folder { .. } | Self::Write(_) => None,
+            Self::Window(error) => Some(error),
+            Self::Input(_)
+            | Self::Step { .. }
+            | Self::Folder { .. }
+            | Self::Write(_)
+            | Self::Busy { .. } => None,
         }
     }
 }
@@ -105,6 +120,12 @@ impl Diagnostic for Error {
             Self::Step { .. } => Some(Box::new("a longer step, or --precision f64")),
             Self::Input(_) => {
                 Some(Box::new("smaller values, gentler rises, a later begin, or --precision f64"))
+            }
+            Self::Busy { .. } => {
+                Some(Box::new("wait until it is done, or name another folder with --out DIR"))
+            }
+            Self::Folder { reason, .. } if reason.kind() == io::ErrorKind::InvalidInput => {
+                Some(Box::new("results lie in a folder of the scene's name: change its `name`"))
             }
             Self::Folder { .. } => Some(Box::new("name another folder with --out DIR")),
             _ => self.inner()?.help(),

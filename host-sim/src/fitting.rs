@@ -44,6 +44,11 @@ impl Span {
         self.every.unwrap_or(self.duration)
     }
 
+    /// The longest step that fits.
+    pub(crate) fn longest(&self) -> f64 {
+        self.step(self.intervals)
+    }
+
     pub(crate) fn step(&self, parts: u64) -> f64 {
         self.time() / parts as f64
     }

@@ -72,7 +72,12 @@ pub fn write(folder: &Path, name: &str, content: &str) -> io::Result<()> {
 pub fn folder(out: &Path, name: &str) -> io::Result<PathBuf> {
     let forbidden = |c: char| c.is_control() || "/\\:*?\"<>|".contains(c);
     if name.is_empty() || name.starts_with('.') || name.contains(forbidden) {
-        let reason = format!("\"{name}\" cannot be the name of a folder");
+        let why = match name.chars().find(|c| forbidden(*c)) {
+            Some(character) => format!("it contains {character:?}"),
+            None if name.is_empty() => "it is empty".into(),
+            None => "it begins with a point".into(),
+        };
+        let reason = format!("`{name}` cannot be the name of a folder: {why}");
         return Err(io::Error::new(io::ErrorKind::InvalidInput, reason));
     }
     let folder = out.join(name);

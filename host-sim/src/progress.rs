@@ -13,6 +13,7 @@ pub struct Progress {
     shown: bool,
     unit: &'static str,
     bar: Option<ProgressBar>,
+    waiting: Option<ProgressBar>,
 }
 
 impl Progress {
@@ -25,13 +26,27 @@ impl Progress {
     /// Likewise for work that is counted in another unit.
     #[must_use]
     pub fn of(shown: bool, unit: &'static str) -> Self {
-        Self { start: Instant::now(), shown, unit, bar: None }
+        Self { start: Instant::now(), shown, unit, bar: None, waiting: None }
+    }
+
+    /// Something begins of which nobody knows how long it takes: its name and the time so far.
+    pub fn begin(&mut self, what: &'static str) {
+        self.finish();
+        if self.shown {
+            let bar = ProgressBar::new_spinner().with_elapsed(self.start.elapsed());
+            let bar = bar.with_message(what);
+            bar.enable_steady_tick(PATIENCE);
+            self.waiting = Some(bar);
+        }
     }
 
     /// So many steps of all are done.
     pub fn update(&mut self, steps: u64, all: u64) {
         if !self.shown || (self.bar.is_none() && self.start.elapsed() < PATIENCE) {
             return;
+        }
+        if let Some(waiting) = self.waiting.take() {
+            waiting.finish_and_clear();
         }
         let bar = self.bar.get_or_insert_with(|| {
             let unit = self.unit;
@@ -49,7 +64,7 @@ impl Progress {
 
     /// The run is over.
     pub fn finish(&mut self) {
-        if let Some(bar) = self.bar.take() {
+        for bar in [self.bar.take(), self.waiting.take()].into_iter().flatten() {
             bar.finish_and_clear();
         }
     }

@@ -1,91 +1,123 @@
 //! What the points say in words: which way of stepping to take for an accuracy, and the front as a
 //! table.
 //!
-//! `points => choices, sentences, text`. A choice is a measured point; what the paper's scheme would
+//! `points => advice, text`. A choice is a measured point; what the paper's scheme would
 //! need for the same is read between its own points and said to be so.
 
 use std::fmt;
 
-use super::need::{Need, paper_need};
-use super::point::{Machine, Point, Stepper, front};
+use super::need::{Need, PaperNeed, paper_need};
+use super::point::{Machine, Point, Stepper, counted, front};
 use crate::summary::{approximate, significant};
-use crate::time::rounded;
+use crate::time::{display, rounded};
 
 /// Decimal exponents of the accuracies spoken of, in metres.
 const DECADES: std::ops::RangeInclusive<i32> = -9..=-3;
 
-/// Whether it is the paper's scheme as it stands: explicit, no Newton iteration, double precision.
+/// Whether it is the paper's scheme as it stands: explicit, no Newton iteration, in double
+/// precision; on the target also in single, which its FPU has.
 #[must_use]
-pub fn is_paper(stepper: &Stepper) -> bool {
+pub fn is_paper(stepper: &Stepper, machine: Machine) -> bool {
+    let single = machine == Machine::Target && stepper.precision == "f32";
     stepper.kernel
         && stepper.scheme == "dbd"
         && stepper.newton.unwrap_or(0) == 0
         && stepper.damping.is_none()
-        && stepper.precision == "f64"
+        && (stepper.precision == "f64" || single)
         && stepper.orientation == "quaternion"
-}
-
-/// A point's cost and its error \[m\] where it has both.
-#[must_use]
-pub fn place(point: &Point, machine: Machine) -> Option<(f64, f64)> {
-    let cost = point.cost(machine).filter(|cost| cost.is_finite() && *cost > 0.0)?;
-    let error = point.error.filter(|error| point.stable && error.is_finite() && *error >= 0.0)?;
-    Some((cost, error))
 }
 
 /// The row of the cheapest point of the kernel that is at most so far off \[m\]; of references with
 /// `kernel` false.
 #[must_use]
 pub fn choice(points: &[Point], machine: Machine, target: f64, kernel: bool) -> Option<usize> {
-    let rows = points.iter().enumerate().filter(|(_, point)| point.stepper.kernel == kernel);
+    let of = |point: &Point| point.stepper.kernel == kernel && point.stepper.is_exact();
+    let rows = points.iter().enumerate().filter(|(_, point)| of(point));
     let good = rows.filter_map(|(row, point)| {
-        let (cost, error) = place(point, machine)?;
+        let (cost, error) = point.place(machine)?;
         (error <= target).then_some((cost, error, row))
     });
     good.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)))
         .map(|(.., row)| row)
 }
 
-/// One sentence for each power of ten from 1 mm down to 1 nm that some point of the kernel reaches.
-#[must_use]
-pub fn sentences(points: &[Point], machine: Machine) -> Vec<String> {
-    sentences_above(points, machine, 0.0)
+/// What to choose for an accuracy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Advice {
+    /// Decimal exponent of the accuracy \[m\].
+    pub decade: i32,
+    /// The chosen point's row.
+    pub row: usize,
+    /// In words.
+    pub sentence: String,
 }
 
-/// Those for accuracies not below what the truth is known to \[m\].
+/// One for each power of ten from 1 mm down to 1 nm that some point of the kernel reaches, but not
+/// below what the truth is known to \[m\].
 #[must_use]
-pub fn sentences_above(points: &[Point], machine: Machine, uncertainty: f64) -> Vec<String> {
+pub fn advice(points: &[Point], machine: Machine, uncertainty: f64) -> Vec<Advice> {
+    let among = match machine {
+        Machine::Host => String::new(),
+        Machine::Target => format!(", of the {} methods counted,", counted(points, machine)),
+    };
     DECADES
         .rev()
         .map(|decade| (decade, power_of_ten(decade)))
         .filter(|(_, target)| *target >= uncertainty)
         .filter_map(|(decade, target)| {
-            let chosen = &points[choice(points, machine, target, true)?];
-            let (cost, _) = place(chosen, machine)?;
+            let row = choice(points, machine, target, true)?;
+            let chosen = &points[row];
+            let (cost, _) = chosen.place(machine)?;
             let mut sentence = format!(
-                "for 1e{decade} m choose {}, step {} ({})",
+                "for 1e{decade} m choose{among} {}, step {} ({})",
                 named(&chosen.stepper),
-                approximate(chosen.step),
+                display(chosen.step),
                 Cost(cost, machine),
             );
-            if is_paper(&chosen.stepper) {
+            if is_paper(&chosen.stepper, machine) {
                 sentence += ": the paper's scheme";
-            } else if let Some(need) = paper_need(points, machine, target) {
-                sentence += &format!("; the paper's scheme {}", Against(need, cost));
+            } else if let Some(PaperNeed { need, precision }) = paper_need(points, machine, target)
+            {
+                let whose =
+                    if precision == "f64" { String::new() } else { format!(" in {precision}") };
+                sentence += &format!("; the paper's scheme{whose} {}", Against(need, cost));
             }
             let reference = choice(points, machine, target, false).map(|row| &points[row]);
             let cheaper = reference
-                .and_then(|point| Some((point, place(point, machine)?.0 / cost)))
+                .and_then(|point| Some((point, point.place(machine)?.0 / cost)))
                 .filter(|(_, ratio)| *ratio < 1.0);
             if let Some((point, ratio)) = cheaper {
-                let (who, step) = (named(&point.stepper), approximate(point.step));
+                let (who, step) = (named(&point.stepper), shown(point.step));
                 let ratio = times(ratio);
                 sentence +=
                     &format!("; the reference {who}, step {step}, needs {ratio} times as much");
             }
-            Some(sentence)
+            Some(Advice { decade, row, sentence })
         })
         .collect()
+}
+
+/// Why there is no advice, where there is none.
+#[must_use]
+pub fn remark(points: &[Point], machine: Machine) -> Option<&'static str> {
+    let drawn = || points.iter().filter_map(|point| point.drawn(machine));
+    let costs = points.iter().filter_map(|point| point.cost(machine));
+    if !costs.into_iter().any(|cost| cost.is_finite() && cost > 0.0) {
+        Some("no point has a cost")
+    } else if drawn().next().is_none() {
+        Some("no step is stable")
+    } else if drawn().all(|(_, error)| error == 0.0) {
+        Some("every error is zero")
+    } else {
+        None
+    }
+}
+
+/// A step, after ≈ where it is not the exact number.
+#[must_use]
+pub fn shown(step: f64) -> String {
+    let (exact, short) = (display(step), approximate(step));
+    if exact == short { exact } else { format!("≈{short}") }
 }
 
 /// The nearest f64 to a power of ten, which `powi` need not be.
@@ -141,16 +173,21 @@ impl fmt::Display for Against {
         let ratio = |cost: f64| times(cost / self.1);
         match self.0 {
             Need::Largest { cost, step } => {
-                let (ratio, step) = (ratio(cost), approximate(step));
-                write!(f, "needs {ratio} times as much at {step}, its largest stable step here")
+                let (ratio, step) = (ratio(cost), shown(step));
+                write!(f, "needs {ratio} times as much at {step}, its largest step here")
             }
             Need::Between { cost } => write!(f, "needs about {} times as much", ratio(cost)),
             Need::Beyond { cost, order } => {
                 let (ratio, order) = (ratio(cost), significant(order, 2));
                 write!(f, "needs about {ratio} times as much, by extrapolation at order {order}")
             }
+            Need::MoreThan { cost } => {
+                let ratio = ratio(cost);
+                write!(f, "needs more than {ratio} times as much, by extrapolation")
+            }
             Need::Never => f.write_str("does not reach it"),
-            Need::Unknown => f.write_str("has no stable step here"),
+            Need::Unstable => f.write_str("has no stable step here"),
+            Need::Uncounted => f.write_str("was not counted here"),
         }
     }
 }
@@ -179,11 +216,12 @@ pub fn rows(points: &[Point], machine: Machine) -> Vec<(usize, [String; 6])> {
         .into_iter()
         .filter_map(|row| {
             let point = &points[row];
-            let (cost, error) = place(point, machine)?;
+            let (cost, error) = point.place(machine)?;
             let unit = if machine == Machine::Host { 1.0 } else { 1e-6 };
-            let paper = match paper_need(points, machine, error) {
-                _ if is_paper(&point.stepper) => "itself".into(),
-                None | Some(Need::Unknown) => "–".into(),
+            let paper = match paper_need(points, machine, error).map(|paper| paper.need) {
+                _ if is_paper(&point.stepper, machine) => "itself".into(),
+                None | Some(Need::Uncounted | Need::Unstable) => "–".into(),
+                Some(Need::MoreThan { cost: needed }) => format!("> {} *", times(needed / cost)),
                 Some(Need::Never) => "never".into(),
                 Some(Need::Largest { cost: needed, .. }) => format!("≤ {}", times(needed / cost)),
                 Some(Need::Between { cost: needed }) => times(needed / cost),
@@ -192,7 +230,7 @@ pub fn rows(points: &[Point], machine: Machine) -> Vec<(usize, [String; 6])> {
             let cells = [
                 format!("{error:.1e}"),
                 point.stepper.label(),
-                approximate(point.step),
+                shown(point.step),
                 significant(rounded(cost * unit, 3), 3),
                 paper,
                 point.energy_rms.map_or("–".into(), |energy| format!("{energy:.1e}")),
@@ -247,12 +285,48 @@ pub(crate) mod tests {
         paper.into_iter().chain(better).chain([point("rk4", 1e-2, 1e-9, None)]).collect()
     }
 
+    fn sentences(points: &[Point], machine: Machine, uncertainty: f64) -> Vec<String> {
+        advice(points, machine, uncertainty).into_iter().map(|advice| advice.sentence).collect()
+    }
+
+    #[test]
+    fn the_chips_sentences_say_what_was_counted() {
+        let mut points = ladder();
+        let mut single = points[1].clone();
+        single.stepper.precision = "f32".into();
+        points.push(single);
+        for point in points.iter_mut().filter(|p| is_paper(&p.stepper, Machine::Host)) {
+            point.target_instructions = None;
+        }
+        let said = sentences(&points, Machine::Target, 1e-5);
+        assert_eq!(
+            said.last().unwrap(),
+            "for 1e-5 m choose, of the 3 methods counted, pefrl, f64, step 100us (20 million \
+             instructions per simulated second); the paper's scheme in f32 does not reach it"
+        );
+        assert!(said.iter().all(|sentence| !sentence.contains("stable")));
+    }
+
+    #[test]
+    fn loose_arithmetic_is_not_advised_and_zeros_are_called_so() {
+        let mut points = ladder();
+        points.truncate(3);
+        let mut loose = points[0].clone();
+        loose.stepper.precision = "f32-micromath".into();
+        (loose.error, loose.host_seconds) = (Some(0.0), 1e-9);
+        points.push(loose);
+        assert!(sentences(&points, Machine::Host, 0.0).iter().all(|s| !s.contains("micromath")));
+        assert_eq!(remark(&points, Machine::Host), None);
+        points.iter_mut().for_each(|point| point.error = Some(0.0));
+        assert_eq!(remark(&points, Machine::Host), Some("every error is zero"));
+        assert!(table(&points, Machine::Host).contains("dbd f64"));
+    }
+
     #[test]
     fn each_decade_reached_has_its_cheapest_point() {
         let mut points = ladder();
-        let said = sentences(&points, Machine::Host);
         assert_eq!(
-            said,
+            sentences(&points, Machine::Host, 0.0),
             [
                 "for 1e-3 m choose dbd, f64, step 1ms (0.001 s of a core per simulated second): \
                  the paper's scheme",
@@ -267,17 +341,16 @@ pub(crate) mod tests {
                  second); the paper's scheme needs about 500 times as much, by extrapolation at \
                  order 1",
                 "for 1e-8 m choose pefrl, f64, step 100us (0.02 s of a core per simulated \
-                 second); the paper's scheme needs about 5000 times as much, by extrapolation at \
-                 order 1",
+                 second); the paper's scheme needs more than 500 times as much, by extrapolation",
             ]
         );
         // What the truth is not known to is not spoken of.
-        assert_eq!(sentences_above(&points, Machine::Host, 5e-7).len(), 4);
+        assert_eq!(sentences(&points, Machine::Host, 5e-7).len(), 4);
         // A reference is not chosen, but said to be cheaper where it is.
         let mut reference = point("naive", 1e-3, 0.01, Some(1e-6));
         reference.stepper.kernel = false;
         points.push(reference);
-        let said = sentences(&points, Machine::Host);
+        let said = sentences(&points, Machine::Host, 0.0);
         assert!(said[3].starts_with("for 1e-6 m choose pefrl"), "{}", said[3]);
         assert!(said[3].ends_with("; the reference naive, f64, step 1ms, needs 0.5 times as much"));
         assert!(!said[4].contains("reference"));
@@ -295,19 +368,21 @@ pub(crate) mod tests {
             point.target_instructions = None;
         }
         assert_eq!(table(&points, Machine::Target), "");
-        assert!(sentences(&points, Machine::Target).is_empty());
+        assert!(sentences(&points, Machine::Target, 0.0).is_empty());
+        assert_eq!(remark(&points, Machine::Target), Some("no point has a cost"));
     }
 
     #[test]
     fn the_paper_is_one_stepper() {
         let mut stepper = point("dbd", 1.0, 1.0, None).stepper;
-        assert!(is_paper(&stepper));
+        let is = |stepper: &Stepper| is_paper(stepper, Machine::Host);
+        assert!(is(&stepper));
         stepper.newton = Some(0);
-        assert!(is_paper(&stepper));
+        assert!(is(&stepper));
         stepper.newton = Some(1);
-        assert!(!is_paper(&stepper));
+        assert!(!is(&stepper));
         stepper.newton = None;
         stepper.precision = "f32".into();
-        assert!(!is_paper(&stepper));
+        assert!(!is(&stepper) && is_paper(&stepper, Machine::Target));
     }
 }

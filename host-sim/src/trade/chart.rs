@@ -1,10 +1,11 @@
 //! The accuracy-against-speed chart as an SVG.
 //!
 //! `(points, machine) => SVG`: cost to the right, error upwards, both logarithmic; a line for each
-//! stepper through its steps, the front as a band with its points named, what is unstable in a strip
-//! at the top. Written by hand and not with plotters for the titles that hovering shows.
+//! stepper through its steps, the front as a band, to the right of each power of ten what to choose
+//! for it, what is unstable in a strip at the top. Written by hand and not with plotters for the titles that hovering shows.
 
 mod axis;
+mod choices;
 mod frame;
 mod labels;
 mod place;
@@ -15,7 +16,8 @@ use std::fmt::Write as _;
 
 use self::axis::Axis;
 use self::style::{FRONT, INK, Style};
-use super::advice::{self, Cost, is_paper, times};
+use super::advice::{Cost, is_paper, remark, times};
+use super::command::Command;
 use super::point::{Machine, Point, Stepper, front};
 use crate::report::escape;
 use crate::time::display;
@@ -32,6 +34,8 @@ pub struct Chart<'c> {
     pub uncertainty: f64,
     /// What was measured.
     pub points: &'c [Point],
+    /// How its points are run.
+    pub command: Command,
     /// Instructions per second of the target's processor: what is real time there.
     pub real_time_instructions: f64,
     /// Processor, build and whatever else the measurements depend on: lines of text.
@@ -39,11 +43,11 @@ pub struct Chart<'c> {
 }
 
 /// [pixels] the drawing.
-const WIDTH: f64 = 1200.0;
-const HEIGHT: f64 = 866.0;
+const WIDTH: f64 = 1290.0;
+const HEIGHT: f64 = 906.0;
 /// [pixels] where the axes lie.
-const LEFT: f64 = 104.0;
-const RIGHT: f64 = 1180.0;
+const LEFT: f64 = 136.0;
+const RIGHT: f64 = 950.0;
 const TOP: f64 = 172.0;
 const BOTTOM: f64 = 752.0;
 /// [pixels] the strip of what is unstable.
@@ -66,7 +70,8 @@ pub fn svg(chart: &Chart<'_>, machine: Machine) -> String {
     match Drawing::new(chart, machine) {
         Some(drawing) => drawing.draw(&mut text),
         None => {
-            let _ = writeln!(text, "<text x=\"{LEFT}\" y=\"90\">No point has a cost here.</text>");
+            let why = remark(chart.points, machine).unwrap_or("nothing to draw");
+            write(&mut text, (LEFT, 90.0), "start", INK, &format!("Nothing to draw: {why}."));
         }
     }
     text.push_str("</svg>\n");
@@ -94,7 +99,8 @@ pub fn steppers(points: &[Point]) -> BTreeMap<&Stepper, usize> {
 #[must_use]
 pub fn hover(point: &Point, machine: Machine, real_time: f64) -> String {
     let mut text = format!("{}\nstep {}", point.stepper.label(), display(point.step));
-    text += &match advice::place(point, machine) {
+    text += &match point.drawn(machine) {
+        Some((_, error)) if point.lost => format!("\nlost: error {error:.2e} m"),
         Some((_, error)) => format!("\nerror {error:.2e} m"),
         None => "\nunstable".into(),
     };
@@ -125,9 +131,12 @@ struct Line<'d> {
     stepper: &'d Stepper,
     number: usize,
     style: Style,
+    /// The paper's scheme.
+    paper: bool,
     /// A variant that buys nothing: drawn lightly, so that what does stays in sight.
     quiet: bool,
     stable: Vec<usize>,
+    lost: Vec<usize>,
     unstable: Vec<usize>,
 }
 
@@ -140,27 +149,29 @@ impl Line<'_> {
 impl<'d> Drawing<'d> {
     fn new(chart: &'d Chart<'d>, machine: Machine) -> Option<Self> {
         let points = chart.points;
-        let places = || points.iter().filter_map(|point| advice::place(point, machine));
+        if remark(points, machine).is_some() {
+            return None;
+        }
+        let places = || points.iter().filter_map(|point| point.place(machine));
         let costs = points.iter().filter_map(|point| point.cost(machine));
-        let x = Axis::new(costs, (LEFT, RIGHT), (130.0, 140.0))?;
+        let x = Axis::new(costs, (LEFT, RIGHT), (40.0, 70.0), 62.0)?;
         let errors = places().map(|(_, error)| error);
         // The floor is in sight where it is near enough to matter.
         let least = places().map(|(_, error)| error).fold(f64::INFINITY, f64::min);
         let floor = Some(chart.uncertainty).filter(|floor| *floor > least / 100.0);
-        let y = Axis::new(errors.chain(floor), (BOTTOM, TOP), (24.0, 16.0))?;
+        let y = Axis::new(errors.chain(floor), (BOTTOM, TOP), (24.0, 16.0), 16.0)?;
         let real_time = match machine {
             Machine::Host => 1.0,
             Machine::Target => chart.real_time_instructions,
         };
-        let front: Vec<usize> = front(points, machine)
-            .into_iter()
-            .filter(|row| advice::place(&points[*row], machine).is_some())
-            .collect();
+        let front = front(points, machine);
         let mut references = 0;
         let lines = steppers(points)
             .into_iter()
             .map(|(stepper, number)| {
-                let style = Style::of(stepper, if stepper.kernel { number } else { references });
+                let paper = is_paper(stepper, machine);
+                let row = if stepper.kernel { number } else { references };
+                let style = Style::of(stepper, row, paper);
                 references += usize::from(!stepper.kernel);
                 let cost = |row: &usize| points[*row].cost(machine).filter(|cost| *cost > 0.0);
                 let mut rows: Vec<usize> = (0..points.len())
@@ -168,12 +179,13 @@ impl<'d> Drawing<'d> {
                     .filter(|row| cost(row).is_some_and(f64::is_finite))
                     .collect();
                 rows.sort_by(|a, b| cost(a).unwrap_or(0.0).total_cmp(&cost(b).unwrap_or(0.0)));
-                let (stable, unstable) = rows
-                    .into_iter()
-                    .partition(|row| advice::place(&points[*row], machine).is_some());
+                let (drawn, unstable): (Vec<_>, Vec<_>) =
+                    rows.into_iter().partition(|row| points[*row].drawn(machine).is_some());
+                let (lost, stable) = drawn.into_iter().partition(|row| points[*row].lost);
                 let usual = stepper.precision == "f64" && stepper.orientation == "quaternion";
-                let quiet = !usual && !front.iter().any(|row| points[*row].stepper == *stepper);
-                Line { stepper, number, style, quiet, stable, unstable }
+                let quiet =
+                    !usual && !paper && !front.iter().any(|row| points[*row].stepper == *stepper);
+                Line { stepper, number, style, paper, quiet, stable, lost, unstable }
             })
             .collect();
         Some(Self { chart, machine, real_time, x, y, lines, front })
@@ -181,8 +193,7 @@ impl<'d> Drawing<'d> {
 
     /// Where a point lies.
     fn at(&self, row: usize) -> (f64, f64) {
-        let (cost, error) =
-            advice::place(&self.chart.points[row], self.machine).unwrap_or((0.0, 0.0));
+        let (cost, error) = self.chart.points[row].drawn(self.machine).unwrap_or((0.0, 0.0));
         (self.x.at(cost), self.y.at(error))
     }
 
@@ -201,7 +212,7 @@ impl<'d> Drawing<'d> {
         }
         // The paper's line lies beneath the others, so that its width hides none.
         let (paper, others): (Vec<&Line<'_>>, Vec<&Line<'_>>) =
-            self.lines.iter().partition(|line| is_paper(line.stepper));
+            self.lines.iter().partition(|line| line.paper);
         let (quiet, others): (Vec<_>, Vec<_>) = others.into_iter().partition(|line| line.quiet);
         let (kernel, references): (Vec<_>, Vec<_>) =
             others.into_iter().partition(|line| line.stepper.kernel);
@@ -214,8 +225,11 @@ impl<'d> Drawing<'d> {
         for line in &order {
             self.marks(text, line);
         }
-        self.labels(text, &order, &band);
+        let choices = self.choices();
+        self.panel(text, &choices);
+        self.labels(text, &order, &band, &choices);
         self.key(text);
+        self.legend(text);
     }
 
     /// The front as steps: at each cost the least error that it buys.
@@ -265,6 +279,10 @@ impl<'d> Drawing<'d> {
             }
             let size = if line.quiet { 0.75 * MARK } else { MARK };
             text.push_str(&line.style.mark(self.at(*row), size, false, &title(*row)));
+        }
+        // Those beyond the axis lie at its end.
+        for row in &line.lost {
+            text.push_str(&line.style.mark(self.at(*row), 0.75 * MARK, true, &title(*row)));
         }
         // A row of its own in the strip for each stepper.
         let (top, bottom) = (STRIP.0 + 6.0, STRIP.1 - 6.0);

@@ -6,19 +6,21 @@ use std::io;
 use std::path::Path;
 
 use dbd_scene::Scene;
+use serde::Serialize;
 
 use crate::output::{self, PendingFile};
 use crate::summary::significant;
-use crate::time::display;
-use crate::trade::advice::{sentences_above, table as table_of};
+use crate::time::{display, rounded};
+use crate::trade::advice::{advice, remark, table as table_of};
 use crate::trade::cache::Head;
 use crate::trade::chart::{Chart, svg};
+use crate::trade::command::Command;
 use crate::trade::page::html;
 use crate::trade::point::{Machine, Point, front};
 use crate::trade::survey::Trade;
 
 /// Columns of `trade.csv`.
-pub const COLUMNS: [&str; 18] = [
+pub const COLUMNS: [&str; 19] = [
     "scheme",
     "newton",
     "damping",
@@ -37,72 +39,126 @@ pub const COLUMNS: [&str; 18] = [
     "target_instructions_per_second",
     "host_front",
     "target_front",
+    "lost",
 ];
 
 /// \[1/s\] instructions of a Cortex-M4F at 168 MHz, 1.5 cycles each: an estimate, see docs/target.md.
 const REAL_TIME: f64 = 168e6 / 1.5;
 
-/// Writes all files.
-///
-/// # Errors
-/// Where the folder cannot be written to.
-pub fn write(folder: &Path, scene: &Scene, trade: &Trade) -> io::Result<()> {
-    table(folder, &trade.points)?;
-    let conditions = conditions(trade);
-    let chart = Chart {
-        scene: &scene.name,
-        description: &scene.description,
-        window: trade.head.window,
-        uncertainty: trade.head.uncertainty,
-        points: &trade.points,
-        real_time_instructions: REAL_TIME,
-        conditions: &conditions,
-    };
-    output::write(folder, "trade.svg", &svg(&chart, Machine::Host))?;
-    if trade.points.iter().any(|point| point.target_instructions.is_some()) {
-        output::write(folder, "trade-cortex-m4f.svg", &svg(&chart, Machine::Target))?;
-    }
-    output::write(folder, "trade.html", &html(&chart))
+/// A survey to be reported.
+#[derive(Clone, Copy)]
+pub struct Report<'r> {
+    /// The scene.
+    pub scene: &'r Scene,
+    /// What the user calls it.
+    pub called: &'r str,
+    /// The survey.
+    pub trade: &'r Trade,
 }
 
-/// What people read on a terminal: for both machines what nothing beats, and what to choose.
-#[must_use]
-pub fn text(scene: &Scene, trade: &Trade) -> String {
-    let mut text = format!("{}\n", scene.name);
-    for line in conditions(trade) {
-        text += &format!("  {line}\n");
-    }
-    for (machine, name) in
-        [(Machine::Host, "one core of this machine"), (Machine::Target, "Cortex-M4F")]
-    {
-        if front(&trade.points, machine).is_empty() {
-            continue;
+/// A survey as JSON.
+#[derive(Serialize)]
+pub struct Json<'r> {
+    scene: &'r str,
+    /// \[s\].
+    window: f64,
+    samples: u32,
+    /// Of a perturbation at the window's end.
+    growth: f64,
+    /// \[m\] what the truth is known to.
+    uncertainty: f64,
+    points: &'r [Point],
+}
+
+impl<'r> Report<'r> {
+    /// Writes all files.
+    ///
+    /// # Errors
+    /// Where the folder cannot be written to.
+    pub fn write(&self, folder: &Path) -> io::Result<()> {
+        let Self { scene, called, trade } = *self;
+        table(folder, &trade.points)?;
+        let conditions = conditions(trade);
+        let chart = Chart {
+            scene: &scene.name,
+            description: &scene.description,
+            window: trade.head.window(),
+            uncertainty: trade.head.uncertainty,
+            points: &trade.points,
+            command: Command::new(scene, called),
+            real_time_instructions: REAL_TIME,
+            conditions: &conditions,
+        };
+        output::write(folder, "trade.svg", &svg(&chart, Machine::Host))?;
+        if trade.points.iter().any(|point| point.target_instructions.is_some()) {
+            output::write(folder, "trade-cortex-m4f.svg", &svg(&chart, Machine::Target))?;
         }
-        text += &format!("\n{name}: what nothing beats\n{}\n", table_of(&trade.points, machine));
-        for sentence in sentences_above(&trade.points, machine, trade.head.uncertainty) {
-            text += &format!("{sentence}\n");
-        }
+        output::write(folder, "trade.html", &html(&chart))
     }
-    text
+
+    /// What people read on a terminal: for both machines what nothing beats, what to choose and
+    /// how to run it.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let Self { scene, called, trade } = *self;
+        let mut text = format!("{}\n", scene.name);
+        for line in conditions(trade) {
+            text += &format!("  {line}\n");
+        }
+        let command = Command::new(scene, called);
+        let points = &trade.points;
+        for (machine, name) in
+            [(Machine::Host, "one core of this machine"), (Machine::Target, "Cortex-M4F")]
+        {
+            if points.iter().all(|point| point.cost(machine).is_none()) {
+                continue;
+            }
+            text += &format!("\n{name}: what nothing beats\n{}\n", table_of(points, machine));
+            if let Some(remark) = remark(points, machine) {
+                text += &format!("{remark}\n");
+            }
+            for advice in advice(points, machine, trade.head.uncertainty) {
+                text += &format!("{}\n", advice.sentence);
+                if let Some(line) = command.line(&points[advice.row]) {
+                    text += &format!("    {line}\n");
+                }
+            }
+        }
+        text
+    }
+
+    /// What programs read.
+    #[must_use]
+    pub fn json(&self) -> Json<'r> {
+        let Head { grid, growth, uncertainty, .. } = self.trade.head;
+        let (scene, points) = (self.scene.name.as_str(), self.trade.points.as_slice());
+        Json { scene, window: grid.window(), samples: grid.samples, growth, uncertainty, points }
+    }
 }
 
 /// What the figures depend on.
 fn conditions(trade: &Trade) -> Vec<String> {
-    let Head { window, growth, uncertainty, .. } = trade.head;
+    let Head { grid, growth, uncertainty, .. } = trade.head;
     let build = if cfg!(debug_assertions) { "a debug build: times mean little" } else { "release" };
     vec![
         format!(
             "compared over {}, where a perturbation has grown {} times; the truth is known to {:.0e} m",
-            display(window),
+            display(rounded(grid.window(), 12)),
             significant(growth, 2),
             uncertainty,
         ),
-        "error: root mean square over bodies and 50 samples of the distance from DOP853 at 1e-12"
-            .into(),
-        "a step counts as unstable beyond the linear limit at t = 0, or where the run fails or loses its way"
+        format!(
+            "error: root mean square over bodies and {} samples of the distance from DOP853 at 1e-12; \
+             of a body the centres' distance and, at right angles, the angle between the attitudes \
+             times the root mean square distance of its mass from its centre",
+            grid.samples,
+        ),
+        "a step counts as unstable beyond the linear limit at t = 0, or where the run fails; as lost \
+         where it is further off than the truth goes at all: its error is shown, it is not advised"
             .into(),
         format!(
-            "times: median of 15 measurements on one thread, {}, {}, {build}",
+            "times: median of 15 measurements on one thread, {}, {}, {build}; one step size of each \
+             method is timed and counts for all its steps",
             std::env::consts::ARCH,
             std::env::consts::OS,
         ),
@@ -139,6 +195,7 @@ fn table(folder: &Path, points: &[Point]) -> io::Result<()> {
             &number(point.target_instructions),
             &fronts[0].contains(&row).to_string(),
             &fronts[1].contains(&row).to_string(),
+            &point.lost.to_string(),
         ])?;
     }
     let file = rows.into_inner().map_err(|error| io::Error::other(error.to_string()))?;

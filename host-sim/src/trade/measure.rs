@@ -10,14 +10,14 @@ use std::time::Instant;
 use dbd_kernel::energy::energy;
 use dbd_kernel::{F64, Geometry, Plant, Scheme, State as KernelState};
 use dbd_scene::{Scene, SceneModel, widen};
-use nalgebra::Vector3;
 
 use crate::judge::Judge;
 use crate::method::MethodVisitor;
 use crate::reference::implicit::Implicit;
 use crate::reference::naive::Naive;
-use crate::reference::trajectory::{Positions, Trajectory};
 use crate::reference::{Mechanism, State};
+use crate::trade::metric::{Metric, Poses};
+use crate::trade::truth::Truth;
 use crate::trade::ways::Way;
 
 /// What a run over the window came to.
@@ -25,6 +25,8 @@ use crate::trade::ways::Way;
 pub struct Accuracy {
     /// Whether it came to its end without growth beyond all measure.
     pub stable: bool,
+    /// Whether its error exceeds the way that the truth itself goes.
+    pub lost: bool,
     /// \[m\] root mean square over bodies and samples of the distance from the truth.
     pub error: Option<f64>,
     /// \[J\] root mean square over samples of the energy's error, where energy should stay.
@@ -35,37 +37,39 @@ pub struct Accuracy {
 
 /// A run that did not come to its end.
 pub const UNSTABLE: Accuracy =
-    Accuracy { stable: false, error: None, energy_rms: None, energy_peak: None };
+    Accuracy { stable: false, lost: false, error: None, energy_rms: None, energy_peak: None };
 
-/// An error beyond this many times the way that the truth itself goes is no trajectory any more.
-const LOST: f64 = 1.0;
+/// \[m\] An error below this loses no way, however short that is: what stands still has none. It is
+/// the coarsest accuracy that is spoken of.
+const LEAST_TRAVEL: f64 = 1e-3;
 
 /// What is compared.
 pub struct Comparison<'c> {
     /// The scene.
     pub scene: &'c Scene,
     /// Its truth.
-    pub truth: &'c Trajectory,
+    pub truth: &'c Truth,
     /// Whether nothing changes its energy.
     pub conservative: bool,
-    /// \[m\] the largest way of a body from its start, by the truth; root mean square over bodies.
+    metric: Metric,
+    /// \[m\] the largest distance of the truth from its start.
     travel: f64,
 }
 
 impl<'c> Comparison<'c> {
     /// Comparisons of a scene with its truth.
     #[must_use]
-    pub fn new(scene: &'c Scene, truth: &'c Trajectory) -> Self {
-        let first = truth.states.first().map(State::positions).unwrap_or_default();
-        let ways = truth.errors(&vec![first; truth.times.len()]);
-        let travel = ways.into_iter().fold(0.0, f64::max);
-        Self { scene, truth, conservative: crate::run::conserves_energy(scene), travel }
+    pub fn new(scene: &'c Scene, truth: &'c Truth) -> Self {
+        let metric = Metric::of(scene);
+        let ways = truth.poses.iter().map(|poses| metric.distance(&truth.poses[0], poses));
+        let travel = ways.fold(LEAST_TRAVEL, f64::max);
+        Self { scene, truth, conservative: crate::run::conserves_energy(scene), metric, travel }
     }
 
     /// How far off a way is with so many steps per interval of the truth.
     #[must_use]
     pub fn accuracy(&self, way: &Way, steps: u64) -> Accuracy {
-        let step = self.interval() / steps as f64;
+        let step = self.truth.grid.step(steps);
         match way {
             Way::Kernel(method) => method.visit(KernelRun { of: self, step, steps }),
             Way::NaiveSemiImplicitEuler => {
@@ -75,56 +79,51 @@ impl<'c> Comparison<'c> {
             Way::LinearlyImplicitEuler => {
                 let (mechanism, start) = Mechanism::of(self.scene);
                 let mut implicit = Implicit::new(&mechanism, start, step);
-                self.judge_positions(|samples| {
-                    for sample in 0..self.truth.times.len() {
+                self.judge(|samples| {
+                    for sample in 0..self.truth.poses.len() {
                         if sample > 0 && !(0..steps).all(|_| implicit_step(&mut implicit)) {
                             return;
                         }
-                        samples.push(implicit.state.positions());
+                        samples.push(implicit.state.bodies.clone());
                     }
                 })
             }
         }
     }
 
-    /// \[s\] between two samples.
-    #[must_use]
-    pub fn interval(&self) -> f64 {
-        self.truth.times.get(1).copied().unwrap_or_default()
-    }
-
     fn naive(&self, step: f64, steps: u64, advance: impl Fn(&mut Naive<'_>)) -> Accuracy {
         let (mechanism, start) = Mechanism::of(self.scene);
         let mut naive = Naive::new(&mechanism, start, step);
-        self.judge_positions(|samples| {
-            for sample in 0..self.truth.times.len() {
+        self.judge(|samples| {
+            for sample in 0..self.truth.poses.len() {
                 if sample > 0 {
                     (0..steps).for_each(|_| advance(&mut naive));
                 }
-                let positions = naive.state.positions();
-                if !positions.iter().all(|p| p.iter().all(|x| x.is_finite())) {
+                let poses = &naive.state.bodies;
+                if !poses.iter().all(|body| body.position.iter().all(|x| x.is_finite())) {
                     return;
                 }
-                samples.push(positions);
+                samples.push(poses.clone());
             }
         })
     }
 
-    fn judge_positions(&self, run: impl FnOnce(&mut Vec<Positions>)) -> Accuracy {
-        let mut samples = Vec::with_capacity(self.truth.times.len());
+    fn judge(&self, run: impl FnOnce(&mut Vec<Poses>)) -> Accuracy {
+        let mut samples = Vec::with_capacity(self.truth.poses.len());
         run(&mut samples);
         self.judged(&samples, None)
     }
 
     /// The verdict on samples, with the energy error's square sum and peak where it says anything.
-    fn judged(&self, samples: &[Positions], energy: Option<(f64, f64)>) -> Accuracy {
-        let error = self.truth.error(samples);
-        if !error.is_finite() || error > LOST * self.travel {
+    fn judged(&self, samples: &[Poses], energy: Option<(f64, f64)>) -> Accuracy {
+        let error = self.metric.error(&self.truth.poses, samples);
+        if !error.is_finite() {
             return UNSTABLE;
         }
         let energy = energy.filter(|_| self.conservative);
         Accuracy {
             stable: true,
+            lost: error > self.travel,
             error: Some(error),
             energy_rms: energy.map(|(squares, _)| (squares / samples.len() as f64).sqrt()),
             energy_peak: energy.map(|(_, peak)| peak),
@@ -161,7 +160,7 @@ impl MethodVisitor for KernelRun<'_, '_> {
         let mut judge = Judge::new(of.scene, &model, step);
         let Ok(mut plant) = Plant::new(&model, scheme, step) else { return UNSTABLE };
         let (mut samples, mut squares, mut peak, mut initial) = (Vec::new(), 0.0, 0.0_f64, None);
-        for sample in 0..of.truth.times.len() {
+        for sample in 0..of.truth.poses.len() {
             if sample > 0 && !plant.advance(steps).is_running() {
                 return UNSTABLE;
             }
@@ -173,8 +172,7 @@ impl MethodVisitor for KernelRun<'_, '_> {
             let error: f64 = total - *initial.get_or_insert(total);
             squares += error * error;
             peak = peak.max(error.abs());
-            let positions = state.bodies.iter().map(|body| Vector3::from(body.position.to_f64()));
-            samples.push(positions.collect());
+            samples.push(State::of(&state).bodies);
         }
         of.judged(&samples, Some((squares, peak)))
     }

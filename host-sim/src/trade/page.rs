@@ -5,11 +5,11 @@
 
 use std::fmt::Write as _;
 
-use super::advice::{self, headings, rows, sentences_above};
+use super::advice::{advice, headings, remark, rows, shown};
 use super::chart::{Chart, steppers, svg};
 use super::point::{Machine, Point};
 use crate::report::escape;
-use crate::summary::{approximate, significant};
+use crate::summary::significant;
 
 const STYLE: &str = concat!(include_str!("../report.css"), include_str!("trade.css"));
 const SCRIPT: &str = include_str!("trade.js");
@@ -48,14 +48,16 @@ pub fn html(chart: &Chart<'_>) -> String {
 /// The sentences, the chart and the front of a machine.
 fn machine(page: &mut String, chart: &Chart<'_>, machine: Machine, title: &str) {
     let _ = writeln!(page, "<h2>{title}</h2>");
-    let sentences = sentences_above(chart.points, machine, chart.uncertainty);
-    if !sentences.is_empty() {
+    if let Some(remark) = remark(chart.points, machine) {
+        let _ = writeln!(page, "<p>{}.</p>", capital(remark));
+    }
+    let all = advice(chart.points, machine, chart.uncertainty);
+    if !all.is_empty() {
         page.push_str("<ul class=\"advice\">\n");
-        for sentence in &sentences {
-            let mut letters = sentence.chars();
-            let first = letters.next().map(char::to_uppercase).into_iter().flatten();
-            let sentence: String = first.chain(letters).collect();
-            let _ = writeln!(page, "<li>{}.</li>", escape(&sentence));
+        for advice in &all {
+            let sentence = escape(&capital(&advice.sentence));
+            let line = chart.command.line(&chart.points[advice.row]).unwrap_or_default();
+            let _ = writeln!(page, "<li>{sentence}.<br><code>{}</code></li>", escape(&line));
         }
         page.push_str("</ul>\n");
     }
@@ -87,8 +89,15 @@ fn machine(page: &mut String, chart: &Chart<'_>, machine: Machine, title: &str) 
     page.push_str(
         "</tbody></table></div>\n<p>“Paper's scheme”: how many times this cost it needs to be as \
          accurate, read between its own measured steps; * beyond them, by extrapolation along its \
-         last two; ≤ at its largest stable step, which is more accurate still.</p>\n",
+         last two and at most two decades of error far; ≤ at its largest step, which is more accurate \
+         still.</p>\n",
     );
+}
+
+/// With a capital letter.
+fn capital(sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    letters.next().map(char::to_uppercase).into_iter().flatten().chain(letters).collect()
 }
 
 fn reading(page: &mut String, chart: &Chart<'_>) {
@@ -102,12 +111,13 @@ fn reading(page: &mut String, chart: &Chart<'_>) {
          yellow band: the mark beneath it is the cheapest that was measured.</li>\n\
          <li>The yellow band is the front: nothing measured is both faster and more accurate. \
          The grey lines are references in plain Rust, without the kernel.</li>\n\
-         <li>The error is the distance of the bodies from where the truth has them, root mean \
-         square over bodies and samples of {window} s. The truth itself is known to {uncertainty} \
+         <li>The error is the distance of the bodies from where the truth has them, attitudes \
+         included, root mean square over bodies and samples of {window} s. The truth itself is known to {uncertainty} \
          m: the grey floor, below which figures say nothing.</li>\n\
          <li>The thick black line is the paper's scheme: explicit, no Newton iteration, double \
-         precision.</li>\n\
-         <li>Hollow marks at the top ran unstable at their step. Point at a mark for its numbers, \
+         precision; on a Cortex-M4F the dashed one is the same in single.</li>\n\
+         <li>Hollow marks at the top ran unstable at their step; hollow marks elsewhere have lost \
+         their way: they are further off than the truth goes at all. Point at a mark for its numbers, \
          at a line to see it alone.</li>\n</ul>\n"
     );
 }
@@ -141,8 +151,9 @@ fn all(page: &mut String, chart: &Chart<'_>) {
         start(page, numbers.get(&point.stepper));
         let reference = if point.stepper.kernel { "" } else { " (reference)" };
         let _ = write!(page, "<td>{}{reference}</td>", escape(&point.stepper.label()));
-        let error = match advice::place(point, Machine::Host) {
-            Some((_, error)) => format!("{error:.2e}"),
+        let error = match point.error.filter(|_| point.stable) {
+            Some(error) if point.lost => format!("{error:.2e}, lost"),
+            Some(error) => format!("{error:.2e}"),
             None => "unstable".into(),
         };
         let known = |value: Option<f64>, digits: usize| match value.filter(|v| v.is_finite()) {
@@ -150,7 +161,7 @@ fn all(page: &mut String, chart: &Chart<'_>) {
             None => "–".into(),
         };
         let cells = [
-            approximate(point.step),
+            shown(point.step),
             error,
             known(point.energy_rms, 1),
             known(point.energy_peak, 1),
@@ -206,8 +217,10 @@ mod tests {
         for file in ["src=", "href=", "url("] {
             assert!(!page.contains(file), "{file}");
         }
-        for sentence in sentences_above(&points, Machine::Host, chart.uncertainty) {
-            assert!(page.contains(&escape(&sentence[1..])), "{sentence}");
+        for advice in advice(&points, Machine::Host, chart.uncertainty) {
+            let (sentence, line) = (&advice.sentence[1..], chart.command.line(&points[advice.row]));
+            assert!(page.contains(&escape(sentence)), "{sentence}");
+            assert!(page.contains(&format!("<code>{}</code>", escape(&line.unwrap()))));
         }
         // Without counted instructions there is no chart of the chip.
         let mut uncounted = points.clone();

@@ -1,11 +1,14 @@
 //! A point of the trade: a way of stepping, what it costs and how far off it is.
 
+use std::collections::BTreeSet;
+
 use serde::{Deserialize, Serialize};
 
 /// Who steps.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Stepper {
-    /// The kernel's scheme, `dbd`, or the std reference's: `naive-leapfrog`, `linearly-implicit-euler` ….
+    /// The kernel's scheme, `dbd`, or the std reference's: `std leapfrog`,
+    /// `std linearly-implicit-euler` ….
     pub scheme: String,
     /// Newton iterations, for the schemes that have them.
     pub newton: Option<u32>,
@@ -31,7 +34,10 @@ pub struct Point {
     pub steps: u64,
     /// Whether the run came to its end without growth of energy; accuracy is `None` otherwise.
     pub stable: bool,
-    /// \[m\] root mean square over bodies and samples of the distance from the truth.
+    /// Whether it is further off than the truth itself goes: no trajectory any more.
+    pub lost: bool,
+    /// \[m\] root mean square over bodies and samples of the distance from the truth, see
+    /// [`Metric`](super::metric::Metric).
     pub error: Option<f64>,
     /// \[J\] root mean square of the energy's error; `None` where dampers, loads or inputs change it.
     pub energy_rms: Option<f64>,
@@ -47,7 +53,36 @@ pub struct Point {
     pub target_instructions: Option<f64>,
 }
 
+/// The precision whose square root is approximate: shown for comparison, never advised.
+const LOOSE: &str = "f32-micromath";
+
 impl Stepper {
+    /// Whether it may be advised: the kernel and the references with exact square roots.
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        self.precision != LOOSE
+    }
+
+    /// The options of `host-sim run` that choose it; `None` for a reference.
+    #[must_use]
+    pub fn options(&self) -> Option<String> {
+        if !self.kernel {
+            return None;
+        }
+        let mut options = format!("--scheme {}", self.scheme);
+        if let Some(newton) = self.newton.filter(|newton| *newton > 0) {
+            options += &format!(" --newton {newton}");
+        }
+        if let Some(damping) = &self.damping {
+            options += &format!(" --damping {damping}");
+        }
+        options += &format!(" --precision {}", self.precision);
+        if self.orientation != "quaternion" {
+            options += &format!(" --orientation {}", self.orientation);
+        }
+        Some(options)
+    }
+
     /// What people call it: `leapfrog f32`, `dbd +1 f64`, `leapfrog f64, euler-321`.
     #[must_use]
     pub fn label(&self) -> String {
@@ -84,16 +119,39 @@ impl Point {
             Machine::Target => self.target_instructions,
         }
     }
+
+    /// Its cost and its error \[m\], where it has both and keeps its way.
+    #[must_use]
+    pub fn place(&self, machine: Machine) -> Option<(f64, f64)> {
+        if self.lost { None } else { self.drawn(machine) }
+    }
+
+    /// Likewise, whether or not it keeps its way.
+    #[must_use]
+    pub fn drawn(&self, machine: Machine) -> Option<(f64, f64)> {
+        let cost = self.cost(machine).filter(|cost| cost.is_finite() && *cost > 0.0)?;
+        let error = self.error.filter(|error| self.stable && error.is_finite() && *error >= 0.0)?;
+        Some((cost, error))
+    }
+}
+
+/// Methods of the kernel whose cost is known on a machine: so many steppers, micromath aside.
+#[must_use]
+pub fn counted(points: &[Point], machine: Machine) -> usize {
+    let known = |point: &&Point| point.stepper.kernel && point.cost(machine).is_some();
+    let steppers = points.iter().filter(known).map(|point| &point.stepper);
+    steppers.filter(|stepper| stepper.is_exact()).collect::<BTreeSet<_>>().len()
 }
 
 /// Rows of the points that no other beats on a machine: none is at most as far off for at most the
-/// cost. Ascending in cost.
+/// cost. Ascending in cost. Loose arithmetic and what has lost its way are left out.
 #[must_use]
 pub fn front(points: &[Point], machine: Machine) -> Vec<usize> {
     let mut rows: Vec<(f64, f64, usize)> = points
         .iter()
         .enumerate()
-        .filter_map(|(row, point)| Some((point.cost(machine)?, point.error?, row)))
+        .filter(|(_, point)| point.stepper.is_exact())
+        .filter_map(|(row, point)| point.place(machine).map(|(cost, error)| (cost, error, row)))
         .collect();
     rows.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
     let mut least = f64::INFINITY;
@@ -123,6 +181,7 @@ pub(crate) mod tests {
             step,
             steps: (1.0 / step) as u64,
             stable: error.is_some(),
+            lost: false,
             error,
             energy_rms: None,
             energy_peak: None,
@@ -147,6 +206,33 @@ pub(crate) mod tests {
         let mut uncounted = points.clone();
         uncounted[0].target_instructions = None;
         assert_eq!(front(&uncounted, Machine::Target), [1, 2]);
+        assert_eq!(counted(&uncounted, Machine::Target), 5);
+    }
+
+    #[test]
+    fn what_is_loose_or_lost_beats_nothing() {
+        let mut points = [point("a", 1e-3, 1.0, Some(1e-3)), point("b", 1e-3, 2.0, Some(1e-4))];
+        points[0].lost = true;
+        assert_eq!(front(&points, Machine::Host), [1]);
+        assert_eq!(points[0].drawn(Machine::Host), Some((1.0, 1e-3)));
+        points[0].lost = false;
+        points[0].stepper.precision = LOOSE.into();
+        assert_eq!(front(&points, Machine::Host), [1]);
+        assert_eq!(counted(&points, Machine::Host), 1);
+    }
+
+    #[test]
+    fn options_are_those_of_the_command_line() {
+        let mut stepper = point("dbd", 1.0, 1.0, None).stepper;
+        assert_eq!(stepper.options().unwrap(), "--scheme dbd --precision f64");
+        stepper.newton = Some(1);
+        stepper.damping = Some("explicit".into());
+        stepper.orientation = "euler-321".into();
+        let all =
+            "--scheme dbd --newton 1 --damping explicit --precision f64 --orientation euler-321";
+        assert_eq!(stepper.options().unwrap(), all);
+        stepper.kernel = false;
+        assert_eq!(stepper.options(), None);
     }
 
     #[test]

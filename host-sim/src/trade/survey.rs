@@ -4,6 +4,7 @@
 //! threads, the longest first; their results do not depend on who took them. Times are measured
 //! after that, one way after the other.
 
+use std::io;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
@@ -14,19 +15,24 @@ use dbd_scene::Scene;
 use crate::costs::Costs;
 use crate::error::Error;
 use crate::frequencies::Frequencies;
-use crate::reference::trajectory::Trajectory;
 use crate::reference::window::{GROWTH, before_chaos};
+use crate::time::display;
 use crate::trade::cache::{Cache, Entry, Head, key};
+use crate::trade::grid::{Grid, SAMPLES};
 use crate::trade::measure::{Comparison, UNSTABLE, cost};
 use crate::trade::point::{Point, Stepper};
+use crate::trade::truth::Truth;
 use crate::trade::ways::{Way, in_space, ways};
-
-/// Samples at which a run is compared with the truth, after t = 0.
-const SAMPLES: u32 = 50;
 
 /// \[s\] The longest window where none is given: a mechanism has moved, and a scene of a dozen
 /// bodies takes minutes.
 const LONGEST: f64 = 0.5;
+
+/// The shortest window, as a share of the scene's duration.
+const SHORTEST: f64 = 1e-6;
+
+/// \[rad\] A window in which the highest frequency turns further has no truth within an hour.
+const FURTHEST: f64 = 1e7;
 
 /// A step's time is measured at this share of the explicit schemes' limit.
 const TIMED: f64 = 0.1;
@@ -44,7 +50,7 @@ const REFERENCE: u64 = 8;
 pub struct TradeOptions {
     /// \[s\] the longest window; 0.5 s or the scene's duration where `None`.
     pub window: Option<f64>,
-    /// The file that results are kept in; nothing is kept where `None`.
+    /// The folder that results are kept in; nothing is kept where `None`.
     pub cache: Option<PathBuf>,
     /// Whether the scene is the one that ships under its name, whose steps were counted on the
     /// target.
@@ -60,6 +66,82 @@ pub struct Trade {
     pub points: Vec<Point>,
 }
 
+/// What a survey is at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// How long two truths from nearly one state stay near.
+    Window,
+    /// The truth.
+    Truth,
+    /// Its second opinion.
+    Opinion,
+    /// Runs for accuracy: work done and all work, in force evaluations.
+    Runs(u64, u64),
+    /// Measuring times: ways done and all ways.
+    Times(u64, u64),
+}
+
+/// Why a window is none.
+#[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
+pub enum WindowError {
+    /// Longer than the scene.
+    #[error("a window of {} is beyond the scene's duration of {}", display(*window), display(*duration))]
+    #[diagnostic(help("a window up to that, or a longer `duration` in the scene"))]
+    Long {
+        /// \[s\] as asked for.
+        window: f64,
+        /// \[s\] the scene's.
+        duration: f64,
+    },
+    /// Shorter than anything that can be compared.
+    #[error("a window of {} is too short to compare steps in", display(*window))]
+    #[diagnostic(help("at least {}, a millionth of the scene's duration", display(SHORTEST * duration)))]
+    Short {
+        /// \[s\] as asked for.
+        window: f64,
+        /// \[s\] the scene's duration.
+        duration: f64,
+    },
+    /// No truth in reasonable time.
+    #[error(
+        "the scene vibrates at up to {frequency:.1e} Hz: a truth over {} would take hours",
+        display(*window)
+    )]
+    #[diagnostic(help("--window {} or shorter", display(*possible)))]
+    Stiff {
+        /// \[Hz\] the highest frequency at t = 0.
+        frequency: f64,
+        /// \[s\] the window.
+        window: f64,
+        /// \[s\] one that can be done.
+        possible: f64,
+    },
+}
+
+/// \[s\] the longest window that a survey of a scene looks at.
+///
+/// # Errors
+/// Where what was asked for is none, or no truth can be had over it.
+pub fn longest_window(scene: &Scene, asked: Option<f64>) -> Result<f64, WindowError> {
+    let duration = scene.duration;
+    if let Some(window) = asked {
+        if window > duration * (1.0 + 1e-9) {
+            return Err(WindowError::Long { window, duration });
+        }
+        if window < SHORTEST * duration {
+            return Err(WindowError::Short { window, duration });
+        }
+    }
+    let window = asked.unwrap_or(LONGEST).min(duration);
+    let frequencies = Frequencies::of(scene);
+    if frequencies.estimate * window > FURTHEST {
+        let possible = crate::time::rounded(0.5 * FURTHEST / frequencies.estimate, 1);
+        let frequency = frequencies.estimate_hz();
+        return Err(WindowError::Stiff { frequency, window, possible });
+    }
+    Ok(window)
+}
+
 struct Job {
     way: Way,
     label: String,
@@ -69,35 +151,38 @@ struct Job {
     beyond: bool,
 }
 
-/// Surveys a scene. `progress` hears of work done and work to do, in force evaluations.
+/// Surveys a scene. `progress` hears what it is at.
 ///
 /// # Errors
-/// Where there is no truth, or results cannot be kept.
+/// Where the window is none, there is no truth, or results cannot be kept.
 pub fn survey(
     scene: &Scene,
     options: &TradeOptions,
-    progress: &mut dyn FnMut(u64, u64),
+    progress: &mut dyn FnMut(Phase),
 ) -> Result<Trade, Error> {
-    let longest = options.window.unwrap_or(LONGEST).min(scene.duration);
+    let longest = longest_window(scene, options.window)?;
     let key = key(scene, longest);
     let mut cache = match &options.cache {
-        Some(path) => Cache::open(path, key).map_err(Error::Write)?,
+        Some(folder) => Cache::open(folder, key).map_err(|error| match error.kind() {
+            io::ErrorKind::WouldBlock => Error::Busy { folder: folder.clone() },
+            _ => Error::Write(error),
+        })?,
         None => Cache::nowhere(),
     };
     let mut truth = None;
     let head = match cache.head {
         Some(head) => head,
         None => {
-            let (head, trajectory) = look(scene, key, longest)?;
+            let (head, found) = look(scene, key, longest, progress)?;
             cache.add(Entry::Head(head)).map_err(Error::Write)?;
-            truth = Some(trajectory);
+            truth = Some(found);
             head
         }
     };
     let highest = Frequencies::of(scene).estimate;
-    let interval = head.window / f64::from(SAMPLES);
+    let grid = head.grid;
     let ways = ways(scene, head.in_space);
-    let jobs = jobs(&ways, highest, interval);
+    let jobs = jobs(&ways, highest, &grid, scene.body_names.len());
     let missing: Vec<&Job> = jobs
         .iter()
         .filter(|job| !cache.accuracies.contains_key(&(job.label.clone(), job.steps)))
@@ -105,15 +190,19 @@ pub fn survey(
     if !missing.is_empty() {
         let truth = match truth {
             Some(truth) => truth,
-            None => Trajectory::truth(scene, head.window, SAMPLES)?,
+            None => {
+                progress(Phase::Truth);
+                Truth::of(scene, grid)?
+            }
         };
         let comparison = Comparison::new(scene, &truth);
         run(&comparison, missing, &mut cache, progress)?;
     }
-    let step = if highest > 0.0 { TIMED * 2.0 / highest } else { interval };
-    for way in &ways {
+    let step = if highest > 0.0 { TIMED * 2.0 / highest } else { grid.interval };
+    for (row, way) in ways.iter().enumerate() {
         let label = way.stepper().label();
         if !cache.costs.contains_key(&label) {
+            progress(Phase::Times(row as u64, ways.len() as u64));
             let cost = cost(scene, way, step);
             let (seconds, spread) = (cost.seconds, cost.spread);
             let entry = Entry::Cost { way: label, seconds, spread };
@@ -121,36 +210,43 @@ pub fn survey(
         }
     }
     let costs = if options.shipped { Costs::shipped() } else { Costs::none() };
-    let points =
-        jobs.iter().filter_map(|job| point(scene, &costs, job, interval, &cache)).collect();
+    let points = jobs.iter().filter_map(|job| point(scene, &costs, job, &grid, &cache)).collect();
     Ok(Trade { head, points })
 }
 
 /// Finds window and truth.
-fn look(scene: &Scene, key: u64, longest: f64) -> Result<(Head, Trajectory), Error> {
+fn look(
+    scene: &Scene,
+    key: u64,
+    longest: f64,
+    progress: &mut dyn FnMut(Phase),
+) -> Result<(Head, Truth), Error> {
+    progress(Phase::Window);
     let window = before_chaos(scene, longest, SAMPLES, GROWTH)?;
     // At least one interval, so that there is something to compare.
     let last = window.times.iter().rposition(|time| *time <= window.end).unwrap_or(0).max(1);
-    let (end, growth) = (window.times[last], window.growth[last]);
-    let truth = Trajectory::truth(scene, end, SAMPLES)?;
-    let uncertainty = truth.largest_uncertainty();
-    let in_space = in_space(&truth.states);
-    Ok((Head { key, window: end, growth, uncertainty, in_space }, truth))
+    let grid = Grid::new(scene, window.times[last]);
+    progress(Phase::Truth);
+    let truth = Truth::of(scene, grid)?;
+    progress(Phase::Opinion);
+    let uncertainty = truth.uncertainty(scene)?;
+    let in_space = in_space(&truth.poses);
+    Ok((Head { key, grid, growth: window.growth[last], uncertainty, in_space }, truth))
 }
 
-fn jobs(ways: &[Way], highest: f64, interval: f64) -> Vec<Job> {
+fn jobs(ways: &[Way], highest: f64, grid: &Grid, bodies: usize) -> Vec<Job> {
     let of_way = |way: &Way| {
         let (way, label) = (*way, way.stepper().label());
         let price = match way {
             Way::Kernel(method) => u64::from(method.evaluations()),
             _ => REFERENCE,
         };
-        way.ladder(highest, interval).into_iter().map(move |steps| Job {
+        way.ladder(highest, grid, bodies).into_iter().map(move |steps| Job {
             way,
             label: label.clone(),
             steps,
-            weight: steps * u64::from(SAMPLES) * price,
-            beyond: highest * interval / steps as f64 > MARGIN * way.stability_limit(),
+            weight: steps * u64::from(grid.samples) * price,
+            beyond: highest * grid.step(steps) > MARGIN * way.stability_limit(),
         })
     };
     ways.iter().flat_map(of_way).collect()
@@ -161,12 +257,12 @@ fn run(
     comparison: &Comparison<'_>,
     mut jobs: Vec<&Job>,
     cache: &mut Cache,
-    progress: &mut dyn FnMut(u64, u64),
+    progress: &mut dyn FnMut(Phase),
 ) -> Result<(), Error> {
     jobs.sort_by_key(|job| std::cmp::Reverse(job.weight));
     let all = jobs.iter().map(|job| job.weight).sum();
     let mut done = 0;
-    progress(done, all);
+    progress(Phase::Runs(done, all));
     let next = AtomicUsize::new(0);
     let threads = thread::available_parallelism().map_or(1, usize::from);
     thread::scope(|scope| {
@@ -191,28 +287,32 @@ fn run(
                 way: job.label.clone(),
                 steps: job.steps,
                 stable: accuracy.stable,
+                lost: accuracy.lost,
                 error: accuracy.error,
                 energy_rms: accuracy.energy_rms,
                 energy_peak: accuracy.energy_peak,
             };
             cache.add(entry).map_err(Error::Write)?;
             done += job.weight;
-            progress(done, all);
+            progress(Phase::Runs(done, all));
         }
         Ok(())
     })
 }
 
-fn point(scene: &Scene, costs: &Costs, job: &Job, interval: f64, cache: &Cache) -> Option<Point> {
+fn point(scene: &Scene, costs: &Costs, job: &Job, grid: &Grid, cache: &Cache) -> Option<Point> {
     let entry = cache.accuracies.get(&(job.label.clone(), job.steps))?;
-    let Entry::Accuracy { stable, error, energy_rms, energy_peak, .. } = entry else { return None };
+    let Entry::Accuracy { stable, lost, error, energy_rms, energy_peak, .. } = entry else {
+        return None;
+    };
     let (seconds, spread) = cache.costs.get(&job.label)?;
-    let step = interval / job.steps as f64;
+    let step = grid.step(job.steps);
     let stepper = job.way.stepper();
     Some(Point {
         step,
-        steps: job.steps * u64::from(SAMPLES),
+        steps: job.steps * u64::from(grid.samples),
         stable: *stable,
+        lost: *lost,
         error: *error,
         energy_rms: *energy_rms,
         energy_peak: *energy_peak,

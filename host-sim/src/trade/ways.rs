@@ -7,8 +7,10 @@ use clap::ValueEnum as _;
 use dbd_scene::Scene;
 
 use crate::method::{DampingName, Method, OrientationName, PrecisionName, SchemeName};
-use crate::reference::State;
-use crate::trade::point::Stepper;
+use crate::trade::advice::is_paper;
+use crate::trade::grid::Grid;
+use crate::trade::metric::Poses;
+use crate::trade::point::{Machine, Stepper};
 
 /// A way of stepping.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +28,12 @@ pub enum Way {
 /// Steps as shares of the largest that an undamped oscillator of the highest frequency bears: the
 /// first is beyond.
 const SHARES: [f64; 12] = [1.3, 0.98, 0.8, 0.6, 0.4, 0.28, 0.2, 0.14, 0.1, 0.05, 0.025, 0.0125];
+
+/// The paper's scheme is carried on to these, for all others are compared with it.
+const PAPER_SHARES: [f64; 4] = [0.005, 0.002, 0.001, 0.0005];
+
+/// Of those, what takes more force evaluations × bodies over the window is left out: 10 s each.
+const AFFORDABLE: f64 = 1e8;
 
 /// The references take fewer: they are slow, and there to compare.
 const REFERENCE_SHARES: [f64; 6] = [1.3, 0.8, 0.4, 0.2, 0.1, 0.025];
@@ -84,10 +92,10 @@ impl Way {
         }
     }
 
-    /// Steps per `interval` \[s\] to try, ascending, no two alike, where the highest frequency is
-    /// `highest` \[rad/s\].
+    /// Steps per interval to try, ascending, no two alike, for so many bodies whose highest
+    /// frequency is `highest` \[rad/s\].
     #[must_use]
-    pub fn ladder(&self, highest: f64, interval: f64) -> Vec<u64> {
+    pub fn ladder(&self, highest: f64, grid: &Grid, bodies: usize) -> Vec<u64> {
         let shares =
             if matches!(self, Self::Kernel(_)) { &SHARES[..] } else { &REFERENCE_SHARES[..] };
         let limit = match self.stability_limit() {
@@ -95,11 +103,13 @@ impl Way {
             _ => 2.0 * IMPLICIT,
         };
         // Where nothing vibrates, an interval is taken in a few steps and more.
-        let largest = if highest > 0.0 { limit / highest } else { interval };
-        let mut ladder: Vec<u64> = shares
-            .iter()
-            .map(|share| (interval / (share * largest)).ceil().max(1.0) as u64)
-            .collect();
+        let largest = if highest > 0.0 { limit / highest } else { grid.interval };
+        let mut ladder: Vec<u64> = shares.iter().map(|share| grid.steps(share * largest)).collect();
+        if is_paper(&self.stepper(), Machine::Host) {
+            let work = f64::from(self.evaluations() * grid.samples) * bodies as f64;
+            let further = PAPER_SHARES.iter().map(|share| grid.steps(share * largest));
+            ladder.extend(further.filter(|steps| *steps as f64 * work <= AFFORDABLE));
+        }
         ladder.dedup();
         ladder
     }
@@ -151,8 +161,8 @@ pub fn ways(scene: &Scene, in_space: bool) -> Vec<Way> {
 
 /// Whether a body turns about more than one of its axes.
 #[must_use]
-pub fn in_space(truth: &[State]) -> bool {
-    truth.iter().flat_map(|state| &state.bodies).any(|body| {
+pub fn in_space(truth: &[Poses]) -> bool {
+    truth.iter().flatten().any(|body| {
         let mut rates = [body.rate.x, body.rate.y, body.rate.z].map(f64::abs);
         rates.sort_by(f64::total_cmp);
         rates[1] > SPATIAL * rates[2] && rates[1] > SPATIAL
@@ -163,15 +173,33 @@ pub fn in_space(truth: &[State]) -> bool {
 mod tests {
     use super::*;
 
+    /// A millisecond per interval, fifty of them.
+    fn grid() -> Grid {
+        let text = "name = \"a\"\nduration = 0.05\nevery = 1e-3\n[[body]]\nname = \"b\"\n\
+                    mass = 1.0\nposition = [0.0, 0.0, 0.0]\ninertia = [1.0, 1.0, 1.0]\n";
+        Grid::new(&Scene::parse(text, "a.toml").unwrap(), 0.05)
+    }
+
     #[test]
     fn ladders_ascend_and_begin_beyond_the_bounds_limit() {
         let method = Method::new(SchemeName::Leapfrog, None, PrecisionName::F64).unwrap();
-        let ladder = Way::Kernel(method).ladder(1e4, 1e-3);
+        let ladder = Way::Kernel(method).ladder(1e4, &grid(), 3);
         // 2/1e4 s is the limit of leapfrog: five steps per millisecond.
         assert_eq!((ladder[0], ladder[1], *ladder.last().unwrap()), (4, 6, 400));
         assert!(ladder.windows(2).all(|pair| pair[0] < pair[1]));
-        let still = Way::Kernel(method).ladder(0.0, 1e-3);
+        let still = Way::Kernel(method).ladder(0.0, &grid(), 3);
         assert_eq!((still[0], *still.last().unwrap()), (1, 80));
-        assert_eq!(Way::LinearlyImplicitEuler.ladder(1e4, 1e-3)[0], 1);
+        assert_eq!(Way::LinearlyImplicitEuler.ladder(1e4, &grid(), 3)[0], 1);
+    }
+
+    #[test]
+    fn the_papers_ladder_goes_on_while_it_can_be_paid() {
+        let paper = Way::Kernel(Method::new(SchemeName::Dbd, None, PrecisionName::F64).unwrap());
+        let single = Way::Kernel(Method::new(SchemeName::Dbd, None, PrecisionName::F32).unwrap());
+        let usual = single.ladder(1e4, &grid(), 3);
+        let further = paper.ladder(1e4, &grid(), 3);
+        assert_eq!(further[..usual.len()], usual);
+        assert_eq!(further.len(), usual.len() + PAPER_SHARES.len());
+        assert_eq!(paper.ladder(1e4, &grid(), 100_000), usual);
     }
 }

@@ -11,6 +11,8 @@ pub struct Axis {
     high: f64,
     from: f64,
     to: f64,
+    /// [pixels] a label takes.
+    spacing: f64,
 }
 
 /// A value with a grid line.
@@ -24,9 +26,6 @@ pub struct Tick {
     pub labelled: bool,
 }
 
-/// Decades that have all their labels.
-const MOST_LABELS: i32 = 13;
-
 /// [decades] an axis shows at least.
 const SHORTEST: f64 = 1.0;
 
@@ -37,6 +36,7 @@ impl Axis {
         values: impl Iterator<Item = f64>,
         (from, to): (f64, f64),
         (before, after): (f64, f64),
+        spacing: f64,
     ) -> Option<Self> {
         let logarithms = values.filter(|value| *value > 0.0 && value.is_finite()).map(f64::log10);
         let (mut low, mut high) = logarithms
@@ -47,7 +47,13 @@ impl Axis {
         let lack = (SHORTEST - (high - low)).max(0.0);
         (low, high) = (low - lack / 2.0, high + lack / 2.0);
         let per_pixel = (high - low) / ((to - from).abs() - before - after).max(1.0);
-        Some(Self { low: low - before * per_pixel, high: high + after * per_pixel, from, to })
+        Some(Self {
+            low: low - before * per_pixel,
+            high: high + after * per_pixel,
+            from,
+            to,
+            spacing,
+        })
     }
 
     /// The pixel of a value; those beyond the axis at its ends.
@@ -65,13 +71,20 @@ impl Axis {
     /// The same pixels for values `scale` divided by these.
     pub fn inverse(&self, scale: f64) -> Self {
         let scale = scale.log10();
-        Self { low: scale - self.high, high: scale - self.low, from: self.to, to: self.from }
+        Self {
+            low: scale - self.high,
+            high: scale - self.low,
+            from: self.to,
+            to: self.from,
+            ..*self
+        }
     }
 
-    /// Its grid, ascending.
+    /// Its grid, ascending; every decade is labelled where labels have so many pixels each.
     pub fn ticks(&self) -> Vec<Tick> {
         let (first, last) = (self.low.floor() as i32, self.high.floor() as i32);
-        let stride = 1 + (last - first) / MOST_LABELS;
+        let decade = (self.to - self.from).abs() / (self.high - self.low);
+        let stride = (self.spacing / decade).ceil().max(1.0) as i32;
         let few = self.high - self.low < 2.5;
         let mut ticks = Vec::new();
         for decade in first..=last {
@@ -131,7 +144,8 @@ mod tests {
 
     #[test]
     fn an_axis_holds_its_values_and_the_space_around_them() {
-        let axis = Axis::new([1e-6, 1e-2].into_iter(), (100.0, 700.0), (100.0, 100.0)).unwrap();
+        let axis =
+            Axis::new([1e-6, 1e-2].into_iter(), (100.0, 700.0), (100.0, 100.0), 60.0).unwrap();
         assert!((axis.at(1e-6) - 200.0).abs() < 1e-9);
         assert!((axis.at(1e-2) - 600.0).abs() < 1e-9);
         assert!((axis.at(1e-4) - 400.0).abs() < 1e-9);
@@ -139,20 +153,22 @@ mod tests {
         // The inverse of a value lies where the value lies.
         let inverse = axis.inverse(1.0);
         assert!((inverse.at(1e4) - axis.at(1e-4)).abs() < 1e-9);
-        assert!(Axis::new([0.0, f64::NAN].into_iter(), (0.0, 1.0), (0.0, 0.0)).is_none());
+        assert!(Axis::new([0.0, f64::NAN].into_iter(), (0.0, 1.0), (0.0, 0.0), 60.0).is_none());
     }
 
     #[test]
     fn ticks_are_decades_and_on_a_short_axis_more() {
         let labels = |low: f64, high: f64| -> Vec<String> {
-            let axis = Axis::new([low, high].into_iter(), (0.0, 600.0), (0.0, 0.0)).unwrap();
+            let axis = Axis::new([low, high].into_iter(), (0.0, 600.0), (0.0, 0.0), 16.0).unwrap();
             let ticks = axis.ticks();
             assert!(ticks.windows(2).all(|two| two[0].value() < two[1].value()));
             ticks.iter().filter(|tick| tick.labelled).map(|tick| tick.prefixed("m")).collect()
         };
         assert_eq!(labels(0.9e-6, 2e-3), ["1 µm", "10 µm", "100 µm", "1 mm"]);
         assert_eq!(labels(1.9, 9.0), ["2 m", "5 m", "10 m"]);
-        assert!(labels(1e-20, 1e20).len() <= MOST_LABELS as usize + 1);
+        // Every decade while there is room.
+        assert_eq!(labels(1e-15, 1e2).len(), 18);
+        assert!(labels(1e-40, 1e40).len() <= 600 / 16 + 1);
         let tick = |digit, decade| Tick { decade, digit, labelled: true };
         assert_eq!(tick(2, -2).plain(), "0.02");
         assert_eq!(tick(5, 3).plain(), "5000");

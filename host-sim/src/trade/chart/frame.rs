@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 
 use super::place::{Places, Rectangle};
 use super::style::{FAINT, GRID, INK};
-use super::{BOTTOM, Drawing, LABEL, LEFT, RIGHT, STRIP, TOP, write};
+use super::{BOTTOM, Drawing, LABEL, LEFT, Line, MARK, RIGHT, STRIP, TOP, WIDTH, write};
 use crate::summary::significant;
-use crate::trade::point::Machine;
+use crate::trade::point::{Machine, Stepper};
 
 impl Drawing<'_> {
     /// What lies below the truth's own uncertainty.
@@ -46,8 +46,8 @@ impl Drawing<'_> {
                 "<path d=\"M{LEFT} {y:.1}H{RIGHT}\" stroke=\"{stroke}\" fill=\"none\"/>"
             );
             if tick.labelled {
-                write(text, (LEFT - 8.0, y - 1.0), "end", INK, &tick.prefixed("m"));
-                write(text, (LEFT - 8.0, y + 13.0), "end", FAINT, &tick.scientific());
+                write(text, (LEFT - 54.0, y + 4.5), "end", INK, &tick.prefixed("m"));
+                write(text, (LEFT - 8.0, y + 4.5), "end", FAINT, &tick.scientific());
             }
         }
         let speed = self.x.inverse(self.real_time);
@@ -146,15 +146,55 @@ impl Drawing<'_> {
              where nothing measured is both faster and more accurate."
         );
         write(text, (LEFT, 58.0), "start", FAINT, &above);
+        let paper = match self.machine {
+            Machine::Host => "Thick: the paper's scheme, dbd in f64.",
+            Machine::Target => "Thick: the paper's scheme, dbd in f64 and (dashed) in f32.",
+        };
         let beneath = [
-            "Each mark is a step; hollow ones ran unstable. Lines: solid f64, dashed f32, \
-             dash-dotted or dotted other orientations.",
-            "Grey: references in plain Rust. Faint: other precisions and orientations without a \
-             point on the front.",
+            "Each mark is a step; hollow at the top: unstable, hollow elsewhere: lost its way. Lines: \
+             solid f64, dashed f32, dash-dotted or dotted other orientations."
+                .to_owned(),
+            format!(
+                "{paper} Grey: references in plain Rust. Faint: variants without a point on the \
+                 front."
+            ),
         ];
         for (row, words) in beneath.into_iter().enumerate() {
             let y = BOTTOM + 76.0 + 19.0 * row as f64;
-            write(text, (LEFT, y), "start", FAINT, words);
+            write(text, (LEFT, y), "start", FAINT, &words);
+        }
+    }
+
+    /// Mark and name of every scheme.
+    pub(super) fn legend(&self, text: &mut String) {
+        let mut known: Vec<(String, &Line<'_>)> = Vec::new();
+        let mut lines: Vec<&Line<'_>> = self.lines.iter().collect();
+        // A scheme's plainest stepper stands for it: in f64, with quaternions.
+        lines.sort_by_key(|line| (!line.stepper.kernel, line.stepper.precision != "f64"));
+        for line in lines {
+            let Stepper { scheme, newton, damping, .. } = line.stepper;
+            let mut name = scheme.clone();
+            if let Some(newton) = newton.filter(|newton| *newton > 0) {
+                name += &format!(" +{newton}");
+            }
+            if let Some(damping) = damping {
+                name += &format!(" ({damping})");
+            }
+            let used =
+                !line.stable.is_empty() || !line.unstable.is_empty() || !line.lost.is_empty();
+            if used && !known.iter().any(|(other, _)| *other == name) {
+                known.push((name, line));
+            }
+        }
+        let (mut x, mut y) = (LEFT, BOTTOM + 116.0);
+        for (name, line) in known {
+            let width = name.chars().count() as f64 * LABEL * 0.58 + 30.0;
+            if x + width > WIDTH - 8.0 {
+                (x, y) = (LEFT, y + 19.0);
+            }
+            text.push_str(&line.style.mark((x + 6.0, y - 4.5), MARK, false, ""));
+            write(text, (x + 16.0, y), "start", line.style.text, &name);
+            x += width;
         }
     }
 }

@@ -1,16 +1,22 @@
-//! Names on the chart: of the front's points, of the lines where they end.
+//! Names on the chart: of the lines where they end, of points on the front.
 
 use std::fmt::Write as _;
 
+use super::choices::Choice;
 use super::place::{Places, Rectangle};
 use super::{BOTTOM, Drawing, LABEL, LEFT, Line, RIGHT, TOP};
 use crate::report::escape;
-use crate::time::{display, rounded};
-use crate::trade::advice::is_paper;
+use crate::trade::advice::shown;
 
 impl Drawing<'_> {
-    /// Names: of the front's points, then of the lines where they end.
-    pub(super) fn labels(&self, text: &mut String, order: &[&Line<'_>], band: &[(f64, f64)]) {
+    /// Numbers of the choices, then names: of the front's other points, of the lines where they end.
+    pub(super) fn labels(
+        &self,
+        text: &mut String,
+        order: &[&Line<'_>],
+        band: &[(f64, f64)],
+        choices: &[Choice],
+    ) {
         let (x, y) = (LEFT + 4.0, TOP + 4.0);
         let (width, height) = (RIGHT - LEFT - 8.0, BOTTOM - TOP - 8.0);
         let mut places = Places::new(Rectangle { x, y, width, height });
@@ -21,48 +27,40 @@ impl Drawing<'_> {
         }
         band.windows(2).for_each(|pair| places.stroke(pair[0], pair[1]));
         self.remarks(text, &mut places);
-        let named = self.front_labels(text, &mut places);
-        // The quiet lines come first to be drawn beneath, and last to be named.
-        let (quiet, loud): (Vec<&Line<'_>>, Vec<&Line<'_>>) =
-            order.iter().copied().partition(|line| line.quiet);
-        for line in loud.into_iter().chain(quiet) {
-            let Some(row) = line.stable.last().filter(|row| !named.contains(row)) else { continue };
-            let paper = is_paper(line.stepper);
-            let name = match paper {
+        self.numbers(text, &mut places, choices);
+        // The paper's lines first: everything is compared with them. The quiet ones last.
+        let mut lines: Vec<&Line<'_>> = order.to_vec();
+        lines.sort_by_key(|line| (!line.paper, line.quiet));
+        for line in lines {
+            let name = match line.paper {
                 true => format!("paper's scheme ({})", line.stepper.label()),
                 false => line.stepper.label(),
             };
             let worst = if line.quiet { 45.0 } else { 300.0 };
-            self.label(text, &mut places, (*row, line), &name, (0.9, 0.3), (worst, paper));
+            // The paper's name stands along its line where there is no room at the end.
+            let most = if line.paper { line.stable.len() } else { 1 };
+            for row in line.stable.iter().rev().take(most) {
+                let how = (worst, line.paper);
+                if self.label(text, &mut places, (*row, line), &name, (0.9, 0.3), how) {
+                    break;
+                }
+            }
+        }
+        for row in &self.front {
+            if choices.iter().any(|choice| choice.row == *row) {
+                continue;
+            }
+            let Some(line) = self.line_of(*row) else { continue };
+            let point = &self.chart.points[*row];
+            let name = format!("{} · {}", point.stepper.label(), shown(point.step));
+            self.label(text, &mut places, (*row, line), &name, (-0.8, 0.6), (70.0, true));
         }
     }
 
-    /// The front's points by name: those first that are the choice for a power of ten.
-    /// Rows of those that had room.
-    fn front_labels(&self, text: &mut String, places: &mut Places) -> Vec<usize> {
-        let mut named = Vec::new();
-        let error = |row: usize| self.chart.points[row].error.unwrap_or(0.0);
-        let mut rows: Vec<usize> = Vec::new();
-        for decade in (-15..=3).rev() {
-            let good = |row: &&usize| error(**row) <= 10_f64.powi(decade);
-            rows.extend(self.front.iter().find(good).filter(|row| !rows.contains(row)));
-        }
-        let firsts = rows.len();
-        let rest: Vec<usize> =
-            self.front.iter().copied().filter(|row| !rows.contains(row)).collect();
-        rows.extend(rest);
-        for (rank, row) in rows.iter().enumerate() {
-            let point = &self.chart.points[*row];
-            let Some(line) = self.lines.iter().find(|line| line.stepper == &point.stepper) else {
-                continue;
-            };
-            let name = format!("{} · {}", point.stepper.label(), display(rounded(point.step, 3)));
-            let worst = if rank < firsts { 1e4 } else { 70.0 };
-            if self.label(text, places, (*row, line), &name, (-0.8, 0.6), (worst, true)) {
-                named.push(*row);
-            }
-        }
-        named
+    /// The line that a point lies on.
+    pub(super) fn line_of(&self, row: usize) -> Option<&Line<'_>> {
+        let stepper = &self.chart.points[row].stepper;
+        self.lines.iter().find(|line| line.stepper == stepper)
     }
 
     fn label(

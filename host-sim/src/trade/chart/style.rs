@@ -5,7 +5,6 @@
 
 use std::fmt::Write as _;
 
-use crate::trade::advice::is_paper;
 use crate::trade::point::Stepper;
 
 /// Text and axes.
@@ -80,8 +79,9 @@ const KNOWN: [(&str, Option<usize>, usize); 8] = [
 ];
 
 impl Style {
-    /// The style of a stepper, the `row`-th of those drawn; that decides for schemes not known.
-    pub fn of(stepper: &Stepper, row: usize) -> Self {
+    /// The style of a stepper, the `row`-th of those drawn; that decides for schemes not known. The
+    /// paper's scheme is thick.
+    pub fn of(stepper: &Stepper, row: usize, paper: bool) -> Self {
         let known = KNOWN.iter().find(|(name, ..)| *name == stepper.scheme);
         let (colour, shape) = match known {
             _ if !stepper.kernel => (GREY, row),
@@ -103,7 +103,7 @@ impl Style {
             text: colour.1,
             shape: SHAPES[(shape + variant) % SHAPES.len()],
             dashes,
-            width: if is_paper(stepper) { 5.0 } else { 1.8 },
+            width: if paper { 5.0 } else { 1.8 },
         }
     }
 
@@ -166,7 +166,7 @@ mod tests {
             let mut stepper = point(&name, 1.0, 1.0, None).stepper;
             for precision in ["f64", "f32"] {
                 stepper.precision = precision.into();
-                let style = Style::of(&stepper, 0);
+                let style = Style::of(&stepper, 0, false);
                 assert!(!styles.contains(&style), "{name} {precision}");
                 styles.push(style);
             }

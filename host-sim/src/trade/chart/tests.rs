@@ -2,7 +2,7 @@
 //! them and a page there to look at.
 
 use super::*;
-use crate::time::rounded;
+use crate::trade::advice::{choice, shown};
 use crate::trade::point::tests::point;
 
 /// Order, error at 1 ms \[m\], evaluations per step, largest stable step \[s\] of a scheme.
@@ -79,6 +79,7 @@ pub(crate) fn chart(points: &[Point]) -> Chart<'_> {
         window: 2.0,
         uncertainty: 2e-10,
         points,
+        command: Command::default(),
         real_time_instructions: 168e6 / 1.5,
         conditions: &[],
     }
@@ -96,9 +97,6 @@ fn every_point_is_drawn_once_with_its_numbers() {
     let chart = chart(&points);
     for machine in [Machine::Host, Machine::Target] {
         let drawing = svg(&chart, machine);
-        if let Ok(folder) = std::env::var("DBD_DRAW") {
-            std::fs::write(format!("{folder}/{machine:?}.svg"), &drawing).unwrap();
-        }
         let real_time = if machine == Machine::Host { 1.0 } else { chart.real_time_instructions };
         for point in points.iter().filter(|point| point.cost(machine).is_some()) {
             let title = format!("<title>{}</title>", escape(&hover(point, machine, real_time)));
@@ -118,38 +116,45 @@ fn every_point_is_drawn_once_with_its_numbers() {
     }
 }
 
-/// Shares of the front's points that are named; those named must hold all choices for powers of ten.
-fn share_named(points: &[Point], drawing: &str, machine: Machine) -> f64 {
-    let front = front(points, machine);
-    let named = |row: &&usize| {
-        let point = &points[**row];
-        let step = display(rounded(point.step, 3));
-        drawing.contains(&format!(">{} · {step}<", point.stepper.label()))
-    };
+/// For each power of ten that the kernel reaches: its line is labelled, its choice named and numbered.
+fn choices_are_named(points: &[Point], drawing: &str, machine: Machine) {
     for exponent in -9..=-4 {
-        let target = 10_f64.powi(exponent);
-        let Some(row) = front.iter().find(|row| points[**row].error.unwrap() <= target) else {
-            continue;
-        };
-        assert!(named(&row), "1e{exponent}: {:?}", points[*row]);
+        let accuracy = 10_f64.powi(exponent);
+        let Some(row) = choice(points, machine, accuracy, true) else { continue };
+        let name = format!("{} · {}", points[row].stepper.label(), shown(points[row].step));
+        assert!(drawing.contains(&format!(">{name}<")), "1e{exponent}: {name}");
+        assert!(drawing.contains(&format!(">1e{exponent}<")), "1e{exponent} has no label");
     }
-    front.iter().filter(named).count() as f64 / front.len() as f64
+    // Each number stands at its mark and once or more in the panel.
+    for number in 1..=4 {
+        assert!(drawing.matches(&format!(">{number}</text>")).count() >= 2, "{number}");
+    }
 }
 
 #[test]
-fn the_front_is_named_with_its_steps() {
-    let few = ladders();
-    let drawing = svg(&chart(&few), Machine::Host);
-    assert!(share_named(&few, &drawing, Machine::Host) > 0.66);
-    let many = crowd();
-    for machine in [Machine::Host, Machine::Target] {
-        let drawing = svg(&chart(&many), machine);
-        if let Ok(folder) = std::env::var("DBD_DRAW") {
-            std::fs::write(format!("{folder}/Crowd{machine:?}.svg"), &drawing).unwrap();
+fn what_to_choose_is_named_for_each_power_of_ten() {
+    for (name, points) in [("Few", ladders()), ("Crowd", crowd())] {
+        for machine in [Machine::Host, Machine::Target] {
+            let drawing = svg(&chart(&points), machine);
+            if let Ok(folder) = std::env::var("DBD_DRAW") {
+                std::fs::write(format!("{folder}/{name}{machine:?}.svg"), &drawing).unwrap();
+            }
+            choices_are_named(&points, &drawing, machine);
+            assert_eq!(drawing.matches(">paper's scheme (dbd f64)<").count(), 1);
         }
-        assert!(share_named(&many, &drawing, machine) > 0.66);
-        assert_eq!(drawing.matches(">paper's scheme (dbd f64)<").count(), 1);
     }
+}
+
+#[test]
+fn the_papers_line_is_there_where_double_precision_was_not_counted() {
+    let mut points = crowd();
+    for point in points.iter_mut().filter(|point| point.stepper.precision == "f64") {
+        point.target_instructions = None;
+    }
+    let drawing = svg(&chart(&points), Machine::Target);
+    assert!(drawing.contains(">paper's scheme (dbd f32)<"));
+    assert!(!drawing.contains(">paper's scheme (dbd f64)<"));
+    assert!(drawing.contains("stroke-width=\"5\" stroke-dasharray=\"7 4\""));
 }
 
 #[test]
@@ -162,6 +167,8 @@ fn odd_points_make_no_odd_drawing() {
     ];
     let drawing = svg(&chart(&points), Machine::Host);
     assert!(!drawing.contains("NaN") && !drawing.contains("inf"), "{drawing}");
+    points.iter_mut().for_each(|point| (point.error, point.host_seconds) = (Some(0.0), 1.0));
+    assert!(svg(&chart(&points), Machine::Host).contains("Nothing to draw: every error is zero."));
     points.clear();
-    assert!(svg(&chart(&points), Machine::Host).contains("No point"));
+    assert!(svg(&chart(&points), Machine::Host).contains("no point has a cost"));
 }
