@@ -91,7 +91,7 @@ mod tests {
     use super::*;
     use crate::method::{Method, PrecisionName, SchemeName};
 
-    const CHARTED: [&str; 8] = [
+    const CHARTED: [&str; 9] = [
         "four-bar",
         "five-bar-a",
         "five-bar-b",
@@ -99,6 +99,7 @@ mod tests {
         "3rrr",
         "crank-slider",
         "3ruu",
+        "hexagon",
         "double-wishbone",
     ];
 
@@ -142,9 +143,11 @@ mod tests {
         for scheme in SchemeName::value_variants() {
             let name = Method::new(*scheme, None, PrecisionName::F32).unwrap().scheme_name();
             for scene in CHARTED {
-                assert!(plain(&costs, scene, name, "f32").is_some(), "{scene} {name} f32");
+                for precision in ["f32", "f64"] {
+                    let count = plain(&costs, scene, name, precision);
+                    assert!(count.is_some(), "{scene} {name} {precision}");
+                }
             }
-            assert!(plain(&costs, "four-bar", name, "f64").is_some(), "four-bar {name} f64");
         }
         let explicit = |scheme| {
             costs.instructions_per_step("double-wishbone", scheme, None, true, "f32", ORIENTATION)

@@ -78,8 +78,10 @@ pub fn advice(points: &[Point], machine: Machine, uncertainty: f64) -> Vec<Advic
                 sentence += ": the paper's scheme";
             } else if let Some(PaperNeed { need, precision }) = paper_need(points, machine, target)
             {
-                let whose =
-                    if precision == "f64" { String::new() } else { format!(" in {precision}") };
+                let whose = match machine {
+                    Machine::Host => String::new(),
+                    Machine::Target => format!(" in {precision}"),
+                };
                 sentence += &format!("; the paper's scheme{whose} {}", Against(need, cost));
             }
             let reference = choice(points, machine, target, false).map(|row| &points[row]);
@@ -305,6 +307,11 @@ pub(crate) mod tests {
              instructions per simulated second); the paper's scheme in f32 does not reach it"
         );
         assert!(said.iter().all(|sentence| !sentence.contains("stable")));
+        let said = sentences(&ladder(), Machine::Target, 1e-5).pop().unwrap();
+        assert!(
+            said.ends_with("; the paper's scheme in f64 needs about 5 times as much"),
+            "{said}"
+        );
     }
 
     #[test]
