@@ -177,11 +177,7 @@ fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
         return;
     };
     if T::TSDAS && group.law == Law::Tsda && group.clearance.row().is_none() {
-        let both = (model, places);
-        return match group.arms {
-            3 => sweep_stars::<P, T, REVERSE, 3>(both, group, dampers, h, bodies),
-            _ => sweep_stars::<P, T, REVERSE, 1>(both, group, dampers, h, bodies),
-        };
+        return sweep_stars::<P, T, REVERSE>(model, group, dampers, h, places, bodies);
     }
     let elements = group.elements();
     for i in 0..elements {
@@ -223,40 +219,49 @@ fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
     }
 }
 
+/// Most points of the second body that one of the first is joined to.
+const MOST_ARMS: usize = 3;
+
 /// Where a point lies, and its arm.
 type Place<P> = (<P as Geometry>::Location, Vec3<<P as Geometry>::Real>);
 
 /// The stars of a group without clearance: each point is placed once, for a sweep moves nothing,
 /// and the two bodies' velocities are at hand until the last element.
 #[inline(always)]
-fn sweep_stars<P: Geometry, T: Terms, const REVERSE: bool, const ARMS: usize>(
-    (model, places): (&ModelRef<'_, P, T>, Places<'_, P>),
+fn sweep_stars<P: Geometry, T: Terms, const REVERSE: bool>(
+    model: &ModelRef<'_, P, T>,
     group: &Group,
     dampers: &[P::Real],
     h: P::Real,
+    places: Places<'_, P>,
     bodies: &mut [BodyState<P>],
 ) {
     let Some(points) = model.points.get(group.point as usize..) else { return };
     let stars = group.stars as usize;
     let Some((centres, arms)) = points.split_at_checked(stars) else { return };
-    let ((arms, _), (dampers, _)) = (arms.as_chunks::<ARMS>(), dampers.as_chunks::<ARMS>());
+    // A number at run time, and one body of the loop: unrolled it is three times as long in flash.
+    let count = (group.arms as usize).clamp(1, MOST_ARMS);
     let end_a = End::new(model, places, group.a, None);
     let end_b = End::new(model, places, group.b, None);
     let ground_rate = end_b.velocity - end_a.velocity;
     let ends = [group.a, group.b].map(BodyIndex::row);
     let [body_a, body_b] = ends.map(|row| model.bodies.get(row));
     let mut pair = ends.map(|row| bodies.get(row).copied().unwrap_or_default());
-    let mut tips = [(P::Location::default(), Vec3::ZERO); ARMS];
+    let mut tips = [(P::Location::default(), Vec3::ZERO); MOST_ARMS];
     for i in 0..stars {
         let star = if REVERSE { stars - 1 - i } else { i };
         let block = if group.shared { 0 } else { star };
-        let (Some(centre), Some(arms), Some(dampers)) =
-            (centres.get(star), arms.get(block), dampers.get(star))
-        else {
+        let (Some(centre), Some(arms), Some(dampers)) = (
+            centres.get(star),
+            arms.get(block * count..).and_then(|arms| arms.get(..count)),
+            dampers.get(star * count..).and_then(|dampers| dampers.get(..count)),
+        ) else {
             break;
         };
         if i == 0 || !group.shared {
-            tips = arms.each_ref().map(|point| end_b.place(point));
+            for (tip, point) in tips.iter_mut().zip(arms) {
+                *tip = end_b.place(point);
+            }
         }
         let (centre, arm_a) = end_a.place(centre);
         let mut element = |((tip, arm_b), damping): (&Place<P>, &P::Real)| {
@@ -266,7 +271,7 @@ fn sweep_stars<P: Geometry, T: Terms, const REVERSE: bool, const ARMS: usize>(
             let b = Lever::new(1, body_b, u, end_b.to_axes(arm_b.cross(u)));
             damp(&mut pair, a, b, u.dot(ground_rate), *damping, h);
         };
-        let elements = tips.iter().zip(dampers);
+        let elements = tips.get(..count).unwrap_or_default().iter().zip(dampers);
         if REVERSE {
             elements.rev().for_each(&mut element);
         } else {
