@@ -58,7 +58,10 @@ pub struct Advice {
 pub fn advice(points: &[Point], machine: Machine, uncertainty: f64) -> Vec<Advice> {
     let among = match machine {
         Machine::Host => String::new(),
-        Machine::Target => format!(", of the {} methods counted,", counted(points, machine)),
+        Machine::Target => match counted(points, machine) {
+            1 => ", the only method counted,".into(),
+            many => format!(", of the {many} methods counted,"),
+        },
     };
     DECADES
         .rev()
@@ -307,6 +310,9 @@ pub(crate) mod tests {
              instructions per simulated second); the paper's scheme in f32 does not reach it"
         );
         assert!(said.iter().all(|sentence| !sentence.contains("stable")));
+        let alone = [points[4].clone()];
+        let said = sentences(&alone, Machine::Target, 1e-5).pop().unwrap();
+        assert!(said.contains(" choose, the only method counted, pefrl, f64, "), "{said}");
         let said = sentences(&ladder(), Machine::Target, 1e-5).pop().unwrap();
         assert!(
             said.ends_with("; the paper's scheme in f64 needs about 5 times as much"),
