@@ -239,7 +239,7 @@ fn sweep_stars<P: Geometry, T: Terms, const REVERSE: bool>(
     let Some(points) = model.points.get(group.point as usize..) else { return };
     let stars = group.stars as usize;
     let Some((centres, arms)) = points.split_at_checked(stars) else { return };
-    // A number at run time, and one body of the loop: unrolled it is three times as long in flash.
+    // A number at run time, and one body of the loop: unrolled it takes more flash and is no faster.
     let count = (group.arms as usize).clamp(1, MOST_ARMS);
     let end_a = End::new(model, places, group.a, None);
     let end_b = End::new(model, places, group.b, None);
