@@ -54,7 +54,7 @@ const SCENES: &[Row] = &[
     row("five-bar-a", 4, 30, 3.2e-4, 3.2e-4),
     row("five-bar-b", 4, 30, 3.8e-5, 9.7e-5),
     row("four-bar", 3, 24, 6.5e-5, 2.9e-4),
-    damped("gripper", 8, 70, 1e-9, 1.3e-7),
+    damped("gripper", 8, 70, 1e-9, 7.6e-8),
     row("gyroscope", 1, 3, 1.2e-8, 1.4e-5),
     row("hanging-chain", 20, 60, 7.7e-7, 1.4e-3),
     row("hexagon", 5, 36, 2.1e-8, 9.1e-6),
