@@ -7,7 +7,6 @@ mod balance;
 #[path = "../host-sim/examples/follow.rs"]
 mod follow;
 
-#[cfg_attr(debug_assertions, ignore = "a minute in a debug build; release runs it")]
 #[test]
 fn the_pendulum_stays_up_for_a_minute() {
     let seconds = balance::balance(60_000).unwrap();
@@ -19,7 +18,6 @@ fn the_pendulum_stays_up_for_a_minute() {
     }
 }
 
-#[cfg_attr(debug_assertions, ignore = "a minute in a debug build; release runs it")]
 #[test]
 fn the_delta_keeps_to_its_path() {
     let furthest = follow::follow(12_000).unwrap();

@@ -63,7 +63,6 @@ fn figures<S: Scheme>(model: &SceneModel<F64>, scheme: S, steps: u64) -> Figures
     }
 }
 
-#[cfg_attr(debug_assertions, ignore = "a minute in a debug build; release runs it")]
 #[test]
 fn figures_are_those_of_the_paper() {
     let model = scene("crank-slider").model;

@@ -118,7 +118,6 @@ fn the_gripper_closes_on_the_block_and_lets_go() {
 
 /// The tables are inverse dynamics of rigid links; what is left is what joints give and the path
 /// between knots.
-#[cfg_attr(debug_assertions, ignore = "a minute in a debug build; release runs it")]
 #[test]
 fn the_delta_picks_and_places() {
     let scene = scene("delta-pick-and-place");
@@ -202,7 +201,6 @@ fn balance<P: Geometry>() -> (f64, f64) {
     (x, angle - upright)
 }
 
-#[cfg_attr(debug_assertions, ignore = "half a minute in a debug build; release runs it")]
 #[test]
 fn state_feedback_balances_the_pendulum() {
     let (x, angle) = balance::<F32>();

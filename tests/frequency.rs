@@ -41,7 +41,6 @@ fn the_bound_is_tight_and_the_estimate_close_on_every_scene_at_rest() {
     }
 }
 
-#[cfg_attr(debug_assertions, ignore = "minutes in a debug build; release runs it")]
 #[test]
 fn the_bound_holds_along_the_run_of_every_scene() {
     for name in scene_names() {

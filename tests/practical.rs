@@ -92,7 +92,6 @@ fn hanging_links(n: usize, length: f64, mass: f64, inertia: f64) -> (DMatrix<f64
 }
 
 /// The share of the first mode in the chain's motion swings with the period of theory.
-#[cfg_attr(debug_assertions, ignore = "half a minute in a debug build; release runs it")]
 #[test]
 fn the_chain_swings_with_the_period_of_its_first_mode() {
     let scene = scene("hanging-chain");

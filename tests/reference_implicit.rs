@@ -28,7 +28,6 @@ fn truth<M: ModelOwner<Precision = F64>>(model: &M, window: f64, samples: u32) -
     Trajectory::truth_of(&mechanism, &start, sample_times(window, samples)).unwrap()
 }
 
-#[cfg_attr(debug_assertions, ignore = "minutes in a debug build; release runs it")]
 #[test]
 fn it_converges_with_order_1_on_every_kind_of_element() {
     for damping in [0.0, 2.0] {
@@ -41,7 +40,6 @@ fn it_converges_with_order_1_on_every_kind_of_element() {
 
 /// The slow motion of a stiff mechanism, at steps that do not resolve its vibration: it starts at
 /// rest with every spring at its free length, so that little of it is excited.
-#[cfg_attr(debug_assertions, ignore = "minutes in a debug build; release runs it")]
 #[test]
 fn it_converges_with_order_1_at_steps_beyond_the_explicit_limit() {
     let scene = scene("crank-slider");
@@ -54,7 +52,6 @@ fn it_converges_with_order_1_at_steps_beyond_the_explicit_limit() {
 
 /// The explicit limit is z = 2. Slow motions stay near the truth's; where torsion springs swing
 /// within a few steps, as in the four-bar, they are damped, and nothing grows.
-#[cfg_attr(debug_assertions, ignore = "minutes in a debug build; release runs it")]
 #[test]
 fn large_steps_are_calm() {
     let slow = ["hexagon", "chain-closed", "crank-slider", "3ruu"].map(|name| (name, 0.03));

@@ -124,7 +124,6 @@ fn single(name: &str) -> bool {
     !name.starts_with("two") && !name.starts_with("three")
 }
 
-#[cfg_attr(debug_assertions, ignore = "minutes in a debug build; release runs it")]
 #[test]
 fn the_two_opinions_agree_on_every_scene() {
     for name in scene_names().into_iter().filter(|name| single(name)) {
@@ -143,7 +142,6 @@ fn error_of(scene: &Scene, truth: &Trajectory, scheme: SchemeName, steps: u64) -
     truth.error(&truth.run(scene, &method, steps))
 }
 
-#[cfg_attr(debug_assertions, ignore = "minutes in a debug build; release runs it")]
 #[test]
 fn schemes_converge_to_the_truth_with_their_order() {
     let scene = scene("crank-slider");
@@ -171,7 +169,6 @@ fn an_error_is_a_mean_over_bodies_and_samples_and_infinite_where_a_run_ends_earl
     assert_eq!(truth.error(&shifted(&[0.0, 1.0, f64::NAN])), f64::INFINITY);
 }
 
-#[cfg_attr(debug_assertions, ignore = "a minute in a debug build; release runs it")]
 #[test]
 fn the_window_ends_where_a_perturbation_has_grown() {
     // Let go against stiff joints it turns over and is chaotic from there on.
@@ -188,7 +185,6 @@ fn the_window_ends_where_a_perturbation_has_grown() {
     assert!(regular.end == 0.5 && regular.growth.iter().all(|growth| *growth < 10.0));
 }
 
-#[cfg_attr(debug_assertions, ignore = "minutes in a debug build; release runs it")]
 #[test]
 fn the_papers_mechanisms_are_worth_comparing_for_half_a_second() {
     for name in [

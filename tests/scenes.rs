@@ -121,7 +121,6 @@ fn band<P: Geometry>(scene: &Scene, damped: bool) -> f64 {
     worst / kinetic
 }
 
-#[cfg_attr(debug_assertions, ignore = "minutes in a debug build; release runs it")]
 #[test]
 fn every_scene_runs_and_keeps_its_energy() {
     let mut failed = Vec::new();

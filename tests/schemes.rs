@@ -136,7 +136,6 @@ fn decay<P: Geometry>(x: f64) -> f64 {
     (start / end).ln() / (2.0 * x * steps as f64)
 }
 
-#[cfg_attr(debug_assertions, ignore = "a minute in a debug build; release runs it")]
 #[test]
 fn light_dampers_act_in_single_precision_too() {
     for (x, tolerance) in [(1e-7, 0.1), (1e-6, 0.01), (1e-5, 1e-3), (1e-4, 1e-3), (1e-3, 2e-3)] {

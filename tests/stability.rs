@@ -63,7 +63,6 @@ fn limits_hold(name: &str) {
 
 macro_rules! limits {
     ($($test:ident: $name:literal),*) => {$(
-        #[cfg_attr(debug_assertions, ignore = "minutes in a debug build; release runs it")]
         #[test]
         fn $test() {
             limits_hold($name);
@@ -100,7 +99,6 @@ fn damped(name: &str) -> Scene {
 /// velocity per step, as in semi-implicit Euler, ends at `2·(√(ζ² + 1) − ζ)`, 0.47, the paper's step
 /// earlier still; leapfrog's two half kicks at `2/ζ`, 1. The errors of the trajectory, each at its
 /// own limit, are printed beside each other.
-#[cfg_attr(debug_assertions, ignore = "minutes in a debug build; release runs it")]
 #[test]
 fn sweeps_keep_the_step_that_explicit_damping_loses() {
     for name in ["four-bar", "five-bar-b", "six-bar", "3rrr", "crank-slider"] {
@@ -144,7 +142,6 @@ fn sweeps_keep_the_step_that_explicit_damping_loses() {
     }
 }
 
-#[cfg_attr(debug_assertions, ignore = "a minute in a debug build; release runs it")]
 #[test]
 fn single_precision_has_the_same_limits() {
     let scene = scene("six-bar");

@@ -124,7 +124,6 @@ fn least_pressure(scene: &Scene, tyres: &[&str]) -> f64 {
 }
 
 /// Nothing in these tyres would let go of the road, so the road is not to ask for it.
-#[cfg_attr(debug_assertions, ignore = "half a minute in a debug build; release runs it")]
 #[test]
 fn tyres_press_on_the_road_all_the_time() {
     assert!(least_pressure(&scene("double-wishbone"), &["tyre_force"]) > 1000.0);
@@ -220,7 +219,6 @@ fn the_wheel_hops_after_the_step_as_its_mode_does() {
 }
 
 /// Section 4.7: twenty bodies, the first mode of the bushings near 20 Hz, the sixth near 250 Hz.
-#[cfg_attr(debug_assertions, ignore = "half a minute in a debug build; release runs it")]
 #[test]
 fn the_macpherson_axle_vibrates_where_the_paper_says() {
     let (scene, state, modes) = settled("macpherson");

@@ -66,7 +66,6 @@ fn two_surveys_give_the_same_accuracy_to_the_last_bit_however_they_are_interrupt
     assert_eq!(fs::read(&path).unwrap(), all);
 }
 
-#[cfg_attr(debug_assertions, ignore = "a minute in a debug build; release runs it")]
 #[test]
 fn a_survey_holds_every_way_and_says_what_is_unstable() {
     let trade = trade("four-bar", 0.02, None);
