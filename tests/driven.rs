@@ -18,7 +18,7 @@ fn print(line: &str) {
 /// What a read-out of the scene shows: a number and zeros, or a vector.
 fn read<P: Geometry>(
     scene: &Scene,
-    plant: &Plant<'_, SceneModel<P>, Leapfrog>,
+    plant: &Plant<&SceneModel<P>, Leapfrog>,
     name: &str,
 ) -> [f64; 3] {
     let info = scene.readouts.iter().find(|info| info.name == name).unwrap();
@@ -70,10 +70,10 @@ fn the_gripper_closes_on_the_block_and_lets_go() {
     let mut plant = Plant::new(&scene.model, Leapfrog, step).unwrap();
     let [right, left] = ["right_finger", "left_finger"];
     // The pads lie 23 mm inside the fingers' centres of mass.
-    let gap = |plant: &Plant<'_, SceneModel<F64>, Leapfrog>| {
+    let gap = |plant: &Plant<&SceneModel<F64>, Leapfrog>| {
         read(&scene, plant, right)[0] - read(&scene, plant, left)[0] - 2.0 * 0.023
     };
-    let grip = |plant: &Plant<'_, SceneModel<F64>, Leapfrog>| {
+    let grip = |plant: &Plant<&SceneModel<F64>, Leapfrog>| {
         [read(&scene, plant, "right_grip")[0], read(&scene, plant, "left_grip")[0]]
     };
     let open = gap(&plant);

@@ -126,7 +126,7 @@ fn what_is_not_an_input_or_not_finite_is_refused_and_changes_nothing() {
     plant.advance(10).ok().unwrap();
     let before = (plant.hash(), plant.state().signals.clone());
     assert_eq!(plant.set_input(free, f64::NAN), Err(InputError::NotFinite(free)));
-    assert_eq!(plant.set_anchor(free, 0.0, f64::INFINITY), Err(InputError::NotFinite(free)));
+    assert_eq!(plant.set_signal(free, 0.0, f64::INFINITY), Err(InputError::NotFinite(free)));
     assert_eq!(plant.set_input(table, 1.0), Err(InputError::Table(table)));
     let none = InputIndex(2);
     assert_eq!(plant.set_input(none, 1.0), Err(InputError::Unknown(none)));

@@ -19,7 +19,7 @@ fn print(line: &str) {
 }
 
 /// Runs a scene with leapfrog at its step and shows every state.
-fn watch(scene: &Scene, time: f64, mut see: impl FnMut(f64, &Plant<SceneModel<F64>, Leapfrog>)) {
+fn watch(scene: &Scene, time: f64, mut see: impl FnMut(f64, &Plant<&SceneModel<F64>, Leapfrog>)) {
     let step = scene.step.unwrap();
     let mut plant = Plant::new(&scene.model, Leapfrog, step).unwrap();
     see(0.0, &plant);

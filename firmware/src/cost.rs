@@ -35,7 +35,7 @@ struct Costing<'t> {
     well: bool,
 }
 
-type Call<M, S> = fn(&mut Plant<'static, M, S>) -> Status;
+type Call<M, S> = fn(&mut Plant<&'static M, S>) -> Status;
 
 impl Visitor for Costing<'_> {
     fn visit<M: ModelOwner, S: Scheme>(&mut self, shipped: Shipped<M, S>) {
@@ -77,7 +77,7 @@ impl Visitor for Costing<'_> {
             nanoseconds,
             SysTick::instructions(total, STEPS),
             SysTick::instructions(most, 1),
-            size_of::<Plant<'static, M, S>>(),
+            size_of::<Plant<&'static M, S>>(),
             size_of::<M>(),
             stack
         );
@@ -89,7 +89,7 @@ impl Costing<'_> {
     fn time<M: ModelOwner, S: Scheme>(
         &mut self,
         call: Call<M, S>,
-        plant: &mut Plant<'static, M, S>,
+        plant: &mut Plant<&'static M, S>,
     ) -> u64 {
         let start = self.systick.read();
         let status = call(black_box(plant));
@@ -100,12 +100,12 @@ impl Costing<'_> {
 }
 
 #[inline(never)]
-fn one_step<M: ModelOwner, S: Scheme>(plant: &mut Plant<'static, M, S>) -> Status {
+fn one_step<M: ModelOwner, S: Scheme>(plant: &mut Plant<&'static M, S>) -> Status {
     plant.step()
 }
 
 #[inline(never)]
-fn no_step<M: ModelOwner, S: Scheme>(plant: &mut Plant<'static, M, S>) -> Status {
+fn no_step<M: ModelOwner, S: Scheme>(plant: &mut Plant<&'static M, S>) -> Status {
     black_box(plant);
     Status::Running
 }

@@ -22,7 +22,7 @@ impl<P: Geometry> Sensors<P> {
     }
 
     /// What they show now.
-    pub(crate) fn read<S: Scheme>(&mut self, plant: &Plant<'_, SceneModel<P>, S>) -> &[f64] {
+    pub(crate) fn read<S: Scheme>(&mut self, plant: &Plant<&SceneModel<P>, S>) -> &[f64] {
         self.values.clear();
         for (readout, columns) in &self.readouts {
             let values = &mut self.values;

@@ -165,7 +165,7 @@ impl MethodVisitor for Simulation<'_> {
 
 impl<'s> Sample<'s> {
     fn new<P: Geometry, S: Scheme>(
-        plant: &Plant<'_, SceneModel<P>, S>,
+        plant: &Plant<&SceneModel<P>, S>,
         state: &'s State<SceneModel<F64>>,
         readings: &'s [f64],
         verdict: &Verdict,
@@ -183,7 +183,7 @@ impl<'s> Sample<'s> {
 }
 
 fn step_to<P: Geometry, S: Scheme>(
-    plant: &mut Plant<'_, SceneModel<P>, S>,
+    plant: &mut Plant<&SceneModel<P>, S>,
     end: u64,
 ) -> Option<Trouble> {
     while plant.state().step < end {

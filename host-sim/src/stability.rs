@@ -191,7 +191,7 @@ impl MethodVisitor for Trial<'_> {
         let model: SceneModel<P> = model.convert();
         let exact: SceneModel<F64> = model.convert();
         let Ok(mut plant) = Plant::new(&model, scheme, self.step) else { return false };
-        let energy = |plant: &Plant<'_, SceneModel<P>, S>| {
+        let energy = |plant: &Plant<&SceneModel<P>, S>| {
             energy(&exact, &widen(plant.state()), self.step).total()
         };
         let start = energy(&plant);

@@ -1,5 +1,7 @@
 //! `defmt::Format` where a derive cannot see the bounds (feature `defmt`).
 
+use core::ops::Deref;
+
 use defmt::{Format, Formatter, write};
 
 use crate::geometry::Geometry;
@@ -34,7 +36,11 @@ impl<M: ModelOwner> Format for State<M> {
     }
 }
 
-impl<M: ModelOwner, S: Scheme> Format for Plant<'_, M, S> {
+impl<H, S> Format for Plant<H, S>
+where
+    H: Deref<Target: ModelOwner + Sized>,
+    S: Scheme,
+{
     fn format(&self, f: Formatter<'_>) {
         write!(
             f,

@@ -1,35 +1,47 @@
 //! A plant: a model, a scheme, a step and the state they drive.
 //!
 //! `(model, scheme, h) => plant; step: state => state`. Nothing is allocated; all memory lies in
-//! the plant, in the shape of its model.
+//! the plant, in the shape of its model. A plant holds its model by any pointer: `&M` borrows it,
+//! from flash or from a stack; with a heap, `Arc<M>` or `Box<M>` owns it.
+
+use core::ops::Deref;
 
 use crate::elements::load::LoadWindow;
 use crate::forces::Wrench;
 use crate::geometry::{FrameOf, Geometry, RealOf};
 use crate::inputs::{self, InputIndex, KnotStep, Signal};
-use crate::model::{ModelOwner, Terms};
+use crate::model::{BodyIndex, ModelOwner, Terms};
 use crate::real::Real;
 use crate::schemes::Scheme;
 use crate::state::{BodyState, State};
 use crate::status::{Cause, Failure, Status};
 use crate::step::{Diagonal, Ledger, Stepper};
+use crate::words::{Finite, Words as _};
 
-/// A model stepped by a scheme at a fixed step.
-pub struct Plant<'m, M: ModelOwner, S: Scheme> {
-    model: &'m M,
+/// A model stepped by a scheme at a fixed step. `H` points to the model: `&M`, or a pointer that
+/// owns it.
+pub struct Plant<H, S>
+where
+    H: Deref<Target: ModelOwner + Sized>,
+    S: Scheme,
+{
+    model: H,
     scheme: S,
     step_size: f64,
-    h: RealOf<M>,
-    diagonals: M::PerBody<Diagonal<RealOf<M>>>,
-    windows: M::PerLoad,
-    knots: M::PerKnot,
-    state: State<M>,
-    frames: M::PerBody<FrameOf<M>>,
-    wrenches: M::PerBody<Wrench<RealOf<M>>>,
-    memory: M::PerBody<S::Memory<M::Precision>>,
+    h: RealOf<H::Target>,
+    diagonals: PerBody<H, Diagonal<RealOf<H::Target>>>,
+    windows: <H::Target as ModelOwner>::PerLoad,
+    knots: <H::Target as ModelOwner>::PerKnot,
+    state: State<H::Target>,
+    frames: PerBody<H, FrameOf<H::Target>>,
+    wrenches: PerBody<H, Wrench<RealOf<H::Target>>>,
+    memory: PerBody<H, S::Memory<<H::Target as ModelOwner>::Precision>>,
     ledger: Ledger,
     status: Status,
 }
+
+/// One `T` per body of the model that `H` points to.
+type PerBody<H, T> = <<H as Deref>::Target as ModelOwner>::PerBody<T>;
 
 /// Why a plant could not be made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,31 +84,72 @@ impl core::fmt::Display for InputError {
 
 impl core::error::Error for InputError {}
 
-impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
+/// Why a plant could not take a state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum StateError {
+    /// It has another number of bodies, torsion springs or inputs than the model.
+    Count,
+    /// A number of this body is infinite or not a number.
+    NotFinite(BodyIndex),
+    /// The orientation of this body is no unit quaternion within 1e-3.
+    Orientation(BodyIndex),
+    /// The signal of this input is infinite or not a number.
+    Signal(InputIndex),
+}
+
+impl core::fmt::Display for StateError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            StateError::Count => {
+                write!(f, "the state has other counts of bodies, springs or inputs than the model")
+            }
+            StateError::NotFinite(body) => {
+                write!(f, "the state of body {} is not finite", body.0)
+            }
+            StateError::Orientation(body) => {
+                write!(f, "the orientation of body {} is no unit quaternion", body.0)
+            }
+            StateError::Signal(input) => write!(f, "the signal of input {} is not finite", input.0),
+        }
+    }
+}
+
+impl core::error::Error for StateError {}
+
+impl<H, S> Plant<H, S>
+where
+    H: Deref<Target: ModelOwner + Sized>,
+    S: Scheme,
+{
     /// A plant at its model's initial state, with the step `step_size` \[s\], which is rounded
     /// once to the precision. The diagonals of the inverse Jacobian are computed here.
     ///
     /// # Errors
     /// [`PlantError::Step`] where the rounded step is not positive and finite.
-    pub fn new(model: &'m M, scheme: S, step_size: f64) -> Result<Self, PlantError> {
-        let h = RealOf::<M>::from_f64(step_size);
-        if !(h > RealOf::<M>::ZERO && h.is_finite()) {
+    pub fn new(model: H, scheme: S, step_size: f64) -> Result<Self, PlantError> {
+        let h = RealOf::<H::Target>::from_f64(step_size);
+        if !(h > RealOf::<H::Target>::ZERO && h.is_finite()) {
             return Err(PlantError::Step(step_size));
         }
-        let view = model.view();
-        let mut diagonals = model.per_body(Diagonal::default());
+        let owner = &*model;
+        let view = owner.view();
+        let mut diagonals = owner.per_body(Diagonal::default());
         for (diagonal, body) in diagonals.as_mut().iter_mut().zip(view.bodies) {
             *diagonal = Diagonal::new(body, h);
         }
-        let mut windows = model.per_load();
+        let mut windows = owner.per_load();
         for (window, load) in windows.as_mut().iter_mut().zip(view.loads) {
             *window = LoadWindow::new(load.from, load.until, step_size);
         }
-        let mut knots = model.per_knot();
+        let mut knots = owner.per_knot();
         for (place, knot) in knots.as_mut().iter_mut().zip(view.knots) {
             *place = KnotStep::new(knot.time, step_size);
         }
-        let state = State::initial(model);
+        let state = State::initial(owner);
+        let frames = owner.per_body(FrameOf::<H::Target>::default());
+        let wrenches = owner.per_body(Wrench::default());
+        let memory = owner.per_body(S::Memory::default());
         let mut plant = Self {
             model,
             scheme,
@@ -106,9 +159,9 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
             windows,
             knots,
             state,
-            frames: model.per_body(FrameOf::<M>::default()),
-            wrenches: model.per_body(Wrench::default()),
-            memory: model.per_body(S::Memory::default()),
+            frames,
+            wrenches,
+            memory,
             ledger: Ledger::default(),
             status: Status::Running,
         };
@@ -119,7 +172,7 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
     /// Brings the signals of tables to the present step: the one that comes next.
     #[inline]
     fn sample(&mut self) {
-        if M::Terms::INPUTS {
+        if <H::Target as ModelOwner>::Terms::INPUTS {
             let view = self.model.view();
             let (knots, step) = (self.knots.as_ref(), self.state.step);
             let signals = self.state.signals.as_mut();
@@ -153,7 +206,7 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
             ledger: &mut self.ledger,
         };
         let cause = match self.scheme.step(&mut stepper) {
-            Ok(()) => first_non_finite::<M::Precision>(stepper.bodies),
+            Ok(()) => first_non_finite::<<H::Target as ModelOwner>::Precision>(stepper.bodies),
             Err(cause) => Some(cause),
         };
         self.state.step = step.wrapping_add(1);
@@ -181,23 +234,24 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
     /// # Errors
     /// [`InputError`]; nothing is changed then.
     pub fn set_input(&mut self, input: InputIndex, value: f64) -> Result<(), InputError> {
-        self.set_anchor(input, value, 0.0)
+        self.set_signal(input, value, 0.0)
     }
 
     /// Sets an input with its rate: for an anchor the displacement \[m\] and its velocity \[m/s\],
-    /// which its dampers feel. Each number is rounded once to the precision.
+    /// which its dampers feel; the other kinds do not use the rate. Each number is rounded once to
+    /// the precision.
     ///
     /// # Errors
     /// [`InputError`]; nothing is changed then.
-    pub fn set_anchor(
+    pub fn set_signal(
         &mut self,
         input: InputIndex,
-        displacement: f64,
+        value: f64,
         rate: f64,
     ) -> Result<(), InputError> {
         let row = input.0 as usize;
-        let value = RealOf::<M>::from_f64(displacement);
-        let rate = RealOf::<M>::from_f64(rate);
+        let value = RealOf::<H::Target>::from_f64(value);
+        let rate = RealOf::<H::Target>::from_f64(rate);
         let view = self.model.view();
         let signal = self.state.signals.as_mut().get_mut(row);
         let (Some(known), Some(signal)) = (view.inputs.get(row), signal) else {
@@ -217,6 +271,23 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
         Ok(())
     }
 
+    /// Goes back to t = 0, as after [`Self::new`]: the model's initial state, a failure forgotten.
+    pub fn reset(&mut self) {
+        self.ledger.evaluations = 0;
+        self.resume(State::initial(&*self.model));
+    }
+
+    /// Goes on from `state`, its step counter and signals included; a failure is forgotten.
+    ///
+    /// # Errors
+    /// [`StateError`] where it is not of this model, not finite, or an orientation is not of unit
+    /// length; nothing is changed then.
+    pub fn set_state(&mut self, state: State<H::Target>) -> Result<(), StateError> {
+        check(&state, &self.state)?;
+        self.resume(state);
+        Ok(())
+    }
+
     /// The scheme.
     pub fn scheme(&self) -> &S {
         &self.scheme
@@ -228,12 +299,12 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
     }
 
     /// The model.
-    pub fn model(&self) -> &'m M {
-        self.model
+    pub fn model(&self) -> &H::Target {
+        &self.model
     }
 
     /// The state.
-    pub fn state(&self) -> &State<M> {
+    pub fn state(&self) -> &State<H::Target> {
         &self.state
     }
 
@@ -253,7 +324,7 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
     }
 
     /// Goes on from a state: what was cached of the old one is dropped, a failure forgotten.
-    pub(crate) fn resume(&mut self, state: State<M>) {
+    pub(crate) fn resume(&mut self, state: State<H::Target>) {
         self.state = state;
         self.ledger.fresh = false;
         self.status = Status::Running;
@@ -266,6 +337,34 @@ impl<'m, M: ModelOwner, S: Scheme> Plant<'m, M, S> {
     }
 }
 
+/// Whether a plant in the state `own` can go on from `state`.
+fn check<M: ModelOwner>(state: &State<M>, own: &State<M>) -> Result<(), StateError> {
+    let counts =
+        |s: &State<M>| (s.bodies.as_ref().len(), s.turns.as_ref().len(), s.signals.as_ref().len());
+    if counts(state) != counts(own) {
+        return Err(StateError::Count);
+    }
+    for (i, body) in state.bodies.as_ref().iter().enumerate() {
+        let index = BodyIndex(i as u16);
+        let mut finite = Finite(true);
+        body.visit(&mut finite);
+        if !finite.0 {
+            return Err(StateError::NotFinite(index));
+        }
+        let q = M::Precision::orientation_to_f64(&body.orientation);
+        let norm: f64 = q.iter().map(|c| c * c).sum();
+        if !((norm - 1.0).abs() < 2e-3) {
+            return Err(StateError::Orientation(index));
+        }
+    }
+    for (i, signal) in state.signals.as_ref().iter().enumerate() {
+        if !(signal.value.is_finite() && signal.rate.is_finite()) {
+            return Err(StateError::Signal(InputIndex(i as u16)));
+        }
+    }
+    Ok(())
+}
+
 /// The first body with a velocity that is infinite or NaN. A position or an orientation becomes
 /// non-finite only through a velocity, at the latest one step later.
 #[inline]
@@ -273,7 +372,7 @@ fn first_non_finite<P: Geometry>(bodies: &[BodyState<P>]) -> Option<Cause> {
     for (i, state) in bodies.iter().enumerate() {
         let (v, w) = (P::velocity(&state.velocity), P::velocity(&state.angular_velocity));
         if !(v.is_finite() && w.is_finite()) {
-            return Some(Cause::NonFinite { body: crate::model::BodyIndex(i as u16) });
+            return Some(Cause::NonFinite { body: BodyIndex(i as u16) });
         }
     }
     None

@@ -3,6 +3,8 @@
 //! `(read-out, model, state) => reading`, in the model's precision. A model without read-outs
 //! carries none: a read-out is a constant of its own that names bodies, groups or springs.
 
+use core::ops::Deref;
+
 use crate::energy::twist_of;
 use crate::forces::{self, Record};
 use crate::geometry::{FrameOf, Geometry, RealOf};
@@ -123,10 +125,17 @@ impl<R: Real> Reading<R> {
     }
 }
 
-impl<M: ModelOwner, S: Scheme> Plant<'_, M, S> {
+impl<H, S> Plant<H, S>
+where
+    H: Deref<Target: ModelOwner + Sized>,
+    S: Scheme,
+{
     /// Reads a sensor in the present state; `None` where the read-out names what the model lacks
     /// or the twist is undefined. Only an inertial measurement unit costs a force evaluation.
-    pub fn read(&self, readout: &Readout<M::Precision>) -> Option<Reading<RealOf<M>>> {
+    pub fn read(
+        &self,
+        readout: &Readout<<H::Target as ModelOwner>::Precision>,
+    ) -> Option<Reading<RealOf<H::Target>>> {
         read(self.model(), self.state(), self.step_size(), readout)
     }
 }

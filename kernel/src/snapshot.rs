@@ -6,13 +6,15 @@
 //! plant of the same model, scheme and step, on whatever target, goes on with the very same bits.
 //! Bytes that do not fit are refused and change nothing.
 
+use core::ops::Deref;
+
 use crate::geometry::{F64, Geometry};
 use crate::inputs::{Input, InputKind};
 use crate::model::{ModelOwner, ModelRef};
 use crate::plant::Plant;
 use crate::real::Real;
 use crate::schemes::Scheme;
-use crate::words::{Fnv1a, Word, WordSource, WordVisitor, Words};
+use crate::words::{Finite, Fnv1a, Word, WordSource, WordVisitor, Words};
 
 const MAGIC: [u8; 4] = *b"DBDS";
 /// Of the layout; another one is refused.
@@ -62,7 +64,11 @@ impl core::fmt::Display for SnapshotError {
 
 impl core::error::Error for SnapshotError {}
 
-impl<M: ModelOwner, S: Scheme> Plant<'_, M, S> {
+impl<H, S> Plant<H, S>
+where
+    H: Deref<Target: ModelOwner + Sized>,
+    S: Scheme,
+{
     /// The bytes that a snapshot of this plant takes.
     #[must_use]
     pub fn snapshot_size(&self) -> usize {
@@ -146,11 +152,11 @@ impl<M: ModelOwner, S: Scheme> Plant<'_, M, S> {
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
         let mut hash = Fnv1a::new();
-        for byte in M::Precision::NAME.bytes() {
+        for byte in <H::Target as ModelOwner>::Precision::NAME.bytes() {
             hash.word(Word::I32(i32::from(byte)));
         }
-        if M::Precision::ORIENTATION != F64::ORIENTATION {
-            for byte in M::Precision::ORIENTATION.bytes() {
+        if <H::Target as ModelOwner>::Precision::ORIENTATION != F64::ORIENTATION {
+            for byte in <H::Target as ModelOwner>::Precision::ORIENTATION.bytes() {
                 hash.word(Word::I32(i32::from(byte)));
             }
         }
@@ -287,18 +293,6 @@ struct Count(usize);
 impl WordVisitor for Count {
     fn word(&mut self, word: Word) {
         self.0 += word.size();
-    }
-}
-
-struct Finite(bool);
-
-impl WordVisitor for Finite {
-    fn word(&mut self, word: Word) {
-        self.0 &= match word {
-            Word::F32(x) => x.is_finite(),
-            Word::F64(x) => x.is_finite(),
-            Word::I32(_) | Word::U64(_) => true,
-        };
     }
 }
 

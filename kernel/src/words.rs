@@ -94,6 +94,19 @@ impl WordVisitor for Fnv1a {
     }
 }
 
+/// Whether every number visited so far is finite.
+pub(crate) struct Finite(pub(crate) bool);
+
+impl WordVisitor for Finite {
+    fn word(&mut self, word: Word) {
+        self.0 &= match word {
+            Word::F32(x) => x.is_finite(),
+            Word::F64(x) => x.is_finite(),
+            Word::I32(_) | Word::U64(_) => true,
+        };
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -56,13 +56,13 @@ mod roots {
     macro_rules! root {
         ($name:ident, $model:ty, $scheme:ty, $plant:expr) => {
             #[inline(never)]
-            fn $name(plant: &mut Plant<'static, $model, $scheme>) -> Status {
+            fn $name(plant: &mut Plant<&'static $model, $scheme>) -> Status {
                 $plant;
                 plant.step()
             }
         };
     }
-    type Root<M, S> = fn(&mut Plant<'static, M, S>) -> Status;
+    type Root<M, S> = fn(&mut Plant<&'static M, S>) -> Status;
     firmware::shipped!(roots);
 
     /// Linked only where a step can panic.
