@@ -4,6 +4,7 @@ pub mod modes;
 
 use std::path::Path;
 
+use dbd_kernel::attitude::Attitude as _;
 use dbd_kernel::builder::{LineLaw, ModelBuilder, Stars};
 use dbd_kernel::{
     BodyIndex, BodyState, F64, Geometry, ModelOwner, Plant, Quaternion, Scheme, State, Vec3,
@@ -54,7 +55,7 @@ pub fn at<P: Geometry>(position: [f64; 3]) -> BodyState<P> {
 fn local<P: Geometry>(model: &Bench<P>, body: BodyIndex, points: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let Some(state) = model.initial().get(body.row()) else { return points.to_vec() };
     let rotation =
-        Quaternion::<f64>::from_f64(P::orientation_to_f64(&state.orientation)).rotation();
+        Quaternion::<f64>::from_f64(P::Orientation::to_f64(&state.orientation)).rotation();
     let centre = Vec3::<f64>::from_f64(P::position_to_f64(&state.position));
     let turn = |p: &[f64; 3]| rotation.to_body(Vec3::from_f64(*p) - centre).to_f64();
     points.iter().map(turn).collect()

@@ -7,9 +7,9 @@
 
 use core::marker::PhantomData;
 
+use dbd_kernel::BodyState;
 use dbd_kernel::Scheme;
 use dbd_kernel::model::{ModelOwner, ModelRef, Terms};
-use dbd_kernel::state::BodyState;
 
 /// The model, for this scheme only.
 #[derive(Clone, Copy, Debug)]

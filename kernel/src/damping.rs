@@ -12,13 +12,15 @@
 //! and of torsion springs; a damped bushing or point on a line has the law `c·v_rel`, whose torque
 //! vanishes only with its deflection.
 
+use crate::attitude::Attitude as _;
+use crate::body::{Body, BodyState};
 use crate::elements::clearance;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::geometry::Geometry;
-use crate::groups::{self, End, Placed, Places};
-use crate::model::{Body, BodyIndex, Group, Law, ModelRef, Terms};
+use crate::index::BodyIndex;
+use crate::model::{Group, Law, ModelRef, Terms};
+use crate::pose::{End, Placed, Places, placed};
 use crate::real::Real;
-use crate::state::BodyState;
 use crate::vector::Vec3;
 
 /// How a scheme treats dampers.
@@ -182,8 +184,7 @@ fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
     let elements = group.elements();
     for i in 0..elements {
         let i = if REVERSE { elements - 1 - i } else { i };
-        let (Some(element), Some(&whole)) =
-            (groups::placed(model, places, (0, group), i), dampers.get(i))
+        let (Some(element), Some(&whole)) = (placed(model, places, (0, group), i), dampers.get(i))
         else {
             continue;
         };
@@ -320,7 +321,7 @@ fn torsion<P: Geometry, T: Terms>(
         return;
     };
     let (row_a, row_b) = (spring.a.row(), spring.b.row());
-    let relative = P::relative(
+    let relative = P::Orientation::relative(
         bodies.get(row_a).map(|s| &s.orientation),
         bodies.get(row_b).map(|s| &s.orientation),
     );

@@ -5,13 +5,12 @@
 //! stepped them. Sums run in ascending order of bodies, groups, springs and loads.
 
 use crate::elements::gravity;
-use crate::elements::load::LoadWindow;
-use crate::elements::torsion_spring::{TorsionSpring, Twist};
-use crate::geometry::{FrameOf, Geometry, RealOf};
-use crate::groups::{Places, each_element, place_bodies};
-use crate::model::{Law, ModelOwner};
+use crate::geometry::Geometry;
+use crate::model::{FrameOf, Law, ModelOwner, RealOf};
+use crate::pose::{Places, each_element, place_bodies, twist_of};
 use crate::real::Real;
-use crate::state::{BodyState, State};
+use crate::schedule::LoadWindow;
+use crate::state::State;
 
 /// Energies \[J\] by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -132,15 +131,4 @@ pub fn each_extension<M: ModelOwner>(
             visit(element.number, extension);
         }
     });
-}
-
-/// The twist of a torsion spring, `None` where it is undefined.
-pub(crate) fn twist_of<P: Geometry>(
-    spring: &TorsionSpring<P::Real>,
-    bodies: &[BodyState<P>],
-    turns: i32,
-) -> Option<Twist<P::Real>> {
-    let orientation = |row: usize| bodies.get(row).map(|s| &s.orientation);
-    let relative = P::relative(orientation(spring.a.row()), orientation(spring.b.row()));
-    spring.twist(relative, &mut { turns }, false)
 }

@@ -4,11 +4,13 @@ use core::ops::Deref;
 
 use defmt::{Format, Formatter, write};
 
+use crate::attitude::Attitude as _;
+use crate::body::BodyState;
 use crate::geometry::Geometry;
 use crate::model::ModelOwner;
 use crate::plant::Plant;
 use crate::schemes::Scheme;
-use crate::state::{BodyState, State};
+use crate::state::State;
 
 impl<P: Geometry> Format for BodyState<P> {
     fn format(&self, f: Formatter<'_>) {
@@ -17,7 +19,7 @@ impl<P: Geometry> Format for BodyState<P> {
             "BodyState {{ position: {}, orientation: {}, velocity: {}, \
              angular_velocity: {} }}",
             P::position_to_f64(&self.position),
-            P::orientation_to_f64(&self.orientation),
+            P::Orientation::to_f64(&self.orientation),
             P::velocity_to_f64(&self.velocity),
             P::velocity_to_f64(&self.angular_velocity),
         );

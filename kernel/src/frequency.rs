@@ -12,16 +12,18 @@
 //! spring, adds `½·φ × τ` to the response to a turn φ in body axes (the commutator of turns), which
 //! is taken off again. Both speak for the pose, not for the future.
 
+use crate::body::{Body, BodyState};
+use crate::elements::input::InputKind;
 use crate::elements::load::LoadFrame;
-use crate::energy::twist_of;
 use crate::forces::{self, Wrench};
-use crate::geometry::{FrameOf, Geometry, RealOf};
-use crate::groups::{Places, each_element, place_bodies, placed};
-use crate::inputs::{InputKind, Signal};
-use crate::model::{Body, BodyIndex, Law, ModelOwner};
+use crate::geometry::Geometry;
+use crate::index::BodyIndex;
+use crate::model::{FrameOf, Law, ModelOwner, RealOf};
+use crate::pose::{Places, each_element, place_bodies, placed, twist_of};
 use crate::real::Real;
 use crate::rotation;
-use crate::state::{BodyState, State};
+use crate::schedule::Signal;
+use crate::state::State;
 use crate::step::Increment;
 use crate::vector::Vec3;
 

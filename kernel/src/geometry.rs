@@ -1,26 +1,26 @@
-//! The arithmetic of positions, orientations and the displacement between two points.
+//! The arithmetic of positions, velocities and the displacement between two points.
 //!
 //! Kept apart from [`Real`] because this is where precision is won or lost: a displacement of
 //! micrometres is the difference of coordinates of metres. A precision is one type that
 //! implements [`Geometry`]; laws and schemes see displacements, arms and rates as vectors of its
-//! `Real` and never a coordinate.
+//! `Real` and never a coordinate. Orientations are [`Attitude`]s, stored apart from positions.
 
 use core::fmt::Debug;
 use core::marker::PhantomData;
 
-use crate::model::ModelOwner;
+use crate::attitude::Attitude;
 use crate::real::Real;
 use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::Words;
 
-/// How a precision stores and combines positions, orientations and velocities.
+/// How a precision stores and combines positions and velocities, and which attitude goes with them.
 pub trait Geometry: Copy + Debug + Default + PartialEq + 'static {
     /// The number in which forces and rates are computed.
     type Real: Real;
     /// The stored position of a body's centre of mass, world.
     type Position: Copy + Debug + Default + PartialEq + Words;
     /// The stored orientation of a body.
-    type Orientation: Copy + Debug + Default + PartialEq + Words;
+    type Orientation: Attitude<Real = Self::Real>;
     /// A stored velocity or angular velocity, with its compensation where the precision has one.
     type Velocity: Copy + Debug + Default + PartialEq + Words;
     /// A point in body axes from the centre of mass; a point in the world for the ground.
@@ -33,7 +33,7 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + 'static {
     /// The name users give: `f64`, `f32`.
     const NAME: &'static str;
     /// How orientations are stored, in users' words.
-    const ORIENTATION: &'static str = "quaternion";
+    const ORIENTATION: &'static str = <Self::Orientation as Attitude>::NAME;
 
     /// Prepares a pose for [`Self::place`].
     fn frame(position: &Self::Position, orientation: &Self::Orientation) -> Self::Frame;
@@ -49,12 +49,6 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + 'static {
     fn to_world(frame: &Self::Frame, v: Vec3<Self::Real>) -> Vec3<Self::Real>;
     /// World axes to body axes.
     fn to_body(frame: &Self::Frame, v: Vec3<Self::Real>) -> Vec3<Self::Real>;
-    /// The orientation of the second body in the axes of the first; `None` is the world.
-    fn relative(
-        first: Option<&Self::Orientation>,
-        second: Option<&Self::Orientation>,
-    ) -> Quaternion<Self::Real>;
-
     /// The value of a stored position \[m\].
     fn position(stored: &Self::Position) -> Vec3<Self::Real>;
     /// The value of a stored velocity.
@@ -63,19 +57,11 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + 'static {
     fn accelerate(stored: &mut Self::Velocity, increment: Vec3<Self::Real>);
     /// Adds a displacement to a stored position.
     fn translate(position: &mut Self::Position, displacement: Vec3<Self::Real>);
-    /// Composes with a turn given in body axes: `q ← q ∘ turn`.
-    fn turn(orientation: &mut Self::Orientation, turn: Quaternion<Self::Real>);
-    /// Restores unit length after the turns of a step.
-    fn renormalise(orientation: &mut Self::Orientation);
 
     /// Rounds a world position \[m\] once.
     fn position_from_f64(position: [f64; 3]) -> Self::Position;
     /// The position in double precision \[m\].
     fn position_to_f64(position: &Self::Position) -> [f64; 3];
-    /// Rounds a unit quaternion once, scalar first.
-    fn orientation_from_f64(orientation: [f64; 4]) -> Self::Orientation;
-    /// The unit quaternion in double precision, scalar first.
-    fn orientation_to_f64(orientation: &Self::Orientation) -> [f64; 4];
     /// Rounds a velocity once.
     fn velocity_from_f64(velocity: [f64; 3]) -> Self::Velocity;
     /// The velocity in double precision.
@@ -86,15 +72,10 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + 'static {
     fn local_to_f64(local: &Self::Local) -> [f64; 3];
 }
 
-/// The real number of a model's precision.
-pub type RealOf<M> = <<M as ModelOwner>::Precision as Geometry>::Real;
-/// The frame of a model's precision.
-pub type FrameOf<M> = <<M as ModelOwner>::Precision as Geometry>::Frame;
-
-/// Floating-point geometry: everything is stored in the `Real` itself.
+/// Floating-point geometry: everything is stored in the `Real` itself, orientations as `A`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Float<R>(PhantomData<R>);
+pub struct Float<R, A = Quaternion<R>>(PhantomData<(R, A)>);
 
 /// Double precision throughout.
 pub type F64 = Float<f64>;
@@ -123,10 +104,10 @@ impl Named for f32 {
     const NAME: &'static str = "f32";
 }
 
-impl<R: Real + Named> Geometry for Float<R> {
+impl<R: Real + Named, A: Attitude<Real = R>> Geometry for Float<R, A> {
     type Real = R;
     type Position = Vec3<R>;
-    type Orientation = Quaternion<R>;
+    type Orientation = A;
     type Velocity = Vec3<R>;
     type Local = Vec3<R>;
     type Location = Vec3<R>;
@@ -135,7 +116,7 @@ impl<R: Real + Named> Geometry for Float<R> {
     const NAME: &'static str = R::NAME;
 
     #[inline(always)]
-    fn frame(position: &Vec3<R>, orientation: &Quaternion<R>) -> Pose<R> {
+    fn frame(position: &Vec3<R>, orientation: &A) -> Pose<R> {
         Pose { position: *position, rotation: orientation.rotation() }
     }
     #[inline(always)]
@@ -164,15 +145,6 @@ impl<R: Real + Named> Geometry for Float<R> {
         frame.rotation.to_body(v)
     }
     #[inline(always)]
-    fn relative(first: Option<&Quaternion<R>>, second: Option<&Quaternion<R>>) -> Quaternion<R> {
-        match (first, second) {
-            (Some(a), Some(b)) => a.conjugate().product(*b),
-            (Some(a), None) => a.conjugate(),
-            (None, Some(b)) => *b,
-            (None, None) => Quaternion::IDENTITY,
-        }
-    }
-    #[inline(always)]
     fn position(stored: &Vec3<R>) -> Vec3<R> {
         *stored
     }
@@ -188,25 +160,11 @@ impl<R: Real + Named> Geometry for Float<R> {
     fn translate(position: &mut Vec3<R>, displacement: Vec3<R>) {
         *position = *position + displacement;
     }
-    #[inline(always)]
-    fn turn(orientation: &mut Quaternion<R>, turn: Quaternion<R>) {
-        *orientation = orientation.product(turn);
-    }
-    #[inline(always)]
-    fn renormalise(orientation: &mut Quaternion<R>) {
-        *orientation = orientation.renormalised();
-    }
     fn position_from_f64(position: [f64; 3]) -> Vec3<R> {
         Vec3::from_f64(position)
     }
     fn position_to_f64(position: &Vec3<R>) -> [f64; 3] {
         position.to_f64()
-    }
-    fn orientation_from_f64(orientation: [f64; 4]) -> Quaternion<R> {
-        Quaternion::from_f64(orientation)
-    }
-    fn orientation_to_f64(orientation: &Quaternion<R>) -> [f64; 4] {
-        orientation.to_f64()
     }
     fn velocity_from_f64(velocity: [f64; 3]) -> Vec3<R> {
         Vec3::from_f64(velocity)

@@ -4,15 +4,23 @@
 //! constraints and no matrices (Franco & Degani, Appl. Sci. 2026, 16, 2297). The same scene,
 //! scheme, precision and step give the same bits on every target.
 //!
-//! The modules in the order in which a step uses them:
+//! The modules in the order of the road; each uses only those before it (a test holds it to that):
 //!
-//! - [`real`], [`geometry`], [`vector`]: the arithmetic. A precision is a type: [`F64`], [`F32`];
-//!   [`euler`]: the paper's angles in place of quaternions.
-//! - [`model`]: constants of bodies and elements; [`elements`]: their laws, one per file.
-//! - [`state`]: plain data and its hash; [`words`]: its words in order.
-//! - [`forces`]: one evaluation; [`step`]: kick and drift; [`rotation`], [`damping`].
-//! - [`schemes`]: how they make a step; [`plant`]: model, scheme, step and state together.
+//! - [`words`], `square_root`, [`real`], [`vector`], `arctangent`: the arithmetic, and the words in
+//!   which it is stored.
+//! - `compositions`, [`index`]: coefficients, and names of a model's parts.
+//! - [`attitude`], [`geometry`], [`euler`], [`loose`]: a precision is a type: [`F64`], [`F32`]; an
+//!   orientation is a quaternion or, as in the paper, angles.
+//! - [`body`], [`rotation`]: one rigid body, and how it turns.
+//! - [`status`], [`elements`], [`schedule`]: what can fail; the laws, one per file; what happens when.
+//! - [`model`], [`state`]: read-only constants of bodies and elements; plain data and its hash.
+//! - `pose`, [`forces`], [`damping`]: where points lie; one evaluation; dampers as impulses.
+//! - [`step`], [`schemes`], [`plant`]: kick and drift; how they make a step; model, scheme, step and
+//!   state together.
 //! - [`energy`], [`frequency`]: what a state holds, how fast it can vibrate.
+//! - [`snapshot`], [`readouts`]: a state as bytes from machine to machine; what sensors see.
+//! - [`builder`], `convert`, `format`: models assembled at run time, nalgebra's types, defmt's
+//!   (features).
 //!
 //! ```
 //! use dbd_kernel::model::{Body, BodyIndex, ClearanceIndex, DamperIndex, Group, Law, Model};
@@ -65,8 +73,11 @@
 extern crate std;
 
 mod arctangent;
+pub mod attitude;
+pub mod body;
 #[cfg(feature = "heapless")]
 pub mod builder;
+mod compositions;
 #[cfg(feature = "nalgebra")]
 mod convert;
 pub mod damping;
@@ -78,15 +89,16 @@ pub mod forces;
 mod format;
 pub mod frequency;
 pub mod geometry;
-mod groups;
-pub mod inputs;
+pub mod index;
 #[cfg(feature = "micromath")]
 pub mod loose;
 pub mod model;
 pub mod plant;
+mod pose;
 pub mod readouts;
 pub mod real;
 pub mod rotation;
+pub mod schedule;
 pub mod schemes;
 pub mod snapshot;
 mod square_root;
@@ -96,6 +108,15 @@ pub mod step;
 pub mod vector;
 pub mod words;
 
+#[doc(hidden)]
+pub mod inputs {
+    //! Moved.
+    pub use crate::elements::input::{Input, InputKind, Knot};
+    pub use crate::index::InputIndex;
+    pub use crate::schedule::{KnotStep, Signal};
+}
+
+pub use body::{Body, BodyState};
 pub use elements::load::{Load, LoadFrame};
 pub use elements::point_bushing::PointBushing;
 pub use elements::point_on_line::PointOnLine;
@@ -103,12 +124,13 @@ pub use elements::torsion_spring::TorsionSpring;
 pub use elements::tsda::Tsda;
 pub use energy::Energy;
 pub use geometry::{F32, F64, Geometry};
-pub use model::{Body, BodyIndex, Model, ModelOwner};
+pub use index::BodyIndex;
+pub use model::{Model, ModelOwner};
 pub use plant::Plant;
 pub use real::Real;
 pub use schemes::{
     BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, Leapfrog, Pefrl, Rk4, Scheme, SemiImplicitEuler,
 };
-pub use state::{BodyState, State};
+pub use state::State;
 pub use status::{Failure, Status};
 pub use vector::{Quaternion, Vec3};

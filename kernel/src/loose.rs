@@ -8,7 +8,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use micromath::F32Ext;
 
-use crate::euler::{Euler, Trigonometric};
+use crate::euler::{EulerAngles, Trigonometric};
 use crate::geometry::{Float, Named};
 use crate::real::Real;
 use crate::words::{Word, WordSource};
@@ -22,9 +22,9 @@ pub struct Loose(pub f32);
 /// Loose arithmetic with quaternions.
 pub type Loose32 = Float<Loose>;
 /// Loose arithmetic with Euler angles, two sequences.
-pub type LooseEuler32 = Euler<Loose, true>;
+pub type LooseEuler32 = Float<Loose, EulerAngles<Loose, true>>;
 /// Loose arithmetic with yaw–pitch–roll alone.
-pub type LooseSingleEuler32 = Euler<Loose, false>;
+pub type LooseSingleEuler32 = Float<Loose, EulerAngles<Loose, false>>;
 
 macro_rules! operator {
     ($($operation:ident $function:ident $sign:tt;)*) => {

@@ -6,14 +6,16 @@
 
 use core::ops::Deref;
 
-use crate::elements::load::LoadWindow;
+use crate::attitude::Attitude as _;
+use crate::body::BodyState;
 use crate::forces::Wrench;
-use crate::geometry::{FrameOf, Geometry, RealOf};
-use crate::inputs::{self, InputIndex, KnotStep, Signal};
-use crate::model::{BodyIndex, ModelOwner, Terms};
+use crate::geometry::Geometry;
+use crate::index::{BodyIndex, InputIndex};
+use crate::model::{FrameOf, ModelOwner, RealOf, Terms};
 use crate::real::Real;
+use crate::schedule::{KnotStep, LoadWindow, Signal, sample};
 use crate::schemes::Scheme;
-use crate::state::{BodyState, State};
+use crate::state::State;
 use crate::status::{Cause, Failure, Status};
 use crate::step::{Diagonal, Ledger, Stepper};
 use crate::words::{Finite, Words as _};
@@ -176,7 +178,7 @@ where
             let view = self.model.view();
             let (knots, step) = (self.knots.as_ref(), self.state.step);
             let signals = self.state.signals.as_mut();
-            if inputs::sample(view.inputs, view.knots, knots, step, self.h, signals) {
+            if sample(view.inputs, view.knots, knots, step, self.h, signals) {
                 self.ledger.fresh = false;
             }
         }
@@ -351,7 +353,7 @@ fn check<M: ModelOwner>(state: &State<M>, own: &State<M>) -> Result<(), StateErr
         if !finite.0 {
             return Err(StateError::NotFinite(index));
         }
-        let q = M::Precision::orientation_to_f64(&body.orientation);
+        let q = body.orientation.to_f64();
         let norm: f64 = q.iter().map(|c| c * c).sum();
         if !((norm - 1.0).abs() < 2e-3) {
             return Err(StateError::Orientation(index));

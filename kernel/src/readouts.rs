@@ -5,13 +5,13 @@
 
 use core::ops::Deref;
 
-use crate::energy::twist_of;
+use crate::elements::input::InputKind;
 use crate::forces::{self, Record};
-use crate::geometry::{FrameOf, Geometry, RealOf};
-use crate::groups::{End, Places, place_bodies, placed};
-use crate::inputs::{InputIndex, InputKind};
-use crate::model::{BodyIndex, Law, ModelOwner};
+use crate::geometry::Geometry;
+use crate::index::{BodyIndex, InputIndex};
+use crate::model::{FrameOf, Law, ModelOwner, RealOf};
 use crate::plant::Plant;
+use crate::pose::{End, Places, place_bodies, placed, twist_of};
 use crate::real::Real;
 use crate::schemes::Scheme;
 use crate::state::State;

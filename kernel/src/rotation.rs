@@ -7,17 +7,18 @@
 //! terms are below 2.7e-20 (f64) and 1e-12 (f32) at x = 0.05, the advised limit h·ω = 0.1, and
 //! below 3e-10 and 1e-7 at x = 0.5.
 
+use crate::attitude::Attitude as _;
+use crate::body::Body;
+use crate::compositions::PEFRL;
 use crate::geometry::Geometry;
-use crate::model::Body;
 use crate::real::Real;
-use crate::schemes::pefrl;
 use crate::vector::{Quaternion, Vec3};
 
 /// Turns by the rotation vector `2·half` in body axes (exponential map).
 #[inline(always)]
 pub fn turn_by<P: Geometry>(orientation: &mut P::Orientation, half: Vec3<P::Real>) {
-    P::turn(orientation, half_turn(half));
-    P::renormalise(orientation);
+    P::Orientation::turn(orientation, half_turn(half));
+    P::Orientation::renormalise(orientation);
 }
 
 /// The free rigid rotor over `time` \[s\]: second order, reversible; with quaternions the world's
@@ -41,7 +42,7 @@ pub fn free_rotor<P: Geometry>(
     about_z::<P>(body, orientation, rate, time);
     about_y::<P>(body, orientation, rate, half);
     about_x::<P>(body, orientation, rate, half);
-    P::renormalise(orientation);
+    P::Orientation::renormalise(orientation);
 }
 
 /// The free rigid rotor over `time` \[s\], which may be negative: fourth order, reversible; with
@@ -68,7 +69,7 @@ pub fn free_rotor_of_order_four<P: Geometry>(
         (true, true, true) => return,
         _ => tumble::<P>(body, orientation, rate, time),
     }
-    P::renormalise(orientation);
+    P::Orientation::renormalise(orientation);
 }
 
 /// [`free_rotor_of_order_four`] about more than one axis.
@@ -92,7 +93,7 @@ fn tumble<P: Geometry>(
         (z, (Axis::X, one - body.ratio.y), (Axis::Y, one - body.inverse_ratio.x))
     };
     let momentum = body.inertia.scale(P::velocity(rate));
-    P::turn(orientation, half_turn(momentum * (P::Real::HALF * time / middle)));
+    P::Orientation::turn(orientation, half_turn(momentum * (P::Real::HALF * time / middle)));
     let mut turn = |axis: Axis, time: P::Real| match axis {
         Axis::X => about_x::<P>(body, orientation, rate, time),
         Axis::Y => about_y::<P>(body, orientation, rate, time),
@@ -103,9 +104,9 @@ fn tumble<P: Geometry>(
     } else if other == zero {
         turn(first, share * time);
     } else {
-        for (i, &drift) in pefrl::DRIFTS.iter().enumerate() {
+        for (i, &drift) in PEFRL.drifts.iter().enumerate() {
             turn(first, P::Real::from_f64(drift) * (share * time));
-            if let Some(&kick) = pefrl::KICKS.get(i) {
+            if let Some(&kick) = PEFRL.kicks.get(i) {
                 turn(second, P::Real::from_f64(kick) * (other * time));
             }
         }
@@ -165,7 +166,7 @@ fn about_x<P: Geometry>(
     let y = t.sine * (body.ratio.x * w.z) - t.versine * w.y;
     let z = -(t.sine * (body.inverse_ratio.x * w.y)) - t.versine * w.z;
     P::accelerate(rate, Vec3::new(zero, y, z));
-    P::turn(orientation, Quaternion::new(t.half_cos, t.half_sin, zero, zero));
+    P::Orientation::turn(orientation, Quaternion::new(t.half_cos, t.half_sin, zero, zero));
 }
 
 #[inline(always)]
@@ -184,7 +185,7 @@ fn about_y<P: Geometry>(
     let z = t.sine * (body.ratio.y * w.x) - t.versine * w.z;
     let x = -(t.sine * (body.inverse_ratio.y * w.z)) - t.versine * w.x;
     P::accelerate(rate, Vec3::new(x, zero, z));
-    P::turn(orientation, Quaternion::new(t.half_cos, zero, t.half_sin, zero));
+    P::Orientation::turn(orientation, Quaternion::new(t.half_cos, zero, t.half_sin, zero));
 }
 
 #[inline(always)]
@@ -203,7 +204,7 @@ fn about_z<P: Geometry>(
     let x = t.sine * (body.ratio.z * w.y) - t.versine * w.x;
     let y = -(t.sine * (body.inverse_ratio.z * w.x)) - t.versine * w.y;
     P::accelerate(rate, Vec3::new(x, y, zero));
-    P::turn(orientation, Quaternion::new(t.half_cos, zero, zero, t.half_sin));
+    P::Orientation::turn(orientation, Quaternion::new(t.half_cos, zero, zero, t.half_sin));
 }
 
 #[cfg(test)]

@@ -8,8 +8,8 @@
 
 use core::ops::Deref;
 
+use crate::elements::input::{Input, InputKind};
 use crate::geometry::{F64, Geometry};
-use crate::inputs::{Input, InputKind};
 use crate::model::{ModelOwner, ModelRef};
 use crate::plant::Plant;
 use crate::real::Real;
@@ -155,8 +155,9 @@ where
         for byte in <H::Target as ModelOwner>::Precision::NAME.bytes() {
             hash.word(Word::I32(i32::from(byte)));
         }
-        if <H::Target as ModelOwner>::Precision::ORIENTATION != F64::ORIENTATION {
-            for byte in <H::Target as ModelOwner>::Precision::ORIENTATION.bytes() {
+        let orientation = <H::Target as ModelOwner>::Precision::ORIENTATION;
+        if orientation != F64::ORIENTATION {
+            for byte in orientation.bytes() {
                 hash.word(Word::I32(i32::from(byte)));
             }
         }

@@ -3,66 +3,9 @@
 //! Per body position, orientation, velocity (world) and angular velocity (body axes), then the
 //! torsion springs' turn counts, then the step counter. Nothing here is a cache.
 
-use crate::geometry::Geometry;
+use crate::body::BodyState;
 use crate::model::ModelOwner;
 use crate::words::{Fnv1a, Word, WordSource, WordVisitor, Words};
-
-/// The state of one body.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct BodyState<P: Geometry> {
-    /// \[m\] position of the centre of mass, world.
-    pub position: P::Position,
-    /// Orientation, body → world.
-    pub orientation: P::Orientation,
-    /// \[m/s\] velocity of the centre of mass, world.
-    pub velocity: P::Velocity,
-    /// \[rad/s\] angular velocity, body axes.
-    pub angular_velocity: P::Velocity,
-}
-
-impl<P: Geometry> BodyState<P> {
-    /// A state rounded once from double precision: position \[m\], unit quaternion (scalar first,
-    /// body → world), velocity \[m/s\] (world), angular velocity \[rad/s\] (body axes).
-    pub fn from_f64(
-        position: [f64; 3],
-        orientation: [f64; 4],
-        velocity: [f64; 3],
-        angular_velocity: [f64; 3],
-    ) -> Self {
-        Self {
-            position: P::position_from_f64(position),
-            orientation: P::orientation_from_f64(orientation),
-            velocity: P::velocity_from_f64(velocity),
-            angular_velocity: P::velocity_from_f64(angular_velocity),
-        }
-    }
-
-    /// The same state in another precision.
-    pub fn convert<Q: Geometry>(&self) -> BodyState<Q> {
-        BodyState::from_f64(
-            P::position_to_f64(&self.position),
-            P::orientation_to_f64(&self.orientation),
-            P::velocity_to_f64(&self.velocity),
-            P::velocity_to_f64(&self.angular_velocity),
-        )
-    }
-}
-
-impl<P: Geometry> Words for BodyState<P> {
-    fn visit(&self, visitor: &mut impl WordVisitor) {
-        self.position.visit(visitor);
-        self.orientation.visit(visitor);
-        self.velocity.visit(visitor);
-        self.angular_velocity.visit(visitor);
-    }
-
-    fn fill(&mut self, source: &mut impl WordSource) {
-        self.position.fill(source);
-        self.orientation.fill(source);
-        self.velocity.fill(source);
-        self.angular_velocity.fill(source);
-    }
-}
 
 /// The state of a plant, owned in the shape of its model; `Copy` where the model's sizes are
 /// const generics.

@@ -1,6 +1,6 @@
 //! What a step reports. A failure latches: no later step runs and nothing is reset in secret.
 
-use crate::model::BodyIndex;
+use crate::index::BodyIndex;
 
 /// The status of a plant after a step.
 #[must_use = "a failed step leaves the plant where it failed"]

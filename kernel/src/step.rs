@@ -4,16 +4,15 @@
 //! `(h·D⁻¹)·Q`, a drift changes poses; the diagonal h·D⁻¹ is computed once per (model, step),
 //! D the diagonal of masses and principal inertias (Franco & Degani 2026, eq. 7–8).
 
+use crate::body::{Body, BodyState};
 use crate::damping;
-use crate::elements::load::LoadWindow;
 use crate::forces::{self, Wrench};
 use crate::geometry::Geometry;
-use crate::groups::{Places, place_bodies};
-use crate::inputs::Signal;
-use crate::model::{Body, ModelRef, Terms};
+use crate::model::{ModelRef, Terms};
+use crate::pose::{Places, place_bodies};
 use crate::real::Real;
 use crate::rotation;
-use crate::state::BodyState;
+use crate::schedule::{LoadWindow, Signal};
 use crate::status::Cause;
 use crate::vector::Vec3;
 

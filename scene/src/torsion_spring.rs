@@ -34,7 +34,8 @@ pub(crate) fn read_all(
 
 #[cfg(test)]
 mod tests {
-    use dbd_kernel::{F64, Geometry, Vec3};
+    use dbd_kernel::attitude::Attitude as _;
+    use dbd_kernel::{Quaternion, Vec3};
 
     use crate::example;
 
@@ -60,7 +61,7 @@ mod tests {
         assert_eq!((second.stiffness, second.preload), (6.0, 0.0));
         let hand = Some(&states[1].orientation);
         for (spring, a) in [(first, Some(&states[0].orientation)), (second, None)] {
-            let twist = spring.twist(F64::relative(a, hand), &mut 0, true).unwrap();
+            let twist = spring.twist(Quaternion::relative(a, hand), &mut 0, true).unwrap();
             assert!(twist.angle.abs() < 1e-15, "{:e}", twist.angle);
             assert_eq!(spring.damper.row(), None);
         }

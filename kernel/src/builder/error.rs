@@ -1,6 +1,6 @@
 //! Why an element could not be added, and what was meant.
 
-use crate::model::BodyIndex;
+use crate::index::BodyIndex;
 
 /// Why an element could not be added; the builder is then as it was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

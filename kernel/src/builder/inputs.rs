@@ -1,8 +1,9 @@
 //! Inputs of a model under construction: driven by the caller, or by a table.
 
 use crate::builder::{BuildError, ModelBuilder, Part, Quantity, check, finite, room};
+use crate::elements::input::{Input, InputKind, Knot};
 use crate::geometry::Geometry;
-use crate::inputs::{Input, InputIndex, InputKind, Knot};
+use crate::index::InputIndex;
 use crate::real::Real;
 
 impl<

@@ -12,16 +12,18 @@ pub use error::{BuildError, Part, Quantity};
 
 use heapless::Vec;
 
+use crate::attitude::Attitude as _;
+use crate::body::{Body, BodyState};
+use crate::elements::input::{Input, Knot};
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_on_line::PointOnLine;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::geometry::Geometry;
-use crate::inputs::{Input, Knot};
-use crate::model::{Body, BodyIndex, ClearanceIndex, DamperIndex, Group, Law};
+use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
+use crate::model::{Group, Law};
 use crate::real::Real;
-use crate::state::BodyState;
 use crate::vector::{Quaternion, Vec3};
 
 /// Stars of TSDAs between two bodies: what a joint expands into.
@@ -169,7 +171,7 @@ impl<
         let triangle = plausible(x, y, z) && plausible(y, z, x) && plausible(z, x, y);
         check(finite(&inertia) && triangle, Quantity::Inertia)?;
         let known = P::position(&state.position).is_finite()
-            && finite(&P::orientation_to_f64(&state.orientation))
+            && finite(&P::Orientation::to_f64(&state.orientation))
             && P::velocity(&state.velocity).is_finite()
             && P::velocity(&state.angular_velocity).is_finite();
         check(known, Quantity::State)?;
@@ -339,7 +341,7 @@ impl<
         check(preload.is_finite(), Quantity::Load)?;
         room(&self.torsions, 1, Part::Torsions)?;
         let orientation = |body: BodyIndex| match self.initial.get(body.row()) {
-            Some(state) => Quaternion::<f64>::from_f64(P::orientation_to_f64(&state.orientation)),
+            Some(state) => Quaternion::<f64>::from_f64(P::Orientation::to_f64(&state.orientation)),
             None => Quaternion::IDENTITY,
         };
         let [a, b] = between;

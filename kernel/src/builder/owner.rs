@@ -4,12 +4,11 @@ use core::marker::PhantomData;
 
 use heapless::Vec;
 
+use crate::body::BodyState;
 use crate::builder::ModelBuilder;
-use crate::elements::load::LoadWindow;
 use crate::geometry::Geometry;
-use crate::inputs::{KnotStep, Signal};
 use crate::model::{AllTerms, ModelOwner, ModelRef};
-use crate::state::BodyState;
+use crate::schedule::{KnotStep, LoadWindow, Signal};
 
 impl<
     P: Geometry,

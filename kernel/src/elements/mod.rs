@@ -5,6 +5,7 @@
 
 pub mod clearance;
 pub mod gravity;
+pub mod input;
 pub mod load;
 pub mod point_bushing;
 pub mod point_on_line;

@@ -12,7 +12,7 @@
 //! stage of a step ever meets it.
 
 use crate::arctangent::atan2;
-use crate::model::{BodyIndex, DamperIndex};
+use crate::index::{BodyIndex, DamperIndex};
 use crate::real::Real;
 use crate::vector::{Quaternion, Vec3};
 

@@ -9,25 +9,25 @@
 //! a point of the first body joined to each of one or three points of the second. A revolute is
 //! two stars that share three points, a spherical joint one star of three, a raw TSDA one of one.
 
-mod indices;
 mod owned;
 mod terms;
 
-pub use indices::{BodyIndex, ClearanceIndex, DamperIndex};
+pub use crate::body::Body;
+pub use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
 pub use owned::Model;
 pub use terms::{AllTerms, CountedTerms, Terms};
 
 use core::marker::PhantomData;
 
-use crate::elements::load::{Load, LoadWindow};
+use crate::body::BodyState;
+use crate::elements::input::{Input, Knot};
+use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_on_line::PointOnLine;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
-use crate::geometry::{Geometry, RealOf};
-use crate::inputs::{Input, Knot, KnotStep, Signal};
-use crate::real::Real;
-use crate::state::BodyState;
+use crate::geometry::Geometry;
+use crate::schedule::{KnotStep, LoadWindow, Signal};
 use crate::vector::Vec3;
 
 /// The law that a group's elements follow.
@@ -84,44 +84,6 @@ impl Group {
     pub const fn points(&self) -> usize {
         let blocks = if self.shared { 1 } else { self.stars as usize };
         self.stars as usize + blocks * self.arms as usize
-    }
-}
-
-/// A rigid body: mass, principal inertia and what is derived from them, rounded once each.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Body<R> {
-    /// \[kg\] mass, > 0.
-    pub mass: R,
-    /// \[kg·m²\] principal inertia (Ix, Iy, Iz) about the centre of mass, body axes, > 0.
-    pub inertia: Vec3<R>,
-    /// \[1/kg\] inverse mass.
-    pub inverse_mass: R,
-    /// \[1/(kg·m²)\] inverse inertia.
-    pub inverse_inertia: Vec3<R>,
-    /// (Iz/Iy, Ix/Iz, Iy/Ix): how a rotation about x, y, z carries the next axis' rate over.
-    pub ratio: Vec3<R>,
-    /// (Iy/Iz, Iz/Ix, Ix/Iy).
-    pub inverse_ratio: Vec3<R>,
-}
-
-impl<R: Real> Body<R> {
-    /// A body of mass \[kg\] and principal inertia \[kg·m²\].
-    pub fn from_f64(mass: f64, inertia: [f64; 3]) -> Self {
-        let [x, y, z] = inertia;
-        Self {
-            mass: R::from_f64(mass),
-            inertia: Vec3::from_f64(inertia),
-            inverse_mass: R::from_f64(1.0 / mass),
-            inverse_inertia: Vec3::from_f64([1.0 / x, 1.0 / y, 1.0 / z]),
-            ratio: Vec3::from_f64([z / y, x / z, y / x]),
-            inverse_ratio: Vec3::from_f64([y / z, z / x, x / y]),
-        }
-    }
-
-    /// The same body in another precision: the stored mass and inertia, all else derived anew.
-    pub fn convert<Q: Real>(&self) -> Body<Q> {
-        Body::from_f64(self.mass.to_f64(), self.inertia.to_f64())
     }
 }
 
@@ -201,3 +163,8 @@ pub trait ModelOwner {
     /// One place per knot.
     fn per_knot(&self) -> Self::PerKnot;
 }
+
+/// The real number of a model's precision.
+pub type RealOf<M> = <<M as ModelOwner>::Precision as Geometry>::Real;
+/// The frame of a model's precision.
+pub type FrameOf<M> = <<M as ModelOwner>::Precision as Geometry>::Frame;

@@ -2,16 +2,18 @@
 
 use core::marker::PhantomData;
 
-use crate::elements::load::{Load, LoadWindow};
+use crate::body::{Body, BodyState};
+use crate::elements::input::{Input, InputKind, Knot};
+use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_on_line::PointOnLine;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::geometry::Geometry;
-use crate::inputs::{Input, InputKind, Knot, KnotStep, Signal};
-use crate::model::{Body, BodyIndex, CountedTerms, DamperIndex, Group, Law, ModelOwner, ModelRef};
+use crate::index::{BodyIndex, DamperIndex};
+use crate::model::{CountedTerms, Group, Law, ModelOwner, ModelRef};
 use crate::real::Real;
-use crate::state::BodyState;
+use crate::schedule::{KnotStep, LoadWindow, Signal};
 use crate::vector::Vec3;
 
 /// A model whose sizes are const generics. A kind that a scene lacks has count 0, the default.

@@ -8,13 +8,13 @@
 //! iteration halves the limit and dissipates `h·ω²·E` per mode. Dampers are explicit forces.
 //! Keeps linear momentum to rounding, angular momentum to first order.
 
+use crate::body::BodyState;
 use crate::damping::Damping;
 use crate::geometry::Geometry;
 use crate::model::Terms;
 use crate::real::Real;
 use crate::rotation;
 use crate::schemes::Scheme;
-use crate::state::BodyState;
 use crate::status::Cause;
 use crate::step::{Increment, Stepper};
 

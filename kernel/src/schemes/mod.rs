@@ -1,12 +1,13 @@
 //! Time-stepping schemes, one per file, behind one trait.
 
 mod blanes_moan;
+mod compose;
 mod dbd;
 mod dbd_p1;
 mod dbd_p2;
 mod explicit;
 mod leapfrog;
-pub(crate) mod pefrl;
+mod pefrl;
 mod rk4;
 mod semi_implicit_euler;
 

@@ -7,6 +7,7 @@
 //! the step by a damper to about 2.78·m/c. Keeps linear momentum to rounding, angular momentum
 //! and energy to fourth order only: they drift.
 
+use crate::body::BodyState;
 use crate::damping::Damping;
 use crate::geometry::Geometry;
 use crate::model::Terms;
@@ -14,7 +15,6 @@ use crate::real::Real;
 use crate::rotation;
 use crate::schemes::Scheme;
 use crate::schemes::dbd::{accelerate, each};
-use crate::state::BodyState;
 use crate::status::Cause;
 use crate::step::{Increment, Stepper};
 use crate::vector::Vec3;

@@ -9,10 +9,11 @@ pub(crate) use driven::{Drive, NoAnchor};
 
 use std::collections::BTreeMap;
 
+use dbd_kernel::attitude::Attitude as _;
 use dbd_kernel::energy::each_extension;
 use dbd_kernel::model::{ClearanceIndex, DamperIndex, Group, Law};
 use dbd_kernel::{
-    Body, BodyIndex, BodyState, F64, Geometry, Load, PointBushing, PointOnLine, State,
+    Body, BodyIndex, BodyState, F64, Geometry, Load, PointBushing, PointOnLine, Quaternion, State,
     TorsionSpring, Tsda, Vec3,
 };
 
@@ -305,7 +306,7 @@ impl Assembly {
     ) -> Result<(), Defect> {
         index(self.model.torsions.len(), 1, "torsion springs")?;
         let orientation = |body| self.state(body).map(|state| &state.orientation);
-        let relative = F64::relative(orientation(pair.a), orientation(pair.b));
+        let relative = Quaternion::relative(orientation(pair.a), orientation(pair.b));
         let axis = self.vector_in(pair.a, axis_w);
         let damper = self.add_dampers(spring.damping, 1)?;
         self.model.torsions.push(TorsionSpring {

@@ -3,11 +3,15 @@
 //! `(model, frames) => placed elements`, for all that looks at elements one by one: dampers,
 //! energies, frequencies. The force evaluation places whole stars instead, each point once.
 
+use crate::attitude::Attitude as _;
+use crate::body::BodyState;
+use crate::elements::input::InputKind;
 use crate::elements::point_on_line::Projection;
+use crate::elements::torsion_spring::{TorsionSpring, Twist};
 use crate::geometry::Geometry;
-use crate::inputs::{InputKind, Signal};
-use crate::model::{BodyIndex, Group, Law, ModelRef, Terms};
-use crate::state::BodyState;
+use crate::index::BodyIndex;
+use crate::model::{Group, Law, ModelRef, Terms};
+use crate::schedule::Signal;
 use crate::vector::Vec3;
 
 /// Computes the frames of all bodies.
@@ -179,4 +183,16 @@ pub(crate) fn each_element<'m, P: Geometry, T: Terms>(
             }
         }
     }
+}
+
+/// The twist of a torsion spring, `None` where it is undefined.
+pub(crate) fn twist_of<P: Geometry>(
+    spring: &TorsionSpring<P::Real>,
+    bodies: &[BodyState<P>],
+    turns: i32,
+) -> Option<Twist<P::Real>> {
+    let orientation = |row: usize| bodies.get(row).map(|s| &s.orientation);
+    let relative =
+        P::Orientation::relative(orientation(spring.a.row()), orientation(spring.b.row()));
+    spring.twist(relative, &mut { turns }, false)
 }

@@ -1,6 +1,15 @@
-//! Indices of a model's parts: small, `Copy`, with a value that stands for the world or for none.
+//! Indices of a model's parts: small, `Copy`; some have a value that stands for the world or for
+//! "not there".
 
-use crate::inputs::InputIndex;
+/// The index of an input.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct InputIndex(pub u16);
+
+/// The index of a torsion spring.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct TorsionIndex(pub u16);
 
 /// The index of a body, or the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,7 +23,7 @@ impl BodyIndex {
     /// Indices from here on are the ground's; a model has at most so many bodies.
     pub const FIRST_ANCHOR: u16 = 0xff00;
 
-    /// The ground as moved by input `input`, an [`crate::inputs::InputKind::Anchor`].
+    /// The ground as moved by input `input`, an [`crate::elements::input::InputKind::Anchor`].
     ///
     /// # Panics
     /// Where the input's index is above 254.

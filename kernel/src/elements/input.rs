@@ -1,0 +1,149 @@
+//! What an input's signal does to a mechanism, and the table that may drive it.
+//!
+//! `scene => constants`. A signal is a force, a torque, a tension or a displacement of the ground;
+//! it is set by the caller or follows knots that are held or linear, see [`crate::schedule`].
+
+use crate::elements::load::LoadFrame;
+use crate::geometry::Geometry;
+use crate::index::BodyIndex;
+use crate::real::Real;
+use crate::vector::Vec3;
+
+/// What an input's signal does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum InputKind<P: Geometry> {
+    /// A force \[N\] along a direction at a point of a body.
+    Force {
+        /// The body.
+        body: BodyIndex,
+        /// The point in body axes.
+        point: P::Local,
+        /// Unit direction.
+        direction: Vec3<P::Real>,
+        /// The direction's axes.
+        frame: LoadFrame,
+    },
+    /// A torque \[N·m\] about an axis on a body.
+    Torque {
+        /// The body.
+        body: BodyIndex,
+        /// Unit axis.
+        axis: Vec3<P::Real>,
+        /// The axis' axes.
+        frame: LoadFrame,
+    },
+    /// A torque \[N·m\] on B about an axis of A, on A the opposite.
+    JointTorque {
+        /// First body.
+        a: BodyIndex,
+        /// Second body.
+        b: BodyIndex,
+        /// Unit axis in A's axes.
+        axis: Vec3<P::Real>,
+    },
+    /// A tension \[N\] along a TSDA beside its spring's: the actuator of the TSDA.
+    Actuator {
+        /// The TSDA's group.
+        group: u16,
+        /// Its place in the group.
+        element: u16,
+    },
+    /// A displacement \[m\] of ground points along a direction, with its rate \[m/s\]. The points
+    /// are those of the elements whose body is [`BodyIndex::anchor`] of this input.
+    Anchor {
+        /// Unit direction, world axes.
+        direction: Vec3<P::Real>,
+    },
+}
+
+/// An input of a model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Input<P: Geometry> {
+    /// What its signal does.
+    pub kind: InputKind<P>,
+    /// Its value at t = 0 where no table drives it.
+    pub value: P::Real,
+    /// Its first knot among the model's knots.
+    pub knot: u16,
+    /// The number of its knots; 0 where the caller drives it.
+    pub knots: u16,
+}
+
+impl<P: Geometry> Input<P> {
+    /// Whether the precision holds its value and its table; `knots` are those of all inputs.
+    #[must_use]
+    pub fn is_finite(&self, knots: &[Knot<P::Real>]) -> bool {
+        let first = self.knot as usize;
+        let knots = knots.get(first..first + self.knots as usize).unwrap_or(&[]);
+        let mut rows = knots.iter().enumerate();
+        self.value.is_finite() && rows.all(|(i, knot)| knot.is_finite(knots.get(i + 1)))
+    }
+
+    /// The same input in another precision.
+    pub fn convert<Q: Geometry>(&self) -> Input<Q> {
+        let vector = |v: Vec3<P::Real>| Vec3::from_f64(v.to_f64());
+        let kind = match self.kind {
+            InputKind::Force { body, point, direction, frame } => InputKind::Force {
+                body,
+                point: Q::local_from_f64(P::local_to_f64(&point)),
+                direction: vector(direction),
+                frame,
+            },
+            InputKind::Torque { body, axis, frame } => {
+                InputKind::Torque { body, axis: vector(axis), frame }
+            }
+            InputKind::JointTorque { a, b, axis } => {
+                InputKind::JointTorque { a, b, axis: vector(axis) }
+            }
+            InputKind::Actuator { group, element } => InputKind::Actuator { group, element },
+            InputKind::Anchor { direction } => InputKind::Anchor { direction: vector(direction) },
+        };
+        let value = Q::Real::from_f64(self.value.to_f64());
+        Input { kind, value, knot: self.knot, knots: self.knots }
+    }
+}
+
+/// A knot of an input's table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Knot<R> {
+    /// \[s\] from when it holds.
+    pub time: f64,
+    /// The value at its time.
+    pub value: R,
+    /// The value's rate \[1/s\] until the next knot; 0 where the table is held.
+    pub slope: R,
+}
+
+impl<R: Real> Knot<R> {
+    /// Knot `i` of a table of (time \[s\], value) with ascending times; `None` beyond its end.
+    pub fn of_table(table: &[[f64; 2]], i: usize, linear: bool) -> Option<Self> {
+        let [time, value] = *table.get(i)?;
+        let slope = match table.get(i + 1) {
+            Some([next, then]) if linear => (then - value) / (next - time),
+            _ => 0.0,
+        };
+        Some(Self { time, value: R::from_f64(value), slope: R::from_f64(slope) })
+    }
+
+    /// Whether the precision holds every value from t = 0 to the next knot, and what makes it up.
+    #[must_use]
+    pub fn is_finite(&self, next: Option<&Self>) -> bool {
+        let slope = self.slope.to_f64();
+        let rise = match next {
+            Some(next) if slope != 0.0 => slope * (next.time - self.time),
+            _ => 0.0,
+        };
+        // A table may begin long before the first step.
+        let begun = if self.time < 0.0 { self.time } else { 0.0 };
+        self.value.is_finite()
+            && self.slope.is_finite()
+            && [rise, begun].into_iter().all(|number| R::from_f64(number).is_finite())
+    }
+
+    /// The same knot in another precision.
+    pub fn convert<Q: Real>(&self) -> Knot<Q> {
+        let (value, slope) = (self.value.to_f64(), self.slope.to_f64());
+        Knot { time: self.time, value: Q::from_f64(value), slope: Q::from_f64(slope) }
+    }
+}

@@ -1,0 +1,48 @@
+//! Torsion springs, summed after all groups.
+//!
+//! `(springs, orientations, turn counts) => torques; turn counts, settled at a step's boundary`.
+
+use crate::attitude::Attitude as _;
+use crate::body::BodyState;
+use crate::forces::{Record, Wrench, apply};
+use crate::geometry::Geometry;
+use crate::model::{ModelRef, Terms};
+use crate::pose::{End, Places};
+use crate::vector::Vec3;
+
+/// The torsion springs.
+#[inline(always)]
+pub(super) fn torsions<P: Geometry, T: Terms, const EXPLICIT: bool>(
+    model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    bodies: &[BodyState<P>],
+    turns: &mut [i32],
+    settle: bool,
+    wrenches: &mut [Wrench<P::Real>],
+) -> Result<(), u16> {
+    for (i, (spring, turns)) in model.torsions.iter().zip(turns).enumerate() {
+        let (a, b) = (bodies.get(spring.a.row()), bodies.get(spring.b.row()));
+        let relative =
+            P::Orientation::relative(a.map(|s| &s.orientation), b.map(|s| &s.orientation));
+        let Some(twist) = spring.twist(relative, turns, settle) else {
+            return Err(i as u16);
+        };
+        let end_a = End::new(model, places, spring.a, Some(bodies));
+        let damper = match spring.damper.row() {
+            Some(row) if EXPLICIT && T::DAMPERS => model.dampers.get(row),
+            _ => None,
+        };
+        let torque = match damper {
+            Some(&damping) => {
+                let end_b = End::new(model, places, spring.b, Some(bodies));
+                let rate = end_a.to_axes(end_b.spin - end_a.spin);
+                spring.damped_torque(damping, &twist, rate)
+            }
+            None => spring.torque(&twist),
+        };
+        let torque = end_a.to_world(torque);
+        let record = Record { force: Vec3::ZERO, torque_a: -torque, torque_b: torque };
+        apply(wrenches, spring.a.row(), spring.b.row(), &record);
+    }
+    Ok(())
+}

@@ -1,0 +1,198 @@
+//! What happens when: load windows and tables in whole steps, the inputs' present signals.
+//!
+//! `(times, step) => windows, knots in steps; (table, step n) => signal`. A signal is sampled for the
+//! start of a step, when the one before it ends, and held for all its stages: what is read
+//! between two steps is what the next one begins with. It is set by the caller, or follows a table
+//! that is held or linear between its knots:
+//! `value + slope·((n − first)·h + offset)`, n the step, `first` the knot's first step and
+//! `offset` what lies between the knot's time and that step.
+
+use crate::elements::input::{Input, Knot};
+use crate::geometry::Geometry;
+use crate::real::Real;
+use crate::words::{WordSource, WordVisitor, Words};
+
+/// The steps during which a load acts: `first ≤ n < end`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LoadWindow {
+    /// First step.
+    pub first: u64,
+    /// First step after the window.
+    pub end: u64,
+}
+
+impl LoadWindow {
+    /// The steps of size `step` \[s\] that start within \[from, until).
+    #[must_use]
+    pub fn new(from: f64, until: f64, step: f64) -> Self {
+        Self { first: first_step(from, step), end: first_step(until, step) }
+    }
+
+    /// Whether the load acts during step `n`.
+    #[inline(always)]
+    #[must_use]
+    pub fn contains(self, n: u64) -> bool {
+        self.first <= n && n < self.end
+    }
+
+    /// Whether the load starts or ends at step `n`.
+    #[inline(always)]
+    #[must_use]
+    pub fn changes_at(self, n: u64) -> bool {
+        n == self.first || n == self.end
+    }
+}
+
+/// The first step that starts at or after `time`; a multiple of the step within 1e-9 counts as
+/// exact.
+pub(crate) fn first_step(time: f64, step: f64) -> u64 {
+    if time <= 0.0 {
+        return 0;
+    }
+    let steps = time / step;
+    // The conversion saturates: an infinite end becomes the last step that can be counted.
+    let below = steps as u64;
+    let excess = steps - below as f64;
+    if excess <= 1e-9 * steps {
+        below
+    } else {
+        // `excess` close to 1 rounds up to the same step as any other fraction.
+        below.saturating_add(1)
+    }
+}
+
+/// Where a knot lies among a plant's steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct KnotStep<R> {
+    /// The first step that starts at or after the knot's time.
+    pub first: u64,
+    /// \[s\] from the knot's time to that step's start.
+    pub offset: R,
+}
+
+impl<R: Real> KnotStep<R> {
+    /// The place of a knot at `time` \[s\] among steps of `step` \[s\].
+    #[must_use]
+    pub fn new(time: f64, step: f64) -> Self {
+        let first = first_step(time, step);
+        Self { first, offset: R::from_f64(first as f64 * step - time) }
+    }
+}
+
+/// The present value of an input and its rate.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Signal<R> {
+    /// N, N·m or m.
+    pub value: R,
+    /// m/s, of an anchor; unused by other kinds.
+    pub rate: R,
+}
+
+impl<R: Real> Signal<R> {
+    /// The same signal in another precision.
+    pub fn convert<Q: Real>(&self) -> Signal<Q> {
+        Signal { value: Q::from_f64(self.value.to_f64()), rate: Q::from_f64(self.rate.to_f64()) }
+    }
+}
+
+impl<R: Real> Words for Signal<R> {
+    fn visit(&self, visitor: &mut impl WordVisitor) {
+        visitor.word(self.value.word());
+        visitor.word(self.rate.word());
+    }
+
+    fn fill(&mut self, source: &mut impl WordSource) {
+        self.value = R::from_words(source);
+        self.rate = R::from_words(source);
+    }
+}
+
+/// Brings the signals of tables to step `n`; whether any changed.
+#[inline]
+pub(crate) fn sample<P: Geometry>(
+    inputs: &[Input<P>],
+    knots: &[Knot<P::Real>],
+    steps: &[KnotStep<P::Real>],
+    n: u64,
+    h: P::Real,
+    signals: &mut [Signal<P::Real>],
+) -> bool {
+    let mut changed = false;
+    for (input, signal) in inputs.iter().zip(signals) {
+        let range = input.knot as usize..input.knot as usize + input.knots as usize;
+        let (Some(knots), Some(steps)) = (knots.get(range.clone()), steps.get(range)) else {
+            continue;
+        };
+        let Some(now) = table(knots, steps, n, h) else { continue };
+        changed |= now != *signal;
+        *signal = now;
+    }
+    changed
+}
+
+/// The value of a table at step `n`: that of its first knot before it, `None` without knots.
+#[inline]
+fn table<R: Real>(knots: &[Knot<R>], steps: &[KnotStep<R>], n: u64, h: R) -> Option<Signal<R>> {
+    let begun = steps.partition_point(|knot| knot.first <= n);
+    let Some(row) = begun.checked_sub(1) else {
+        return knots.first().map(|knot| Signal { value: knot.value, rate: R::ZERO });
+    };
+    let (knot, step) = (knots.get(row)?, steps.get(row)?);
+    let since = R::from_u64(n - step.first) * h + step.offset;
+    Some(Signal { value: knot.value + knot.slope * since, rate: knot.slope })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn values(linear: bool, step: f64) -> [f64; 6] {
+        let (slope0, slope1) = if linear { (10.0, -5.0) } else { (0.0, 0.0) };
+        let knots = [
+            Knot { time: 0.1, value: 1.0, slope: slope0 },
+            Knot { time: 0.2, value: 2.0, slope: slope1 },
+            Knot { time: 0.4, value: 1.0, slope: 0.0 },
+        ];
+        let steps = knots.map(|knot| KnotStep::new(knot.time, step));
+        [0.0, 0.1, 0.15, 0.25, 0.4, 9.0].map(|time: f64| {
+            let n = libm::round(time / step) as u64;
+            table(&knots, &steps, n, step).unwrap().value
+        })
+    }
+
+    #[test]
+    fn tables_are_held_or_linear() {
+        assert_eq!(values(false, 0.01), [1.0, 1.0, 1.0, 2.0, 1.0, 1.0]);
+        let expected = [1.0, 1.0, 1.5, 1.75, 1.0, 1.0];
+        for (value, expected) in values(true, 0.01).into_iter().zip(expected) {
+            assert!((value - expected).abs() < 1e-12, "{value} {expected}");
+        }
+    }
+
+    #[test]
+    fn a_knot_between_two_steps_begins_at_the_later_with_its_value_there() {
+        let knots = [
+            Knot { time: 0.0, value: 0.0_f64, slope: 0.0 },
+            Knot { time: 0.015, value: 0.0, slope: 2.0 },
+        ];
+        let steps = knots.map(|knot| KnotStep::new(knot.time, 0.01));
+        let at = |n| table(&knots, &steps, n, 0.01).unwrap();
+        assert_eq!((at(1).value, at(1).rate), (0.0, 0.0));
+        assert!((at(2).value - 0.01).abs() < 1e-15 && at(2).rate == 2.0);
+    }
+
+    #[test]
+    fn windows_are_half_open_and_forgive_rounding() {
+        let window = LoadWindow::new(0.0, 2.0, 2e-5);
+        assert_eq!((window.first, window.end), (0, 100_000));
+        assert!(window.contains(0) && window.contains(99_999) && !window.contains(100_000));
+        assert_eq!(
+            LoadWindow::new(0.3, f64::INFINITY, 0.1),
+            LoadWindow { first: 3, end: u64::MAX }
+        );
+        assert_eq!(LoadWindow::new(0.25, 0.35, 0.1), LoadWindow { first: 3, end: 4 });
+    }
+}

@@ -1,0 +1,34 @@
+//! One step of a symmetric composition of drifts and kicks, for [`super::Pefrl`] and
+//! [`super::BlanesMoanS6`].
+//!
+//! `(state, composition) => state`. Sweeps lie before and after, never within: some parts of a step
+//! go backwards, where a damper would add energy.
+
+use crate::compositions::Composition;
+use crate::geometry::Geometry;
+use crate::model::Terms;
+use crate::real::Real;
+use crate::status::Cause;
+use crate::step::Stepper;
+
+/// Drifts around kicks, first and last a drift; turn counts settle at the first evaluation.
+#[inline]
+pub(super) fn compose<P: Geometry, T: Terms>(
+    stepper: &mut Stepper<'_, '_, P, T, ()>,
+    composition: &Composition,
+) -> Result<(), Cause> {
+    stepper.place_for_sweep();
+    stepper.sweep_forward();
+    let Composition { drifts, kicks } = composition;
+    let mut kicks = kicks.iter();
+    for (i, &drift) in drifts.iter().enumerate() {
+        stepper.drift_of_order_four(P::Real::from_f64(drift) * stepper.h);
+        if let Some(&kick) = kicks.next() {
+            stepper.evaluate::<false>(i == 0)?;
+            stepper.kick(P::Real::from_f64(kick));
+        }
+    }
+    stepper.place_for_sweep();
+    stepper.sweep_reverse();
+    Ok(())
+}
