@@ -48,7 +48,7 @@ fn a_spring_whose_twist_is_undefined_is_named() {
     model.add_torsion_spring([WORLD, body], [1.0, 0.0, 0.0], 0.0, 0.0, 0.0).unwrap();
     model.add_torsion_spring([WORLD, body], [0.0, 0.0, 1.0], 0.0, 0.0, 0.0).unwrap();
     let (cause, step) = failure(&model, Leapfrog, 1e-4);
-    assert_eq!(cause, Cause::UndefinedTwist { spring: 1 });
+    assert_eq!(cause, Cause::UndefinedTwist { spring: dbd_kernel::index::TorsionIndex(1) });
     // Half a turn at 2 rad/s takes π/2 s.
     assert!((15_690..15_720).contains(&step), "{step}");
 }

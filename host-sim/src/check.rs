@@ -182,7 +182,7 @@ pub fn check(scene: &Scene) -> Check {
 }
 
 fn warn_of_step(scene: &Scene, frequencies: &Frequencies, check: &mut Check) {
-    let limit = Leapfrog::STABILITY_LIMIT;
+    let limit = Leapfrog.stability_limit();
     if let Some(step) = scene.step.filter(|step| step * frequencies.bound > limit) {
         let longest = limit / frequencies.bound;
         check.warnings.push(format!(

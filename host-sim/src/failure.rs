@@ -121,7 +121,7 @@ fn describe(scene: &Scene, trouble: Trouble) -> String {
             format!("the run diverged: the velocity of body `{body}` is not finite")
         }
         Trouble::Step(Cause::UndefinedTwist { spring }) => {
-            let spring = name(&scene.torsion_names, usize::from(spring));
+            let spring = name(&scene.torsion_names, usize::from(spring.0));
             format!("the twist of {spring} is undefined: its bodies turned half a turn across it")
         }
         Trouble::Growth { growth, body } => {

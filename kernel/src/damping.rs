@@ -312,7 +312,7 @@ fn engaged<P: Geometry, T: Terms>(
 fn torsion<P: Geometry, T: Terms>(
     model: &ModelRef<'_, P, T>,
     spring: &TorsionSpring<P::Real>,
-    mut turns: i32,
+    turns: i32,
     h: P::Real,
     places: Places<'_, P>,
     bodies: &mut [BodyState<P>],
@@ -325,7 +325,7 @@ fn torsion<P: Geometry, T: Terms>(
         bodies.get(row_a).map(|s| &s.orientation),
         bodies.get(row_b).map(|s| &s.orientation),
     );
-    let Some(twist) = spring.twist(relative, &mut turns, false) else {
+    let Some(twist) = spring.twist(relative, turns) else {
         return;
     };
     let (frame_a, frame_b) = (places.frames.get(row_a), places.frames.get(row_b));

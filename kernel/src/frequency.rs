@@ -15,7 +15,7 @@
 use crate::body::{Body, BodyState};
 use crate::elements::input::InputKind;
 use crate::elements::load::LoadFrame;
-use crate::forces::{self, Wrench};
+use crate::forces::{self, At, DampersLeft, Evaluation, Instant, Turns, Wrench};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{FrameOf, Law, ModelOwner, RealOf};
@@ -249,16 +249,16 @@ pub fn estimate<M: ModelOwner>(model: &M, state: &State<M>, iterations: u32) -> 
 fn torques<M: ModelOwner>(model: &M, state: &State<M>) -> Option<M::PerBody<Wrench<RealOf<M>>>> {
     let mut frames = model.per_body(FrameOf::<M>::default());
     let mut wrenches = model.per_body(Wrench::default());
-    forces::evaluate::<M::Precision, M::Terms, false>(
+    forces::evaluate::<M::Precision, M::Terms, DampersLeft>(
         &model.view(),
-        model.per_load().as_ref(),
-        state.signals.as_ref(),
-        state.bodies.as_ref(),
-        state.turns.clone().as_mut(),
-        0,
-        false,
-        frames.as_mut(),
-        wrenches.as_mut(),
+        Instant {
+            step: 0,
+            windows: model.per_load().as_ref(),
+            signals: state.signals.as_ref(),
+            bodies: state.bodies.as_ref(),
+        },
+        Turns { counts: state.turns.clone().as_mut(), at: At::Stage },
+        Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() },
     )
     .ok()?;
     Some(wrenches)
@@ -296,16 +296,16 @@ fn largest_by_magnitude<M: ModelOwner>(
                 sign * scale,
                 moved.bodies.as_mut(),
             );
-            let turned = forces::evaluate::<M::Precision, M::Terms, false>(
+            let turned = forces::evaluate::<M::Precision, M::Terms, DampersLeft>(
                 &view,
-                windows.as_ref(),
-                state.signals.as_ref(),
-                moved.bodies.as_ref(),
-                moved.turns.as_mut(),
-                0,
-                false,
-                frames.as_mut(),
-                wrenches.as_mut(),
+                Instant {
+                    step: 0,
+                    windows: windows.as_ref(),
+                    signals: state.signals.as_ref(),
+                    bodies: moved.bodies.as_ref(),
+                },
+                Turns { counts: moved.turns.as_mut(), at: At::Stage },
+                Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() },
             );
             if turned.is_err() {
                 return (0.0, 0.0);

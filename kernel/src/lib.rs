@@ -25,8 +25,7 @@
 //! ```
 //! use dbd_kernel::model::{Body, BodyIndex, ClearanceIndex, DamperIndex, Group, Law, Model};
 //! use dbd_kernel::schemes::Leapfrog;
-//! use dbd_kernel::state::BodyState;
-//! use dbd_kernel::{F64, Plant, Tsda, Vec3};
+//! use dbd_kernel::{BodyState, F64, Plant, Tsda, Vec3};
 //!
 //! // A mass of 2 kg on a spring of 50 N/m, 0.1 m beyond its free length of 1 m.
 //! type Oscillator = Model<F64, 1, 1, 2, 1>;

@@ -194,5 +194,5 @@ pub(crate) fn twist_of<P: Geometry>(
     let orientation = |row: usize| bodies.get(row).map(|s| &s.orientation);
     let relative =
         P::Orientation::relative(orientation(spring.a.row()), orientation(spring.b.row()));
-    spring.twist(relative, &mut { turns }, false)
+    spring.twist(relative, turns)
 }

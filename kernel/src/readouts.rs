@@ -6,7 +6,7 @@
 use core::ops::Deref;
 
 use crate::elements::input::InputKind;
-use crate::forces::{self, Record};
+use crate::forces::{self, ExplicitDampers, Record};
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, InputIndex};
 use crate::model::{FrameOf, Law, ModelOwner, RealOf};
@@ -204,8 +204,9 @@ pub fn read<M: ModelOwner>(
         }
         Readout::JointForce { group } => {
             let group = view.groups.get(group as usize)?;
-            let record: Record<RealOf<M>> =
-                forces::record::<M::Precision, M::Terms, true>(&view, places, bodies, group);
+            let record: Record<RealOf<M>> = forces::record::<M::Precision, M::Terms, ExplicitDampers>(
+                &view, places, bodies, group,
+            );
             Some(Reading::Vector(-record.force))
         }
         Readout::Imu { body, point } => {

@@ -1,6 +1,6 @@
-//! What a step reports. A failure latches: no later step runs and nothing is reset in secret.
+//! What a step reports. A failure latches: no later step runs and nothing resets itself.
 
-use crate::index::BodyIndex;
+use crate::index::{BodyIndex, TorsionIndex};
 
 /// The status of a plant after a step.
 #[must_use = "a failed step leaves the plant where it failed"]
@@ -36,8 +36,8 @@ pub enum Cause {
     /// The twist of this torsion spring is undefined: its bodies turned by half a turn about an
     /// axis normal to the spring's.
     UndefinedTwist {
-        /// The spring's index among the torsion springs.
-        spring: u16,
+        /// The first such spring.
+        spring: TorsionIndex,
     },
 }
 
@@ -65,7 +65,7 @@ impl core::fmt::Display for Failure {
         match self.cause {
             Cause::NonFinite { body } => write!(f, "body {} is not finite", body.0)?,
             Cause::UndefinedTwist { spring } => {
-                write!(f, "the twist of torsion spring {spring} is undefined")?;
+                write!(f, "the twist of torsion spring {} is undefined", spring.0)?;
             }
         }
         write!(f, " after step {}", self.step)

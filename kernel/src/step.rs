@@ -6,7 +6,7 @@
 
 use crate::body::{Body, BodyState};
 use crate::damping;
-use crate::forces::{self, Wrench};
+use crate::forces::{self, At, Dampers, Evaluation, Instant, Turns, Wrench};
 use crate::geometry::Geometry;
 use crate::model::{ModelRef, Terms};
 use crate::pose::{Places, place_bodies};
@@ -44,71 +44,90 @@ pub struct Increment<R> {
     pub angular: Vec3<R>,
 }
 
-/// The wrenches that a plant keeps between steps, and what they are worth.
+/// What a plant knows of its evaluations. Never part of the state: evaluating anew gives the same
+/// bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Ledger {
+pub(crate) struct Ledger {
     /// Force evaluations performed since t = 0.
-    pub evaluations: u64,
-    /// Whether frames and wrenches are those of the present state, without dampers: a scheme
-    /// that ends on an evaluation need not begin with one. Never part of the state: evaluating
-    /// anew gives the same bits.
-    pub fresh: bool,
+    pub(crate) evaluations: u64,
+    /// Whether frames and wrenches are those of the present pose, without dampers and with settled
+    /// turn counts: a scheme that ends on an evaluation need not begin with one.
+    pub(crate) fresh: bool,
 }
 
 /// Model, state and scratch of one plant, lent for one step. `S` is the scheme's memory per body.
+///
+/// A scheme is written with its methods: [`Self::evaluate`], [`Self::kick`], [`Self::drift`], the
+/// sweeps, and [`Self::each`] for what is a scheme's own.
 pub struct Stepper<'s, 'm, P: Geometry, T, S> {
     /// The model.
-    pub model: ModelRef<'m, P, T>,
+    pub(crate) model: ModelRef<'m, P, T>,
     /// \[s\] the step size, rounded to the precision.
-    pub h: P::Real,
+    pub(crate) h: P::Real,
     /// h·D⁻¹ per body.
-    pub diagonals: &'s [Diagonal<P::Real>],
+    pub(crate) diagonals: &'s [Diagonal<P::Real>],
     /// The loads' windows.
-    pub windows: &'s [LoadWindow],
+    pub(crate) windows: &'s [LoadWindow],
     /// The inputs' signals.
-    pub signals: &'s [Signal<P::Real>],
+    pub(crate) signals: &'s [Signal<P::Real>],
     /// The bodies' states.
-    pub bodies: &'s mut [BodyState<P>],
+    pub(crate) bodies: &'s mut [BodyState<P>],
     /// The torsion springs' turn counts.
-    pub turns: &'s mut [i32],
+    pub(crate) turns: &'s mut [i32],
     /// The number of this step, from 0.
-    pub step: u64,
+    pub(crate) step: u64,
     /// The bodies' frames.
-    pub frames: &'s mut [P::Frame],
+    pub(crate) frames: &'s mut [P::Frame],
     /// The bodies' wrenches.
-    pub wrenches: &'s mut [Wrench<P::Real>],
+    pub(crate) wrenches: &'s mut [Wrench<P::Real>],
     /// The scheme's memory per body.
-    pub memory: &'s mut [S],
+    pub(crate) memory: &'s mut [S],
     /// Evaluations and the freshness of the wrenches.
-    pub ledger: &'s mut Ledger,
+    pub(crate) ledger: &'s mut Ledger,
 }
 
 impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
-    /// A force evaluation at the present pose; with `EXPLICIT` dampers act at the present
-    /// velocities, otherwise they are left to [`Self::sweep_forward`] and its reverse. `settle`
-    /// at a step's boundary brings turn counts up to date.
-    ///
-    /// # Errors
-    /// The torsion spring whose twist is undefined.
-    pub fn evaluate<const EXPLICIT: bool>(&mut self, settle: bool) -> Result<(), Cause> {
-        self.ledger.evaluations += 1;
-        self.ledger.fresh = false;
-        forces::evaluate::<P, T, EXPLICIT>(
-            &self.model,
-            self.windows,
-            self.signals,
-            self.bodies,
-            self.turns,
-            self.step,
-            settle,
-            self.frames,
-            self.wrenches,
-        )
-        .map_err(|spring| Cause::UndefinedTwist { spring })
+    /// \[s\] the step size, rounded to the precision.
+    #[must_use]
+    pub fn step_size(&self) -> P::Real {
+        self.h
     }
 
-    /// Whether the wrenches are those of the present state and this step's loads.
+    /// The bodies' states.
+    #[must_use]
+    pub fn bodies(&self) -> &[BodyState<P>] {
+        self.bodies
+    }
+
+    /// A force evaluation at the present pose: dampers act at the present velocities with
+    /// [`ExplicitDampers`](crate::forces::ExplicitDampers); with
+    /// [`DampersLeft`](crate::forces::DampersLeft) they are left to [`Self::sweep_forward`] and
+    /// its reverse. A step has one evaluation [`At::Boundary`].
+    ///
+    /// # Errors
+    /// [`Cause::UndefinedTwist`] names the torsion spring whose twist is undefined.
+    pub fn evaluate<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
+        self.ledger.evaluations += 1;
+        self.ledger.fresh = false;
+        forces::evaluate::<P, T, D>(
+            &self.model,
+            Instant {
+                step: self.step,
+                windows: self.windows,
+                signals: self.signals,
+                bodies: self.bodies,
+            },
+            Turns { counts: self.turns, at },
+            Evaluation { frames: self.frames, wrenches: self.wrenches },
+        )?;
+        self.ledger.fresh = !D::ACT && at == At::Boundary;
+        Ok(())
+    }
+
+    /// Whether the wrenches are those of the present pose and this step's loads, without dampers:
+    /// the last evaluation was of [`DampersLeft`](crate::forces::DampersLeft), [`At::Boundary`],
+    /// and nothing has moved since, be it in the step before.
     #[inline]
     #[must_use]
     pub fn is_fresh(&self) -> bool {
@@ -131,6 +150,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     /// Moves every body freely for `time` \[s\]: straight on, and as a free rotor (second order).
     #[inline]
     pub fn drift(&mut self, time: P::Real) {
+        self.ledger.fresh = false;
         for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
             P::translate(&mut state.position, P::velocity(&state.velocity) * time);
             rotation::free_rotor::<P>(
@@ -145,6 +165,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     /// [`Self::drift`] with a free rotor of fourth order; `time` may be negative.
     #[inline]
     pub fn drift_of_order_four(&mut self, time: P::Real) {
+        self.ledger.fresh = false;
         for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
             P::translate(&mut state.position, P::velocity(&state.velocity) * time);
             rotation::free_rotor_of_order_four::<P>(
@@ -192,16 +213,29 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
         }
     }
 
-    /// `(h·D⁻¹)·Q` of body `row` with the gyroscopic term `−ω × (I·ω)` at its present rate.
+    /// Visits every body with its memory, its state, `(h·D⁻¹)·Q` with the gyroscopic term
+    /// `−ω × (I·ω)` at its present rate, Q its wrench at the last evaluation, and h.
     #[inline(always)]
-    pub(crate) fn increment(
-        body: &Body<P::Real>,
-        state: &BodyState<P>,
-        wrench: &Wrench<P::Real>,
-        diagonal: &Diagonal<P::Real>,
-    ) -> Increment<P::Real> {
-        let w = P::velocity(&state.angular_velocity);
-        let torque = wrench.torque - w.cross(body.inertia.scale(w));
-        Increment { linear: wrench.force * diagonal.mass, angular: torque.scale(diagonal.inertia) }
+    pub fn each(
+        &mut self,
+        mut visit: impl FnMut(&mut S, &mut BodyState<P>, Increment<P::Real>, P::Real),
+    ) {
+        self.ledger.fresh = false;
+        let h = self.h;
+        let rows = self
+            .bodies
+            .iter_mut()
+            .zip(self.memory.iter_mut())
+            .zip(self.model.bodies)
+            .zip(self.wrenches.iter().zip(self.diagonals));
+        for (((state, memory), body), (wrench, diagonal)) in rows {
+            let w = P::velocity(&state.angular_velocity);
+            let torque = wrench.torque - w.cross(body.inertia.scale(w));
+            let increment = Increment {
+                linear: wrench.force * diagonal.mass,
+                angular: torque.scale(diagonal.inertia),
+            };
+            visit(memory, state, increment, h);
+        }
     }
 }

@@ -64,41 +64,45 @@ impl<R: Real> TorsionSpring<R> {
         }
     }
 
-    /// The twist for B's orientation `relative` in A's axes, or `None` where it is undefined.
-    ///
-    /// With `settle` the turn count is first brought to the half winding nearest the pose, which
-    /// a step does once, at its boundary.
+    /// The twist for B's orientation `relative` in A's axes at the turn count `turns`, or `None`
+    /// where it is undefined.
     #[inline(always)]
-    pub fn twist(
-        &self,
-        relative: Quaternion<R>,
-        turns: &mut i32,
-        settle: bool,
-    ) -> Option<Twist<R>> {
-        let since = relative.product(self.reference);
+    pub fn twist(&self, relative: Quaternion<R>, turns: i32) -> Option<Twist<R>> {
+        let (since, s, norm) = self.since_start(relative)?;
+        let odd = turns & 1 != 0;
+        let (w, s_of_turn) = if odd { (-since.w, -s) } else { (since.w, s) };
+        let principal = R::TWO * atan2(s_of_turn, w);
+        let angle =
+            if turns == 0 { principal } else { R::from_i32(turns) * (R::TWO * R::PI) + principal };
         let n = self.axis;
-        let s = since.v.dot(n);
+        let along = n * (since.w * since.w) + since.v.cross(n) * since.w + since.v * s;
+        Some(Twist { angle, gradient: along * (R::ONE / norm) })
+    }
+
+    /// The turn count brought to the half winding nearest the pose, which a step does once, at its
+    /// boundary; as it was where the twist is undefined.
+    #[inline(always)]
+    pub fn settled(&self, relative: Quaternion<R>, turns: i32) -> i32 {
+        let Some((since, s, _)) = self.since_start(relative) else { return turns };
+        let odd = turns & 1 != 0;
+        let (w, s) = if odd { (-since.w, -s) } else { (since.w, s) };
+        if w < R::ZERO {
+            if s > R::ZERO { turns.wrapping_add(1) } else { turns.wrapping_sub(1) }
+        } else {
+            turns
+        }
+    }
+
+    /// The rotation since t = 0, its part `v·n` along the axis and `w² + (v·n)²`, which is large
+    /// enough for a twist.
+    #[inline(always)]
+    fn since_start(&self, relative: Quaternion<R>) -> Option<(Quaternion<R>, R, R)> {
+        let since = relative.product(self.reference);
+        let s = since.v.dot(self.axis);
         let norm = since.w * since.w + s * s;
         // Written so that NaN counts as undefined, too.
         let defined = norm >= R::from_f64(LEAST_TWIST_NORM);
-        if !defined {
-            return None;
-        }
-        let odd = *turns & 1 != 0;
-        let (mut signed_w, mut signed_s) = if odd { (-since.w, -s) } else { (since.w, s) };
-        if settle && signed_w < R::ZERO {
-            *turns = if signed_s > R::ZERO { turns.wrapping_add(1) } else { turns.wrapping_sub(1) };
-            signed_w = -signed_w;
-            signed_s = -signed_s;
-        }
-        let principal = R::TWO * atan2(signed_s, signed_w);
-        let angle = if *turns == 0 {
-            principal
-        } else {
-            R::from_i32(*turns) * (R::TWO * R::PI) + principal
-        };
-        let along = n * (since.w * since.w) + since.v.cross(n) * since.w + since.v * s;
-        Some(Twist { angle, gradient: along * (R::ONE / norm) })
+        if defined { Some((since, s, norm)) } else { None }
     }
 
     /// Torque on B \[N·m\] in A's axes without damping.
@@ -150,11 +154,12 @@ mod tests {
             for i in 0..4_000 {
                 let angle = direction * 0.01 * f64::from(i);
                 // Between two settled poses a stage may look well ahead without meeting the cut.
-                let mut ahead = turns;
                 let stage = turned([0.0, 0.0, 1.0], angle + direction * 2.5);
-                let looked = spring.twist(stage, &mut ahead, false).unwrap();
+                let looked = spring.twist(stage, turns).unwrap();
                 assert!((looked.angle - angle - direction * 2.5).abs() < 1e-12);
-                let twist = spring.twist(turned([0.0, 0.0, 1.0], angle), &mut turns, true).unwrap();
+                let pose = turned([0.0, 0.0, 1.0], angle);
+                turns = spring.settled(pose, turns);
+                let twist = spring.twist(pose, turns).unwrap();
                 assert!((twist.angle - angle).abs() < 1e-12, "{} {angle}", twist.angle);
                 assert!((twist.gradient.z - 1.0).abs() < 1e-12);
             }
@@ -167,11 +172,10 @@ mod tests {
         let n = [0.6, 0.0, 0.8];
         let spring = spring(n);
         let pose = turned([0.6, 0.64, 0.48], 1.1).product(turned(n, 0.4));
-        let twist = spring.twist(pose, &mut 0, true).unwrap();
+        let twist = spring.twist(pose, spring.settled(pose, 0)).unwrap();
         for axis in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
             // A rotation of B by a small vector in A's axes multiplies from the left.
-            let at =
-                |e: f64| spring.twist(turned(axis, e).product(pose), &mut 0, true).unwrap().angle;
+            let at = |e: f64| spring.twist(turned(axis, e).product(pose), 0).unwrap().angle;
             let rate = (at(1e-5) - at(-1e-5)) / 2e-5;
             let along = Vec3::from_f64(axis).dot(twist.gradient);
             assert!((rate - along).abs() < 1e-9, "{rate} {along}");
@@ -182,16 +186,18 @@ mod tests {
     fn half_a_turn_about_a_normal_axis_has_no_twist() {
         let spring = spring([0.0, 0.0, 1.0]);
         let flipped = turned([1.0, 0.0, 0.0], core::f64::consts::PI);
-        assert_eq!(spring.twist(flipped, &mut 0, true), None);
+        assert_eq!(spring.twist(flipped, 0), None);
         let broken = Quaternion::new(f64::NAN, 0.0, 0.0, 0.0);
-        assert_eq!(spring.twist(broken, &mut 0, true), None);
+        assert_eq!(spring.twist(broken, 0), None);
     }
 
     #[test]
     fn torque_and_energy_agree() {
         let spring = spring([0.0, 0.0, 1.0]);
         let mut turns = 0;
-        let twist = spring.twist(turned([0.0, 0.0, 1.0], 0.7), &mut turns, true).unwrap();
+        let pose = turned([0.0, 0.0, 1.0], 0.7);
+        turns = spring.settled(pose, turns);
+        let twist = spring.twist(pose, turns).unwrap();
         let slope = (spring.energy(0.7 + 1e-6) - spring.energy(0.7 - 1e-6)) / 2e-6;
         assert!((spring.torque(&twist).z + slope).abs() < 1e-8);
         let damped = spring.damped_torque(2.0, &twist, Vec3::new(9.0, 9.0, 0.25));

@@ -2,14 +2,14 @@
 //!
 //! `(group, ends) => record`.
 
-use crate::forces::Record;
+use crate::forces::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::End;
 
 /// A point bushing.
 #[inline(always)]
-pub(super) fn bushing<P: Geometry, T: Terms, const EXPLICIT: bool>(
+pub(super) fn bushing<P: Geometry, T: Terms, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     end_a: &End<'_, P>,
@@ -26,7 +26,7 @@ pub(super) fn bushing<P: Geometry, T: Terms, const EXPLICIT: bool>(
     let ((a, arm_a), (b, arm_b)) = (end_a.place(a), end_b.place(b));
     let d = P::displacement(&a, &b);
     let damper = match group.damper.row() {
-        Some(row) if EXPLICIT && T::DAMPERS => model.dampers.get(row),
+        Some(row) if D::ACT && T::DAMPERS => model.dampers.get(row),
         _ => None,
     };
     let force = match damper {

@@ -3,7 +3,7 @@
 //! `(group, ends) => record`. The reaction acts at the foot of the point on its line.
 
 use crate::elements::point_on_line::Projection;
-use crate::forces::Record;
+use crate::forces::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::End;
@@ -12,7 +12,7 @@ use crate::vector::Vec3;
 /// A group of points on lines. The force on A acts at the foot: its torque is that of the star's
 /// whole pull at the line's point and of each pull along its slide.
 #[inline(always)]
-pub(super) fn lines<P: Geometry, T: Terms, const EXPLICIT: bool>(
+pub(super) fn lines<P: Geometry, T: Terms, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     end_a: &End<'_, P>,
@@ -29,7 +29,7 @@ pub(super) fn lines<P: Geometry, T: Terms, const EXPLICIT: bool>(
         return record;
     };
     let dampers = match group.damper.row() {
-        Some(row) if EXPLICIT && T::DAMPERS => model.dampers.get(row..).unwrap_or(&[]),
+        Some(row) if D::ACT && T::DAMPERS => model.dampers.get(row..).unwrap_or(&[]),
         _ => &[],
     };
     let clearance = model.clearance(group);

@@ -23,6 +23,7 @@ use crate::pose::{End, Places, place_bodies};
 use crate::real::Real;
 use crate::schedule::{LoadWindow, Signal};
 use crate::state::State;
+use crate::status::Cause;
 use crate::vector::Vec3;
 
 /// The force on a body and its torque.
@@ -47,16 +48,76 @@ impl<R: Real> Record<R> {
     const ZERO: Self = Self { force: Vec3::ZERO, torque_a: Vec3::ZERO, torque_b: Vec3::ZERO };
 }
 
+/// Whether the dampers' forces are part of an evaluation.
+pub trait Dampers {
+    /// Whether they act.
+    const ACT: bool;
+}
+
+/// Dampers act as forces at the velocities of the evaluation.
+#[derive(Clone, Copy, Debug)]
+pub struct ExplicitDampers;
+
+impl Dampers for ExplicitDampers {
+    const ACT: bool = true;
+}
+
+/// Dampers are left to the sweeps of [`crate::damping`].
+#[derive(Clone, Copy, Debug)]
+pub struct DampersLeft;
+
+impl Dampers for DampersLeft {
+    const ACT: bool = false;
+}
+
+/// Where in a step an evaluation stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum At {
+    /// Once per step, near its boundary: turn counts are settled.
+    Boundary,
+    /// Anywhere else: turn counts are only read.
+    Stage,
+}
+
+/// The torsion springs' turn counts in an evaluation.
+pub(crate) struct Turns<'s> {
+    /// One per torsion spring.
+    pub(crate) counts: &'s mut [i32],
+    /// Whether to settle them.
+    pub(crate) at: At,
+}
+
+/// What acts in a step, and the states it acts on.
+pub(crate) struct Instant<'s, P: Geometry> {
+    /// The number of the step.
+    pub(crate) step: u64,
+    /// One per load.
+    pub(crate) windows: &'s [LoadWindow],
+    /// One per input.
+    pub(crate) signals: &'s [Signal<P::Real>],
+    /// One per body.
+    pub(crate) bodies: &'s [BodyState<P>],
+}
+
+/// What an evaluation writes, one of each per body.
+pub(crate) struct Evaluation<'s, P: Geometry> {
+    /// The frames of the pose.
+    pub(crate) frames: &'s mut [P::Frame],
+    /// The wrenches.
+    pub(crate) wrenches: &'s mut [Wrench<P::Real>],
+}
+
 /// The wrenches on all bodies in a state, dampers and loads included, for steps of `step_size`
 /// \[s\] (loads act in whole steps).
 ///
 /// # Errors
-/// The index of the first torsion spring whose twist is undefined.
+/// [`Cause::UndefinedTwist`] names the first torsion spring whose twist is undefined.
 pub fn wrenches<M: ModelOwner>(
     model: &M,
     state: &State<M>,
     step_size: f64,
-) -> Result<M::PerBody<Wrench<RealOf<M>>>, u16> {
+) -> Result<M::PerBody<Wrench<RealOf<M>>>, Cause> {
     let view = model.view();
     let mut windows = model.per_load();
     for (window, load) in windows.as_mut().iter_mut().zip(view.loads) {
@@ -65,39 +126,33 @@ pub fn wrenches<M: ModelOwner>(
     let mut frames = model.per_body(FrameOf::<M>::default());
     let mut wrenches = model.per_body(Wrench::default());
     let mut turns = state.turns.clone();
-    evaluate::<M::Precision, M::Terms, true>(
+    evaluate::<M::Precision, M::Terms, ExplicitDampers>(
         &view,
-        windows.as_ref(),
-        state.signals.as_ref(),
-        state.bodies.as_ref(),
-        turns.as_mut(),
-        state.step,
-        false,
-        frames.as_mut(),
-        wrenches.as_mut(),
+        Instant {
+            step: state.step,
+            windows: windows.as_ref(),
+            signals: state.signals.as_ref(),
+            bodies: state.bodies.as_ref(),
+        },
+        Turns { counts: turns.as_mut(), at: At::Stage },
+        Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() },
     )?;
     Ok(wrenches)
 }
 
-/// One force evaluation; `frames` are those of the pose. `EXPLICIT` includes the dampers' forces
-/// at the velocities of `bodies`; `settle` brings turn counts up to date (a step's boundary).
+/// One force evaluation: `(model, instant, turn counts) => frames, wrenches, settled turn counts`.
 ///
 /// # Errors
-/// The index of the first torsion spring whose twist is undefined.
-// Slices of one plant's memory, each read or written as a whole; a struct would only rename them.
-#[allow(clippy::too_many_arguments)]
+/// [`Cause::UndefinedTwist`] names the first torsion spring whose twist is undefined.
 #[inline]
-pub(crate) fn evaluate<P: Geometry, T: Terms, const EXPLICIT: bool>(
+pub(crate) fn evaluate<P: Geometry, T: Terms, D: Dampers>(
     model: &ModelRef<'_, P, T>,
-    windows: &[LoadWindow],
-    signals: &[Signal<P::Real>],
-    bodies: &[BodyState<P>],
-    turns: &mut [i32],
-    step: u64,
-    settle: bool,
-    frames: &mut [P::Frame],
-    wrenches: &mut [Wrench<P::Real>],
-) -> Result<(), u16> {
+    instant: Instant<'_, P>,
+    turns: Turns<'_>,
+    out: Evaluation<'_, P>,
+) -> Result<(), Cause> {
+    let Instant { step, windows, signals, bodies } = instant;
+    let Evaluation { frames, wrenches } = out;
     place_bodies(bodies, frames);
     start(model, windows, step, frames, wrenches);
     let places = Places { frames, signals };
@@ -106,12 +161,12 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, const EXPLICIT: bool>(
     }
     if T::TSDAS || T::BUSHINGS || T::LINES {
         for group in model.groups {
-            let record = record::<P, T, EXPLICIT>(model, places, bodies, group);
+            let record = record::<P, T, D>(model, places, bodies, group);
             apply(wrenches, group.a.row(), group.b.row(), &record);
         }
     }
     if T::TORSIONS {
-        torsions::torsions::<P, T, EXPLICIT>(model, places, bodies, turns, settle, wrenches)?;
+        torsions::torsions::<P, T, D>(model, places, bodies, turns, wrenches)?;
     }
     for (wrench, frame) in wrenches.iter_mut().zip(frames.iter()) {
         wrench.torque = P::to_body(frame, wrench.torque);
@@ -121,27 +176,25 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, const EXPLICIT: bool>(
 
 /// The record of one group.
 #[inline(always)]
-pub(crate) fn record<P: Geometry, T: Terms, const EXPLICIT: bool>(
+pub(crate) fn record<P: Geometry, T: Terms, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     bodies: &[BodyState<P>],
     group: &Group,
 ) -> Record<P::Real> {
-    let moving = EXPLICIT && T::DAMPERS && group.damper.row().is_some();
+    let moving = D::ACT && T::DAMPERS && group.damper.row().is_some();
     let moving = if moving { Some(bodies) } else { None };
     let end_a = End::new(model, places, group.a, moving);
     let end_b = End::new(model, places, group.b, moving);
     match group.law {
         Law::Tsda if T::TSDAS && group.arms == 3 => {
-            stars::stars::<P, T, EXPLICIT, 3>(model, group, &end_a, &end_b)
+            stars::stars::<P, T, D, 3>(model, group, &end_a, &end_b)
         }
-        Law::Tsda if T::TSDAS => stars::stars::<P, T, EXPLICIT, 1>(model, group, &end_a, &end_b),
+        Law::Tsda if T::TSDAS => stars::stars::<P, T, D, 1>(model, group, &end_a, &end_b),
         Law::PointBushing if T::BUSHINGS => {
-            bushing::bushing::<P, T, EXPLICIT>(model, group, &end_a, &end_b)
+            bushing::bushing::<P, T, D>(model, group, &end_a, &end_b)
         }
-        Law::PointOnLine if T::LINES => {
-            lines::lines::<P, T, EXPLICIT>(model, group, &end_a, &end_b)
-        }
+        Law::PointOnLine if T::LINES => lines::lines::<P, T, D>(model, group, &end_a, &end_b),
         _ => Record::ZERO,
     }
 }

@@ -4,7 +4,7 @@
 //! added in the order of its elements; force and torque on A add star by star, the torque on B arm
 //! by arm.
 
-use crate::forces::Record;
+use crate::forces::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::End;
@@ -12,7 +12,7 @@ use crate::vector::Vec3;
 
 /// A group of TSDA stars with `ARMS` arms each.
 #[inline(always)]
-pub(super) fn stars<P: Geometry, T: Terms, const EXPLICIT: bool, const ARMS: usize>(
+pub(super) fn stars<P: Geometry, T: Terms, D: Dampers, const ARMS: usize>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     end_a: &End<'_, P>,
@@ -31,7 +31,7 @@ pub(super) fn stars<P: Geometry, T: Terms, const EXPLICIT: bool, const ARMS: usi
     let (arm_points, _) = arm_points.as_chunks::<ARMS>();
     let (tsdas, _) = tsdas.as_chunks::<ARMS>();
     let dampers = match group.damper.row() {
-        Some(row) if EXPLICIT && T::DAMPERS => model.dampers.get(row..),
+        Some(row) if D::ACT && T::DAMPERS => model.dampers.get(row..),
         _ => None,
     }
     .map(|dampers| dampers.as_chunks::<ARMS>().0);

@@ -4,32 +4,37 @@
 
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
-use crate::forces::{Record, Wrench, apply};
+use crate::forces::{At, Dampers, Record, Turns, Wrench, apply};
 use crate::geometry::Geometry;
+use crate::index::TorsionIndex;
 use crate::model::{ModelRef, Terms};
 use crate::pose::{End, Places};
+use crate::status::Cause;
 use crate::vector::Vec3;
 
 /// The torsion springs.
 #[inline(always)]
-pub(super) fn torsions<P: Geometry, T: Terms, const EXPLICIT: bool>(
+pub(super) fn torsions<P: Geometry, T: Terms, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     bodies: &[BodyState<P>],
-    turns: &mut [i32],
-    settle: bool,
+    turns: Turns<'_>,
     wrenches: &mut [Wrench<P::Real>],
-) -> Result<(), u16> {
-    for (i, (spring, turns)) in model.torsions.iter().zip(turns).enumerate() {
+) -> Result<(), Cause> {
+    let settle = turns.at == At::Boundary;
+    for (i, (spring, turns)) in model.torsions.iter().zip(turns.counts).enumerate() {
         let (a, b) = (bodies.get(spring.a.row()), bodies.get(spring.b.row()));
         let relative =
             P::Orientation::relative(a.map(|s| &s.orientation), b.map(|s| &s.orientation));
-        let Some(twist) = spring.twist(relative, turns, settle) else {
-            return Err(i as u16);
+        if settle {
+            *turns = spring.settled(relative, *turns);
+        }
+        let Some(twist) = spring.twist(relative, *turns) else {
+            return Err(Cause::UndefinedTwist { spring: TorsionIndex(i as u16) });
         };
         let end_a = End::new(model, places, spring.a, Some(bodies));
         let damper = match spring.damper.row() {
-            Some(row) if EXPLICIT && T::DAMPERS => model.dampers.get(row),
+            Some(row) if D::ACT && T::DAMPERS => model.dampers.get(row),
             _ => None,
         };
         let torque = match damper {

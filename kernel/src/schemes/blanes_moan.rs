@@ -25,11 +25,14 @@ impl Scheme for BlanesMoanS6 {
     const ORDER: u32 = 4;
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Sweeps;
-    const STABILITY_LIMIT: f64 = 3.133;
     type Memory<P: Geometry> = ();
 
     fn evaluations(&self) -> u32 {
         BLANES_MOAN_S6.kicks.len() as u32
+    }
+
+    fn stability_limit(&self) -> f64 {
+        3.133
     }
 
     #[inline]

@@ -5,6 +5,7 @@
 //! go backwards, where a damper would add energy.
 
 use crate::compositions::Composition;
+use crate::forces::{At, DampersLeft};
 use crate::geometry::Geometry;
 use crate::model::Terms;
 use crate::real::Real;
@@ -24,7 +25,8 @@ pub(super) fn compose<P: Geometry, T: Terms>(
     for (i, &drift) in drifts.iter().enumerate() {
         stepper.drift_of_order_four(P::Real::from_f64(drift) * stepper.h);
         if let Some(&kick) = kicks.next() {
-            stepper.evaluate::<false>(i == 0)?;
+            let at = if i == 0 { At::Boundary } else { At::Stage };
+            stepper.evaluate::<DampersLeft>(at)?;
             stepper.kick(P::Real::from_f64(kick));
         }
     }

@@ -10,6 +10,7 @@
 
 use crate::body::BodyState;
 use crate::damping::Damping;
+use crate::forces::{At, ExplicitDampers};
 use crate::geometry::Geometry;
 use crate::model::Terms;
 use crate::real::Real;
@@ -81,7 +82,6 @@ impl Scheme for Dbd {
     const ORDER: u32 = 1;
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
-    const STABILITY_LIMIT: f64 = 2.0;
     type Memory<P: Geometry> = DbdMemory<P>;
 
     fn evaluations(&self) -> u32 {
@@ -89,7 +89,7 @@ impl Scheme for Dbd {
     }
 
     fn stability_limit(&self) -> f64 {
-        if self.newton == 0 { Self::STABILITY_LIMIT } else { 1.0 }
+        if self.newton == 0 { 2.0 } else { 1.0 }
     }
 
     #[inline]
@@ -97,12 +97,12 @@ impl Scheme for Dbd {
         &self,
         stepper: &mut Stepper<'_, '_, P, T, DbdMemory<P>>,
     ) -> Result<(), Cause> {
-        stepper.evaluate::<true>(true)?;
-        each(stepper, |memory, state, increment, _| memory.predict(state, increment));
-        stepper.evaluate::<true>(false)?;
-        each(stepper, |memory, state, increment, _| memory.correct(state, increment));
-        stepper.evaluate::<true>(false)?;
-        each(stepper, |memory, state, last, h| {
+        stepper.evaluate::<ExplicitDampers>(At::Boundary)?;
+        stepper.each(|memory, state, increment, _| memory.predict(state, increment));
+        stepper.evaluate::<ExplicitDampers>(At::Stage)?;
+        stepper.each(|memory, state, increment, _| memory.correct(state, increment));
+        stepper.evaluate::<ExplicitDampers>(At::Stage)?;
+        stepper.each(|memory, state, last, h| {
             memory.correct(state, memory.mean(last));
             advance(state, h);
         });
@@ -118,8 +118,8 @@ pub(super) fn iterate<P: Geometry, T: Terms>(
 ) -> Result<(), Cause> {
     let half = P::Real::HALF;
     for _ in 0..iterations {
-        stepper.evaluate::<true>(false)?;
-        each(stepper, |memory, state, increment, h| {
+        stepper.evaluate::<ExplicitDampers>(At::Stage)?;
+        stepper.each(|memory, state, increment, h| {
             *state = memory.start;
             // h·v_n + (h²·D⁻¹)·Q, with h²·D⁻¹ = h·(h·D⁻¹).
             let linear = P::velocity(&state.velocity) * h + increment.linear * h;
@@ -130,25 +130,6 @@ pub(super) fn iterate<P: Geometry, T: Terms>(
         });
     }
     Ok(())
-}
-
-/// Visits every body with its memory, its state, `(h·D⁻¹)·Q` and h.
-#[inline(always)]
-pub(super) fn each<P: Geometry, T: Terms, S>(
-    stepper: &mut Stepper<'_, '_, P, T, S>,
-    mut visit: impl FnMut(&mut S, &mut BodyState<P>, Increment<P::Real>, P::Real),
-) {
-    let h = stepper.h;
-    let rows = stepper
-        .bodies
-        .iter_mut()
-        .zip(stepper.memory.iter_mut())
-        .zip(stepper.model.bodies)
-        .zip(stepper.wrenches.iter().zip(stepper.diagonals));
-    for (((state, memory), body), (wrench, diagonal)) in rows {
-        let increment = Stepper::<'_, '_, P, T, S>::increment(body, state, wrench, diagonal);
-        visit(memory, state, increment, h);
-    }
 }
 
 /// Adds an increment to the velocities.

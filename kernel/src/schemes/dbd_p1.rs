@@ -8,9 +8,10 @@
 //! For the record: the energies that the paper reports exclude it.
 
 use crate::damping::Damping;
+use crate::forces::{At, ExplicitDampers};
 use crate::geometry::Geometry;
 use crate::model::Terms;
-use crate::schemes::dbd::{each, iterate};
+use crate::schemes::dbd::iterate;
 use crate::schemes::{DbdMemory, Scheme};
 use crate::status::Cause;
 use crate::step::Stepper;
@@ -31,7 +32,6 @@ impl Scheme for DbdP1 {
     const ORDER: u32 = 1;
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
-    const STABILITY_LIMIT: f64 = LIMITS[0];
     type Memory<P: Geometry> = DbdMemory<P>;
 
     fn evaluations(&self) -> u32 {
@@ -48,13 +48,13 @@ impl Scheme for DbdP1 {
         &self,
         stepper: &mut Stepper<'_, '_, P, T, DbdMemory<P>>,
     ) -> Result<(), Cause> {
-        stepper.evaluate::<true>(true)?;
-        each(stepper, |memory, state, increment, h| {
+        stepper.evaluate::<ExplicitDampers>(At::Boundary)?;
+        stepper.each(|memory, state, increment, h| {
             memory.predict(state, increment);
             memory.reposition(state, h);
         });
-        stepper.evaluate::<true>(false)?;
-        each(stepper, |memory, state, last, h| {
+        stepper.evaluate::<ExplicitDampers>(At::Stage)?;
+        stepper.each(|memory, state, last, h| {
             memory.correct(state, memory.mean(last));
             memory.reposition(state, h);
         });

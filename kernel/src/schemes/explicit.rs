@@ -7,6 +7,7 @@
 //! dampers the bits are those of the scheme itself. For comparison; not advised.
 
 use crate::damping::Damping;
+use crate::forces::{Dampers, ExplicitDampers};
 use crate::geometry::Geometry;
 use crate::model::Terms;
 use crate::schemes::Scheme;
@@ -23,7 +24,7 @@ pub trait Kicked: Scheme {
     ///
     /// # Errors
     /// As [`Scheme::step`].
-    fn step_with<P: Geometry, T: Terms, const EXPLICIT: bool>(
+    fn step_with<P: Geometry, T: Terms, D: Dampers>(
         stepper: &mut Stepper<'_, '_, P, T, Self::Memory<P>>,
     ) -> Result<(), Cause>;
 }
@@ -38,11 +39,14 @@ impl<S: Kicked> Scheme for Explicit<S> {
     const ORDER: u32 = S::ORDER;
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
-    const STABILITY_LIMIT: f64 = S::STABILITY_LIMIT;
     type Memory<P: Geometry> = S::Memory<P>;
 
     fn evaluations(&self) -> u32 {
         S::EXPLICIT_EVALUATIONS
+    }
+
+    fn stability_limit(&self) -> f64 {
+        self.0.stability_limit()
     }
 
     #[inline]
@@ -50,6 +54,6 @@ impl<S: Kicked> Scheme for Explicit<S> {
         &self,
         stepper: &mut Stepper<'_, '_, P, T, S::Memory<P>>,
     ) -> Result<(), Cause> {
-        S::step_with::<P, T, true>(stepper)
+        S::step_with::<P, T, ExplicitDampers>(stepper)
     }
 }

@@ -9,6 +9,7 @@
 //! (see [`crate::damping`]); they cost no stability and keep second order.
 
 use crate::damping::Damping;
+use crate::forces::{At, Dampers, DampersLeft};
 use crate::geometry::Geometry;
 use crate::model::Terms;
 use crate::real::Real;
@@ -26,11 +27,14 @@ impl Scheme for Leapfrog {
     const ORDER: u32 = 2;
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Sweeps;
-    const STABILITY_LIMIT: f64 = 2.0;
     type Memory<P: Geometry> = ();
 
     fn evaluations(&self) -> u32 {
         1
+    }
+
+    fn stability_limit(&self) -> f64 {
+        2.0
     }
 
     #[inline]
@@ -38,7 +42,7 @@ impl Scheme for Leapfrog {
         &self,
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {
-        Self::step_with::<P, T, false>(stepper)
+        Self::step_with::<P, T, DampersLeft>(stepper)
     }
 }
 
@@ -46,22 +50,21 @@ impl Kicked for Leapfrog {
     const EXPLICIT_EVALUATIONS: u32 = 2;
 
     #[inline]
-    fn step_with<P: Geometry, T: Terms, const EXPLICIT: bool>(
+    fn step_with<P: Geometry, T: Terms, D: Dampers>(
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {
-        if EXPLICIT || !stepper.is_fresh() {
-            stepper.evaluate::<EXPLICIT>(true)?;
+        if D::ACT || !stepper.is_fresh() {
+            stepper.evaluate::<D>(At::Boundary)?;
         }
-        if !EXPLICIT {
+        if !D::ACT {
             stepper.sweep_forward();
         }
         stepper.kick(P::Real::HALF);
         stepper.drift(stepper.h);
-        stepper.evaluate::<EXPLICIT>(true)?;
+        stepper.evaluate::<D>(At::Boundary)?;
         stepper.kick(P::Real::HALF);
-        if !EXPLICIT {
+        if !D::ACT {
             stepper.sweep_reverse();
-            stepper.ledger.fresh = true;
         }
         Ok(())
     }

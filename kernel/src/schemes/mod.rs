@@ -27,7 +27,7 @@ use crate::model::Terms;
 use crate::status::Cause;
 use crate::step::Stepper;
 
-/// A one-step scheme of fixed cost.
+/// A one-step scheme of fixed cost. Others may write further ones with what [`Stepper`] offers.
 pub trait Scheme: Copy {
     /// The name users give, also in summaries and golden tables.
     const NAME: &'static str;
@@ -37,20 +37,16 @@ pub trait Scheme: Copy {
     const ORDER_DAMPED: u32;
     /// How dampers act.
     const DAMPING: Damping;
-    /// Largest stable `ω_max·h` of an undamped oscillator; all smaller ones are stable, too.
-    const STABILITY_LIMIT: f64;
     /// Memory per body that the scheme needs within a step.
     type Memory<P: Geometry>: Copy + Default;
 
     /// Force evaluations per step, when nothing changes between steps.
     fn evaluations(&self) -> u32;
 
-    /// [`Self::STABILITY_LIMIT`] with the scheme's own parameters.
-    fn stability_limit(&self) -> f64 {
-        Self::STABILITY_LIMIT
-    }
+    /// Largest stable `ω_max·h` of an undamped oscillator; all smaller ones are stable, too.
+    fn stability_limit(&self) -> f64;
 
-    /// One step of the size `stepper.h`. Ends with the state at the next step's start; the
+    /// One step of the size [`Stepper::step_size`]. Ends with the state at the next step's start; the
     /// caller advances the counter and looks for non-finite velocities.
     ///
     /// # Errors

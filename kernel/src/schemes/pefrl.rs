@@ -27,11 +27,14 @@ impl Scheme for Pefrl {
     const ORDER: u32 = 4;
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Sweeps;
-    const STABILITY_LIMIT: f64 = 2.989;
     type Memory<P: Geometry> = ();
 
     fn evaluations(&self) -> u32 {
         PEFRL.kicks.len() as u32
+    }
+
+    fn stability_limit(&self) -> f64 {
+        2.989
     }
 
     #[inline]

@@ -9,12 +9,13 @@
 
 use crate::body::BodyState;
 use crate::damping::Damping;
+use crate::forces::{At, ExplicitDampers};
 use crate::geometry::Geometry;
 use crate::model::Terms;
 use crate::real::Real;
 use crate::rotation;
 use crate::schemes::Scheme;
-use crate::schemes::dbd::{accelerate, each};
+use crate::schemes::dbd::accelerate;
 use crate::status::Cause;
 use crate::step::{Increment, Stepper};
 use crate::vector::Vec3;
@@ -42,11 +43,14 @@ impl Scheme for Rk4 {
     const ORDER: u32 = 4;
     const ORDER_DAMPED: u32 = 4;
     const DAMPING: Damping = Damping::Explicit;
-    const STABILITY_LIMIT: f64 = 2.828;
     type Memory<P: Geometry> = Rk4Memory<P>;
 
     fn evaluations(&self) -> u32 {
         4
+    }
+
+    fn stability_limit(&self) -> f64 {
+        2.828
     }
 
     #[inline]
@@ -61,17 +65,18 @@ impl Scheme for Rk4 {
         // The weight of each of the first three stages and the part of a step from the start to
         // the stage after it.
         for (i, (weight, part)) in [(one, half), (two, half), (two, one)].into_iter().enumerate() {
-            stepper.evaluate::<true>(i == 0)?;
-            each(stepper, |memory, state, acceleration, h| {
+            let at = if i == 0 { At::Boundary } else { At::Stage };
+            stepper.evaluate::<ExplicitDampers>(at)?;
+            stepper.each(|memory, state, acceleration, h| {
                 let velocity = memory.add(state, acceleration, weight);
                 *state = memory.start;
                 accelerate(state, scaled(acceleration, part));
                 memory.turned = advance::<P>(state, velocity, part * h);
             });
         }
-        stepper.evaluate::<true>(false)?;
+        stepper.evaluate::<ExplicitDampers>(At::Stage)?;
         let sixth = P::Real::from_f64(1.0 / 6.0);
-        each(stepper, |memory, state, acceleration, h| {
+        stepper.each(|memory, state, acceleration, h| {
             memory.add(state, acceleration, one);
             *state = memory.start;
             accelerate(state, scaled(memory.accelerations, sixth));

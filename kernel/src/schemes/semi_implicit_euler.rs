@@ -9,6 +9,7 @@
 //! drift, too, they would lower the limit towards √2.
 
 use crate::damping::Damping;
+use crate::forces::{At, Dampers, DampersLeft};
 use crate::geometry::Geometry;
 use crate::model::Terms;
 use crate::real::Real;
@@ -26,11 +27,14 @@ impl Scheme for SemiImplicitEuler {
     const ORDER: u32 = 1;
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Sweeps;
-    const STABILITY_LIMIT: f64 = 2.0;
     type Memory<P: Geometry> = ();
 
     fn evaluations(&self) -> u32 {
         1
+    }
+
+    fn stability_limit(&self) -> f64 {
+        2.0
     }
 
     #[inline]
@@ -38,7 +42,7 @@ impl Scheme for SemiImplicitEuler {
         &self,
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {
-        Self::step_with::<P, T, false>(stepper)
+        Self::step_with::<P, T, DampersLeft>(stepper)
     }
 }
 
@@ -46,15 +50,15 @@ impl Kicked for SemiImplicitEuler {
     const EXPLICIT_EVALUATIONS: u32 = 1;
 
     #[inline]
-    fn step_with<P: Geometry, T: Terms, const EXPLICIT: bool>(
+    fn step_with<P: Geometry, T: Terms, D: Dampers>(
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {
-        stepper.evaluate::<EXPLICIT>(true)?;
-        if !EXPLICIT {
+        stepper.evaluate::<D>(At::Boundary)?;
+        if !D::ACT {
             stepper.sweep_forward();
         }
         stepper.kick(P::Real::ONE);
-        if !EXPLICIT {
+        if !D::ACT {
             stepper.sweep_reverse();
         }
         stepper.drift(stepper.h);
