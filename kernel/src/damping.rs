@@ -15,11 +15,12 @@
 use crate::attitude::Attitude as _;
 use crate::body::{Body, BodyState};
 use crate::elements::clearance;
+use crate::elements::point_law::PointLaw as _;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelRef, Terms};
-use crate::pose::{End, Placed, Places, placed};
+use crate::pose::{End, MOST_ARMS, Placed, Places, Spot, each_star, placed};
 use crate::real::Real;
 use crate::vector::Vec3;
 
@@ -188,24 +189,11 @@ fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
         else {
             continue;
         };
-        let d = element.displacement;
         let damping = engaged(model, &element, whole);
         if T::CLEARANCES && damping == P::Real::ZERO {
             continue;
         }
-        // The directions, and how many of them the law damps.
-        let (mut directions, count) = match group.law {
-            Law::Tsda if T::TSDAS => {
-                let along = d * d.dot(d).sqrt().reciprocal_or_zero();
-                ([along, Vec3::ZERO, Vec3::ZERO], 1)
-            }
-            Law::PointBushing if T::BUSHINGS => (Vec3::axes(), 3),
-            Law::PointOnLine if T::LINES => {
-                let [n, m] = element.direction.normals();
-                ([n, m, Vec3::ZERO], 2)
-            }
-            _ => continue,
-        };
+        let (mut directions, count) = element.element.damped(&element.stretch);
         if REVERSE && count > 1 {
             directions.swap(0, count - 1);
         }
@@ -220,14 +208,8 @@ fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
     }
 }
 
-/// Most points of the second body that one of the first is joined to.
-const MOST_ARMS: usize = 3;
-
-/// Where a point lies, and its arm.
-type Place<P> = (<P as Geometry>::Location, Vec3<<P as Geometry>::Real>);
-
-/// The stars of a group without clearance: each point is placed once, for a sweep moves nothing,
-/// and the two bodies' velocities are at hand until the last element.
+/// The stars of a group without clearance: the two bodies' velocities are at hand until the last
+/// element.
 #[inline(always)]
 fn sweep_stars<P: Geometry, T: Terms, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
@@ -237,49 +219,33 @@ fn sweep_stars<P: Geometry, T: Terms, const REVERSE: bool>(
     places: Places<'_, P>,
     bodies: &mut [BodyState<P>],
 ) {
-    let Some(points) = model.points.get(group.point as usize..) else { return };
-    let stars = group.stars as usize;
-    let Some((centres, arms)) = points.split_at_checked(stars) else { return };
     // A number at run time, and one body of the loop: unrolled it takes more flash and is no faster.
-    let count = (group.arms as usize).clamp(1, MOST_ARMS);
+    let arms = (group.arms as usize).clamp(1, MOST_ARMS);
     let end_a = End::new(model, places, group.a, None);
     let end_b = End::new(model, places, group.b, None);
     let ground_rate = end_b.velocity - end_a.velocity;
-    let ends = [group.a, group.b].map(BodyIndex::row);
-    let [body_a, body_b] = ends.map(|row| model.bodies.get(row));
-    let mut pair = ends.map(|row| bodies.get(row).copied().unwrap_or_default());
-    let mut tips = [(P::Location::default(), Vec3::ZERO); MOST_ARMS];
-    for i in 0..stars {
-        let star = if REVERSE { stars - 1 - i } else { i };
-        let block = if group.shared { 0 } else { star };
-        let (Some(centre), Some(arms), Some(dampers)) = (
-            centres.get(star),
-            arms.get(block * count..).and_then(|arms| arms.get(..count)),
-            dampers.get(star * count..).and_then(|dampers| dampers.get(..count)),
-        ) else {
-            break;
-        };
-        if i == 0 || !group.shared {
-            for (tip, point) in tips.iter_mut().zip(arms) {
-                *tip = end_b.place(point);
-            }
-        }
-        let (centre, arm_a) = end_a.place(centre);
-        let mut element = |((tip, arm_b), damping): (&Place<P>, &P::Real)| {
-            let d = P::displacement(&centre, tip);
+    let rows = [group.a, group.b].map(BodyIndex::row);
+    let [body_a, body_b] = rows.map(|row| model.bodies.get(row));
+    let mut pair = rows.map(|row| bodies.get(row).copied().unwrap_or_default());
+    let ends = (&end_a, &end_b);
+    each_star::<P, MOST_ARMS, REVERSE>(model.points, group, ends, arms, |star, centre, tips| {
+        let Some(dampers) = dampers.get(star * arms..).and_then(|d| d.get(..arms)) else { return };
+        let (centre, arm_a) = centre;
+        let mut element = |((tip, arm_b), damping): (&Spot<P>, &P::Real)| {
+            let d = P::displacement(centre, tip);
             let u = d * d.dot(d).sqrt().reciprocal_or_zero();
             let a = Lever::new(0, body_a, u, end_a.to_axes(arm_a.cross(u)));
             let b = Lever::new(1, body_b, u, end_b.to_axes(arm_b.cross(u)));
             damp(&mut pair, a, b, u.dot(ground_rate), *damping, h);
         };
-        let elements = tips.get(..count).unwrap_or_default().iter().zip(dampers);
+        let elements = tips.iter().zip(dampers);
         if REVERSE {
             elements.rev().for_each(&mut element);
         } else {
             elements.for_each(&mut element);
         }
-    }
-    for (row, moved) in ends.into_iter().zip(pair) {
+    });
+    for (row, moved) in rows.into_iter().zip(pair) {
         if let Some(state) = bodies.get_mut(row) {
             *state = moved;
         }
@@ -297,13 +263,8 @@ fn engaged<P: Geometry, T: Terms>(
     if clearance.is_none() {
         return damping;
     }
-    let d = element.displacement;
-    let extension = match element.group.law {
-        Law::Tsda => model.tsdas.get(element.index).map(|tsda| tsda.extension(d)),
-        Law::PointOnLine => model.lines.get(element.index).map(|line| line.extension(d)),
-        Law::PointBushing => None,
-    };
-    extension.map_or(damping, |extension| clearance::engaged(damping, extension, clearance))
+    let extension = element.element.extension(element.stretch.displacement);
+    clearance::engaged(damping, extension, clearance)
 }
 
 /// A torsion spring's damper, along the gradient of its twist. An undefined twist is left to the

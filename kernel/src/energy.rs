@@ -1,12 +1,13 @@
 //! The energy of a state, by kind.
 //!
-//! `(model, state) => ledger`, in the model's precision. To judge a run, convert model and state
+//! `(model, state) => energies`, in the model's precision. To judge a run, convert model and state
 //! to double precision first: the stored words are then taken as exact, whatever precision
 //! stepped them. Sums run in ascending order of bodies, groups, springs and loads.
 
 use crate::elements::gravity;
+use crate::elements::point_law::{Element, PointLaw as _};
 use crate::geometry::Geometry;
-use crate::model::{FrameOf, Law, ModelOwner, RealOf};
+use crate::model::{FrameOf, ModelOwner, RealOf};
 use crate::pose::{Places, each_element, place_bodies, twist_of};
 use crate::real::Real;
 use crate::schedule::LoadWindow;
@@ -64,24 +65,15 @@ pub fn energy<M: ModelOwner>(model: &M, state: &State<M>, step_size: f64) -> Ene
     let mut frames = model.per_body(FrameOf::<M>::default());
     place_bodies::<M::Precision>(bodies, frames.as_mut());
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
-    each_element(&view, places, |element| match element.group.law {
-        Law::Tsda => {
-            if let Some(tsda) = view.tsdas.get(element.index) {
-                sum.tsda =
-                    sum.tsda + tsda.energy(element.displacement, view.clearance(element.group));
-            }
-        }
-        Law::PointBushing => {
-            if let Some(bushing) = view.bushings.get(element.index) {
-                sum.bushing = sum.bushing + bushing.energy(element.displacement);
-            }
-        }
-        Law::PointOnLine => {
-            if let Some(line) = view.lines.get(element.index) {
-                sum.line =
-                    sum.line + line.energy(element.displacement, view.clearance(element.group));
-            }
-        }
+    each_element(&view, places, |placed| {
+        let clearance = view.clearance(placed.group);
+        let energy = placed.element.energy(placed.stretch.displacement, clearance);
+        let kind = match placed.element {
+            Element::Tsda(_) => &mut sum.tsda,
+            Element::PointBushing(_) => &mut sum.bushing,
+            Element::PointOnLine(_) => &mut sum.line,
+        };
+        *kind = *kind + energy;
     });
     for (spring, &turns) in view.torsions.iter().zip(state.turns.as_ref()) {
         if let Some(twist) = twist_of::<M::Precision>(spring, bodies, turns) {
@@ -120,15 +112,7 @@ pub fn each_extension<M: ModelOwner>(
     let mut frames = model.per_body(FrameOf::<M>::default());
     place_bodies::<M::Precision>(state.bodies.as_ref(), frames.as_mut());
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
-    each_element(&view, places, |element| {
-        let d = element.displacement;
-        let extension = match element.group.law {
-            Law::Tsda => view.tsdas.get(element.index).map(|tsda| tsda.extension(d)),
-            Law::PointBushing => Some(d.dot(d).sqrt()),
-            Law::PointOnLine => view.lines.get(element.index).map(|line| line.extension(d)),
-        };
-        if let Some(extension) = extension {
-            visit(element.number, extension);
-        }
+    each_element(&view, places, |placed| {
+        visit(placed.number, placed.element.extension(placed.stretch.displacement));
     });
 }

@@ -15,11 +15,12 @@
 use crate::body::{Body, BodyState};
 use crate::elements::input::InputKind;
 use crate::elements::load::LoadFrame;
+use crate::elements::point_law::{PointLaw as _, taut};
 use crate::forces::{self, At, DampersLeft, Evaluation, Instant, Turns, Wrench};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::model::{FrameOf, Law, ModelOwner, RealOf};
-use crate::pose::{Places, each_element, place_bodies, placed, twist_of};
+use crate::model::{FrameOf, ModelOwner, RealOf};
+use crate::pose::{Places, place_bodies, placed, twist_of};
 use crate::real::Real;
 use crate::rotation;
 use crate::schedule::Signal;
@@ -56,80 +57,30 @@ pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
             add_row(&mut block, share * stiffness, scaled(body, u, n));
         };
         let mut turning = zero;
-        each_element(&view, places, |e| {
-            let (other, arm) = if e.group.a == here {
-                (e.group.b, e.arm_a)
-            } else if e.group.b == here {
-                (e.group.a, e.arm_b)
-            } else {
-                return;
-            };
-            match e.group.law {
-                Law::Tsda => {
-                    let Some(tsda) = view.tsdas.get(e.index) else { return };
-                    let d = e.displacement;
-                    let inverse = d.dot(d).sqrt().reciprocal_or_zero();
-                    let u = d * inverse;
-                    add(tsda.stiffness, other, u, arm.cross(u));
-                    let tension = (tsda.stiffness * tsda.extension(d)).abs();
-                    if tension > zero {
-                        for n in u.normals() {
-                            add(tension * inverse, other, n, arm.cross(n));
-                        }
-                        turning = turning + tension * arm.dot(arm).sqrt();
-                    }
-                }
-                Law::PointBushing => {
-                    let Some(bushing) = view.bushings.get(e.index) else { return };
-                    for u in Vec3::axes() {
-                        add(bushing.stiffness, other, u, arm.cross(u));
-                    }
-                    let d = e.displacement;
-                    let force = bushing.stiffness * d.dot(d).sqrt();
-                    turning = turning + force * arm.dot(arm).sqrt();
-                }
-                Law::PointOnLine => {
-                    let Some(line) = view.lines.get(e.index) else { return };
-                    let d = e.displacement;
-                    let inverse = d.dot(d).sqrt().reciprocal_or_zero();
-                    let force = (line.stiffness * line.extension(d)).abs();
-                    let isotropic = line.free_length == zero;
-                    let [n, m] = if isotropic {
-                        e.direction.normals()
-                    } else {
-                        [d * inverse, e.direction.cross(d * inverse)]
-                    };
-                    add(line.stiffness, other, n, arm.cross(n));
-                    let across = if isotropic { line.stiffness } else { force * inverse };
-                    add(across, other, m, arm.cross(m));
-                    // A loaded line that turns trades the turn against the slide: both get a
-                    // spring, with the arm as the length that weighs one against the other.
-                    if force > zero {
-                        let reach = arm.dot(arm).sqrt();
-                        let along = force * reach.reciprocal_or_zero();
-                        add(along, other, e.direction, arm.cross(e.direction));
-                        turning = turning + RealOf::<M>::TWO * force * reach;
-                    }
-                }
+        for (number, group) in view.groups.iter().enumerate() {
+            let at_a = group.a == here;
+            if !(at_a || group.b == here) {
+                continue;
             }
-        });
+            let other = if at_a { group.b } else { group.a };
+            for i in 0..group.elements() {
+                let Some(e) = placed(&view, places, (number, group), i) else { continue };
+                let arm = if at_a { e.arm_a } else { e.arm_b };
+                let mut add = |stiffness, u: Vec3<_>| add(stiffness, other, u, arm.cross(u));
+                turning = turning + e.element.tangent(&e.stretch, arm, &mut add);
+            }
+        }
         for (input, signal) in view.inputs.iter().zip(state.signals.as_ref()) {
             let InputKind::Actuator { group, element } = input.kind else { continue };
             let row = group as usize;
             let group = view.groups.get(row);
             let element = group.and_then(|g| placed(&view, places, (row, g), element as usize));
             let Some(e) = element else { continue };
-            for (body, other, arm) in
-                [(e.group.a, e.group.b, e.arm_a), (e.group.b, e.group.a, e.arm_b)]
-            {
-                if body == here {
-                    let (d, tension) = (e.displacement, signal.value.abs());
-                    let inverse = d.dot(d).sqrt().reciprocal_or_zero();
-                    for n in (d * inverse).normals() {
-                        add(tension * inverse, other, n, arm.cross(n));
-                    }
-                    turning = turning + tension * arm.dot(arm).sqrt();
-                }
+            let ends = [(e.group.a, e.group.b, e.arm_a), (e.group.b, e.group.a, e.arm_b)];
+            for (_, other, arm) in ends.into_iter().filter(|(body, ..)| *body == here) {
+                let mut add = |stiffness, u: Vec3<_>| add(stiffness, other, u, arm.cross(u));
+                let tension = signal.value.abs();
+                turning = turning + taut(tension, e.stretch.displacement, arm, &mut add);
             }
         }
         for (spring, &turns) in view.torsions.iter().zip(state.turns.as_ref()) {
@@ -146,8 +97,7 @@ pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
                 None => twist.gradient,
             };
             add(spring.stiffness, other, Vec3::ZERO, gradient);
-            let torque = (spring.preload - spring.stiffness * twist.angle).abs();
-            turning = turning + RealOf::<M>::HALF * torque * gradient.dot(gradient);
+            turning = turning + spring.turning(twist.angle, gradient);
         }
         for axis in Vec3::axes() {
             add_row(&mut block, turning, scaled(body, Vec3::ZERO, axis));

@@ -6,11 +6,12 @@
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
 use crate::elements::input::InputKind;
+use crate::elements::point_law::{Element, Stretch};
 use crate::elements::point_on_line::Projection;
 use crate::elements::torsion_spring::{TorsionSpring, Twist};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::model::{Group, Law, ModelRef, Terms};
+use crate::model::{Group, ModelRef, Terms};
 use crate::schedule::Signal;
 use crate::vector::Vec3;
 
@@ -128,21 +129,19 @@ pub(crate) struct Placed<'m, R> {
     pub(crate) group: &'m Group,
     /// Its group's index.
     pub(crate) number: usize,
-    /// Its index among the elements of its law.
-    pub(crate) index: usize,
-    /// From its first point to its second, world axes; on a line from the foot to the point.
-    pub(crate) displacement: Vec3<R>,
+    /// Its law.
+    pub(crate) element: Element<'m, R>,
+    /// From its first point to its second, and its line.
+    pub(crate) stretch: Stretch<R>,
     /// The arm of the first point, world axes; 0 on the ground; on a line that of the foot.
     pub(crate) arm_a: Vec3<R>,
     /// The arm of the second point.
     pub(crate) arm_b: Vec3<R>,
-    /// The direction of its line, world axes; 0 where the law knows no line.
-    pub(crate) direction: Vec3<R>,
     /// The rate of the displacement that moved ground gives it, world axes.
     pub(crate) ground_rate: Vec3<R>,
 }
 
-/// Element `i` of a group with its index, `None` where the model lacks its points.
+/// Element `i` of a group with its index, `None` where the model lacks it or its points.
 #[inline(always)]
 pub(crate) fn placed<'m, P: Geometry, T: Terms>(
     model: &ModelRef<'m, P, T>,
@@ -150,24 +149,60 @@ pub(crate) fn placed<'m, P: Geometry, T: Terms>(
     (number, group): (usize, &'m Group),
     i: usize,
 ) -> Option<Placed<'m, P::Real>> {
-    let (stars, arms) = (group.stars as usize, group.arms.max(1) as usize);
-    let first = group.point as usize;
-    let tip = first + stars + if group.shared { i % arms } else { i };
+    let element = model.element(group.law, group.element as usize + i)?;
+    let arms = group.arms.max(1) as usize;
+    let (star, arm) = (i / arms, i % arms);
     let end_a = End::new(model, places, group.a, None);
     let end_b = End::new(model, places, group.b, None);
-    let (a, mut arm_a) = end_a.place(model.points.get(first + i / arms)?);
-    let (b, arm_b) = end_b.place(model.points.get(tip)?);
+    let (a, mut arm_a) = end_a.place(model.points.get(group.centre(star))?);
+    let (b, arm_b) = end_b.place(model.points.get(group.tips(star) + arm)?);
     let mut displacement = P::displacement(&a, &b);
-    let index = group.element as usize + i;
     let mut direction = Vec3::ZERO;
-    if T::LINES && group.law == Law::PointOnLine {
-        direction = end_a.to_world(model.lines.get(index)?.direction);
+    if let Element::PointOnLine(line) = element {
+        direction = end_a.to_world(line.direction);
         let projection = Projection::new(displacement, direction);
         displacement = projection.deflection;
         arm_a = end_a.arm_at(arm_a, direction * projection.slide);
     }
     let ground_rate = end_b.velocity - end_a.velocity;
-    Some(Placed { group, number, index, displacement, arm_a, arm_b, direction, ground_rate })
+    let stretch = Stretch { displacement, direction };
+    Some(Placed { group, number, element, stretch, arm_a, arm_b, ground_rate })
+}
+
+/// The most points of the second body that one of the first is joined to.
+pub(crate) const MOST_ARMS: usize = 3;
+
+/// Where a point lies, and its arm.
+pub(crate) type Spot<P> = (<P as Geometry>::Location, Vec3<<P as Geometry>::Real>);
+
+/// Visits the stars of a group, ascending, or descending with `REVERSE`: its number, its first
+/// point and its `arms` points of the second body. Each point is placed once, so nothing may move
+/// between two stars. `ARMS` is the most that `arms` may be.
+#[inline(always)]
+pub(crate) fn each_star<P: Geometry, const ARMS: usize, const REVERSE: bool>(
+    points: &[P::Local],
+    group: &Group,
+    (end_a, end_b): (&End<'_, P>, &End<'_, P>),
+    arms: usize,
+    mut visit: impl FnMut(usize, &Spot<P>, &[Spot<P>]),
+) {
+    let stars = group.stars as usize;
+    let mut tips = [(P::Location::default(), Vec3::ZERO); ARMS];
+    for i in 0..stars {
+        let star = if REVERSE { stars - 1 - i } else { i };
+        let first = group.tips(star);
+        let (Some(centre), Some(others)) =
+            (points.get(group.centre(star)), points.get(first..first + arms))
+        else {
+            break;
+        };
+        if i == 0 || !group.shared {
+            for (tip, point) in tips.iter_mut().zip(others) {
+                *tip = end_b.place(point);
+            }
+        }
+        visit(star, &end_a.place(centre), tips.get(..arms).unwrap_or_default());
+    }
 }
 
 /// Visits every element of the groups in order; frames are those of the pose.

@@ -6,10 +6,11 @@
 use core::ops::Deref;
 
 use crate::elements::input::InputKind;
+use crate::elements::point_law::Element;
 use crate::forces::{self, ExplicitDampers, Record};
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, InputIndex};
-use crate::model::{FrameOf, Law, ModelOwner, RealOf};
+use crate::model::{FrameOf, ModelOwner, RealOf};
 use crate::plant::Plant;
 use crate::pose::{End, Places, place_bodies, placed, twist_of};
 use crate::real::Real;
@@ -179,11 +180,8 @@ pub fn read<M: ModelOwner>(
             let row = group as usize;
             let group = view.groups.get(row)?;
             let place = placed(&view, places, (row, group), element as usize)?;
-            if group.law != Law::Tsda {
-                return None;
-            }
-            let tsda = view.tsdas.get(place.index)?;
-            let d = place.displacement;
+            let Element::Tsda(tsda) = place.element else { return None };
+            let d = place.stretch.displacement;
             let (a, b) = (end(group.a), end(group.b));
             let v_rel = b.point_velocity(place.arm_b) - a.point_velocity(place.arm_a);
             let clearance = view.clearance(group);

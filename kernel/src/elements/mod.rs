@@ -1,13 +1,14 @@
-//! The element laws, one per file: the law, its sign, its energy.
+//! The element laws, one per file: the law, its sign, its energy, its share of the frequency bound.
 //!
-//! A law sees displacements, velocities and arms, never a body or an index; grouping and summing
-//! is [`crate::forces`]' work.
+//! A law between two points sees displacements, velocities and arms. Loads, inputs and torsion springs
+//! name their bodies. Placing points, grouping and summing is the work of [`crate::forces`].
 
 pub mod clearance;
 pub mod gravity;
 pub mod input;
 pub mod load;
 pub mod point_bushing;
+pub mod point_law;
 pub mod point_on_line;
 pub mod torsion_spring;
 pub mod tsda;

@@ -5,6 +5,7 @@
 //! while the points are apart the pair has a torque `d × c·v_rel`, so a damped bushing keeps
 //! linear momentum but angular momentum only as far as d vanishes.
 
+use crate::elements::point_law::{PointLaw, Stretch};
 use crate::real::Real;
 use crate::vector::Vec3;
 
@@ -38,11 +39,34 @@ impl<R: Real> PointBushing<R> {
     pub fn damped_force(&self, damping: R, d: Vec3<R>, v_rel: Vec3<R>) -> Vec3<R> {
         d * self.stiffness + v_rel * damping
     }
+}
 
-    /// Stored energy \[J\].
+impl<R: Real> PointLaw<R> for PointBushing<R> {
+    /// `|d|` \[m\].
     #[inline]
-    pub fn energy(&self, d: Vec3<R>) -> R {
+    fn extension(&self, d: Vec3<R>) -> R {
+        d.dot(d).sqrt()
+    }
+
+    /// A point bushing has no clearance.
+    #[inline]
+    fn energy(&self, d: Vec3<R>, _: Option<R>) -> R {
         R::HALF * self.stiffness * d.dot(d)
+    }
+
+    /// Along the world's axes.
+    #[inline(always)]
+    fn damped(&self, _: &Stretch<R>) -> ([Vec3<R>; 3], usize) {
+        (Vec3::axes(), 3)
+    }
+
+    /// k in every direction, and the force on a turning arm.
+    fn tangent(&self, stretch: &Stretch<R>, arm: Vec3<R>, add: &mut impl FnMut(R, Vec3<R>)) -> R {
+        for u in Vec3::axes() {
+            add(self.stiffness, u);
+        }
+        let d = stretch.displacement;
+        self.stiffness * d.dot(d).sqrt() * arm.dot(arm).sqrt()
     }
 }
 
@@ -57,6 +81,6 @@ mod tests {
         assert_eq!(bushing.force(d), Vec3::new(4.0, -8.0, 12.0));
         let f = bushing.damped_force(2.0, d, Vec3::new(1.0, 0.0, -1.0));
         assert_eq!(f, Vec3::new(6.0, -8.0, 10.0));
-        assert!((bushing.energy(d) - 0.5 * 40.0 * 0.14).abs() < 1e-15);
+        assert!((bushing.energy(d, None) - 0.5 * 40.0 * 0.14).abs() < 1e-15);
     }
 }

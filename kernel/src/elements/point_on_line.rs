@@ -10,6 +10,7 @@
 //! A damper whose `ė` is not along e keeps angular momentum only as far as e vanishes.
 
 use crate::elements::clearance::{beyond, engaged};
+use crate::elements::point_law::{PointLaw, Stretch};
 use crate::real::Real;
 use crate::vector::Vec3;
 
@@ -86,18 +87,47 @@ impl<R: Real> PointOnLine<R> {
         let damping = engaged(damping, self.extension(e), clearance);
         self.force(e, clearance) + rate * damping
     }
+}
 
+impl<R: Real> PointLaw<R> for PointOnLine<R> {
     /// `|e| − L0` \[m\].
     #[inline]
-    pub fn extension(&self, e: Vec3<R>) -> R {
+    fn extension(&self, e: Vec3<R>) -> R {
         e.dot(e).sqrt() - self.free_length
     }
 
-    /// Stored energy \[J\].
     #[inline]
-    pub fn energy(&self, e: Vec3<R>, clearance: Option<R>) -> R {
+    fn energy(&self, e: Vec3<R>, clearance: Option<R>) -> R {
         let extension = beyond(self.extension(e), clearance);
         R::HALF * self.stiffness * extension * extension
+    }
+
+    /// Along the line's two normals.
+    #[inline(always)]
+    fn damped(&self, stretch: &Stretch<R>) -> ([Vec3<R>; 3], usize) {
+        let [n, m] = stretch.direction.normals();
+        ([n, m, Vec3::ZERO], 2)
+    }
+
+    /// k along e and, where the law is isotropic, across it; otherwise the force over |e| there. A
+    /// loaded line that turns trades the turn against the slide: both get a spring, with the arm
+    /// as the length that weighs one against the other.
+    fn tangent(&self, stretch: &Stretch<R>, arm: Vec3<R>, add: &mut impl FnMut(R, Vec3<R>)) -> R {
+        let (e, line) = (stretch.displacement, stretch.direction);
+        let inverse = e.dot(e).sqrt().reciprocal_or_zero();
+        let force = (self.stiffness * self.extension(e)).abs();
+        let isotropic = self.free_length == R::ZERO;
+        let [n, m] =
+            if isotropic { line.normals() } else { [e * inverse, line.cross(e * inverse)] };
+        add(self.stiffness, n);
+        add(if isotropic { self.stiffness } else { force * inverse }, m);
+        if force > R::ZERO {
+            let reach = arm.dot(arm).sqrt();
+            add(force * reach.reciprocal_or_zero(), line);
+            R::TWO * force * reach
+        } else {
+            R::ZERO
+        }
     }
 }
 

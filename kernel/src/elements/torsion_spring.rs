@@ -118,6 +118,15 @@ impl<R: Real> TorsionSpring<R> {
         twist.gradient * (spring - damping * rate.dot(twist.gradient))
     }
 
+    /// \[N·m\] what its torque does to a turn of either body, in any direction at most, `½·|τ|·|g|²`
+    /// with the gradient g in any axes: its share of the frequency bound beside the stiffness
+    /// along g.
+    #[inline]
+    pub fn turning(&self, angle: R, gradient: Vec3<R>) -> R {
+        let torque = (self.preload - self.stiffness * angle).abs();
+        R::HALF * torque * gradient.dot(gradient)
+    }
+
     /// Stored energy \[J\]; 0 at θ = 0.
     #[inline]
     pub fn energy(&self, angle: R) -> R {

@@ -6,6 +6,7 @@
 //! Where the points coincide the direction is undefined and the force 0.
 
 use crate::elements::clearance::{beyond, engaged};
+use crate::elements::point_law::{PointLaw, Stretch, taut};
 use crate::real::Real;
 use crate::vector::Vec3;
 
@@ -56,18 +57,35 @@ impl<R: Real> Tsda<R> {
             self.stiffness * beyond(extension, clearance) + damping * (d.dot(v_rel) * inverse);
         d * (tension * inverse)
     }
+}
 
+impl<R: Real> PointLaw<R> for Tsda<R> {
     /// `L − L0` \[m\].
     #[inline]
-    pub fn extension(&self, d: Vec3<R>) -> R {
+    fn extension(&self, d: Vec3<R>) -> R {
         d.dot(d).sqrt() - self.free_length
     }
 
-    /// Stored energy \[J\].
     #[inline]
-    pub fn energy(&self, d: Vec3<R>, clearance: Option<R>) -> R {
+    fn energy(&self, d: Vec3<R>, clearance: Option<R>) -> R {
         let extension = beyond(self.extension(d), clearance);
         R::HALF * self.stiffness * extension * extension
+    }
+
+    /// Along its line.
+    #[inline(always)]
+    fn damped(&self, stretch: &Stretch<R>) -> ([Vec3<R>; 3], usize) {
+        let d = stretch.displacement;
+        let along = d * d.dot(d).sqrt().reciprocal_or_zero();
+        ([along, Vec3::ZERO, Vec3::ZERO], 1)
+    }
+
+    /// k along its line, and what its tension adds; a clearance counts as taken up.
+    fn tangent(&self, stretch: &Stretch<R>, arm: Vec3<R>, add: &mut impl FnMut(R, Vec3<R>)) -> R {
+        let d = stretch.displacement;
+        add(self.stiffness, d * d.dot(d).sqrt().reciprocal_or_zero());
+        let tension = (self.stiffness * self.extension(d)).abs();
+        if tension > R::ZERO { taut(tension, d, arm, add) } else { R::ZERO }
     }
 }
 

@@ -50,7 +50,7 @@ pub(crate) fn push<P: Geometry, T: Terms>(
                     .get(row)
                     .and_then(|group| placed(model, places, (row, group), element as usize));
                 let Some(element) = element else { continue };
-                let d = element.displacement;
+                let d = element.stretch.displacement;
                 let force = d * (value * d.dot(d).sqrt().reciprocal_or_zero());
                 let torque_a = element.arm_a.cross(force);
                 let record = Record { force, torque_a, torque_b: -element.arm_b.cross(force) };

@@ -7,7 +7,7 @@
 use crate::forces::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
-use crate::pose::End;
+use crate::pose::{End, each_star};
 use crate::vector::Vec3;
 
 /// A group of TSDA stars with `ARMS` arms each.
@@ -19,16 +19,7 @@ pub(super) fn stars<P: Geometry, T: Terms, D: Dampers, const ARMS: usize>(
     end_b: &End<'_, P>,
 ) -> Record<P::Real> {
     let mut record = Record::ZERO;
-    let stars = group.stars as usize;
-    let (Some(points), Some(tsdas)) =
-        (model.points.get(group.point as usize..), model.tsdas.get(group.element as usize..))
-    else {
-        return record;
-    };
-    let Some((centres, arm_points)) = points.split_at_checked(stars) else {
-        return record;
-    };
-    let (arm_points, _) = arm_points.as_chunks::<ARMS>();
+    let Some(tsdas) = model.tsdas.get(group.element as usize..) else { return record };
     let (tsdas, _) = tsdas.as_chunks::<ARMS>();
     let dampers = match group.damper.row() {
         Some(row) if D::ACT && T::DAMPERS => model.dampers.get(row..),
@@ -36,36 +27,36 @@ pub(super) fn stars<P: Geometry, T: Terms, D: Dampers, const ARMS: usize>(
     }
     .map(|dampers| dampers.as_chunks::<ARMS>().0);
     let clearance = model.clearance(group);
-    let stars_per_block = if group.shared { stars } else { 1 };
-
-    let mut tsdas = tsdas.iter();
-    let mut dampers = dampers.map(<[_]>::iter);
-    for (centres, arm_points) in centres.chunks(stars_per_block.max(1)).zip(arm_points) {
-        let tips: [_; ARMS] = core::array::from_fn(|j| end_b.place(&arm_points[j]));
-        let mut pulls = [Vec3::ZERO; ARMS];
-        for (centre, springs) in centres.iter().zip(&mut tsdas) {
-            let (centre, arm) = end_a.place(centre);
-            let coefficients = dampers.as_mut().and_then(Iterator::next);
-            let mut pull_a = Vec3::ZERO;
-            for j in 0..ARMS {
-                let (tip, tip_arm) = &tips[j];
-                let d = P::displacement(&centre, tip);
-                let pull = match coefficients {
-                    Some(coefficients) => {
-                        let v_rel = end_b.point_velocity(*tip_arm) - end_a.point_velocity(arm);
-                        springs[j].damped_force(coefficients[j], d, v_rel, clearance)
-                    }
-                    None => springs[j].force(d, clearance),
-                };
-                pull_a = pull_a + pull;
-                pulls[j] = pulls[j] + pull;
-            }
-            record.force = record.force + pull_a;
-            record.torque_a = record.torque_a + arm.cross(pull_a);
-        }
+    let last = (group.stars as usize).wrapping_sub(1);
+    let mut pulls = [Vec3::ZERO; ARMS];
+    each_star::<P, ARMS, false>(model.points, group, (end_a, end_b), ARMS, |star, centre, tips| {
+        let (Some(springs), Some(tips)) = (tsdas.get(star), tips.first_chunk::<ARMS>()) else {
+            return;
+        };
+        let (centre, arm) = centre;
+        let coefficients = dampers.and_then(|dampers| dampers.get(star));
+        let mut pull_a = Vec3::ZERO;
         for j in 0..ARMS {
-            record.torque_b = record.torque_b - tips[j].1.cross(pulls[j]);
+            let (tip, tip_arm) = &tips[j];
+            let d = P::displacement(centre, tip);
+            let pull = match coefficients {
+                Some(coefficients) => {
+                    let v_rel = end_b.point_velocity(*tip_arm) - end_a.point_velocity(*arm);
+                    springs[j].damped_force(coefficients[j], d, v_rel, clearance)
+                }
+                None => springs[j].force(d, clearance),
+            };
+            pull_a = pull_a + pull;
+            pulls[j] = pulls[j] + pull;
         }
-    }
+        record.force = record.force + pull_a;
+        record.torque_a = record.torque_a + arm.cross(pull_a);
+        if !group.shared || star == last {
+            for j in 0..ARMS {
+                record.torque_b = record.torque_b - tips[j].1.cross(pulls[j]);
+                pulls[j] = Vec3::ZERO;
+            }
+        }
+    });
     record
 }

@@ -23,25 +23,14 @@ use crate::body::BodyState;
 use crate::elements::input::{Input, Knot};
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
+use crate::elements::point_law::Element;
+pub use crate::elements::point_law::Law;
 use crate::elements::point_on_line::PointOnLine;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::geometry::Geometry;
 use crate::schedule::{KnotStep, LoadWindow, Signal};
 use crate::vector::Vec3;
-
-/// The law that a group's elements follow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Law {
-    /// Stars of TSDAs with free lengths.
-    Tsda,
-    /// One point bushing.
-    PointBushing,
-    /// Stars on lines: each star's first point and its elements' direction define a line of the
-    /// first body, on which the second body's points are projected.
-    PointOnLine,
-}
 
 /// The elements of one joint or one raw element: one record of force and torques.
 ///
@@ -85,6 +74,19 @@ impl Group {
         let blocks = if self.shared { 1 } else { self.stars as usize };
         self.stars as usize + blocks * self.arms as usize
     }
+
+    /// The row of a star's first point among the model's points.
+    #[inline(always)]
+    pub(crate) const fn centre(&self, star: usize) -> usize {
+        self.point as usize + star
+    }
+
+    /// The row of a star's first point of the second body; its others follow.
+    #[inline(always)]
+    pub(crate) const fn tips(&self, star: usize) -> usize {
+        let block = if self.shared { 0 } else { star };
+        self.point as usize + self.stars as usize + block * self.arms as usize
+    }
 }
 
 /// A model lent as slices.
@@ -120,7 +122,18 @@ pub struct ModelRef<'m, P: Geometry, T> {
     pub terms: PhantomData<T>,
 }
 
-impl<P: Geometry, T: Terms> ModelRef<'_, P, T> {
+impl<'m, P: Geometry, T: Terms> ModelRef<'m, P, T> {
+    /// Element `row` of a law, `None` where the model has no such one.
+    #[inline(always)]
+    pub(crate) fn element(&self, law: Law, row: usize) -> Option<Element<'m, P::Real>> {
+        match law {
+            Law::Tsda if T::TSDAS => self.tsdas.get(row).map(Element::Tsda),
+            Law::PointBushing if T::BUSHINGS => self.bushings.get(row).map(Element::PointBushing),
+            Law::PointOnLine if T::LINES => self.lines.get(row).map(Element::PointOnLine),
+            _ => None,
+        }
+    }
+
     /// The clearance \[m\] of a group, `None` without one.
     #[inline(always)]
     pub(crate) fn clearance(&self, group: &Group) -> Option<P::Real> {

@@ -112,13 +112,7 @@ impl<
             let group = &self.groups[i];
             check_pair(group.a, group.b, BODIES);
             assert!(group.stars >= 1, "a group has at least one star");
-            let arms = group.arms;
-            let whole = match group.law {
-                Law::Tsda => arms == 1 || arms == 3,
-                Law::PointBushing => arms == 1,
-                Law::PointOnLine => arms == 1 || arms == 2,
-            };
-            assert!(whole, "a star has as many arms as its law knows");
+            assert!(group.law.takes_arms(group.arms), "a star has as many arms as its law knows");
             let elements = group.elements();
             assert!(group.point as usize + group.points() <= POINTS, "a group's points are there");
             let count = match group.law {
