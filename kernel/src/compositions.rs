@@ -4,30 +4,32 @@
 //! into drifts and kicks, a free rotor into turns about two axes. Coefficients are parts of a step;
 //! some are negative.
 
+use crate::real::Constant;
+
 /// Parts of a step: one drift more than kicks, first and last a drift.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Composition {
     /// Parts by which the drifts go.
-    pub(crate) drifts: &'static [f64],
+    pub(crate) drifts: &'static [Constant],
     /// Parts by which the kicks go.
-    pub(crate) kicks: &'static [f64],
+    pub(crate) kicks: &'static [Constant],
 }
 
 /// Omelyan, Mryglod & Folk (2002, eq. 20–22): drifts ξ, χ, 1 − 2(χ + ξ), χ, ξ around kicks
 /// ½ − λ, λ, λ, ½ − λ.
 pub(crate) const PEFRL: Composition = Composition {
     drifts: &[
-        0.178_617_895_844_809_1,
-        -0.066_264_582_669_818_5,
-        0.775_293_373_650_018_9,
-        -0.066_264_582_669_818_5,
-        0.178_617_895_844_809_1,
+        Constant::new(0.178_617_895_844_809_1),
+        Constant::new(-0.066_264_582_669_818_5),
+        Constant::new(0.775_293_373_650_018_9),
+        Constant::new(-0.066_264_582_669_818_5),
+        Constant::new(0.178_617_895_844_809_1),
     ],
     kicks: &[
-        0.712_341_831_062_605_4,
-        -0.212_341_831_062_605_4,
-        -0.212_341_831_062_605_4,
-        0.712_341_831_062_605_4,
+        Constant::new(0.712_341_831_062_605_4),
+        Constant::new(-0.212_341_831_062_605_4),
+        Constant::new(-0.212_341_831_062_605_4),
+        Constant::new(0.712_341_831_062_605_4),
     ],
 };
 
@@ -35,21 +37,21 @@ pub(crate) const PEFRL: Composition = Composition {
 /// with a₃ to one digit more than published (Ostmeyer 2023, eq. 46).
 pub(crate) const BLANES_MOAN_S6: Composition = Composition {
     drifts: &[
-        0.079_203_696_431_195_7,
-        0.353_172_906_049_774,
-        -0.042_065_080_357_719_55,
-        0.219_376_955_753_499_66,
-        -0.042_065_080_357_719_55,
-        0.353_172_906_049_774,
-        0.079_203_696_431_195_7,
+        Constant::new(0.079_203_696_431_195_7),
+        Constant::new(0.353_172_906_049_774),
+        Constant::new(-0.042_065_080_357_719_55),
+        Constant::new(0.219_376_955_753_499_66),
+        Constant::new(-0.042_065_080_357_719_55),
+        Constant::new(0.353_172_906_049_774),
+        Constant::new(0.079_203_696_431_195_7),
     ],
     kicks: &[
-        0.209_515_106_613_362,
-        -0.143_851_773_179_818,
-        0.434_336_666_566_456,
-        0.434_336_666_566_456,
-        -0.143_851_773_179_818,
-        0.209_515_106_613_362,
+        Constant::new(0.209_515_106_613_362),
+        Constant::new(-0.143_851_773_179_818),
+        Constant::new(0.434_336_666_566_456),
+        Constant::new(0.434_336_666_566_456),
+        Constant::new(-0.143_851_773_179_818),
+        Constant::new(0.209_515_106_613_362),
     ],
 };
 
@@ -61,7 +63,9 @@ mod tests {
     /// fourth follow from symmetry.
     #[test]
     fn the_coefficients_fulfil_the_conditions_of_order_four() {
-        for Composition { drifts, kicks } in [PEFRL, BLANES_MOAN_S6] {
+        for composition in [PEFRL, BLANES_MOAN_S6] {
+            let [drifts, kicks] = [composition.drifts, composition.kicks]
+                .map(|parts| parts.iter().map(|part| part.double).collect::<std::vec::Vec<f64>>());
             let (mut drifted, mut kicked, mut first, mut second) = (0.0_f64, 0.0, 0.0, 0.0);
             for (i, drift) in drifts.iter().enumerate() {
                 assert_eq!(drift, &drifts[drifts.len() - 1 - i]);

@@ -15,12 +15,11 @@
 use crate::attitude::Attitude as _;
 use crate::body::{Body, BodyState};
 use crate::elements::clearance;
-use crate::elements::point_law::PointLaw as _;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelRef, Terms};
-use crate::pose::{End, MOST_ARMS, Placed, Places, Spot, each_star, placed};
+use crate::pose::{End, MOST_ARMS, Placed, Places, Spot, placed};
 use crate::real::Real;
 use crate::vector::Vec3;
 
@@ -193,7 +192,9 @@ fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
         if T::CLEARANCES && damping == P::Real::ZERO {
             continue;
         }
-        let (mut directions, count) = element.element.damped(&element.stretch);
+        let Some((mut directions, count)) = model.damped(group.law, &element.stretch) else {
+            continue;
+        };
         if REVERSE && count > 1 {
             directions.swap(0, count - 1);
         }
@@ -227,24 +228,38 @@ fn sweep_stars<P: Geometry, T: Terms, const REVERSE: bool>(
     let rows = [group.a, group.b].map(BodyIndex::row);
     let [body_a, body_b] = rows.map(|row| model.bodies.get(row));
     let mut pair = rows.map(|row| bodies.get(row).copied().unwrap_or_default());
-    let ends = (&end_a, &end_b);
-    each_star::<P, MOST_ARMS, REVERSE>(model.points, group, ends, arms, |star, centre, tips| {
-        let Some(dampers) = dampers.get(star * arms..).and_then(|d| d.get(..arms)) else { return };
-        let (centre, arm_a) = centre;
+    let mut tips = [(P::Location::default(), Vec3::ZERO); MOST_ARMS];
+    let stars = group.stars as usize;
+    for i in 0..stars {
+        let star = if REVERSE { stars - 1 - i } else { i };
+        let (first, element) = (group.tips(star), star * arms);
+        let (Some(centre), Some(points), Some(dampers)) = (
+            model.points.get(group.centre(star)),
+            model.points.get(first..first + arms),
+            dampers.get(element..element + arms),
+        ) else {
+            break;
+        };
+        if i == 0 || !group.shared {
+            for (tip, point) in tips.iter_mut().zip(points) {
+                *tip = end_b.place(point);
+            }
+        }
+        let (centre, arm_a) = end_a.place(centre);
         let mut element = |((tip, arm_b), damping): (&Spot<P>, &P::Real)| {
-            let d = P::displacement(centre, tip);
+            let d = P::displacement(&centre, tip);
             let u = d * d.dot(d).sqrt().reciprocal_or_zero();
             let a = Lever::new(0, body_a, u, end_a.to_axes(arm_a.cross(u)));
             let b = Lever::new(1, body_b, u, end_b.to_axes(arm_b.cross(u)));
             damp(&mut pair, a, b, u.dot(ground_rate), *damping, h);
         };
-        let elements = tips.iter().zip(dampers);
+        let elements = tips.get(..arms).unwrap_or_default().iter().zip(dampers);
         if REVERSE {
             elements.rev().for_each(&mut element);
         } else {
             elements.for_each(&mut element);
         }
-    });
+    }
     for (row, moved) in rows.into_iter().zip(pair) {
         if let Some(state) = bodies.get_mut(row) {
             *state = moved;
@@ -263,7 +278,8 @@ fn engaged<P: Geometry, T: Terms>(
     if clearance.is_none() {
         return damping;
     }
-    let extension = element.element.extension(element.stretch.displacement);
+    let Some(law) = model.element(element.group.law, element.index) else { return damping };
+    let extension = law.extension(element.stretch.displacement);
     clearance::engaged(damping, extension, clearance)
 }
 
@@ -286,9 +302,10 @@ fn torsion<P: Geometry, T: Terms>(
         bodies.get(row_a).map(|s| &s.orientation),
         bodies.get(row_b).map(|s| &s.orientation),
     );
-    let Some(twist) = spring.twist(relative, turns) else {
+    let Some(since) = spring.since_start(relative) else {
         return;
     };
+    let twist = spring.twist(&since, turns);
     let (frame_a, frame_b) = (places.frames.get(row_a), places.frames.get(row_b));
     let world = End::new(model, places, spring.a, None).to_world(twist.gradient);
     let lever = |row: usize, frame: Option<&P::Frame>| {

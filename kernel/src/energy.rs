@@ -4,8 +4,8 @@
 //! to double precision first: the stored words are then taken as exact, whatever precision
 //! stepped them. Sums run in ascending order of bodies, groups, springs and loads.
 
+use crate::elements::element::Element;
 use crate::elements::gravity;
-use crate::elements::point_law::{Element, PointLaw as _};
 use crate::geometry::Geometry;
 use crate::model::{FrameOf, ModelOwner, RealOf};
 use crate::pose::{Places, each_element, place_bodies, twist_of};
@@ -66,9 +66,10 @@ pub fn energy<M: ModelOwner>(model: &M, state: &State<M>, step_size: f64) -> Ene
     place_bodies::<M::Precision>(bodies, frames.as_mut());
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
     each_element(&view, places, |placed| {
+        let Some(law) = view.element(placed.group.law, placed.index) else { return };
         let clearance = view.clearance(placed.group);
-        let energy = placed.element.energy(placed.stretch.displacement, clearance);
-        let kind = match placed.element {
+        let energy = law.energy(placed.stretch.displacement, clearance);
+        let kind = match law {
             Element::Tsda(_) => &mut sum.tsda,
             Element::PointBushing(_) => &mut sum.bushing,
             Element::PointOnLine(_) => &mut sum.line,
@@ -113,6 +114,8 @@ pub fn each_extension<M: ModelOwner>(
     place_bodies::<M::Precision>(state.bodies.as_ref(), frames.as_mut());
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
     each_element(&view, places, |placed| {
-        visit(placed.number, placed.element.extension(placed.stretch.displacement));
+        if let Some(law) = view.element(placed.group.law, placed.index) {
+            visit(placed.number, law.extension(placed.stretch.displacement));
+        }
     });
 }

@@ -15,7 +15,7 @@
 use crate::body::{Body, BodyState};
 use crate::elements::input::InputKind;
 use crate::elements::load::LoadFrame;
-use crate::elements::point_law::{PointLaw as _, taut};
+use crate::elements::point_law::taut;
 use crate::forces::{self, At, DampersLeft, Evaluation, Instant, Turns, Wrench};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
@@ -65,9 +65,10 @@ pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
             let other = if at_a { group.b } else { group.a };
             for i in 0..group.elements() {
                 let Some(e) = placed(&view, places, (number, group), i) else { continue };
+                let Some(law) = view.element(group.law, e.index) else { continue };
                 let arm = if at_a { e.arm_a } else { e.arm_b };
                 let mut add = |stiffness, u: Vec3<_>| add(stiffness, other, u, arm.cross(u));
-                turning = turning + e.element.tangent(&e.stretch, arm, &mut add);
+                turning = turning + law.tangent(&e.stretch, arm, &mut add);
             }
         }
         for (input, signal) in view.inputs.iter().zip(state.signals.as_ref()) {

@@ -13,7 +13,8 @@
 //!   orientation is a quaternion or, as in the paper, angles.
 //! - [`body`], [`rotation`]: one rigid body, and how it turns.
 //! - [`status`], [`elements`], [`schedule`]: what can fail; the laws, one per file; what happens when.
-//! - [`model`], [`state`]: read-only constants of bodies and elements; plain data and its hash.
+//! - [`mod@model`], [`sketch`], [`state`]: read-only constants of bodies and elements, and how a person
+//!   writes them; plain data and its hash.
 //! - `pose`, [`forces`], [`damping`]: where points lie; one evaluation; dampers as impulses.
 //! - [`step`], [`schemes`], [`plant`]: kick and drift; how they make a step; model, scheme, step and
 //!   state together.
@@ -23,44 +24,18 @@
 //!   (features).
 //!
 //! ```
-//! use dbd_kernel::model::{Body, BodyIndex, ClearanceIndex, DamperIndex, Group, Law, Model};
-//! use dbd_kernel::schemes::Leapfrog;
-//! use dbd_kernel::{BodyState, F64, Plant, Tsda, Vec3};
+//! use dbd_kernel::sketch::{Sketch, Spring, Start};
+//! use dbd_kernel::{BodyIndex, Leapfrog, Plant, model};
 //!
 //! // A mass of 2 kg on a spring of 50 N/m, 0.1 m beyond its free length of 1 m.
-//! type Oscillator = Model<F64, 1, 1, 2, 1>;
-//! let model: Oscillator = Model {
-//!     bodies: [Body::from_f64(2.0, [0.1, 0.1, 0.1])],
-//!     initial: [BodyState::from_f64([1.1, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0; 3], [0.0; 3])],
-//!     gravity: [],
-//!     groups: [Group {
-//!         law: Law::Tsda,
-//!         a: BodyIndex::WORLD,
-//!         b: BodyIndex(0),
-//!         stars: 1,
-//!         arms: 1,
-//!         shared: false,
-//!         point: 0,
-//!         element: 0,
-//!         damper: DamperIndex::NONE,
-//!         clearance: ClearanceIndex::NONE,
-//!     }],
-//!     points: [Vec3::new(0.0, 0.0, 0.0); 2],
-//!     tsdas: [Tsda { stiffness: 50.0, free_length: 1.0 }],
-//!     bushings: [],
-//!     dampers: [],
-//!     torsions: [],
-//!     loads: [],
-//!     lines: [],
-//!     inputs: [],
-//!     knots: [],
-//!     clearances: [],
-//! }
-//! .checked();
-//! let mut plant = Plant::new(&model, Leapfrog, 1e-3)?;
-//! while plant.time() < 1.0 {
-//!     plant.step().ok()?;
-//! }
+//! const SPRING: Spring = Spring { stiffness: 50.0, damping: 0.0, free_length: 1.0 };
+//! const SKETCH: Sketch = Sketch::new()
+//!     .body(2.0, [0.1; 3], Start::at([1.1, 0.0, 0.0]))
+//!     .tsda([BodyIndex::WORLD, BodyIndex(0)], [[0.0; 3]; 2], SPRING);
+//! model!(static OSCILLATOR: F64 = SKETCH);
+//!
+//! let mut plant = Plant::new(&OSCILLATOR, Leapfrog, 1e-3)?;
+//! plant.advance(1_000).ok()?;
 //! // x = 1 + 0.1·cos(ω·t), ω = 5 rad/s.
 //! let x = plant.state().bodies[0].position.x;
 //! assert!((x - 1.0 - 0.1 * 5.0_f64.cos()).abs() < 1e-5);
@@ -99,6 +74,7 @@ pub mod real;
 pub mod rotation;
 pub mod schedule;
 pub mod schemes;
+pub mod sketch;
 pub mod snapshot;
 mod square_root;
 pub mod state;

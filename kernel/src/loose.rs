@@ -2,7 +2,7 @@
 //!
 //! Its square root is an approximation by bit shifts, off by up to several per cent, its sine and
 //! cosine by about 1e-3: a spring whose length is off by a share of itself pulls with a force that
-//! is none. For comparison only, never a default; feature `micromath`.
+//! nothing causes. For comparison only, never a default; feature `micromath`.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -10,7 +10,7 @@ use micromath::F32Ext;
 
 use crate::euler::{EulerAngles, Trigonometric};
 use crate::geometry::{Float, Named};
-use crate::real::Real;
+use crate::real::{Constant, Real};
 use crate::words::{Word, WordSource};
 
 /// A number of single precision whose functions are approximations.
@@ -84,6 +84,10 @@ impl Real for Loose {
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         Self(value as f32)
+    }
+    #[inline(always)]
+    fn constant(value: Constant) -> Self {
+        Self(value.single)
     }
     #[inline(always)]
     fn to_f64(self) -> f64 {

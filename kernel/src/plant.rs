@@ -145,8 +145,8 @@ where
             *window = LoadWindow::new(load.from, load.until, step_size);
         }
         let mut knots = owner.per_knot();
-        for (place, knot) in knots.as_mut().iter_mut().zip(view.knots) {
-            *place = KnotStep::new(knot.time, step_size);
+        for (step, knot) in knots.as_mut().iter_mut().zip(view.knots) {
+            *step = KnotStep::new(knot.time, step_size);
         }
         let state = State::initial(owner);
         let frames = owner.per_body(FrameOf::<H::Target>::default());
@@ -355,7 +355,8 @@ fn check<M: ModelOwner>(state: &State<M>, own: &State<M>) -> Result<(), StateErr
         }
         let q = body.orientation.to_f64();
         let norm: f64 = q.iter().map(|c| c * c).sum();
-        if !((norm - 1.0).abs() < 2e-3) {
+        let unit = (norm - 1.0).abs() < 2e-3;
+        if !unit {
             return Err(StateError::Orientation(index));
         }
     }

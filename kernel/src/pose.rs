@@ -6,12 +6,12 @@
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
 use crate::elements::input::InputKind;
-use crate::elements::point_law::{Element, Stretch};
+use crate::elements::point_law::Stretch;
 use crate::elements::point_on_line::Projection;
 use crate::elements::torsion_spring::{TorsionSpring, Twist};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::model::{Group, ModelRef, Terms};
+use crate::model::{Group, Law, ModelRef, Terms};
 use crate::schedule::Signal;
 use crate::vector::Vec3;
 
@@ -23,7 +23,7 @@ pub(crate) fn place_bodies<P: Geometry>(bodies: &[BodyState<P>], frames: &mut [P
     }
 }
 
-/// What places points: the frames of the bodies, and the signals that move the ground.
+/// What points are placed by: the frames of the bodies, and the signals that move the ground.
 pub(crate) struct Places<'s, P: Geometry> {
     /// One per body.
     pub(crate) frames: &'s [P::Frame],
@@ -51,7 +51,8 @@ pub(crate) struct End<'s, P: Geometry> {
 }
 
 impl<'s, P: Geometry> End<'s, P> {
-    /// The end at a body; without `bodies` its points are at rest.
+    /// The end at a body; without `bodies` a body's points count as at rest. A moved anchor has its
+    /// rate either way: the sweeps rely on it.
     #[inline(always)]
     pub(crate) fn new<T: Terms>(
         model: &ModelRef<'_, P, T>,
@@ -129,8 +130,8 @@ pub(crate) struct Placed<'m, R> {
     pub(crate) group: &'m Group,
     /// Its group's index.
     pub(crate) number: usize,
-    /// Its law.
-    pub(crate) element: Element<'m, R>,
+    /// Its index among the elements of its law.
+    pub(crate) index: usize,
     /// From its first point to its second, and its line.
     pub(crate) stretch: Stretch<R>,
     /// The arm of the first point, world axes; 0 on the ground; on a line that of the foot.
@@ -149,7 +150,6 @@ pub(crate) fn placed<'m, P: Geometry, T: Terms>(
     (number, group): (usize, &'m Group),
     i: usize,
 ) -> Option<Placed<'m, P::Real>> {
-    let element = model.element(group.law, group.element as usize + i)?;
     let arms = group.arms.max(1) as usize;
     let (star, arm) = (i / arms, i % arms);
     let end_a = End::new(model, places, group.a, None);
@@ -158,15 +158,16 @@ pub(crate) fn placed<'m, P: Geometry, T: Terms>(
     let (b, arm_b) = end_b.place(model.points.get(group.tips(star) + arm)?);
     let mut displacement = P::displacement(&a, &b);
     let mut direction = Vec3::ZERO;
-    if let Element::PointOnLine(line) = element {
-        direction = end_a.to_world(line.direction);
+    let index = group.element as usize + i;
+    if T::LINES && group.law == Law::PointOnLine {
+        direction = end_a.to_world(model.lines.get(index)?.direction);
         let projection = Projection::new(displacement, direction);
         displacement = projection.deflection;
         arm_a = end_a.arm_at(arm_a, direction * projection.slide);
     }
     let ground_rate = end_b.velocity - end_a.velocity;
     let stretch = Stretch { displacement, direction };
-    Some(Placed { group, number, element, stretch, arm_a, arm_b, ground_rate })
+    Some(Placed { group, number, index, stretch, arm_a, arm_b, ground_rate })
 }
 
 /// The most points of the second body that one of the first is joined to.
@@ -175,34 +176,21 @@ pub(crate) const MOST_ARMS: usize = 3;
 /// Where a point lies, and its arm.
 pub(crate) type Spot<P> = (<P as Geometry>::Location, Vec3<<P as Geometry>::Real>);
 
-/// Visits the stars of a group, ascending, or descending with `REVERSE`: its number, its first
-/// point and its `arms` points of the second body. Each point is placed once, so nothing may move
-/// between two stars. `ARMS` is the most that `arms` may be.
+/// The stars of a group in blocks: the first body's points, and the second's points that they share.
+/// Stars that share none are a block each.
 #[inline(always)]
-pub(crate) fn each_star<P: Geometry, const ARMS: usize, const REVERSE: bool>(
-    points: &[P::Local],
+pub(crate) fn blocks<'m, L, const ARMS: usize>(
+    points: &'m [L],
     group: &Group,
-    (end_a, end_b): (&End<'_, P>, &End<'_, P>),
-    arms: usize,
-    mut visit: impl FnMut(usize, &Spot<P>, &[Spot<P>]),
-) {
-    let stars = group.stars as usize;
-    let mut tips = [(P::Location::default(), Vec3::ZERO); ARMS];
-    for i in 0..stars {
-        let star = if REVERSE { stars - 1 - i } else { i };
-        let first = group.tips(star);
-        let (Some(centre), Some(others)) =
-            (points.get(group.centre(star)), points.get(first..first + arms))
-        else {
-            break;
-        };
-        if i == 0 || !group.shared {
-            for (tip, point) in tips.iter_mut().zip(others) {
-                *tip = end_b.place(point);
-            }
-        }
-        visit(star, &end_a.place(centre), tips.get(..arms).unwrap_or_default());
-    }
+) -> impl Iterator<Item = (&'m [L], &'m [L; ARMS])> {
+    let own = points.get(group.point as usize..).unwrap_or_default();
+    let (mut centres, tips) = own.split_at_checked(group.stars as usize).unwrap_or_default();
+    let stars = group.stars_per_block();
+    tips.as_chunks::<ARMS>().0.iter().map_while(move |tips| {
+        let (block, rest) = centres.split_at_checked(stars)?;
+        centres = rest;
+        Some((block, tips))
+    })
 }
 
 /// Visits every element of the groups in order; frames are those of the pose.
@@ -229,5 +217,5 @@ pub(crate) fn twist_of<P: Geometry>(
     let orientation = |row: usize| bodies.get(row).map(|s| &s.orientation);
     let relative =
         P::Orientation::relative(orientation(spring.a.row()), orientation(spring.b.row()));
-    spring.twist(relative, turns)
+    Some(spring.twist(&spring.since_start(relative)?, turns))
 }

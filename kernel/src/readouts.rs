@@ -5,8 +5,8 @@
 
 use core::ops::Deref;
 
+use crate::elements::element::Element;
 use crate::elements::input::InputKind;
-use crate::elements::point_law::Element;
 use crate::forces::{self, ExplicitDampers, Record};
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, InputIndex};
@@ -49,7 +49,7 @@ pub enum Readout<P: Geometry> {
     TsdaForce {
         /// The TSDA's group.
         group: u16,
-        /// Its place in the group.
+        /// Its number in the group.
         element: u16,
     },
     /// \[N\] the force of a joint on its second body, world.
@@ -179,11 +179,11 @@ pub fn read<M: ModelOwner>(
         Readout::TsdaForce { group, element } => {
             let row = group as usize;
             let group = view.groups.get(row)?;
-            let place = placed(&view, places, (row, group), element as usize)?;
-            let Element::Tsda(tsda) = place.element else { return None };
-            let d = place.stretch.displacement;
+            let placed = placed(&view, places, (row, group), element as usize)?;
+            let Element::Tsda(tsda) = view.element(group.law, placed.index)? else { return None };
+            let d = placed.stretch.displacement;
             let (a, b) = (end(group.a), end(group.b));
-            let v_rel = b.point_velocity(place.arm_b) - a.point_velocity(place.arm_a);
+            let v_rel = b.point_velocity(placed.arm_b) - a.point_velocity(placed.arm_a);
             let clearance = view.clearance(group);
             let damping =
                 group.damper.row().and_then(|row| view.dampers.get(row + element as usize));

@@ -10,6 +10,24 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::words::{Word, WordSource};
 
+/// A constant, rounded to each precision by the compiler: a target without double precision in
+/// hardware would convert a table of `f64` at run time, by a routine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constant {
+    /// In double precision.
+    pub double: f64,
+    /// Rounded once to single precision.
+    pub single: f32,
+}
+
+impl Constant {
+    /// `value`, and `value` rounded once.
+    #[must_use]
+    pub const fn new(value: f64) -> Self {
+        Self { double: value, single: value as f32 }
+    }
+}
+
 /// A number in which forces are computed.
 pub trait Real:
     Copy
@@ -51,6 +69,8 @@ pub trait Real:
 
     /// The number nearest to `value` (ties to even).
     fn from_f64(value: f64) -> Self;
+    /// A constant, without conversion.
+    fn constant(value: Constant) -> Self;
     /// The value in double precision, exact.
     fn to_f64(self) -> f64;
     /// A number near a count of steps, exact below 2^24 (f32) or 2^53 (f64).
@@ -120,6 +140,10 @@ impl Real for f64 {
         value
     }
     #[inline(always)]
+    fn constant(value: Constant) -> Self {
+        value.double
+    }
+    #[inline(always)]
     fn to_f64(self) -> f64 {
         self
     }
@@ -165,6 +189,10 @@ impl Real for f32 {
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         value as f32
+    }
+    #[inline(always)]
+    fn constant(value: Constant) -> Self {
+        value.single
     }
     #[inline(always)]
     fn to_f64(self) -> f64 {

@@ -105,9 +105,9 @@ fn tumble<P: Geometry>(
         turn(first, share * time);
     } else {
         for (i, &drift) in PEFRL.drifts.iter().enumerate() {
-            turn(first, P::Real::from_f64(drift) * (share * time));
+            turn(first, P::Real::constant(drift) * (share * time));
             if let Some(&kick) = PEFRL.kicks.get(i) {
-                turn(second, P::Real::from_f64(kick) * (other * time));
+                turn(second, P::Real::constant(kick) * (other * time));
             }
         }
     }

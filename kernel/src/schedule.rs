@@ -73,7 +73,7 @@ pub struct KnotStep<R> {
 }
 
 impl<R: Real> KnotStep<R> {
-    /// The place of a knot at `time` \[s\] among steps of `step` \[s\].
+    /// A knot at `time` \[s\] among steps of `step` \[s\].
     #[must_use]
     pub fn new(time: f64, step: f64) -> Self {
         let first = first_step(time, step);

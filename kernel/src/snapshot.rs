@@ -8,9 +8,15 @@
 
 use core::ops::Deref;
 
-use crate::elements::input::{Input, InputKind};
+use crate::body::Body;
+use crate::elements::input::{Input, InputKind, Knot};
+use crate::elements::load::Load;
+use crate::elements::point_bushing::PointBushing;
+use crate::elements::point_on_line::PointOnLine;
+use crate::elements::torsion_spring::TorsionSpring;
+use crate::elements::tsda::Tsda;
 use crate::geometry::{F64, Geometry};
-use crate::model::{ModelOwner, ModelRef};
+use crate::model::{Group, ModelOwner, ModelRef};
 use crate::plant::Plant;
 use crate::real::Real;
 use crate::schemes::Scheme;
@@ -189,9 +195,23 @@ where
 
 /// Every constant of a model in the order of its fields, counts first.
 fn visit_model<P: Geometry, T>(model: &ModelRef<'_, P, T>, visitor: &mut impl WordVisitor) {
-    let ModelRef { bodies, gravity, groups, points, tsdas, bushings, dampers, torsions, .. } =
-        model;
-    let ModelRef { loads, lines, inputs, knots, clearances, .. } = model;
+    // Field by field, so that a new one cannot be forgotten.
+    let ModelRef {
+        bodies,
+        gravity,
+        groups,
+        points,
+        tsdas,
+        bushings,
+        dampers,
+        torsions,
+        loads,
+        lines,
+        inputs,
+        knots,
+        clearances,
+        terms: _,
+    } = model;
     let counts = [
         bodies.len(),
         gravity.len(),
@@ -209,12 +229,12 @@ fn visit_model<P: Geometry, T>(model: &ModelRef<'_, P, T>, visitor: &mut impl Wo
     ];
     let mut integer = |value: u64| visitor.word(Word::U64(value));
     counts.into_iter().for_each(|count| integer(count as u64));
-    for group in *groups {
-        integer(group.law as u64);
-        integer(u64::from(group.a.0) << 16 | u64::from(group.b.0));
-        integer(u64::from(group.stars) << 16 | u64::from(group.arms) << 8 | group.shared as u64);
-        integer(u64::from(group.point) << 16 | u64::from(group.element));
-        integer(u64::from(group.damper.0) << 16 | u64::from(group.clearance.0));
+    for &Group { law, a, b, stars, arms, shared, point, element, damper, clearance } in *groups {
+        integer(law as u64);
+        integer(u64::from(a.0) << 16 | u64::from(b.0));
+        integer(u64::from(stars) << 16 | u64::from(arms) << 8 | shared as u64);
+        integer(u64::from(point) << 16 | u64::from(element));
+        integer(u64::from(damper.0) << 16 | u64::from(clearance.0));
     }
     for spring in *torsions {
         integer(u64::from(spring.a.0) << 16 | u64::from(spring.b.0));
@@ -223,40 +243,47 @@ fn visit_model<P: Geometry, T>(model: &ModelRef<'_, P, T>, visitor: &mut impl Wo
     for load in *loads {
         integer(u64::from(load.body.0) << 1 | load.frame as u64);
     }
-    for body in *bodies {
-        visitor.word(body.mass.word());
-        body.inertia.visit(visitor);
+    // All else of a body is derived from these two.
+    for Body { mass, inertia, .. } in *bodies {
+        visitor.word(mass.word());
+        inertia.visit(visitor);
     }
     gravity.iter().for_each(|field| field.visit(visitor));
     points.iter().for_each(|point| point.visit(visitor));
-    for tsda in *tsdas {
-        visitor.word(tsda.stiffness.word());
-        visitor.word(tsda.free_length.word());
+    for &Tsda { stiffness, free_length } in *tsdas {
+        visitor.word(stiffness.word());
+        visitor.word(free_length.word());
     }
-    bushings.iter().for_each(|bushing| visitor.word(bushing.stiffness.word()));
+    for &PointBushing { stiffness } in *bushings {
+        visitor.word(stiffness.word());
+    }
     dampers.iter().chain(*clearances).for_each(|number| visitor.word(number.word()));
     for spring in *torsions {
-        spring.axis.visit(visitor);
-        spring.reference.visit(visitor);
-        visitor.word(spring.stiffness.word());
-        visitor.word(spring.preload.word());
+        // Bodies and damper stand above.
+        let TorsionSpring { a: _, b: _, damper: _, axis, reference, stiffness, preload } = spring;
+        axis.visit(visitor);
+        reference.visit(visitor);
+        visitor.word(stiffness.word());
+        visitor.word(preload.word());
     }
     for load in *loads {
-        load.force.visit(visitor);
-        load.torque.visit(visitor);
-        visitor.word(Word::F64(load.from));
-        visitor.word(Word::F64(load.until));
+        // Body and frame stand above.
+        let Load { body: _, frame: _, force, torque, from, until } = load;
+        force.visit(visitor);
+        torque.visit(visitor);
+        visitor.word(Word::F64(*from));
+        visitor.word(Word::F64(*until));
     }
-    for line in *lines {
-        line.direction.visit(visitor);
-        visitor.word(line.stiffness.word());
-        visitor.word(line.free_length.word());
+    for PointOnLine { direction, stiffness, free_length } in *lines {
+        direction.visit(visitor);
+        visitor.word(stiffness.word());
+        visitor.word(free_length.word());
     }
     inputs.iter().for_each(|input| visit_input(input, visitor));
-    for knot in *knots {
-        visitor.word(Word::F64(knot.time));
-        visitor.word(knot.value.word());
-        visitor.word(knot.slope.word());
+    for Knot { time, value, slope } in *knots {
+        visitor.word(Word::F64(*time));
+        visitor.word(value.word());
+        visitor.word(slope.word());
     }
 }
 
@@ -264,7 +291,8 @@ fn visit_input<P: Geometry>(input: &Input<P>, visitor: &mut impl WordVisitor) {
     let mut integers = |kind: u64, first: u16, second: u16| {
         visitor.word(Word::U64(kind << 32 | u64::from(first) << 16 | u64::from(second)));
     };
-    match &input.kind {
+    let Input { kind, value, knot, knots } = input;
+    match kind {
         InputKind::Force { body, point, direction, frame } => {
             integers(*frame as u64, body.0, 0);
             point.visit(visitor);
@@ -284,8 +312,8 @@ fn visit_input<P: Geometry>(input: &Input<P>, visitor: &mut impl WordVisitor) {
             direction.visit(visitor);
         }
     }
-    visitor.word(input.value.word());
-    visitor.word(Word::U64(u64::from(input.knot) << 16 | u64::from(input.knots)));
+    visitor.word(value.word());
+    visitor.word(Word::U64(u64::from(*knot) << 16 | u64::from(*knots)));
 }
 
 /// Bytes so far.

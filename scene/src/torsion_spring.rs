@@ -61,7 +61,8 @@ mod tests {
         assert_eq!((second.stiffness, second.preload), (6.0, 0.0));
         let hand = Some(&states[1].orientation);
         for (spring, a) in [(first, Some(&states[0].orientation)), (second, None)] {
-            let twist = spring.twist(Quaternion::relative(a, hand), 0).unwrap();
+            let twist =
+                spring.twist(&spring.since_start(Quaternion::relative(a, hand)).unwrap(), 0);
             assert!(twist.angle.abs() < 1e-15, "{:e}", twist.angle);
             assert_eq!(spring.damper.row(), None);
         }

@@ -56,7 +56,7 @@ mod tests {
         ] {
             assert_eq!(engaged(8.0, extension, Some(0.5)), damping, "{extension}");
         }
-        // A clearance that a precision rounds to nothing is none.
+        // A clearance that a precision rounds to 0 leaves the damper whole.
         assert_eq!(engaged(8.0_f32, 0.0, Some(0.0)), 8.0);
     }
 }

@@ -45,7 +45,7 @@ pub enum InputKind<P: Geometry> {
     Actuator {
         /// The TSDA's group.
         group: u16,
-        /// Its place in the group.
+        /// Its number in the group.
         element: u16,
     },
     /// A displacement \[m\] of ground points along a direction, with its rate \[m/s\]. The points

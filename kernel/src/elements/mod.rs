@@ -4,6 +4,7 @@
 //! name their bodies. Placing points, grouping and summing is the work of [`crate::forces`].
 
 pub mod clearance;
+pub mod element;
 pub mod gravity;
 pub mod input;
 pub mod load;

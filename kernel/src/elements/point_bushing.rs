@@ -56,7 +56,7 @@ impl<R: Real> PointLaw<R> for PointBushing<R> {
 
     /// Along the world's axes.
     #[inline(always)]
-    fn damped(&self, _: &Stretch<R>) -> ([Vec3<R>; 3], usize) {
+    fn damped(_: &Stretch<R>) -> ([Vec3<R>; 3], usize) {
         (Vec3::axes(), 3)
     }
 

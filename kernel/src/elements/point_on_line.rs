@@ -104,7 +104,7 @@ impl<R: Real> PointLaw<R> for PointOnLine<R> {
 
     /// Along the line's two normals.
     #[inline(always)]
-    fn damped(&self, stretch: &Stretch<R>) -> ([Vec3<R>; 3], usize) {
+    fn damped(stretch: &Stretch<R>) -> ([Vec3<R>; 3], usize) {
         let [n, m] = stretch.direction.normals();
         ([n, m, Vec3::ZERO], 2)
     }

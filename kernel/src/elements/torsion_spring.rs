@@ -50,6 +50,38 @@ pub struct Twist<R> {
 /// about an axis normal to n, and the twist's gradient has grown to a thousand.
 pub const LEAST_TWIST_NORM: f64 = 1e-6;
 
+/// How B has turned in A since t = 0.
+#[derive(Clone, Copy, Debug)]
+pub struct SinceStart<R> {
+    turn: Quaternion<R>,
+    /// `v·n`.
+    s: R,
+    /// `w² + (v·n)²`.
+    norm: R,
+}
+
+impl<R: Real> SinceStart<R> {
+    /// (w, v·n) with the sign that belongs to the turn count.
+    #[inline(always)]
+    fn wound(&self, turns: i32) -> (R, R) {
+        let odd = turns & 1 != 0;
+        if odd { (-self.turn.w, -self.s) } else { (self.turn.w, self.s) }
+    }
+
+    /// The turn count brought to the half winding nearest the pose, which a step does once, at its
+    /// boundary.
+    #[inline(always)]
+    #[must_use]
+    pub fn settled(&self, turns: i32) -> i32 {
+        let (w, s) = self.wound(turns);
+        if w < R::ZERO {
+            if s > R::ZERO { turns.wrapping_add(1) } else { turns.wrapping_sub(1) }
+        } else {
+            turns
+        }
+    }
+}
+
 impl<R: Real> TorsionSpring<R> {
     /// The same spring in another precision.
     pub fn convert<Q: Real>(&self) -> TorsionSpring<Q> {
@@ -64,45 +96,28 @@ impl<R: Real> TorsionSpring<R> {
         }
     }
 
-    /// The twist for B's orientation `relative` in A's axes at the turn count `turns`, or `None`
-    /// where it is undefined.
+    /// The rotation since t = 0 for B's orientation `relative` in A's axes, or `None` where its twist
+    /// is undefined.
     #[inline(always)]
-    pub fn twist(&self, relative: Quaternion<R>, turns: i32) -> Option<Twist<R>> {
-        let (since, s, norm) = self.since_start(relative)?;
-        let odd = turns & 1 != 0;
-        let (w, s_of_turn) = if odd { (-since.w, -s) } else { (since.w, s) };
-        let principal = R::TWO * atan2(s_of_turn, w);
-        let angle =
-            if turns == 0 { principal } else { R::from_i32(turns) * (R::TWO * R::PI) + principal };
-        let n = self.axis;
-        let along = n * (since.w * since.w) + since.v.cross(n) * since.w + since.v * s;
-        Some(Twist { angle, gradient: along * (R::ONE / norm) })
-    }
-
-    /// The turn count brought to the half winding nearest the pose, which a step does once, at its
-    /// boundary; as it was where the twist is undefined.
-    #[inline(always)]
-    pub fn settled(&self, relative: Quaternion<R>, turns: i32) -> i32 {
-        let Some((since, s, _)) = self.since_start(relative) else { return turns };
-        let odd = turns & 1 != 0;
-        let (w, s) = if odd { (-since.w, -s) } else { (since.w, s) };
-        if w < R::ZERO {
-            if s > R::ZERO { turns.wrapping_add(1) } else { turns.wrapping_sub(1) }
-        } else {
-            turns
-        }
-    }
-
-    /// The rotation since t = 0, its part `v·n` along the axis and `w² + (v·n)²`, which is large
-    /// enough for a twist.
-    #[inline(always)]
-    fn since_start(&self, relative: Quaternion<R>) -> Option<(Quaternion<R>, R, R)> {
-        let since = relative.product(self.reference);
-        let s = since.v.dot(self.axis);
-        let norm = since.w * since.w + s * s;
+    pub fn since_start(&self, relative: Quaternion<R>) -> Option<SinceStart<R>> {
+        let turn = relative.product(self.reference);
+        let s = turn.v.dot(self.axis);
+        let norm = turn.w * turn.w + s * s;
         // Written so that NaN counts as undefined, too.
         let defined = norm >= R::from_f64(LEAST_TWIST_NORM);
-        if defined { Some((since, s, norm)) } else { None }
+        if defined { Some(SinceStart { turn, s, norm }) } else { None }
+    }
+
+    /// The twist of a rotation at the turn count `turns`.
+    #[inline(always)]
+    pub fn twist(&self, since: &SinceStart<R>, turns: i32) -> Twist<R> {
+        let (w, s) = since.wound(turns);
+        let principal = R::TWO * atan2(s, w);
+        let angle =
+            if turns == 0 { principal } else { R::from_i32(turns) * (R::TWO * R::PI) + principal };
+        let (n, q) = (self.axis, since.turn);
+        let along = n * (q.w * q.w) + q.v.cross(n) * q.w + q.v * since.s;
+        Twist { angle, gradient: along * (R::ONE / since.norm) }
     }
 
     /// Torque on B \[N·m\] in A's axes without damping.
@@ -164,11 +179,12 @@ mod tests {
                 let angle = direction * 0.01 * f64::from(i);
                 // Between two settled poses a stage may look well ahead without meeting the cut.
                 let stage = turned([0.0, 0.0, 1.0], angle + direction * 2.5);
-                let looked = spring.twist(stage, turns).unwrap();
+                let looked = spring.twist(&spring.since_start(stage).unwrap(), turns);
                 assert!((looked.angle - angle - direction * 2.5).abs() < 1e-12);
                 let pose = turned([0.0, 0.0, 1.0], angle);
-                turns = spring.settled(pose, turns);
-                let twist = spring.twist(pose, turns).unwrap();
+                let since = spring.since_start(pose).unwrap();
+                turns = since.settled(turns);
+                let twist = spring.twist(&since, turns);
                 assert!((twist.angle - angle).abs() < 1e-12, "{} {angle}", twist.angle);
                 assert!((twist.gradient.z - 1.0).abs() < 1e-12);
             }
@@ -181,10 +197,14 @@ mod tests {
         let n = [0.6, 0.0, 0.8];
         let spring = spring(n);
         let pose = turned([0.6, 0.64, 0.48], 1.1).product(turned(n, 0.4));
-        let twist = spring.twist(pose, spring.settled(pose, 0)).unwrap();
+        let since = spring.since_start(pose).unwrap();
+        let twist = spring.twist(&since, since.settled(0));
         for axis in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
             // A rotation of B by a small vector in A's axes multiplies from the left.
-            let at = |e: f64| spring.twist(turned(axis, e).product(pose), 0).unwrap().angle;
+            let at = |e: f64| {
+                let since = spring.since_start(turned(axis, e).product(pose)).unwrap();
+                spring.twist(&since, since.settled(0)).angle
+            };
             let rate = (at(1e-5) - at(-1e-5)) / 2e-5;
             let along = Vec3::from_f64(axis).dot(twist.gradient);
             assert!((rate - along).abs() < 1e-9, "{rate} {along}");
@@ -195,9 +215,9 @@ mod tests {
     fn half_a_turn_about_a_normal_axis_has_no_twist() {
         let spring = spring([0.0, 0.0, 1.0]);
         let flipped = turned([1.0, 0.0, 0.0], core::f64::consts::PI);
-        assert_eq!(spring.twist(flipped, 0), None);
+        assert!(spring.since_start(flipped).is_none());
         let broken = Quaternion::new(f64::NAN, 0.0, 0.0, 0.0);
-        assert_eq!(spring.twist(broken, 0), None);
+        assert!(spring.since_start(broken).is_none());
     }
 
     #[test]
@@ -205,8 +225,9 @@ mod tests {
         let spring = spring([0.0, 0.0, 1.0]);
         let mut turns = 0;
         let pose = turned([0.0, 0.0, 1.0], 0.7);
-        turns = spring.settled(pose, turns);
-        let twist = spring.twist(pose, turns).unwrap();
+        let since = spring.since_start(pose).unwrap();
+        turns = since.settled(turns);
+        let twist = spring.twist(&since, turns);
         let slope = (spring.energy(0.7 + 1e-6) - spring.energy(0.7 - 1e-6)) / 2e-6;
         assert!((spring.torque(&twist).z + slope).abs() < 1e-8);
         let damped = spring.damped_torque(2.0, &twist, Vec3::new(9.0, 9.0, 0.25));

@@ -74,7 +74,7 @@ impl<R: Real> PointLaw<R> for Tsda<R> {
 
     /// Along its line.
     #[inline(always)]
-    fn damped(&self, stretch: &Stretch<R>) -> ([Vec3<R>; 3], usize) {
+    fn damped(stretch: &Stretch<R>) -> ([Vec3<R>; 3], usize) {
         let d = stretch.displacement;
         let along = d * d.dot(d).sqrt().reciprocal_or_zero();
         ([along, Vec3::ZERO, Vec3::ZERO], 1)

@@ -2,7 +2,7 @@
 //!
 //! `(group, ends) => record`.
 
-use crate::forces::{Dampers, Record};
+use crate::forces::record::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::End;

@@ -4,7 +4,7 @@
 
 use crate::elements::input::InputKind;
 use crate::elements::load::LoadFrame;
-use crate::forces::{Record, Wrench, apply};
+use crate::forces::record::{Record, Wrench, apply};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{ModelRef, Terms};

@@ -3,7 +3,7 @@
 //! `(group, ends) => record`. The reaction acts at the foot of the point on its line.
 
 use crate::elements::point_on_line::Projection;
-use crate::forces::{Dampers, Record};
+use crate::forces::record::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::End;

@@ -4,10 +4,10 @@
 //! added in the order of its elements; force and torque on A add star by star, the torque on B arm
 //! by arm.
 
-use crate::forces::{Dampers, Record};
+use crate::forces::record::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
-use crate::pose::{End, each_star};
+use crate::pose::{End, blocks};
 use crate::vector::Vec3;
 
 /// A group of TSDA stars with `ARMS` arms each.
@@ -27,36 +27,33 @@ pub(super) fn stars<P: Geometry, T: Terms, D: Dampers, const ARMS: usize>(
     }
     .map(|dampers| dampers.as_chunks::<ARMS>().0);
     let clearance = model.clearance(group);
-    let last = (group.stars as usize).wrapping_sub(1);
-    let mut pulls = [Vec3::ZERO; ARMS];
-    each_star::<P, ARMS, false>(model.points, group, (end_a, end_b), ARMS, |star, centre, tips| {
-        let (Some(springs), Some(tips)) = (tsdas.get(star), tips.first_chunk::<ARMS>()) else {
-            return;
-        };
-        let (centre, arm) = centre;
-        let coefficients = dampers.and_then(|dampers| dampers.get(star));
-        let mut pull_a = Vec3::ZERO;
-        for j in 0..ARMS {
-            let (tip, tip_arm) = &tips[j];
-            let d = P::displacement(centre, tip);
-            let pull = match coefficients {
-                Some(coefficients) => {
-                    let v_rel = end_b.point_velocity(*tip_arm) - end_a.point_velocity(*arm);
-                    springs[j].damped_force(coefficients[j], d, v_rel, clearance)
-                }
-                None => springs[j].force(d, clearance),
-            };
-            pull_a = pull_a + pull;
-            pulls[j] = pulls[j] + pull;
-        }
-        record.force = record.force + pull_a;
-        record.torque_a = record.torque_a + arm.cross(pull_a);
-        if !group.shared || star == last {
+    let (mut springs, mut dampers) = (tsdas.iter(), dampers.map(<[_]>::iter));
+    for (centres, others) in blocks::<_, ARMS>(model.points, group) {
+        let tips: [_; ARMS] = core::array::from_fn(|j| end_b.place(&others[j]));
+        let mut pulls = [Vec3::ZERO; ARMS];
+        for (centre, springs) in centres.iter().zip(&mut springs) {
+            let (centre, arm) = end_a.place(centre);
+            let coefficients = dampers.as_mut().and_then(Iterator::next);
+            let mut pull_a = Vec3::ZERO;
             for j in 0..ARMS {
-                record.torque_b = record.torque_b - tips[j].1.cross(pulls[j]);
-                pulls[j] = Vec3::ZERO;
+                let (tip, tip_arm) = &tips[j];
+                let d = P::displacement(&centre, tip);
+                let pull = match coefficients {
+                    Some(coefficients) => {
+                        let v_rel = end_b.point_velocity(*tip_arm) - end_a.point_velocity(arm);
+                        springs[j].damped_force(coefficients[j], d, v_rel, clearance)
+                    }
+                    None => springs[j].force(d, clearance),
+                };
+                pull_a = pull_a + pull;
+                pulls[j] = pulls[j] + pull;
             }
+            record.force = record.force + pull_a;
+            record.torque_a = record.torque_a + arm.cross(pull_a);
         }
-    });
+        for j in 0..ARMS {
+            record.torque_b = record.torque_b - tips[j].1.cross(pulls[j]);
+        }
+    }
     record
 }

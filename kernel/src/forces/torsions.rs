@@ -4,7 +4,7 @@
 
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
-use crate::forces::{At, Dampers, Record, Turns, Wrench, apply};
+use crate::forces::record::{At, Dampers, Record, Turns, Wrench, apply};
 use crate::geometry::Geometry;
 use crate::index::TorsionIndex;
 use crate::model::{ModelRef, Terms};
@@ -26,12 +26,13 @@ pub(super) fn torsions<P: Geometry, T: Terms, D: Dampers>(
         let (a, b) = (bodies.get(spring.a.row()), bodies.get(spring.b.row()));
         let relative =
             P::Orientation::relative(a.map(|s| &s.orientation), b.map(|s| &s.orientation));
-        if settle {
-            *turns = spring.settled(relative, *turns);
-        }
-        let Some(twist) = spring.twist(relative, *turns) else {
+        let Some(since) = spring.since_start(relative) else {
             return Err(Cause::UndefinedTwist { spring: TorsionIndex(i as u16) });
         };
+        if settle {
+            *turns = since.settled(*turns);
+        }
+        let twist = spring.twist(&since, *turns);
         let end_a = End::new(model, places, spring.a, Some(bodies));
         let damper = match spring.damper.row() {
             Some(row) if D::ACT && T::DAMPERS => model.dampers.get(row),

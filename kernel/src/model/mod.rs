@@ -20,11 +20,12 @@ pub use terms::{AllTerms, CountedTerms, Terms};
 use core::marker::PhantomData;
 
 use crate::body::BodyState;
+use crate::elements::element::Element;
+pub use crate::elements::element::Law;
 use crate::elements::input::{Input, Knot};
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
-use crate::elements::point_law::Element;
-pub use crate::elements::point_law::Law;
+use crate::elements::point_law::{PointLaw as _, Stretch};
 use crate::elements::point_on_line::PointOnLine;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
@@ -73,6 +74,12 @@ impl Group {
     pub const fn points(&self) -> usize {
         let blocks = if self.shared { 1 } else { self.stars as usize };
         self.stars as usize + blocks * self.arms as usize
+    }
+
+    /// The number of stars that share the second body's points.
+    #[inline(always)]
+    pub(crate) const fn stars_per_block(&self) -> usize {
+        if self.shared { self.stars as usize } else { 1 }
     }
 
     /// The row of a star's first point among the model's points.
@@ -134,6 +141,22 @@ impl<'m, P: Geometry, T: Terms> ModelRef<'m, P, T> {
         }
     }
 
+    /// The directions in which a law's damper acts and how many they are, `None` where the model
+    /// has no such law.
+    #[inline(always)]
+    pub(crate) fn damped(
+        &self,
+        law: Law,
+        stretch: &Stretch<P::Real>,
+    ) -> Option<([Vec3<P::Real>; 3], usize)> {
+        match law {
+            Law::Tsda if T::TSDAS => Some(Tsda::damped(stretch)),
+            Law::PointBushing if T::BUSHINGS => Some(PointBushing::damped(stretch)),
+            Law::PointOnLine if T::LINES => Some(PointOnLine::damped(stretch)),
+            _ => None,
+        }
+    }
+
     /// The clearance \[m\] of a group, `None` without one.
     #[inline(always)]
     pub(crate) fn clearance(&self, group: &Group) -> Option<P::Real> {
@@ -158,7 +181,7 @@ pub trait ModelOwner {
     type PerLoad: Clone + AsRef<[LoadWindow]> + AsMut<[LoadWindow]>;
     /// Memory of one signal per input.
     type PerInput: Clone + AsRef<[Signal<RealOf<Self>>]> + AsMut<[Signal<RealOf<Self>>]>;
-    /// Memory of one place per knot.
+    /// Memory of one knot in steps per knot.
     type PerKnot: Clone + AsRef<[KnotStep<RealOf<Self>>]> + AsMut<[KnotStep<RealOf<Self>>]>;
 
     /// The constants.
@@ -173,7 +196,7 @@ pub trait ModelOwner {
     fn per_load(&self) -> Self::PerLoad;
     /// One zero signal per input.
     fn per_input(&self) -> Self::PerInput;
-    /// One place per knot.
+    /// One knot in steps per knot.
     fn per_knot(&self) -> Self::PerKnot;
 }
 

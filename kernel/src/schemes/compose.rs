@@ -23,11 +23,11 @@ pub(super) fn compose<P: Geometry, T: Terms>(
     let Composition { drifts, kicks } = composition;
     let mut kicks = kicks.iter();
     for (i, &drift) in drifts.iter().enumerate() {
-        stepper.drift_of_order_four(P::Real::from_f64(drift) * stepper.h);
+        stepper.drift_of_order_four(P::Real::constant(drift) * stepper.h);
         if let Some(&kick) = kicks.next() {
             let at = if i == 0 { At::Boundary } else { At::Stage };
             stepper.evaluate::<DampersLeft>(at)?;
-            stepper.kick(P::Real::from_f64(kick));
+            stepper.kick(P::Real::constant(kick));
         }
     }
     stepper.place_for_sweep();

@@ -15,7 +15,7 @@ use crate::status::Cause;
 use crate::step::Stepper;
 
 /// A scheme whose dampers can be sweeps or, within its kicks, explicit forces. Schemes with
-/// negative sub-steps are none: there a damper would add energy.
+/// negative sub-steps are left out: there a damper would add energy.
 pub trait Kicked: Scheme {
     /// Evaluations per step with explicit dampers.
     const EXPLICIT_EVALUATIONS: u32;

@@ -1,0 +1,83 @@
+//! The list of laws between two points.
+//!
+//! A new law is a file beside this one that implements [`PointLaw`], a variant of [`Law`] and of
+//! [`Element`], a file of its walk in [`crate::forces`] and a field of [`crate::energy::Energy`].
+
+use crate::elements::point_bushing::PointBushing;
+use crate::elements::point_law::{PointLaw, Stretch};
+use crate::elements::point_on_line::PointOnLine;
+use crate::elements::tsda::Tsda;
+use crate::real::Real;
+use crate::vector::Vec3;
+
+/// The law that a group's elements follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Law {
+    /// Stars of TSDAs with free lengths.
+    Tsda,
+    /// One point bushing.
+    PointBushing,
+    /// Stars on lines: each star's first point and its elements' direction define a line of the
+    /// first body, on which the second body's points are projected.
+    PointOnLine,
+}
+
+impl Law {
+    /// Whether a star of this law may have `arms` points of the second body.
+    #[must_use]
+    pub const fn takes_arms(self, arms: u8) -> bool {
+        match self {
+            Law::Tsda => arms == 1 || arms == 3,
+            Law::PointBushing => arms == 1,
+            Law::PointOnLine => arms == 1 || arms == 2,
+        }
+    }
+}
+
+/// One element of any law.
+#[derive(Clone, Copy, Debug)]
+pub enum Element<'m, R> {
+    /// A TSDA with a free length.
+    Tsda(&'m Tsda<R>),
+    /// A TSDA of no free length.
+    PointBushing(&'m PointBushing<R>),
+    /// A point held to a line.
+    PointOnLine(&'m PointOnLine<R>),
+}
+
+/// Calls a method of the law that an element follows.
+macro_rules! of_law {
+    ($element:expr, $law:ident => $call:expr) => {
+        match $element {
+            Element::Tsda($law) => $call,
+            Element::PointBushing($law) => $call,
+            Element::PointOnLine($law) => $call,
+        }
+    };
+}
+
+impl<R: Real> Element<'_, R> {
+    /// As [`PointLaw::extension`].
+    #[inline(always)]
+    pub fn extension(&self, displacement: Vec3<R>) -> R {
+        of_law!(self, law => PointLaw::extension(*law, displacement))
+    }
+
+    /// As [`PointLaw::energy`].
+    #[inline(always)]
+    pub fn energy(&self, displacement: Vec3<R>, clearance: Option<R>) -> R {
+        of_law!(self, law => PointLaw::energy(*law, displacement, clearance))
+    }
+
+    /// As [`PointLaw::tangent`].
+    #[inline(always)]
+    pub fn tangent(
+        &self,
+        stretch: &Stretch<R>,
+        arm: Vec3<R>,
+        add: &mut impl FnMut(R, Vec3<R>),
+    ) -> R {
+        of_law!(self, law => law.tangent(stretch, arm, add))
+    }
+}

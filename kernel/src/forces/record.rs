@@ -1,0 +1,83 @@
+//! What the laws' files and the evaluation share: records, wrenches, and how dampers and turn counts
+//! are taken.
+//!
+//! `record => wrenches of its two bodies`.
+
+use crate::real::Real;
+use crate::vector::Vec3;
+
+/// The force on a body and its torque.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Wrench<R> {
+    /// \[N\] force, world axes.
+    pub force: Vec3<R>,
+    /// \[N·m\] torque about the centre of mass, body axes once the evaluation is complete.
+    pub torque: Vec3<R>,
+}
+
+/// What a group does to its two bodies, world axes; the force on B is the opposite of A's.
+#[derive(Clone, Copy)]
+pub(crate) struct Record<R> {
+    pub(crate) force: Vec3<R>,
+    pub(crate) torque_a: Vec3<R>,
+    pub(crate) torque_b: Vec3<R>,
+}
+
+impl<R: Real> Record<R> {
+    pub(super) const ZERO: Self =
+        Self { force: Vec3::ZERO, torque_a: Vec3::ZERO, torque_b: Vec3::ZERO };
+}
+
+/// Whether the dampers' forces are part of an evaluation.
+pub trait Dampers {
+    /// Whether they act.
+    const ACT: bool;
+}
+
+/// Dampers act as forces at the velocities of the evaluation.
+#[derive(Clone, Copy, Debug)]
+pub struct ExplicitDampers;
+
+impl Dampers for ExplicitDampers {
+    const ACT: bool = true;
+}
+
+/// Dampers are left to the sweeps of [`crate::damping`].
+#[derive(Clone, Copy, Debug)]
+pub struct DampersLeft;
+
+impl Dampers for DampersLeft {
+    const ACT: bool = false;
+}
+
+/// Where in a step an evaluation stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum At {
+    /// Once per step, near its boundary: turn counts are settled.
+    Boundary,
+    /// Anywhere else: turn counts are only read.
+    Stage,
+}
+
+/// The torsion springs' turn counts in an evaluation.
+pub(crate) struct Turns<'s> {
+    /// One per torsion spring.
+    pub(crate) counts: &'s mut [i32],
+    /// Whether to settle them.
+    pub(crate) at: At,
+}
+
+/// Adds a record to its two bodies; the world takes none.
+#[inline(always)]
+pub(crate) fn apply<R: Real>(wrenches: &mut [Wrench<R>], a: usize, b: usize, record: &Record<R>) {
+    if let Some(wrench) = wrenches.get_mut(a) {
+        wrench.force = wrench.force + record.force;
+        wrench.torque = wrench.torque + record.torque_a;
+    }
+    if let Some(wrench) = wrenches.get_mut(b) {
+        wrench.force = wrench.force - record.force;
+        wrench.torque = wrench.torque + record.torque_b;
+    }
+}

@@ -1,0 +1,191 @@
+//! From a sketch to a model: counted, rounded once, checked.
+
+use crate::body::{Body, BodyState};
+use crate::elements::load::Load;
+use crate::elements::point_bushing::PointBushing;
+use crate::elements::torsion_spring::TorsionSpring;
+use crate::elements::tsda::Tsda;
+use crate::geometry::{F32, F64};
+use crate::model::Model;
+use crate::sketch::Sketch;
+use crate::vector::{Quaternion, Vec3};
+
+/// The first items, as many as the model has, each rounded.
+macro_rules! rounded {
+    ($list:expr, $count:ident, $item:ident => $round:expr) => {{
+        let list = &$list;
+        assert!(list.count == $count, "a model has the sizes of its sketch");
+        let $item = &list.items[0];
+        let mut all = [$round; $count];
+        let mut i = 0;
+        while i < all.len() {
+            let $item = &list.items[i];
+            all[i] = $round;
+            i += 1;
+        }
+        all
+    }};
+}
+
+/// The model of a sketch in one floating-point precision.
+macro_rules! models {
+    ($($function:ident: $precision:ty, $real:ty, $vector:ident, $quaternion:ident;)*) => {
+        $(
+            const fn $vector(v: &Vec3<f64>) -> Vec3<$real> {
+                Vec3::new(v.x as $real, v.y as $real, v.z as $real)
+            }
+
+            const fn $quaternion(q: &Quaternion<f64>) -> Quaternion<$real> {
+                Quaternion { w: q.w as $real, v: $vector(&q.v) }
+            }
+        )*
+
+        impl Sketch {
+            $(
+                /// The model in this precision; its sizes are [`Sketch::counts`].
+                ///
+                /// # Panics
+                /// Where an element names a body that is not there; see [`Model::checked`].
+                #[must_use]
+                pub const fn $function<
+                    const BODIES: usize,
+                    const GROUPS: usize,
+                    const POINTS: usize,
+                    const TSDAS: usize,
+                    const BUSHINGS: usize,
+                    const DAMPERS: usize,
+                    const TORSIONS: usize,
+                    const GRAVITY: usize,
+                    const LOADS: usize,
+                >(
+                    &self,
+                ) -> Model<
+                    $precision,
+                    BODIES,
+                    GROUPS,
+                    POINTS,
+                    TSDAS,
+                    BUSHINGS,
+                    DAMPERS,
+                    TORSIONS,
+                    GRAVITY,
+                    LOADS,
+                > {
+                    Model {
+                        bodies: rounded!(self.bodies, BODIES, b => Body {
+                            mass: b.mass as $real,
+                            inertia: $vector(&b.inertia),
+                            inverse_mass: b.inverse_mass as $real,
+                            inverse_inertia: $vector(&b.inverse_inertia),
+                            ratio: $vector(&b.ratio),
+                            inverse_ratio: $vector(&b.inverse_ratio),
+                        }),
+                        initial: rounded!(self.initial, BODIES, s => BodyState {
+                            position: $vector(&s.position),
+                            orientation: $quaternion(&s.orientation),
+                            velocity: $vector(&s.velocity),
+                            angular_velocity: $vector(&s.angular_velocity),
+                        }),
+                        gravity: rounded!(self.gravity, GRAVITY, g => $vector(g)),
+                        groups: rounded!(self.groups, GROUPS, g => *g),
+                        points: rounded!(self.points, POINTS, p => $vector(p)),
+                        tsdas: rounded!(self.tsdas, TSDAS, t => Tsda {
+                            stiffness: t.stiffness as $real,
+                            free_length: t.free_length as $real,
+                        }),
+                        bushings: rounded!(self.bushings, BUSHINGS, b => PointBushing {
+                            stiffness: b.stiffness as $real,
+                        }),
+                        dampers: rounded!(self.dampers, DAMPERS, c => *c as $real),
+                        torsions: rounded!(self.torsions, TORSIONS, t => TorsionSpring {
+                            a: t.a,
+                            b: t.b,
+                            axis: $vector(&t.axis),
+                            reference: $quaternion(&t.reference),
+                            stiffness: t.stiffness as $real,
+                            preload: t.preload as $real,
+                            damper: t.damper,
+                        }),
+                        loads: rounded!(self.loads, LOADS, l => Load {
+                            body: l.body,
+                            frame: l.frame,
+                            force: $vector(&l.force),
+                            torque: $vector(&l.torque),
+                            from: l.from,
+                            until: l.until,
+                        }),
+                        lines: [],
+                        inputs: [],
+                        knots: [],
+                        clearances: [],
+                    }
+                    .checked()
+                }
+            )*
+        }
+    };
+}
+
+models! {
+    model_f64: F64, f64, vector_f64, quaternion_f64;
+    model_f32: F32, f32, vector_f32, quaternion_f32;
+}
+
+/// A `static` model from a [`Sketch`] in a `const`, in precision `F64` or `F32`: the compiler counts its
+/// parts, rounds them once and checks every index.
+///
+/// ```
+/// use dbd_kernel::sketch::{Sketch, Spring, Start};
+/// use dbd_kernel::{BodyIndex, Leapfrog, Plant};
+///
+/// const PENDULUM: Sketch = Sketch::new()
+///     .gravity([0.0, -9.81, 0.0])
+///     .body(1.0, [0.1; 3], Start::at([1.0, 0.0, 0.0]))
+///     .tsda(
+///         [BodyIndex::WORLD, BodyIndex(0)],
+///         [[0.0; 3]; 2],
+///         Spring { stiffness: 1e4, damping: 0.0, free_length: 1.0 },
+///     );
+/// dbd_kernel::model!(static PENDULUM_F32: F32 = PENDULUM);
+///
+/// let mut plant = Plant::new(&PENDULUM_F32, Leapfrog, 1e-3)?;
+/// plant.advance(100).ok()?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// What is not there is refused by the compiler:
+///
+/// ```compile_fail
+/// use dbd_kernel::BodyIndex;
+/// use dbd_kernel::sketch::{Sketch, Spring, Start};
+///
+/// const WRONG: Sketch = Sketch::new().body(1.0, [0.1; 3], Start::at([0.0; 3])).tsda(
+///     [BodyIndex::WORLD, BodyIndex(1)],
+///     [[0.0; 3]; 2],
+///     Spring { stiffness: 1.0, damping: 0.0, free_length: 1.0 },
+/// );
+/// dbd_kernel::model!(static MODEL: F64 = WRONG);
+/// ```
+#[macro_export]
+macro_rules! model {
+    ($(#[$meta:meta])* $visible:vis static $name:ident: F64 = $sketch:path) => {
+        $crate::model!(@ [$(#[$meta])* $visible] $name F64 model_f64 $sketch);
+    };
+    ($(#[$meta:meta])* $visible:vis static $name:ident: F32 = $sketch:path) => {
+        $crate::model!(@ [$(#[$meta])* $visible] $name F32 model_f32 $sketch);
+    };
+    (@ [$($head:tt)*] $name:ident $precision:ident $function:ident $sketch:path) => {
+        $($head)* static $name: $crate::Model<
+            $crate::$precision,
+            { $sketch.counts()[0] },
+            { $sketch.counts()[1] },
+            { $sketch.counts()[2] },
+            { $sketch.counts()[3] },
+            { $sketch.counts()[4] },
+            { $sketch.counts()[5] },
+            { $sketch.counts()[6] },
+            { $sketch.counts()[7] },
+            { $sketch.counts()[8] },
+        > = $sketch.$function();
+    };
+}
