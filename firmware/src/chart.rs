@@ -100,6 +100,7 @@ mod tests {
 
     use super::*;
     use crate::models::for_each;
+    use crate::sample::for_each_sampled;
 
     /// What pairs are called, and whether none was called so before.
     #[derive(Default)]
@@ -120,20 +121,36 @@ mod tests {
         }
     }
 
-    #[test]
-    fn every_pair_steps_and_has_a_name_of_its_own() {
+    /// All pairs whose steps are counted.
+    fn counted() -> Names {
         let mut names = Names::default();
         for_each(&mut names);
         for_each_charted(&mut names);
+        names
+    }
+
+    #[test]
+    fn every_pair_steps_and_has_a_name_and_a_row_of_its_own() {
+        let names = counted();
         assert!(names.twice.is_empty(), "{:?}", names.twice);
-        for name in [
-            "3ruu rk4 f32",
-            "3ruu dbd f64",
-            "hexagon leapfrog f64",
-            "four-bar dbd+1 f64",
-            "double-wishbone leapfrog-explicit f32",
-        ] {
-            assert!(names.seen.contains(name), "{name}");
-        }
+        let costs = include_str!("../../docs/costs.csv").lines().skip(1);
+        let rows: BTreeSet<String> =
+            costs.map(|row| row.split(',').take(3).collect::<Vec<_>>().join(" ")).collect();
+        let differing: Vec<_> = rows.symmetric_difference(&names.seen).collect();
+        assert!(differing.is_empty(), "only in docs/costs.csv or only shipped: {differing:?}");
+    }
+
+    #[test]
+    fn the_sample_is_part_of_all_and_has_every_scheme() {
+        let (all, mut sample) = (counted(), Names::default());
+        for_each_sampled(&mut sample);
+        assert!(sample.twice.is_empty(), "{:?}", sample.twice);
+        assert!(sample.seen.is_subset(&all.seen), "{:?}", sample.seen.difference(&all.seen));
+        let schemes = |names: &Names| -> BTreeSet<String> {
+            let scheme = |name: &String| name.split(' ').nth(1).unwrap().to_owned();
+            names.seen.iter().map(scheme).collect()
+        };
+        let missing: Vec<_> = schemes(&all).difference(&schemes(&sample)).cloned().collect();
+        assert_eq!(missing, ["semi-implicit-euler-explicit"]);
     }
 }

@@ -4,10 +4,10 @@
 //! the command line and standard output. Files are the host's either way.
 
 #[cfg(target_os = "none")]
-pub use target::{exit, load, numbers, save};
+pub use target::{argument, exit, load, save};
 
 #[cfg(not(target_os = "none"))]
-pub use host::{exit, load, numbers, save};
+pub use host::{argument, exit, load, save};
 
 /// Prints one line.
 #[cfg(target_os = "none")]
@@ -26,24 +26,19 @@ macro_rules! say {
 #[cfg(target_os = "none")]
 mod target {
     use core::ffi::CStr;
+    use core::str::FromStr;
     use defmt_semihosting as _;
 
     use semihosting::experimental::env;
     use semihosting::fs;
     use semihosting::io::Read as _;
 
-    /// The program's arguments, as many as are numbers, in order.
+    /// The argument at a position, counted from 0; `None` where there is none of this kind.
     #[must_use]
-    pub fn numbers<const N: usize>() -> [Option<u64>; N] {
-        let mut numbers = [None; N];
+    pub fn argument<T: FromStr>(position: usize) -> Option<T> {
         // The first is the name of the image.
-        if let Ok(arguments) = env::args::<256>() {
-            let values = arguments.skip(1).filter_map(|a| a.ok()?.parse().ok());
-            for (number, value) in numbers.iter_mut().zip(values) {
-                *number = Some(value);
-            }
-        }
-        numbers
+        let arguments = env::args::<256>().ok()?;
+        (&arguments).nth(position + 1)?.ok()?.parse().ok()
     }
 
     /// Ends the program; the emulator's exit status tells whether it went well.
@@ -80,16 +75,12 @@ mod target {
 #[cfg(not(target_os = "none"))]
 mod host {
     use core::ffi::CStr;
+    use core::str::FromStr;
 
-    /// The program's arguments, as many as are numbers, in order.
+    /// The argument at a position, counted from 0; `None` where there is none of this kind.
     #[must_use]
-    pub fn numbers<const N: usize>() -> [Option<u64>; N] {
-        let mut numbers = [None; N];
-        let values = std::env::args().skip(1).filter_map(|a| a.parse().ok());
-        for (number, value) in numbers.iter_mut().zip(values) {
-            *number = Some(value);
-        }
-        numbers
+    pub fn argument<T: FromStr>(position: usize) -> Option<T> {
+        std::env::args().nth(position + 1)?.parse().ok()
     }
 
     /// Writes a file; whether it is complete.

@@ -1,6 +1,6 @@
-//! What a step of every shipped and every charted model costs in instructions and memory.
+//! What a step of models with their schemes costs in instructions and memory.
 //!
-//! `(models, SysTick) => lines "cost SCENE SCHEMEVARIANT PRECISION STEP MEAN MAX PLANT MODEL STACK"`:
+//! `(pairs, SysTick) => lines "cost SCENE SCHEMEVARIANT PRECISION STEP MEAN MAX PLANT MODEL STACK"`:
 //! step \[ns\], instructions per step, bytes of the plant (state and scratch), of the const model
 //! and of the stack below the call. The emulator must count instructions (`-icount shift=6`): an
 //! instruction is 64 ns of virtual time, which is 1.6 ticks of SysTick. An empty call is timed
@@ -13,8 +13,7 @@ use dbd_kernel::{Geometry, Plant, Scheme, Status};
 
 use crate::board::stack;
 use crate::board::systick::SysTick;
-use crate::chart::for_each_charted;
-use crate::models::{Shipped, Visitor, for_each};
+use crate::models::{Shipped, Visitor};
 use crate::say;
 
 /// Timed steps per combination. Their costs differ by branches on data, in soft floats above all.
@@ -22,15 +21,26 @@ const STEPS: u32 = 64;
 /// Steps before the first timed one; the first step of a plant is not a typical one.
 const WARM_UP: u32 = 4;
 
-/// Prints all lines; `false` where a model did not step.
-pub fn run(systick: &mut SysTick) -> bool {
+/// Prints a line for each pair that `show` shows; `false` where a model did not step.
+///
+/// Generic, so that a program's pairs are compiled with that program alone.
+pub fn run(systick: &mut SysTick, show: impl FnOnce(&mut Costing<'_>)) -> bool {
     let mut costing = Costing { systick, well: true };
-    for_each(&mut costing);
-    for_each_charted(&mut costing);
+    show(&mut costing);
     costing.well
 }
 
-struct Costing<'t> {
+/// Prints a line for every shipped and every charted pair.
+#[cfg(feature = "cost")]
+pub fn run_all(systick: &mut SysTick) -> bool {
+    run(systick, |costing| {
+        crate::models::for_each(costing);
+        crate::chart::for_each_charted(costing);
+    })
+}
+
+/// Counts and prints what it is shown.
+pub struct Costing<'t> {
     systick: &'t mut SysTick,
     well: bool,
 }

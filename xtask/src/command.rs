@@ -30,7 +30,7 @@ pub fn program(name: impl AsRef<OsStr>) -> Command {
 /// # Errors
 /// Where the program is missing or does not end with success.
 pub fn run(command: &mut Command) -> Result<()> {
-    let line = line(command);
+    let line = shown(command);
     println!("$ {line}");
     let status = command.status().with_context(|| format!("cannot run `{line}`"))?;
     if !status.success() {
@@ -44,7 +44,7 @@ pub fn run(command: &mut Command) -> Result<()> {
 /// # Errors
 /// Where the program is missing or does not end with success; its error output is part of it.
 pub fn output(command: &mut Command) -> Result<String> {
-    let line = line(command);
+    let line = shown(command);
     let output = command.output().with_context(|| format!("cannot run `{line}`"))?;
     if !output.status.success() {
         let stderr = String::from_utf8_lossy(&output.stderr);
@@ -64,7 +64,14 @@ pub fn find(name: &str) -> Option<PathBuf> {
     std::env::split_paths(&path).map(|dir| dir.join(name)).find(|file| file.is_file())
 }
 
-fn line(command: &Command) -> String {
+/// Where cargo puts what it builds.
+pub fn target_dir() -> PathBuf {
+    let named = std::env::var_os("CARGO_TARGET_DIR");
+    named.map_or_else(|| root().join("target"), |dir| root().join(dir))
+}
+
+/// The command as one would type it.
+pub fn shown(command: &Command) -> String {
     let program = Path::new(command.get_program());
     let name = program.file_name().unwrap_or(program.as_os_str());
     std::iter::once(name)

@@ -4,22 +4,19 @@
 //! parts through the compiler that [`toolchain`] finds.
 
 mod audit;
+mod bits;
+mod built;
 mod command;
 mod cost;
-mod debian;
-mod emulator;
-mod firmware;
-mod hashes;
-mod image;
-mod relay;
-mod setup;
 mod steps;
-mod test;
-mod toolchain;
+mod target;
+mod tests;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+
+use target::{firmware, setup};
 
 /// Commands for people who work on this repository.
 #[derive(Parser)]
@@ -38,8 +35,14 @@ enum Command {
     /// Everything that must hold before a change is kept; on the host and on the target.
     Test {
         /// All steps of the hash program on the target, however many instructions they take.
-        #[arg(long)]
+        #[arg(long, conflicts_with = "quick")]
         long: bool,
+        /// On the host only, without the long tests: says what it leaves out.
+        #[arg(long)]
+        quick: bool,
+        /// Writes the times of the steps and the slowest tests into docs/development.md.
+        #[arg(long, conflicts_with = "quick")]
+        write_times: bool,
     },
     /// Builds a program of the firmware and runs it in QEMU.
     Fw {
@@ -52,21 +55,31 @@ enum Command {
         #[arg(last = true)]
         arguments: Vec<String>,
     },
-    /// Counts instructions and memory of a step on the target; writes docs/costs.csv.
+    /// Counts instructions and memory of a step on the target; writes docs/costs.csv and the
+    /// baseline of this compiler.
     Cost {
         /// Scenes to print, all of them where none is named. The file always holds all.
         scenes: Vec<String>,
+        /// Writes nothing: shows what differs from the file, and fails where a count rose by more
+        /// than 1 %.
+        #[arg(long)]
+        compare: bool,
+        /// Counts the sample alone and writes the baseline of this compiler, nothing else.
+        #[arg(long, conflicts_with_all = ["compare", "scenes"])]
+        baseline: bool,
     },
-    /// Looks into the linked steps for panics, allocation, fused and soft floating point.
+    /// Looks into the linked steps and calls for panics, allocation, fused and soft floating point.
     Audit,
 }
 
 fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Setup => setup::run(),
-        Command::Test { long } => test::run(long),
+        Command::Test { quick: true, .. } => tests::quick(),
+        Command::Test { long, write_times, .. } => tests::run(long, write_times),
         Command::Fw { name, long, arguments } => firmware::run(&name, long, &arguments),
-        Command::Cost { scenes } => cost::run(&scenes),
+        Command::Cost { baseline: true, .. } => cost::baseline(),
+        Command::Cost { scenes, compare, .. } => cost::run(&scenes, compare),
         Command::Audit => audit::run(),
     };
     match outcome {

@@ -1,10 +1,15 @@
 //! A list of steps: each is run, timed and counted; a failure does not stop the others.
 //!
-//! `(title, action)* => numbered lines, verdict`. The last line is `N passed, N failed`.
+//! `(title, action)* => numbered lines, verdict`. The last line is `N passed, N failed`. A step that
+//! prints nothing for long is told to be still at work.
 
+use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
+
+/// How often a step is told to be still at work.
+const STILL: Duration = Duration::from_secs(30);
 
 /// The steps done so far.
 #[derive(Default)]
@@ -12,9 +17,12 @@ pub struct Steps {
     done: Vec<Step>,
 }
 
-struct Step {
-    title: String,
-    time: Duration,
+/// A step that is done.
+pub struct Step {
+    /// What it does.
+    pub title: String,
+    /// How long it took.
+    pub time: Duration,
     failure: Option<String>,
 }
 
@@ -24,13 +32,18 @@ impl Steps {
         let number = self.done.len() + 1;
         println!("\n== {number}. {title}");
         let start = Instant::now();
-        let failure = action().err().map(|error| format!("{error:#}"));
+        let failure = attended(start, action).err().map(|error| format!("{error:#}"));
         let step = Step { title: title.to_owned(), time: start.elapsed(), failure };
         if let Some(failure) = &step.failure {
             eprintln!("error: {failure}");
         }
         println!("{}", step.line(number));
         self.done.push(step);
+    }
+
+    /// The steps done so far, in order.
+    pub fn done(&self) -> &[Step] {
+        &self.done
     }
 
     /// Prints the table of steps, the failures and the count.
@@ -56,8 +69,42 @@ impl Steps {
 }
 
 impl Step {
+    /// Whether it did not fail.
+    pub fn passed(&self) -> bool {
+        self.failure.is_none()
+    }
+
     fn line(&self, number: usize) -> String {
-        let verdict = if self.failure.is_some() { "FAILED" } else { "ok" };
+        let verdict = if self.passed() { "ok" } else { "FAILED" };
         format!("{number:>3}  {verdict:<6} {:>7.1} s  {}", self.time.as_secs_f64(), self.title)
+    }
+}
+
+/// Runs an action and prints the time now and then.
+fn attended(start: Instant, action: impl FnOnce() -> Result<()>) -> Result<()> {
+    std::thread::scope(|scope| {
+        let (end, ended) = channel::<()>();
+        scope.spawn(move || {
+            while ended.recv_timeout(STILL) == Err(RecvTimeoutError::Timeout) {
+                println!("    … {} s", start.elapsed().as_secs());
+            }
+        });
+        let outcome = action();
+        drop(end);
+        outcome
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failed_step_does_not_stop_the_others() {
+        let mut steps = Steps::default();
+        steps.step("one", || bail!("for a reason"));
+        steps.step("two", || Ok(()));
+        assert_eq!(steps.done().iter().map(Step::passed).collect::<Vec<_>>(), [false, true]);
+        assert!(steps.finish().is_err());
     }
 }

@@ -18,6 +18,8 @@ pub mod stack;
 pub mod systick;
 #[cfg(target_os = "none")]
 mod take;
+#[cfg(target_os = "none")]
+pub mod tried;
 
 #[cfg(target_os = "none")]
 pub use take::Board;

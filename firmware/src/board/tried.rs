@@ -1,19 +1,18 @@
-//! Program `board`: every driver once, against the emulated hardware.
-#![cfg_attr(target_os = "none", no_std, no_main)]
+//! Every driver once, against the emulated hardware.
+//!
+//! `board => a line per driver, whether all of them did as they should`.
 
-use firmware::console::exit;
-use firmware::say;
+use embedded_hal::delay::DelayNs as _;
+use embedded_hal::digital::{OutputPin as _, StatefulOutputPin as _};
+use embedded_io::{ReadReady as _, Write as _};
 
-#[cfg(target_os = "none")]
-#[cortex_m_rt::entry]
-fn main() -> ! {
-    use embedded_hal::delay::DelayNs;
-    use embedded_hal::digital::{OutputPin, StatefulOutputPin};
-    use embedded_io::{ReadReady, Write};
-    use firmware::board::Board;
-    use firmware::board::addresses::CLOCK_HZ;
+use super::Board;
+use super::addresses::CLOCK_HZ;
+use crate::say;
 
-    let mut board = Board::take();
+/// Tries LEDs, timers and the UART.
+#[must_use]
+pub fn run(mut board: Board) -> bool {
     let [first, second] = &mut board.leds;
     let lit = first.set_high().is_ok()
         && second.set_low().is_ok()
@@ -31,11 +30,5 @@ fn main() -> ! {
     let sent = board.uart.write_all(b"board\n").is_ok() && board.uart.flush().is_ok();
     let quiet = board.uart.read_ready() == Ok(false);
     say!("board uart {}", sent && quiet);
-    exit(lit && punctual && sent && quiet)
-}
-
-#[cfg(not(target_os = "none"))]
-fn main() -> ! {
-    say!("the drivers are tried on the target: cargo xtask fw board");
-    exit(false)
+    lit && punctual && sent && quiet
 }

@@ -12,8 +12,8 @@ use std::process::Command;
 
 use anyhow::{Context as _, Result, bail};
 
-use crate::command::{cargo, find, output, program, root};
-use crate::debian;
+use crate::command::{cargo, find, output, program, target_dir};
+use crate::target::debian;
 
 /// The variable that demands one way.
 const OVERRIDE: &str = "DBD_TOOLCHAIN";
@@ -78,25 +78,30 @@ impl Toolchain {
     /// # Errors
     /// Where the compiler does not run.
     pub fn describe(&self) -> Result<String> {
-        let (name, rustc) = match self.way {
+        Ok(format!("target toolchain: {} for {}", self.describe_compiler()?, self.target))
+    }
+
+    /// The compiler's name, version and way: what instruction counts depend on.
+    ///
+    /// # Errors
+    /// Where the compiler does not run.
+    pub fn describe_compiler(&self) -> Result<String> {
+        let (name, mut rustc) = match self.way {
             Way::Prebuilt => ("prebuilt", host_rustc()),
             Way::RustSrc => ("rust-src", host_rustc()),
             Way::Debian => ("debian", program(DEBIAN_RUSTC)),
         };
-        let mut rustc = rustc;
         let version = output(self.clean(rustc.arg("--version")))?;
         let version = version.split_whitespace().take(2).collect::<Vec<_>>().join(" ");
-        Ok(format!("target toolchain: {name} ({version}) for {}", self.target))
+        Ok(format!("{version} ({name})"))
     }
 
     /// Where its images lie.
     pub fn target_dir(&self) -> PathBuf {
-        let base = std::env::var_os("CARGO_TARGET_DIR");
-        let base = base.map_or_else(|| root().join("target"), |dir| root().join(dir));
         match self.way {
             // Two compilers must not share one directory.
-            Way::Debian => base.join("debian"),
-            Way::Prebuilt | Way::RustSrc => base,
+            Way::Debian => target_dir().join("debian"),
+            Way::Prebuilt | Way::RustSrc => target_dir(),
         }
     }
 

@@ -5,8 +5,8 @@
 use anyhow::{Result, bail};
 
 use crate::command::{find, output, program};
-use crate::debian;
-use crate::toolchain::Toolchain;
+use crate::target::Toolchain;
+use crate::target::debian;
 
 /// The target of the firmware.
 pub const TARGET: &str = "thumbv7em-none-eabihf";

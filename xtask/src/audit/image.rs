@@ -28,14 +28,17 @@ struct Symbol {
 /// A function of an image.
 #[derive(Debug, Default, PartialEq)]
 pub struct Function {
-    /// Demangled name.
-    pub name: String,
+    /// Demangled names: bodies that are equal may be one function.
+    pub names: Vec<String>,
     /// \[bytes\] code with its literals, up to the next function.
     pub size: u64,
     /// The distinct mnemonics of its instructions.
     pub mnemonics: BTreeSet<String>,
+    /// Its branches whose destination is in a register or in memory; returns and the jumps of a
+    /// table within it are none.
+    pub indirect: BTreeSet<String>,
     /// Where its branches lead, outside of itself.
-    calls: BTreeSet<u64>,
+    pub(super) calls: BTreeSet<u64>,
 }
 
 impl Image {
@@ -51,8 +54,7 @@ impl Image {
                 .arg(elf),
         )?;
         let symbols = symbols(&names);
-        let ends = symbols.iter().map(|symbol| (symbol.address, symbol.end)).collect();
-        let image = Self { functions: functions(&listing, &ends), symbols };
+        let image = Self { functions: functions(&listing, &symbols), symbols };
         if image.symbols.is_empty() || image.functions.is_empty() {
             bail!("{} has no symbols or no code", elf.display());
         }
@@ -62,11 +64,6 @@ impl Image {
     /// Demangled names of all symbols.
     pub fn symbols(&self) -> impl Iterator<Item = &str> {
         self.symbols.iter().map(|symbol| symbol.name.as_str())
-    }
-
-    /// All functions.
-    pub fn functions(&self) -> impl Iterator<Item = &Function> {
-        self.functions.values()
     }
 
     /// The function of this name and all that it reaches by calls.
@@ -104,15 +101,21 @@ fn symbols(names: &str) -> Vec<Symbol> {
     names.lines().filter_map(symbol).collect()
 }
 
-/// The functions of a listing. What lies beyond a function's known end is the linker's padding,
-/// which may read as a branch.
-fn functions(listing: &str, ends: &BTreeMap<u64, Option<u64>>) -> BTreeMap<u64, Function> {
+/// The functions of a listing, with all names that the symbols give them. What lies beyond a
+/// function's known end is the linker's padding, which may read as a branch.
+fn functions(listing: &str, symbols: &[Symbol]) -> BTreeMap<u64, Function> {
+    let ends: BTreeMap<u64, Option<u64>> =
+        symbols.iter().map(|symbol| (symbol.address, symbol.end)).collect();
     let mut functions: BTreeMap<u64, Function> = BTreeMap::new();
     let (mut start, mut end) = (0, 0);
     for line in listing.lines() {
         if let Some((address, name)) = header(line) {
             start = address;
-            functions.insert(start, Function { name, ..Function::default() });
+            let mut names = vec![name];
+            let others = symbols.iter().filter(|symbol| symbol.address == start);
+            names.extend(others.map(|symbol| symbol.name.clone()));
+            names.dedup();
+            functions.insert(start, Function { names, ..Function::default() });
         } else if let Some((address, mnemonic, operands)) = instruction(line) {
             // A lone instruction of four bytes at the very end counts two too few; padding hides
             // it everywhere else.
@@ -121,6 +124,7 @@ fn functions(listing: &str, ends: &BTreeMap<u64, Option<u64>>) -> BTreeMap<u64, 
             if let (Some(function), false) = (functions.get_mut(&start), padding) {
                 function.mnemonics.insert(mnemonic.to_owned());
                 function.calls.extend(branch(mnemonic, operands));
+                function.indirect.extend(indirect(mnemonic, operands));
             }
         }
     }
@@ -161,6 +165,19 @@ fn branch(mnemonic: &str, operands: &str) -> Option<u64> {
     u64::from_str_radix(address.trim(), 16).ok()
 }
 
+/// A branch without a fixed destination that is no return, as it is written.
+fn indirect(mnemonic: &str, operands: &str) -> Option<String> {
+    // Behind a semicolon stands what the disassembler remarks.
+    let operands = operands.split(';').next().unwrap_or_default().trim();
+    let exchanges = mnemonic.starts_with("bx") || mnemonic.starts_with("blx");
+    let to_register = exchanges && operands != "lr" && !operands.contains('<');
+    // The stack holds return addresses alone.
+    let loads =
+        mnemonic.starts_with("ldm") && operands.contains("pc") && !operands.starts_with("sp");
+    let writes = operands.starts_with("pc,") && !operands.contains("[sp");
+    (to_register || loads || writes).then(|| format!("{mnemonic} {operands}"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -187,9 +204,9 @@ mod tests {
     #[test]
     fn calls_are_followed_and_sizes_end_at_the_next_function() {
         let symbols = symbols("00020000 00000010 t roots::dbd_f32\n");
-        let image = Image { symbols, functions: functions(LISTING, &BTreeMap::new()) };
+        let image = Image { functions: functions(LISTING, &[]), symbols };
         let reach = image.reach("roots::dbd_f32").unwrap();
-        let names: Vec<&str> = reach.iter().map(|f| f.name.as_str()).collect();
+        let names: Vec<&str> = reach.iter().map(|f| f.names[0].as_str()).collect();
         assert_eq!(names, ["roots::dbd_f32", "<A as B>::step", "leaf"]);
         assert_eq!(reach.iter().map(|f| f.size).collect::<Vec<_>>(), [16, 16, 6]);
         assert!(reach[1].mnemonics.contains("vmul.f32"));
@@ -214,9 +231,38 @@ mod tests {
    20004:\tbx\tlr
 ";
         let known = symbols("00020000 00000002 t short\n00020004 00000002 t next\n");
-        let ends = known.iter().map(|symbol| (symbol.address, symbol.end)).collect();
-        let functions = functions(listing, &ends);
+        let functions = functions(listing, &known);
         assert!(functions[&0x20000].calls.is_empty());
         assert!(!functions[&0x20000].mnemonics.contains("bmi.n"));
+    }
+
+    #[test]
+    fn a_function_has_all_its_names() {
+        let known = symbols("00020024 00000002 t leaf\n00020026 t other\n00020026 t twin\n");
+        assert_eq!(functions(LISTING, &known)[&0x20026].names, ["other", "twin"]);
+    }
+
+    #[test]
+    fn a_branch_to_a_register_is_indirect_and_a_return_is_not() {
+        for (mnemonic, operands) in [
+            ("blx", "r3"),
+            ("bxne", "ip"),
+            ("mov", "pc, r2"),
+            ("ldr.w", "pc, [r0, r1, lsl #2]"),
+            ("ldmia.w", "r0!, {r4, pc}"),
+        ] {
+            assert!(indirect(mnemonic, operands).is_some(), "{mnemonic} {operands}");
+        }
+        for (mnemonic, operands) in [
+            ("bx", "lr"),
+            ("blx", "20010 <leaf>"),
+            ("ldr.w", "pc, [sp], #4"),
+            ("ldmia.w", "sp!, {r4, pc}"),
+            ("pop", "{r7, pc}"),
+            ("tbb", "[pc, r0]"),
+            ("ldr", "r0, [pc, #16]\t; (20030 <leaf>)"),
+        ] {
+            assert_eq!(indirect(mnemonic, operands), None, "{mnemonic} {operands}");
+        }
     }
 }

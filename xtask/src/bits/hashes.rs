@@ -1,15 +1,15 @@
 //! The same bits on the target as on the host.
 //!
-//! `program hash on host (debug, release) and target, golden table => equal hashes`. The golden
+//! `program hash on host (unoptimised, release) and target, golden table => equal hashes`. The golden
 //! table holds hashes of the run-time-sized models of the same scenes at the scenes' steps.
 
 use std::collections::BTreeMap;
 
 use anyhow::{Context as _, Result, bail};
 
-use crate::command::{cargo, output, root};
-use crate::firmware;
-use crate::toolchain::Toolchain;
+use crate::bits::host::Host;
+use crate::command::root;
+use crate::target::{Toolchain, firmware};
 
 /// Steps per combination.
 const STEPS: &str = "10000";
@@ -25,14 +25,15 @@ const GOLDEN: &str = "tests/golden/hashes.csv";
 ///
 /// # Errors
 /// Where a hash differs, a combination is missing, or a program fails.
-pub fn compare(toolchain: &Toolchain, long: bool) -> Result<()> {
-    let debug = on_host(&[])?;
-    let release = on_host(&["--release"])?;
+pub fn compare(toolchain: &Toolchain, host: &Host, long: bool) -> Result<()> {
+    let unoptimised = parse(&host.unoptimised(&["hash", STEPS])?);
+    let release = parse(&host.released(&["hash", STEPS])?);
     let budget = if long { UNLIMITED } else { INSTRUCTIONS };
     let arguments = [STEPS.to_owned(), budget.to_owned()];
     let target = parse(&firmware::execute(toolchain, "hash", long, &arguments)?);
-    if debug != release {
-        bail!("the host's debug and release builds differ: {}", first_difference(&debug, &release));
+    if unoptimised != release {
+        let difference = first_difference(&unoptimised, &release);
+        bail!("the host's unoptimised and release builds differ: {difference}");
     }
     // The target may do fewer steps, so it is the one that is looked up.
     if target.iter().any(|(key, hash)| release.get(key) != Some(hash)) {
@@ -57,7 +58,9 @@ pub fn compare(toolchain: &Toolchain, long: bool) -> Result<()> {
     if blessed == 0 {
         bail!("{GOLDEN} has no hash of a shipped scene at a printed number of steps");
     }
-    println!("\nequal on host debug, host release and target; {blessed} of them in {GOLDEN}:");
+    println!(
+        "\nequal on host unoptimised, host release and target; {blessed} of them in {GOLDEN}:"
+    );
     for (combination, (steps, hash)) in last {
         println!("{combination:<32} {steps:>8} steps  {hash}");
     }
@@ -81,17 +84,6 @@ fn golden() -> Result<Hashes> {
 
 /// Hashes by combination and number of steps.
 type Hashes = BTreeMap<(String, u64), String>;
-
-fn on_host(arguments: &[&str]) -> Result<Hashes> {
-    let text = output(
-        cargo()
-            .args(["run", "--quiet", "--package", "firmware", "--bin", "hash"])
-            .args(arguments)
-            .args(["--", STEPS]),
-    )?;
-    let lines: Vec<String> = text.lines().map(str::to_owned).collect();
-    Ok(parse(&lines))
-}
 
 /// Reads lines `hash SCENE SCHEME PRECISION STEPS HASH`.
 fn parse(lines: &[String]) -> Hashes {

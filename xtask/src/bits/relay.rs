@@ -5,9 +5,9 @@
 
 use anyhow::{Context as _, Result, bail};
 
-use crate::command::{cargo, output, root};
-use crate::firmware;
-use crate::toolchain::Toolchain;
+use crate::bits::host::Host;
+use crate::command::root;
+use crate::target::{Toolchain, firmware};
 
 /// The program's parts, see there.
 const WHOLE: &str = "0";
@@ -18,7 +18,11 @@ const END: &str = "2";
 ///
 /// # Errors
 /// Where a hash differs or a program fails.
-pub fn compare(toolchain: &Toolchain) -> Result<()> {
+pub fn compare(toolchain: &Toolchain, host: &Host) -> Result<()> {
+    let on_host = |part: &str| {
+        let lines = host.released(&["relay", part])?;
+        Ok::<_, anyhow::Error>(hashes(lines.iter().map(String::as_str)))
+    };
     let on_target = |part: &str| {
         let lines = firmware::execute(toolchain, "relay", false, &[part.to_owned()])?;
         Ok::<_, anyhow::Error>(hashes(lines.iter().map(String::as_str)))
@@ -61,12 +65,6 @@ fn forget() -> Result<()> {
         }
     }
     Ok(())
-}
-
-fn on_host(part: &str) -> Result<Vec<String>> {
-    let program = ["run", "--quiet", "--release", "--package", "firmware", "--bin", "relay"];
-    let text = output(cargo().args(program).args(["--", part]))?;
-    Ok(hashes(text.lines()))
 }
 
 /// The lines `relay SCENE SCHEME PRECISION STEPS HASH`.

@@ -1,0 +1,89 @@
+//! Roots `audit.step.MODEL.SCHEME.PRECISION`: steps of all schemes.
+//!
+//! All schemes with the four-bar and with a model that has every kind of element, in both
+//! precisions; every other shipped model with leapfrog in single precision.
+
+use dbd_kernel::{
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Leapfrog, Model, Pefrl, Plant, Rk4,
+    SemiImplicitEuler, Status,
+};
+use firmware::alone::Alone;
+use firmware::models::{self, four_bar::FourBarF32, four_bar::FourBarF64};
+
+use crate::Keep;
+
+/// A model with elements of every kind. Their numbers are of no matter to a step's code, their
+/// values even less: a kind that is there is compiled.
+pub type EveryKind<P> = Model<P, 4, 6, 24, 12, 2, 14, 2, 1, 2, 4, 3, 4, 2>;
+
+macro_rules! step {
+    ($keep:ident, $model:literal $type:ty, $name:literal $scheme:ty, $precision:literal) => {{
+        #[inline(never)]
+        #[unsafe(export_name = concat!("audit.step.", $model, ".", $name, ".", $precision))]
+        fn root(plant: &mut Plant<&'static $type, $scheme>) -> Status {
+            plant.step()
+        }
+        $keep(root as *const ());
+    }};
+}
+
+pub fn keep(keep: Keep) {
+    macro_rules! shipped {
+        ($($module:ident $scene:literal $step:ident,
+            $f32:ident: $model32:ident, $f64:ident: $model64:ident;)*) => {
+            $(
+                step!(keep, $scene models::$module::$model32, "leapfrog" Leapfrog, "f32");
+                step!(keep, $scene models::$module::$model32, "dbd" Dbd, "f32");
+                step!(keep, $scene models::$module::$model64, "leapfrog" Leapfrog, "f64");
+                step!(keep, $scene models::$module::$model64, "dbd" Dbd, "f64");
+            )*
+        };
+    }
+    macro_rules! shipped_f32 {
+        ($($module:ident $scene:literal $step:ident, $f32:ident: $model32:ident;)*) => {
+            $(step!(keep, $scene models::$module::$model32, "leapfrog" Leapfrog, "f32");)*
+        };
+    }
+    // A model of its own for each: with shared code, sizes would not be those of one scheme.
+    macro_rules! four_bar {
+        ($($name:literal $scheme:ty;)*) => {
+            $(
+                step!(keep, "four-bar" Alone<FourBarF32, $scheme>, $name $scheme, "f32");
+                step!(keep, "four-bar" Alone<FourBarF64, $scheme>, $name $scheme, "f64");
+            )*
+        };
+    }
+    macro_rules! every_kind {
+        ($($name:literal $scheme:ty;)*) => {
+            $(
+                step!(keep, "every-kind" EveryKind<F32>, $name $scheme, "f32");
+                step!(keep, "every-kind" EveryKind<F64>, $name $scheme, "f64");
+            )*
+        };
+    }
+    firmware::shipped!(shipped);
+    firmware::shipped_f32!(shipped_f32);
+    // What the shipped four-bar has not: all but leapfrog and dbd.
+    four_bar! {
+        "dbd-p1" DbdP1;
+        "dbd-p2" DbdP2;
+        "semi-implicit-euler" SemiImplicitEuler;
+        "pefrl" Pefrl;
+        "blanes-moan-s6" BlanesMoanS6;
+        "rk4" Rk4;
+        "semi-implicit-euler-explicit" Explicit<SemiImplicitEuler>;
+        "leapfrog-explicit" Explicit<Leapfrog>;
+    }
+    every_kind! {
+        "dbd" Dbd;
+        "dbd-p1" DbdP1;
+        "dbd-p2" DbdP2;
+        "semi-implicit-euler" SemiImplicitEuler;
+        "leapfrog" Leapfrog;
+        "pefrl" Pefrl;
+        "blanes-moan-s6" BlanesMoanS6;
+        "rk4" Rk4;
+        "semi-implicit-euler-explicit" Explicit<SemiImplicitEuler>;
+        "leapfrog-explicit" Explicit<Leapfrog>;
+    }
+}

@@ -1,0 +1,96 @@
+//! The names of roots, `audit.WHAT.MODEL.SCHEME.PRECISION`, and which of them there must be.
+
+/// Every scheme that a step is compiled with.
+pub const SCHEMES: [&str; 10] = [
+    "dbd",
+    "dbd-p1",
+    "dbd-p2",
+    "semi-implicit-euler",
+    "leapfrog",
+    "pefrl",
+    "blanes-moan-s6",
+    "rk4",
+    "semi-implicit-euler-explicit",
+    "leapfrog-explicit",
+];
+/// Models that are stepped with all of them.
+pub const MODELS: [&str; 2] = ["four-bar", "every-kind"];
+/// What is called between steps, with the second of these models.
+pub const CALLS: [&str; 9] = [
+    "advance",
+    "set_input",
+    "set_signal",
+    "set_state",
+    "reset",
+    "read",
+    "snapshot",
+    "restore",
+    "hash",
+];
+/// Both precisions.
+pub const PRECISIONS: [&str; 2] = ["f32", "f64"];
+
+/// A root without a planted fault.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Root {
+    /// `step` or one of [`CALLS`].
+    pub what: String,
+    /// The model's name.
+    pub model: String,
+    /// The scheme's name, with `-explicit` for explicit dampers.
+    pub scheme: String,
+    /// `f32` or `f64`.
+    pub precision: String,
+}
+
+impl Root {
+    /// A step.
+    pub fn step(model: &str, scheme: &str, precision: &str) -> Self {
+        Self::call("step", model, scheme, precision)
+    }
+
+    /// A call.
+    pub fn call(what: &str, model: &str, scheme: &str, precision: &str) -> Self {
+        let [what, model, scheme, precision] =
+            [what, model, scheme, precision].map(ToOwned::to_owned);
+        Self { what, model, scheme, precision }
+    }
+
+    /// Reads a symbol's name.
+    pub fn parse(symbol: &str) -> Option<Self> {
+        let words: Vec<&str> = symbol.split('.').collect();
+        let ["audit", what, model, scheme, precision] = words[..] else { return None };
+        Some(Self::call(what, model, scheme, precision))
+    }
+
+    /// Its symbol's name.
+    pub fn symbol(&self) -> String {
+        let Self { what, model, scheme, precision } = self;
+        format!("audit.{what}.{model}.{scheme}.{precision}")
+    }
+
+    /// Whether it steps in single precision.
+    pub fn is_single_step(&self) -> bool {
+        self.what == "step" && self.precision == "f32"
+    }
+}
+
+/// A planted root's symbol.
+pub fn planted(fault: &str) -> String {
+    format!("audit.planted.{fault}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn symbols_are_read_as_they_are_written() {
+        let root = Root::step("3rrr", "blanes-moan-s6", "f64");
+        assert_eq!(Root::parse(&root.symbol()), Some(root.clone()));
+        assert!(!root.is_single_step());
+        assert!(Root::step("3rrr", "dbd", "f32").is_single_step());
+        assert_eq!(Root::parse(&planted("panic")), None);
+        assert_eq!(Root::parse("audit_roots"), None);
+    }
+}

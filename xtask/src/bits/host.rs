@@ -1,0 +1,59 @@
+//! The host's programs whose bits the target's are compared with.
+//!
+//! Optimised as a release and not at all: with the target's, three levels of optimisation.
+
+use std::path::PathBuf;
+
+use anyhow::{Context as _, Result};
+
+use crate::built::{Program, build};
+use crate::command::{cargo, output, program};
+use crate::target::firmware;
+
+/// The same programs twice.
+pub struct Host {
+    release: PathBuf,
+    unoptimised: PathBuf,
+}
+
+impl Host {
+    /// Takes the release's programs from those that were built, and builds the others.
+    ///
+    /// # Errors
+    /// Where they are not there or do not build.
+    pub fn new(built: &[Program]) -> Result<Self> {
+        let unoptimised = build(
+            cargo()
+                .args(["build", "--package", "firmware", "--bin", firmware::SHARED])
+                .env("CARGO_PROFILE_DEV_OPT_LEVEL", "0"),
+        )?;
+        Ok(Self { release: shared(built)?, unoptimised: shared(&unoptimised)? })
+    }
+
+    /// Lines of a program, optimised.
+    ///
+    /// # Errors
+    /// Where it fails.
+    pub fn released(&self, arguments: &[&str]) -> Result<Vec<String>> {
+        lines(&self.release, arguments)
+    }
+
+    /// Lines of a program, not optimised.
+    ///
+    /// # Errors
+    /// Where it fails.
+    pub fn unoptimised(&self, arguments: &[&str]) -> Result<Vec<String>> {
+        lines(&self.unoptimised, arguments)
+    }
+}
+
+fn shared(built: &[Program]) -> Result<PathBuf> {
+    let name = format!("firmware::{}", firmware::SHARED);
+    let program = built.iter().find(|program| program.name == name && !program.tests);
+    Ok(program.with_context(|| format!("{name} was not built"))?.path.clone())
+}
+
+fn lines(path: &PathBuf, arguments: &[&str]) -> Result<Vec<String>> {
+    let text = output(program(path).args(arguments))?;
+    Ok(text.lines().map(str::to_owned).collect())
+}

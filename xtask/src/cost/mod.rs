@@ -1,0 +1,75 @@
+//! `cargo xtask cost`: instructions and memory of a step, as docs/costs.csv and a table.
+//!
+//! `program cost in QEMU, image of the audit => rows`. Instructions, plant, model and stack are
+//! measured by the program; `.text` is the code that the step reaches, with its literals, known for
+//! the steps that the audit links.
+
+pub mod baseline;
+mod compare;
+mod row;
+
+use anyhow::{Context as _, Result, bail};
+
+use crate::audit::{Image, Root};
+use crate::command::root;
+use crate::target::{Toolchain, firmware, setup};
+
+use row::Cost;
+
+const FILE: &str = "docs/costs.csv";
+
+/// `cargo xtask cost [--compare] [SCENE…]`.
+///
+/// # Errors
+/// Where a scene is unknown, building, running or writing fails, or a compared count rose.
+pub fn run(scenes: &[String], compare: bool) -> Result<()> {
+    let toolchain = setup::complete()?;
+    let file = root().join(FILE);
+    let costs = measure(&toolchain)?;
+    for scene in scenes {
+        if !costs.iter().any(|cost| cost.scene == *scene) {
+            let mut known: Vec<&str> = costs.iter().map(|cost| cost.scene.as_str()).collect();
+            known.sort_unstable();
+            known.dedup();
+            bail!("there is no shipped scene `{scene}`; there are: {}", known.join(", "));
+        }
+    }
+    println!("\n{}", row::table(&costs, scenes));
+    if compare {
+        let before = std::fs::read_to_string(&file).with_context(|| format!("cannot read {FILE}"));
+        return compare::compare(&row::read(&before?)?, &costs);
+    }
+    std::fs::write(&file, row::csv(&costs)).with_context(|| format!("cannot write {FILE}"))?;
+    println!("written: {FILE}");
+    baseline::write(&toolchain)
+}
+
+/// `cargo xtask cost --baseline`.
+///
+/// # Errors
+/// Where building, running or writing fails.
+pub fn baseline() -> Result<()> {
+    baseline::write(&setup::complete()?)
+}
+
+fn measure(toolchain: &Toolchain) -> Result<Vec<Cost>> {
+    let image = Image::read(&firmware::build_audit(toolchain)?)?;
+    let mut costs = parse(&firmware::execute(toolchain, "cost", false, &[])?)?;
+    for cost in &mut costs {
+        // A Newton iteration more is a number, not code.
+        let scheme = cost.scheme.split('+').next().unwrap_or_default();
+        let root = Root::step(&cost.scene, scheme, &cost.precision);
+        let reach = image.reach(&root.symbol()).ok();
+        cost.text = reach.map(|reach| reach.iter().map(|function| function.size).sum());
+    }
+    if !costs.iter().any(|cost| cost.text.is_some()) {
+        bail!("the program reported no step of the audit's");
+    }
+    Ok(costs)
+}
+
+/// The rows among a program's lines.
+fn parse(lines: &[String]) -> Result<Vec<Cost>> {
+    let rows = lines.iter().filter(|line| line.starts_with("cost "));
+    rows.map(|line| Cost::parse(line).with_context(|| format!("cannot read `{line}`"))).collect()
+}

@@ -1,0 +1,178 @@
+//! A row of costs: as the program prints it, as docs/costs.csv holds it, as a table shows it.
+
+use std::fmt::Write as _;
+
+use anyhow::{Context as _, Result, bail};
+
+const HEADER: &str = "scene,scheme,precision,step_s,instructions_mean,instructions_max,text_bytes,\
+                      rodata_bytes,plant_ram_bytes,stack_bytes,estimated_rate_168mhz_hz";
+/// \[Hz\] a common clock of Cortex-M4F parts.
+const CLOCK: f64 = 168e6;
+/// Cycles per instruction assumed for the estimated rate. Cortex-M4 takes one for most, two for
+/// loads, 14 for a division or a square root in single precision (Technical Reference Manual,
+/// DDI 0439, tables 3-1 and 7-1); memory without wait states.
+const CYCLES_PER_INSTRUCTION: f64 = 1.5;
+
+/// What a step of one combination costs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cost {
+    /// The scene.
+    pub scene: String,
+    /// The scheme with its variant.
+    pub scheme: String,
+    /// `f32` or `f64`.
+    pub precision: String,
+    /// \[s\] the step.
+    pub step: f64,
+    /// Instructions per step, mean.
+    pub mean: u64,
+    /// Instructions of the dearest step.
+    pub max: u64,
+    /// \[bytes\] code, where the audit's image holds the step.
+    pub text: Option<u64>,
+    /// \[bytes\] the const model.
+    pub model: u64,
+    /// \[bytes\] state, scratch and diagonals.
+    pub plant: u64,
+    /// \[bytes\] stack below the call.
+    pub stack: u64,
+}
+
+impl Cost {
+    /// Reads `cost SCENE SCHEME PRECISION STEP_NS MEAN MAX PLANT MODEL STACK`.
+    pub fn parse(line: &str) -> Option<Self> {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let ["cost", scene, scheme, precision, step, mean, max, plant, model, stack] = words[..]
+        else {
+            return None;
+        };
+        Some(Self {
+            scene: scene.to_owned(),
+            scheme: scheme.to_owned(),
+            precision: precision.to_owned(),
+            step: step.parse::<u64>().ok()? as f64 * 1e-9,
+            mean: mean.parse().ok()?,
+            max: max.parse().ok()?,
+            text: None,
+            model: model.parse().ok()?,
+            plant: plant.parse().ok()?,
+            stack: stack.parse().ok()?,
+        })
+    }
+
+    /// Scene, scheme and precision.
+    pub fn name(&self) -> String {
+        format!("{} {} {}", self.scene, self.scheme, self.precision)
+    }
+
+    fn rate(&self) -> u64 {
+        (CLOCK / (CYCLES_PER_INSTRUCTION * self.max as f64)) as u64
+    }
+}
+
+/// The rows as a file.
+pub fn csv(costs: &[Cost]) -> String {
+    let mut text = format!("{HEADER}\n");
+    for c in costs {
+        let _ = writeln!(
+            text,
+            "{},{},{},{:e},{},{},{},{},{},{},{}",
+            c.scene,
+            c.scheme,
+            c.precision,
+            c.step,
+            c.mean,
+            c.max,
+            c.text.map(|bytes| bytes.to_string()).unwrap_or_default(),
+            c.model,
+            c.plant,
+            c.stack,
+            c.rate()
+        );
+    }
+    text
+}
+
+/// The rows of a file.
+///
+/// # Errors
+/// Where its header or a row is not as [`csv`] writes them.
+pub fn read(text: &str) -> Result<Vec<Cost>> {
+    if text.lines().next() != Some(HEADER) {
+        bail!("the file of costs has another header");
+    }
+    let row = |line| read_row(line).with_context(|| format!("cannot read the row `{line}`"));
+    text.lines().skip(1).map(row).collect()
+}
+
+fn read_row(line: &str) -> Option<Cost> {
+    let columns: Vec<&str> = line.split(',').collect();
+    let [scene, scheme, precision, step, mean, max, text, model, plant, stack, _rate] = columns[..]
+    else {
+        return None;
+    };
+    Some(Cost {
+        scene: scene.to_owned(),
+        scheme: scheme.to_owned(),
+        precision: precision.to_owned(),
+        step: step.parse().ok()?,
+        mean: mean.parse().ok()?,
+        max: max.parse().ok()?,
+        text: if text.is_empty() { None } else { Some(text.parse().ok()?) },
+        model: model.parse().ok()?,
+        plant: plant.parse().ok()?,
+        stack: stack.parse().ok()?,
+    })
+}
+
+/// The rows of the named scenes, or all where none is named.
+pub fn table(costs: &[Cost], scenes: &[String]) -> String {
+    let mut text = format!(
+        "{:<16} {:<28} {:<5} {:>9} {:>9} {:>8} {:>8} {:>6} {:>6} {:>10}\n",
+        "scene", "scheme", "real", "instr/step", "max", ".text", ".rodata", "RAM", "stack", "rate*"
+    );
+    for c in costs.iter().filter(|c| scenes.is_empty() || scenes.contains(&c.scene)) {
+        let _ = writeln!(
+            text,
+            "{:<16} {:<28} {:<5} {:>10} {:>9} {:>8} {:>8} {:>6} {:>6} {:>7} Hz",
+            c.scene,
+            c.scheme,
+            c.precision,
+            c.mean,
+            c.max,
+            c.text.map_or("-".to_owned(), |bytes| bytes.to_string()),
+            c.model,
+            c.plant,
+            c.stack,
+            c.rate()
+        );
+    }
+    text + "* an estimate: 168 MHz, 1.5 cycles per instruction, memory without wait states"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_becomes_a_row_and_back() {
+        let mut cost = Cost::parse("cost four-bar dbd f32 100000 9000 10000 600 800 400").unwrap();
+        cost.text = Some(7000);
+        let row = "four-bar,dbd,f32,1e-4,9000,10000,7000,800,600,400,11200";
+        let text = csv(std::slice::from_ref(&cost));
+        assert_eq!(text.lines().last(), Some(row));
+        assert_eq!(read(&text).unwrap(), [cost]);
+        assert_eq!(Cost::parse("cost four-bar dbd f32 refused"), None);
+        assert!(read("scene\n").is_err());
+        assert!(read(&format!("{HEADER}\nfour-bar,dbd\n")).is_err());
+    }
+
+    #[test]
+    fn a_row_may_lack_the_text() {
+        let cost = Cost::parse("cost four-bar dbd+1 f32 100000 9000 10000 600 800 400").unwrap();
+        let text = csv(std::slice::from_ref(&cost));
+        let row = "four-bar,dbd+1,f32,1e-4,9000,10000,,800,600,400,11200";
+        assert_eq!(text.lines().last(), Some(row));
+        assert_eq!(read(&text).unwrap(), [cost]);
+    }
+}

@@ -1,0 +1,108 @@
+//! Building and running the firmware's programs.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use anyhow::{Result, bail};
+
+use crate::command::run as run_command;
+use crate::target::{Toolchain, emulator, setup};
+
+/// The profile of images.
+const PROFILE: &str = "firmware";
+/// Real time for a program without `--long`: ten times what 3·10⁹ instructions take.
+const TIME_LIMIT: Duration = Duration::from_secs(600);
+/// The image of several programs: its first argument names one.
+pub const SHARED: &str = "programs";
+/// Linked for the audit, not to be run.
+const AUDIT: &str = "audit";
+/// What an image is linked from: the audit plants an allocation.
+const LIBRARIES: &str = "core,alloc";
+
+/// Programs that can be run, each with the image that holds it.
+const PROGRAMS: [(&str, &str); 5] =
+    [("board", SHARED), ("cost", "cost"), ("hash", SHARED), ("relay", SHARED), ("sample", SHARED)];
+
+/// `cargo xtask fw NAME`.
+///
+/// # Errors
+/// Where the name is unknown, or building or running fails.
+pub fn run(name: &str, long: bool, arguments: &[String]) -> Result<()> {
+    image_of(name)?;
+    let toolchain = setup::complete()?;
+    execute(&toolchain, name, long, arguments).map(drop)
+}
+
+/// The image that holds a program.
+fn image_of(name: &str) -> Result<&'static str> {
+    match PROGRAMS.iter().find(|(program, _)| *program == name) {
+        Some((_, image)) => Ok(image),
+        None => bail!(
+            "there is no program `{name}`; there are: {}",
+            PROGRAMS.map(|(program, _)| program).join(", ")
+        ),
+    }
+}
+
+/// Builds the roots of the audit and returns the path of their image.
+///
+/// # Errors
+/// Where they do not build.
+pub fn build_audit(toolchain: &Toolchain) -> Result<PathBuf> {
+    let mut command = toolchain.cargo("build", LIBRARIES);
+    run_command(command.args(selection(AUDIT)).args(features(AUDIT)))?;
+    Ok(toolchain.images(PROFILE).join(AUDIT))
+}
+
+/// Builds and runs a program; returns its lines.
+///
+/// # Errors
+/// Where there is no such program, or it does not build, fails, or takes too long.
+pub fn execute(
+    toolchain: &Toolchain,
+    name: &str,
+    long: bool,
+    arguments: &[String],
+) -> Result<Vec<String>> {
+    let bin = image_of(name)?;
+    run_command(toolchain.cargo("build", LIBRARIES).args(selection(bin)).args(features(bin)))?;
+    let image = toolchain.images(PROFILE).join(bin);
+    let told = (bin == SHARED).then(|| name.to_owned());
+    let arguments: Vec<String> = told.into_iter().chain(arguments.iter().cloned()).collect();
+    let mut command = toolchain.cargo("run", LIBRARIES);
+    command.args(selection(bin)).args(features(bin)).arg("--quiet");
+    if !arguments.is_empty() {
+        command.args(["--", "-append", &arguments.join(" ")]);
+    }
+    let limit = (!long).then_some(TIME_LIMIT);
+    emulator::run(&mut command, &image, limit)
+}
+
+fn selection(bin: &str) -> [&str; 6] {
+    ["--package", "firmware", "--profile", PROFILE, "--bin", bin]
+}
+
+/// An image of its own has a feature of its name.
+fn features(bin: &str) -> Vec<&str> {
+    if bin == SHARED { Vec::new() } else { vec!["--features", bin] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::command::root;
+
+    #[test]
+    fn programs_of_the_shared_image_are_those_that_it_knows() {
+        let source = root().join("firmware/src/bin").join(SHARED).with_extension("rs");
+        let source = std::fs::read_to_string(source).unwrap();
+        let known: Vec<&str> = source
+            .lines()
+            .filter_map(|line| line.trim().strip_prefix('"')?.split_once("\" => Ok("))
+            .map(|(name, _)| name)
+            .collect();
+        let shared = PROGRAMS.iter().filter(|(_, image)| *image == SHARED);
+        assert_eq!(known, shared.map(|(name, _)| *name).collect::<Vec<_>>());
+        assert!(image_of("audit").is_err());
+    }
+}

@@ -1,0 +1,9 @@
+//! The target: its compiler and tools, the firmware's images, the emulator that runs them.
+
+mod debian;
+mod emulator;
+pub mod firmware;
+pub mod setup;
+mod toolchain;
+
+pub use toolchain::Toolchain;

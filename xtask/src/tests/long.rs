@@ -1,0 +1,42 @@
+//! Tests that `cargo xtask test --quick` leaves out.
+
+use super::cases::Case;
+
+/// \[s\] a test that takes longer, on a quiet machine, belongs into the list.
+const LIMIT: f64 = 3.0;
+
+/// Program and test, each longer than [`LIMIT`].
+pub const LONG: [(&str, &str); 13] = [
+    ("tests::frequency", "the_bound_holds_along_the_run_of_every_scene"),
+    ("tests::reference_implicit", "large_steps_are_calm"),
+    ("tests::reference_truth", "the_two_opinions_agree_on_every_scene"),
+    ("tests::reference_truth", "the_window_ends_where_a_perturbation_has_grown"),
+    ("tests::reference_truth", "the_papers_mechanisms_are_worth_comparing_for_half_a_second"),
+    ("tests::scenes", "every_scene_runs_and_keeps_its_energy"),
+    ("tests::stability", "four_bar"),
+    ("tests::stability", "five_bar_b"),
+    ("tests::stability", "six_bar"),
+    ("tests::stability", "three_rrr"),
+    ("tests::stability", "crank_slider"),
+    ("tests::stability", "sweeps_keep_the_step_that_explicit_damping_loses"),
+    ("tests::trade", "a_survey_holds_every_way_and_says_what_is_unstable"),
+];
+
+/// The long tests of a program.
+pub fn of(program: &str) -> impl Iterator<Item = &'static str> {
+    LONG.into_iter().filter(move |(of, _)| *of == program).map(|(_, test)| test)
+}
+
+/// Tests of the list that are not among all that there are.
+pub fn missing(cases: &[Case]) -> Vec<String> {
+    let names = LONG.into_iter().map(|(program, test)| format!("{program} {test}"));
+    names.filter(|name| !cases.iter().any(|case| case.name == *name)).collect()
+}
+
+/// Tests that took longer than the limit and are not in the list.
+pub fn unlisted(cases: &[Case]) -> Vec<&Case> {
+    let listed = |case: &Case| {
+        LONG.into_iter().any(|(program, test)| case.name == format!("{program} {test}"))
+    };
+    cases.iter().filter(|case| case.seconds > LIMIT && !listed(case)).collect()
+}

@@ -1,0 +1,198 @@
+//! `cargo xtask test`: everything that must hold before a change is kept.
+//!
+//! `sources => steps => verdict, the slowest tests`. On the host every crate is built once, with all
+//! features, checked and optimised as the dev profile says, and once more for the documentation's
+//! and the linter's eyes. The release profile builds what a release must prove: the golden bits.
+
+mod cases;
+mod long;
+mod times;
+
+use anyhow::{Context as _, Result, bail};
+
+use crate::bits::{hashes, host::Host, relay};
+use crate::built::{Program, build};
+use crate::command::{cargo, run as run_command, succeeds};
+use crate::steps::Steps;
+use crate::target::{Toolchain, firmware, setup};
+use crate::{audit, cost};
+
+use cases::{Case, Selection};
+
+const KERNEL: &str = "dbd-kernel";
+/// What every build of the host's takes: one set of features, so that nothing is built twice.
+const EVERYTHING: [&str; 2] = ["--workspace", "--all-features"];
+/// Targets that the kernel is checked for beside the firmware's: without an FPU, without
+/// instructions for it, with a newer core.
+const OTHER_TARGETS: [&str; 3] =
+    ["thumbv7em-none-eabi", "thumbv6m-none-eabi", "thumbv8m.main-none-eabihf"];
+/// The slowest tests that are named.
+const SLOWEST: usize = 10;
+
+/// Runs all steps.
+///
+/// # Errors
+/// Where something that the steps need is missing, or a step failed.
+pub fn run(long: bool, write_times: bool) -> Result<()> {
+    host_tools()?;
+    let toolchain = setup::complete()?;
+    let (mut steps, mut cases) = (Steps::default(), Vec::new());
+    steps.step("rustfmt", || run_command(cargo().args(["fmt", "--all", "--check"])));
+    linter_and_documentation(&mut steps);
+    tests(&mut steps, Selection::All, &mut cases);
+    documentation_tests(&mut steps);
+    bare_kernel(&mut steps);
+    let host = release(&mut steps, &mut cases);
+    other_targets(&mut steps);
+    on_target(&toolchain, host.as_ref(), long, &mut steps);
+    audit::add_steps(&toolchain, &mut steps);
+    let slowest = cases::slowest(&cases, SLOWEST);
+    show(&slowest);
+    let written = if write_times { times::write(&steps, &slowest, &toolchain) } else { Ok(()) };
+    steps.finish()?;
+    written
+}
+
+/// The host's steps without the long tests.
+///
+/// # Errors
+/// Where a step failed.
+pub fn quick() -> Result<()> {
+    let (mut steps, mut cases) = (Steps::default(), Vec::new());
+    steps.step("rustfmt", || run_command(cargo().args(["fmt", "--all", "--check"])));
+    tests(&mut steps, Selection::Fast, &mut cases);
+    show(&cases::slowest(&cases, SLOWEST));
+    println!("\nleft out:");
+    println!("  linter, documentation and its tests, the kernel without features");
+    println!("  golden bits in release, everything on the target");
+    println!("  {} long tests:", long::LONG.len());
+    for (program, test) in long::LONG {
+        println!("    {program} {test}");
+    }
+    for case in long::unlisted(&cases) {
+        println!("{} took {:.1} s: it may belong to them", case.name, case.seconds);
+    }
+    steps.finish()
+}
+
+fn host_tools() -> Result<()> {
+    for (subcommand, component) in [("fmt", "rustfmt"), ("clippy", "clippy")] {
+        if !succeeds(cargo().args([subcommand, "--version"])) {
+            bail!("`cargo {subcommand}` is missing: rustup component add {component}");
+        }
+    }
+    Ok(())
+}
+
+fn linter_and_documentation(steps: &mut Steps) {
+    steps.step("clippy", || {
+        let mut command = cargo();
+        command.arg("clippy").args(EVERYTHING);
+        run_command(command.args(["--all-targets", "--", "-D", "warnings"]))
+    });
+    steps.step("documentation", || {
+        let mut command = cargo();
+        command.arg("doc").args(EVERYTHING).args(["--no-deps", "--lib"]);
+        run_command(command.env("RUSTDOCFLAGS", "-D warnings"))
+    });
+}
+
+fn tests(steps: &mut Steps, selection: Selection, cases: &mut Vec<Case>) {
+    let mut programs = Vec::new();
+    steps.step("tests are built", || {
+        programs = build(cargo().args(["test", "--no-run"]).args(EVERYTHING))?;
+        Ok(())
+    });
+    if !programs.is_empty() {
+        steps.step("tests", || {
+            keep(cases::run(&programs, selection), cases)?;
+            let missing = long::missing(cases);
+            if selection == Selection::All && !missing.is_empty() {
+                bail!("the list of long tests names what there is not: {}", missing.join(", "));
+            }
+            Ok(())
+        });
+    }
+}
+
+fn documentation_tests(steps: &mut Steps) {
+    steps.step("tests in the documentation", || {
+        run_command(cargo().args(["test", "--quiet", "--doc", "--no-fail-fast"]).args(EVERYTHING))
+    });
+}
+
+/// The kernel as firmware has it: without features.
+fn bare_kernel(steps: &mut Steps) {
+    steps.step("tests of the kernel without features", || {
+        run_command(cargo().args(["test", "--quiet", "--lib", "--package", KERNEL]))
+    });
+}
+
+/// Golden bits as released; the programs whose bits the target is compared with.
+fn release(steps: &mut Steps, cases: &mut Vec<Case>) -> Option<Host> {
+    let (mut host, mut golden) = (None, None);
+    steps.step("the host's programs are built, optimised as released and not at all", || {
+        let built = build(cargo().args(["build", "--release"]).args([
+            "--package",
+            "dbd-tests",
+            "--test",
+            "golden",
+            "--package",
+            "firmware",
+            "--bin",
+            firmware::SHARED,
+        ]))?;
+        golden = built.iter().find(|program| program.tests).cloned();
+        host = Some(Host::new(&built)?);
+        Ok(())
+    });
+    steps.step("golden bits in release", || {
+        let mut golden: Program = golden.context("the test `golden` was not built")?;
+        golden.name += " in release";
+        keep(cases::run(&[golden], Selection::All), cases)
+    });
+    host
+}
+
+fn keep(run: Result<Vec<Case>>, cases: &mut Vec<Case>) -> Result<()> {
+    cases.extend(run?);
+    Ok(())
+}
+
+/// The kernel compiles for every target, and with all features for the firmware's.
+fn other_targets(steps: &mut Steps) {
+    for target in [setup::TARGET].iter().chain(&OTHER_TARGETS) {
+        steps.step(&format!("kernel for {target}"), || {
+            let toolchain = Toolchain::find(target)?;
+            let check = || {
+                let mut command = toolchain.cargo("check", "core");
+                command.args(["--package", KERNEL]);
+                // Nothing of it runs: the library need not be optimised.
+                command.env("CARGO_PROFILE_DEV_OPT_LEVEL", "0").env("CARGO_PROFILE_DEV_DEBUG", "0");
+                command
+            };
+            run_command(&mut check())?;
+            if *target == setup::TARGET {
+                run_command(check().arg("--all-features"))?;
+            }
+            Ok(())
+        });
+    }
+}
+
+fn on_target(toolchain: &Toolchain, host: Option<&Host>, long: bool, steps: &mut Steps) {
+    steps.step("drivers on the target", || {
+        firmware::execute(toolchain, "board", false, &[]).map(drop)
+    });
+    let host = || host.context("the host's programs were not built");
+    steps.step("same bits on host and target", || hashes::compare(toolchain, host()?, long));
+    steps.step("runs that change machines", || relay::compare(toolchain, host()?));
+    steps.step("costs on the target", || cost::baseline::check(toolchain));
+}
+
+fn show(slowest: &[Case]) {
+    println!("\n== slowest tests");
+    for case in slowest {
+        println!("{:>9.1} s  {}", case.seconds, case.name);
+    }
+}
