@@ -9,6 +9,7 @@ use dbd_kernel::{
     BlanesMoanS6, Dbd, DbdP1, F64, Leapfrog, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler, State,
 };
 use dbd_scene::SceneModel;
+use dbd_tests::page::{block, figure, table};
 use dbd_tests::scene;
 use host_sim::reference::Trajectory;
 use nalgebra::Vector3;
@@ -65,55 +66,71 @@ impl Race {
     }
 }
 
-fn run(name: &str, rate: f64, time: f64) {
-    let race = Race::new(name, rate, time);
+/// What a scheme is off by: the trajectory \[m\] and, where it is watched, the energy \[J\].
+type Errors = (&'static str, f64, Option<f64>);
+
+fn run(name: &str, rate: f64) -> Vec<Errors> {
+    let race = Race::new(name, rate, 0.1);
     let doubt = race.truth.largest_uncertainty();
     // A load does work.
     let watched = race.model.loads.is_empty();
-    println!("{name}, {rate:.2e} evaluations/s, first {time} s, truth known to {doubt:.1e} m");
-    macro_rules! row {
-        ($scheme:expr) => {{
-            let (states, energy) = race.samples($scheme, watched);
-            let (name, position) = (name_of($scheme), race.error(&states));
-            let energy = if watched { format!("{energy:.1e} J") } else { "–".into() };
-            println!("  {name:<20} {position:.1e} m  {energy}");
-            position
-        }};
+    fn row<S: Scheme>(race: &Race, scheme: S, watched: bool) -> Errors {
+        let (states, energy) = race.samples(scheme, watched);
+        (S::NAME, race.error(&states), watched.then_some(energy))
     }
-    let dbd = row!(Dbd::default());
-    row!(DbdP1::default());
-    row!(SemiImplicitEuler);
-    let leapfrog = row!(Leapfrog);
-    row!(Rk4);
-    let pefrl = row!(Pefrl);
-    let blanes_moan = row!(BlanesMoanS6);
-    let best = pefrl.min(blanes_moan);
-    let (gain, second) = (dbd / best, dbd / leapfrog);
-    println!("  dbd's error: {gain:.0} times the best one's, {second:.1} times leapfrog's");
+    let rows = vec![
+        row(&race, DbdP1::default(), watched),
+        row(&race, Dbd::default(), watched),
+        row(&race, SemiImplicitEuler, watched),
+        row(&race, Leapfrog, watched),
+        row(&race, Rk4, watched),
+        row(&race, Pefrl, watched),
+        row(&race, BlanesMoanS6, watched),
+    ];
+    let error = |scheme: &str| rows.iter().find(|row| row.0 == scheme).unwrap().1;
+    let best = error("pefrl").min(error("blanes-moan-s6"));
+    let [gain, second] = [best, error("leapfrog")].map(|other| error("dbd") / other);
     assert!(doubt < 1e-2 * best, "{doubt:e} {best:e}");
     assert!(gain >= 1000.0 && second >= 5.0, "{name}: {gain} {second}");
+    // Each is better than the one before it; the last two are about as good.
+    for pair in rows[..6].windows(2) {
+        assert!(pair[1].1 < pair[0].1, "{name}: {pair:?}");
+    }
+    assert!(error("blanes-moan-s6") < 2.0 * error("pefrl"), "{name}: {rows:?}");
+    rows
 }
 
-fn name_of<S: Scheme>(_: S) -> &'static str {
-    S::NAME
-}
-
-#[test]
-fn four_bar() {
-    run("four-bar", 1.05e5, 0.1);
-}
-
-#[test]
-fn five_bar_b() {
-    run("five-bar-b", 3.4e4, 0.1);
-}
-
-#[test]
-fn six_bar() {
-    run("six-bar", 3.6e4, 0.1);
-}
+const RACES: [(&str, f64, &str); 4] = [
+    ("four-bar", 1.05e5, "1.05e5"),
+    ("five-bar-b", 3.4e4, "3.4e4"),
+    ("six-bar", 3.6e4, "3.6e4"),
+    ("crank-slider", 4.5e4, "4.5e4"),
+];
 
 #[test]
-fn crank_slider() {
-    run("crank-slider", 4.5e4, 0.1);
+fn at_equal_cost_the_schemes_differ_by_their_order() {
+    let columns = std::thread::scope(|scope| {
+        RACES
+            .map(|(name, rate, _)| scope.spawn(move || run(name, rate)))
+            .map(|race| race.join().unwrap())
+    });
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    for (i, (scheme, ..)) in columns[0].iter().enumerate() {
+        let cells = columns.each_ref().map(|column| match column[i] {
+            (_, error, Some(energy)) => format!("{error:.1e} / {}", figure(energy, 2)),
+            (_, error, None) => format!("{error:.1e}"),
+        });
+        rows.push([format!("`{scheme}`")].into_iter().chain(cells).collect());
+    }
+    for other in ["pefrl", "leapfrog"] {
+        let ratio = columns.each_ref().map(|column| {
+            let of = |scheme: &str| column.iter().find(|row| row.0 == scheme).unwrap().1;
+            figure(of("dbd") / of(other), 2)
+        });
+        let title = format!("dbd's error over {other}'s");
+        rows.push([title].into_iter().chain(ratio).collect());
+    }
+    let head = RACES.map(|(name, _, rate)| format!("{name}, {rate} /s"));
+    let head: Vec<&str> = [""].into_iter().chain(head.iter().map(String::as_str)).collect();
+    block("docs/schemes.md", "accuracy", &table(&head, &rows));
 }

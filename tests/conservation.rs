@@ -1,21 +1,16 @@
-//! What no step may create or destroy: reactions, momentum, energy.
+//! What no law may create or destroy: reactions, momentum, energy. What the schemes keep of it is in
+//! `schemes.rs`.
 
 use dbd_kernel::builder::LineLaw;
 use dbd_kernel::energy::energy;
 use dbd_kernel::forces::wrenches;
 use dbd_kernel::{
-    BlanesMoanS6, BodyIndex, BodyState, Dbd, F64, Leapfrog, ModelOwner, Pefrl, Plant, Quaternion,
+    BlanesMoanS6, BodyIndex, BodyState, F64, Leapfrog, ModelOwner, Pefrl, Plant, Quaternion,
     Scheme, SemiImplicitEuler, State, Vec3,
 };
 use dbd_tests::{Bench, free_ring, hung_ring, momenta, turned};
 use proptest::prelude::*;
-
-fn bodies(model: &Bench<F64>) -> [(f64, [f64; 3]); 3] {
-    std::array::from_fn(|i| {
-        let body = &model.view().bodies[i];
-        (body.mass, body.inertia.to_f64())
-    })
-}
+use proptest::test_runner::RngSeed;
 
 #[test]
 fn action_equals_reaction() {
@@ -32,35 +27,6 @@ fn action_equals_reaction() {
     assert!(largest > 10.0, "the ring is to be under load");
     for residue in force.to_f64().into_iter().chain(torque.to_f64()) {
         assert!(residue.abs() < 1e-12 * largest, "{residue:e}");
-    }
-}
-
-#[test]
-fn momentum_is_kept_without_ground_and_gravity() {
-    for damping in [0.0, 2.0] {
-        let model = free_ring::<F64>(damping);
-        let masses = bodies(&model);
-        let start = State::initial(&model);
-        let (p0, l0) = momenta(&masses, &start.bodies);
-        let mut plant = Plant::new(&model, Leapfrog, 1e-3).unwrap();
-        for _ in 0..5_000 {
-            plant.step().ok().unwrap();
-        }
-        let (p, l) = momenta(&masses, &plant.state().bodies);
-        for residue in (p - p0).to_f64().into_iter().chain((l - l0).to_f64()) {
-            assert!(residue.abs() < 1e-11, "leapfrog, damping {damping}: {residue:e}");
-        }
-        // dbd keeps the linear momentum to rounding; its angular one is of first order.
-        let mut plant = Plant::new(&model, Dbd::default(), 1e-4).unwrap();
-        for _ in 0..5_000 {
-            plant.step().ok().unwrap();
-        }
-        let (p, l) = momenta(&masses, &plant.state().bodies);
-        for residue in (p - p0).to_f64() {
-            assert!(residue.abs() < 1e-11, "dbd, damping {damping}: {residue:e}");
-        }
-        let drift = (l - l0).dot(l - l0).sqrt() / l0.dot(l0).sqrt();
-        assert!(drift < 1e-3, "dbd, damping {damping}: {drift:e}");
     }
 }
 
@@ -108,12 +74,10 @@ fn dampers_keep_the_momenta_that_their_law_keeps() {
         let time = std::f64::consts::LN_2;
         for (name, model, left) in [("bushing", bushing, 0.5), ("line", line, 0.5)] {
             let (linear, angular) = momenta_after(model, scheme, time);
-            println!("{:<20} {name}: {linear:.1e}, of the angular {angular:.4}", S::NAME);
             assert!(linear < 1e-12, "{} {name}: {linear:e}", S::NAME);
             assert!((angular - left).abs() < 1e-3, "{} {name}: {angular}", S::NAME);
         }
         let (linear, angular) = momenta_after(kept, scheme, time);
-        println!("{:<20} TSDA and torsion: {linear:.1e}, {:.1e}", S::NAME, angular - 1.0);
         assert!(linear < 1e-12 && (angular - 1.0).abs() < 1e-12, "{}: {angular}", S::NAME);
     }
     let models = [&bushing, &line, &kept];
@@ -121,39 +85,6 @@ fn dampers_keep_the_momenta_that_their_law_keeps() {
     check(Pefrl, models);
     check(BlanesMoanS6, models);
     check(SemiImplicitEuler, models);
-}
-
-/// Mean errors of the total energy \[J\] over quarters of 10 s, the worst, and the peak kinetic.
-fn energy_errors<S: Scheme>(scheme: S, quarters: usize) -> (Vec<f64>, f64, f64) {
-    let model = hung_ring::<F64>(0.0);
-    let h = 1e-4;
-    let mut plant = Plant::new(&model, scheme, h).unwrap();
-    let start = energy(&model, plant.state(), h);
-    let (mut means, mut worst, mut kinetic) = (vec![0.0; quarters], 0.0_f64, 0.0_f64);
-    for mean in &mut means {
-        for _ in 0..100_000 {
-            plant.step().ok().unwrap();
-            let now = energy(&model, plant.state(), h);
-            let error = now.total() - start.total();
-            *mean += error / 1e5;
-            worst = worst.max(error.abs());
-            kinetic = kinetic.max(now.kinetic);
-        }
-    }
-    (means, worst, kinetic)
-}
-
-#[test]
-fn energy_does_not_drift_in_leapfrog() {
-    // z = ω·h = 0.04. The mean error moves a little (1.5e-4 J over 40 s) while the motion's
-    // energy spreads into the joints' vibration; Newton iterations dissipate visibly.
-    let (means, worst, kinetic) = energy_errors(Leapfrog, 4);
-    assert!(worst < 1e-3 * kinetic, "{worst:e} of {kinetic}");
-    for mean in &means {
-        assert!((mean - means[0]).abs() < 3e-4, "{means:?}");
-    }
-    let (means, _, _) = energy_errors(Dbd { newton: 1 }, 1);
-    assert!(means[0] < -0.1, "{means:?}");
 }
 
 /// A pose of three bodies around the initial one from unit-range numbers.
@@ -173,8 +104,14 @@ fn posed(model: &Bench<F64>, numbers: &[f64]) -> State<Bench<F64>> {
     state
 }
 
+/// The same cases on every run; one that fails is shrunk and printed.
+fn cases() -> ProptestConfig {
+    let rng_seed = RngSeed::Fixed(2297);
+    ProptestConfig { cases: 64, failure_persistence: None, rng_seed, ..Default::default() }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(cases())]
 
     #[test]
     fn forces_are_minus_the_gradient_of_the_energy(

@@ -1,7 +1,5 @@
 //! Every type of joint: what it holds is as stiff as `docs/joints.md` says, what it frees is free,
 //! and its energy is kept.
-//!
-//! `cargo test -p dbd-tests --test joints -- --nocapture` prints the table of `docs/joints.md`.
 
 #[path = "joints/matrix.rs"]
 mod matrix;
@@ -10,6 +8,7 @@ use dbd_kernel::energy::energy;
 use dbd_kernel::forces::wrenches;
 use dbd_kernel::{F64, Leapfrog, Plant, Quaternion, State, Vec3};
 use dbd_scene::{Scene, SceneModel};
+use dbd_tests::page::{block, table};
 use dbd_tests::{momenta, turned};
 use matrix::{AT, K, Matrix, axes, diagonal, largest_difference, load, matrix, shifted, stiffness};
 
@@ -102,9 +101,7 @@ fn scene(case: &Case, grounded: bool, damping: f64) -> Scene {
 
 #[test]
 fn stiffness_is_what_the_documentation_says() {
-    println!(
-        "| joint | K_t measured / documented, in k | K_φ measured / documented, in k·s² | greatest difference |"
-    );
+    let mut rows = Vec::new();
     for case in CASES {
         let documented = (case.stiffness)();
         let greatest =
@@ -123,7 +120,7 @@ fn stiffness_is_what_the_documentation_says() {
                     };
                     format!("{} / {}", of(&measured), of(&documented))
                 };
-                println!("| {} | {} | {} | {difference:.0e} |", case.name, row(0), row(3));
+                rows.push(vec![case.name.to_owned(), row(0), row(3)]);
             }
             assert!(
                 difference < 1e-7 * greatest,
@@ -132,6 +129,8 @@ fn stiffness_is_what_the_documentation_says() {
             );
         }
     }
+    let head = ["joint", "K_t measured / documented, in k", "K_φ measured / documented, in k·s²"];
+    block("docs/joints.md", "stiffness", &table(&head, &rows));
 }
 
 /// What the second body feels, the first feels reversed, spider included: the loads about one
@@ -235,10 +234,6 @@ fn energy_and_momentum_of_a_free_motion_are_kept() {
         let after = momentum(&model, plant.state());
         let lost =
             before.iter().zip(after).map(|(b, a)| (*b - a).dot(*b - a).sqrt()).fold(0.0, f64::max);
-        println!(
-            "{:22} {steps} steps: energy within {band:.0e}, drift {drift:.0e}, momentum {lost:.0e}",
-            case.name
-        );
         assert!(band < 3e-8 && drift.abs() < 3e-9, "{}: {band:e} {drift:e}", case.name);
         assert!(lost < 1e-12, "{}: {lost:e}", case.name);
     }

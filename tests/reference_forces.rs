@@ -1,7 +1,4 @@
 //! The std reference against the kernel: two writings of one set of equations.
-//!
-//! `DBD_PRINT=1 cargo test --release -p dbd-tests --test reference_forces -- --nocapture` prints the
-//! differences.
 
 use dbd_kernel::builder::{LineLaw, Stars};
 use dbd_kernel::forces::wrenches;
@@ -57,9 +54,6 @@ fn every_scene_has_the_same_accelerations() {
                 plant.step().ok().unwrap();
             }
             let difference = difference(&scene.model, plant.state(), h);
-            if std::env::var_os("DBD_PRINT").is_some() {
-                println!("{name:14} {steps:5}  {difference:.1e}");
-            }
             assert!(difference < 1e-9, "{name} after {steps}: {difference:e}");
         }
     }

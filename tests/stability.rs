@@ -1,12 +1,15 @@
 //! The largest stable steps of every scheme on the paper's mechanisms, beside the linear limits.
 //!
 //! About the initial pose, frozen; see `host_sim::stability` for the criterion. The limits are those
-//! of one oscillator. `DBD_PRINT=1 cargo test --release -p dbd-tests --test stability -- --nocapture`
-//! prints the table.
+//! of one oscillator.
+
+use std::sync::OnceLock;
 
 use dbd_kernel::State;
 use dbd_kernel::model::{DamperIndex, Law};
 use dbd_scene::Scene;
+use dbd_tests::page::{block, figure, table};
+use dbd_tests::results::cost;
 use dbd_tests::scene;
 use host_sim::method::{DampingName, Method, PrecisionName, SchemeName};
 use host_sim::reference::Trajectory;
@@ -38,16 +41,24 @@ const LIMITS: [(SchemeName, Option<u32>, f64); 14] = [
     (SchemeName::Rk4, None, 2.828),
 ];
 
-fn limits_hold(name: &str) {
+/// The mechanisms looked at.
+const SCENES: [&str; 5] = ["four-bar", "five-bar-b", "six-bar", "3rrr", "crank-slider"];
+
+/// The largest stable `ω·h` of each of [`LIMITS`] on a mechanism, found once however many ask.
+fn limits(name: &str) -> &'static [f64] {
+    static FOUND: [OnceLock<Vec<f64>>; SCENES.len()] = [const { OnceLock::new() }; SCENES.len()];
+    let place = SCENES.iter().position(|scene| *scene == name).unwrap();
+    FOUND[place].get_or_init(|| limits_hold(name))
+}
+
+fn limits_hold(name: &str) -> Vec<f64> {
     let scene = scene(name);
+    let mut all = Vec::new();
     for (scheme, newton, limit) in LIMITS {
         let method = method(scheme, newton);
         let found = of(&scene, &method);
         let z = found.z();
-        if std::env::var_os("DBD_PRINT").is_some() {
-            let label = format!("{} {}", method.scheme_name(), newton.unwrap_or(0));
-            println!("{name:12} {label:20} z = {z:.3}  {:.3?}", found.ranges);
-        }
+        all.push(z);
         assert!((z / limit - 1.0).abs() < 0.05, "{name} {method:?}: {z} of {limit}");
         assert!(found.ranges[0][0] == 0.0 && (found.ranges[0][1] - z).abs() < 1e-12);
         if scheme == SchemeName::BlanesMoanS6 {
@@ -59,13 +70,28 @@ fn limits_hold(name: &str) {
             assert!((end / 6.31 - 1.0).abs() < 0.05, "{name}: {end}");
         }
     }
+    all
+}
+
+#[test]
+fn written_in_the_page() {
+    let columns = SCENES.map(limits);
+    let rows = LIMITS.iter().enumerate().map(|(i, (scheme, newton, limit))| {
+        let name = method(*scheme, *newton).scheme_name();
+        let newton = newton.map(|newton| format!(", {newton}")).unwrap_or_default();
+        let cells = columns.map(|column| format!("{:.3}", column[i]));
+        [format!("{name}{newton}"), format!("{limit}")].into_iter().chain(cells).collect()
+    });
+    let rows: Vec<Vec<String>> = rows.collect();
+    let head = [&["scheme, Newton iterations", "one oscillator"], &SCENES[..]].concat();
+    block("docs/reference-solvers.md", "limits", &table(&head, &rows));
 }
 
 macro_rules! limits {
     ($($test:ident: $name:literal),*) => {$(
         #[test]
         fn $test() {
-            limits_hold($name);
+            assert_eq!(limits($name).len(), LIMITS.len());
         }
     )*};
 }
@@ -97,49 +123,68 @@ fn damped(name: &str) -> Scene {
 
 /// Strong dampers, ζ = 2 in the fastest mode, leave the sweeps their step. Explicit damping at one
 /// velocity per step, as in semi-implicit Euler, ends at `2·(√(ζ² + 1) − ζ)`, 0.47, the paper's step
-/// earlier still; leapfrog's two half kicks at `2/ζ`, 1. The errors of the trajectory, each at its
-/// own limit, are printed beside each other.
+/// earlier still; leapfrog's two half kicks at `2/ζ`, 1.
 #[test]
 fn sweeps_keep_the_step_that_explicit_damping_loses() {
-    for name in ["four-bar", "five-bar-b", "six-bar", "3rrr", "crank-slider"] {
-        let scene = damped(name);
-        let truth = Trajectory::truth(&scene, 0.1, 10).unwrap();
-        let sweeps = method(SchemeName::Leapfrog, None);
-        let explicit = sweeps.with_damping(DampingName::Explicit).unwrap();
-        let paper = method(SchemeName::Dbd, Some(0));
-        let euler = method(SchemeName::SemiImplicitEuler, None);
-        let euler = euler.with_damping(DampingName::Explicit).unwrap();
-        let [sweeps, explicit, euler, paper] = [sweeps, explicit, euler, paper].map(|method| {
-            let found = of(&scene, &method);
-            // The longest step that divides the interval between samples.
-            let steps = (truth.times[1] / found.largest_step * 1.02).ceil() as u64;
-            let error = truth.error(&truth.run(&scene, &method, steps));
-            let z = found.frequency * truth.times[1] / steps as f64;
-            if std::env::var_os("DBD_PRINT").is_some() {
-                let label = format!("{} {}", method.scheme_name(), method.damping().name());
-                println!(
-                    "{name:12} {label:18} limit {:.3}, error at z = {z:.3}: {error:.1e} m",
-                    found.z()
-                );
-            }
-            (found.z(), error)
-        });
-        assert!(sweeps.0 >= 1.9, "{name}: {sweeps:?}");
-        assert!(euler.0 < 0.5 && paper.0 < 0.5, "{name}: {euler:?} {paper:?}");
-        assert!((explicit.0 - 1.0).abs() < 0.05, "{name}: {explicit:?}");
-        // Each at its own limit: sweeps at five times the paper's step have up to three times its
-        // error, explicit damping in leapfrog at nearly three times the step up to half of it.
-        let [ratio, second] = [sweeps.1 / paper.1, explicit.1 / paper.1];
-        if std::env::var_os("DBD_PRINT").is_some() {
-            println!("{name:12} of dbd's error: sweeps {ratio:.2}, explicit {second:.3}");
-        }
-        assert!(ratio < 4.0 && second < 0.6, "{name}: {ratio} {second}");
-        let still = vec![truth.states[0].positions(); truth.times.len()];
-        let moved = truth.errors(&still).into_iter().fold(0.0, f64::max);
-        for (_, error) in [sweeps, explicit, euler, paper] {
-            assert!(error < 0.1 * moved, "{name}: {error:e} of {moved:e}");
-        }
+    let sweeps = method(SchemeName::Leapfrog, None);
+    let explicit = sweeps.with_damping(DampingName::Explicit).unwrap();
+    let euler = method(SchemeName::SemiImplicitEuler, None);
+    let euler = euler.with_damping(DampingName::Explicit).unwrap();
+    let methods = [sweeps, explicit, euler, method(SchemeName::Dbd, Some(0))];
+    let found = std::thread::scope(|scope| {
+        SCENES
+            .map(|name| scope.spawn(move || damped_limits(name, &methods)))
+            .map(|found| found.join().unwrap())
+    });
+    let title = |method: &Method| format!("{}, {}", method.scheme_name(), method.damping().name());
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    for (i, method) in methods.iter().enumerate() {
+        let cells = found.map(|limits| format!("{:.2} / {:.1e}", limits[i].0, limits[i].1));
+        rows.push([title(method)].into_iter().chain(cells).collect());
     }
+    let ratios = found.map(|limits| figure(limits[0].1 / limits[3].1, 2));
+    rows.push(["sweeps over dbd's error".to_owned()].into_iter().chain(ratios).collect());
+    let head = [&["limit of ω·h / error at it [m]"], &SCENES[..]].concat();
+    block("docs/reference-solvers.md", "damped", &table(&head, &rows));
+
+    // What a unit of z costs on the target, at the limits of the first mechanism.
+    let scene = "double-wishbone";
+    let counted = ["leapfrog", "leapfrog-explicit", "semi-implicit-euler-explicit", "dbd"];
+    let rows = methods.iter().zip(counted).enumerate().map(|(i, (method, counted))| {
+        let (limit, _) = found[0][i];
+        let count = cost(scene, counted, "f32").number("instructions_mean");
+        let cells = [format!("{limit:.2}"), figure(count, 3), figure(count / limit, 3)];
+        [title(method)].into_iter().chain(cells).collect()
+    });
+    let rows: Vec<Vec<String>> = rows.collect();
+    let head = ["", "limit of z", "instructions per step", "instructions per unit of z"];
+    block("docs/reference-solvers.md", "damped cost", &table(&head, &rows));
+}
+
+/// The limit of each method on a damped mechanism, and the error \[m\] at it.
+fn damped_limits(name: &str, methods: &[Method; 4]) -> [(f64, f64); 4] {
+    let scene = damped(name);
+    let truth = Trajectory::truth(&scene, 0.1, 10).unwrap();
+    let limits = methods.each_ref().map(|method| {
+        let found = of(&scene, method);
+        // The longest step that divides the interval between samples.
+        let steps = (truth.times[1] / found.largest_step * 1.02).ceil() as u64;
+        (found.z(), truth.error(&truth.run(&scene, method, steps)))
+    });
+    let [sweeps, explicit, euler, paper] = limits;
+    assert!(sweeps.0 >= 1.9, "{name}: {sweeps:?}");
+    assert!(euler.0 < 0.5 && paper.0 < 0.5, "{name}: {euler:?} {paper:?}");
+    assert!((explicit.0 - 1.0).abs() < 0.05, "{name}: {explicit:?}");
+    // Each at its own limit: sweeps at five times the paper's step have up to three times its
+    // error, explicit damping in leapfrog at nearly three times the step up to half of it.
+    let [ratio, second] = [sweeps.1 / paper.1, explicit.1 / paper.1];
+    assert!(ratio < 4.0 && second < 0.6, "{name}: {ratio} {second}");
+    let still = vec![truth.states[0].positions(); truth.times.len()];
+    let moved = truth.errors(&still).into_iter().fold(0.0, f64::max);
+    for (_, error) in limits {
+        assert!(error < 0.1 * moved, "{name}: {error:e} of {moved:e}");
+    }
+    limits
 }
 
 #[test]

@@ -1,7 +1,5 @@
 //! The suspensions: their modes lie where those of cars do and where Franco & Degani (2026,
 //! section 4.7) say, and the wheel hops after a step of the road as its mode does.
-//!
-//! `DBD_PRINT=1 cargo test --release -p dbd-tests --test suspension -- --nocapture` prints them.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -10,17 +8,12 @@ use dbd_kernel::readouts::Reading;
 use dbd_kernel::{F64, Leapfrog, Plant, State, Vec3};
 use dbd_scene::{Scene, SceneModel};
 use dbd_tests::modes::{Modes, after, held_by, modes, scaled_damping, scaled_stiffness};
+use dbd_tests::page::figure;
 use dbd_tests::scene;
 use nalgebra::{DVector, SymmetricEigen};
 
 /// \[s\] both scenes have settled by then and the road has not moved.
 const SETTLED: f64 = 0.5;
-
-fn print(line: &str) {
-    if std::env::var_os("DBD_PRINT").is_some() {
-        println!("{line}");
-    }
-}
 
 /// A scene, at rest on its springs, and its modes there.
 fn settled(name: &str) -> (Scene, State<SceneModel<F64>>, Modes) {
@@ -119,7 +112,6 @@ fn least_pressure(scene: &Scene, tyres: &[&str]) -> f64 {
             });
         }
     }
-    print(&format!("{}: a tyre presses with {least:.0} N at least", scene.name));
     least
 }
 
@@ -132,7 +124,6 @@ fn tyres_press_on_the_road_all_the_time() {
 }
 
 fn within(range: Range<f64>, what: &str, frequency: f64) {
-    print(&format!("{what}: {frequency:.2} Hz"));
     assert!(range.contains(&frequency), "{what}: {frequency} Hz, not in {range:?}");
 }
 
@@ -147,7 +138,6 @@ fn the_double_wishbone_vibrates_as_a_corner_of_a_car_does() {
     assert!(share > 0.8, "{share}");
     let bushing = |name: &str| ["front", "rear"].iter().any(|end| name.ends_with(end));
     let rubber = rubber_modes(&scene, &state, &modes, bushing);
-    print(&format!("wishbone, modes in rubber: {rubber:.1?} Hz"));
     within(12.0..25.0, "wishbone, first in rubber", rubber[0]);
     within(150.0..250.0, "wishbone, last in rubber", rubber[rubber.len() - 1]);
     assert!(rubber.len() >= 6, "{rubber:?}");
@@ -159,7 +149,6 @@ fn the_double_wishbone_vibrates_as_a_corner_of_a_car_does() {
     let ratios: Vec<[f64; 3]> =
         arms.map(|(mode, [rubber, all])| [modes.frequencies[mode], rubber, all]).collect();
     for [frequency, rubber, all] in &ratios {
-        print(&format!("wishbone, {frequency:.1} Hz: rubber {rubber:.3}, in all {all:.3}"));
         let fluid = *frequency < 180.0;
         let band = if fluid { 0.06..0.16 } else { 0.01..0.07 };
         assert!(band.contains(rubber), "{frequency} Hz: {rubber}");
@@ -169,8 +158,7 @@ fn the_double_wishbone_vibrates_as_a_corner_of_a_car_does() {
 }
 
 /// The first free cycles of the wheel's height after the step of the road.
-#[test]
-fn the_wheel_hops_after_the_step_as_its_mode_does() {
+pub fn hop() -> String {
     let scene = scene("double-wishbone");
     let step = scene.step.unwrap();
     let knuckle = scene.body_names.iter().position(|name| name == "knuckle").unwrap();
@@ -201,14 +189,6 @@ fn the_wheel_hops_after_the_step_as_its_mode_does() {
         }
     }
     let measured = 2.5 / (crossings[5] - crossings[0]);
-    print(&format!(
-        "wishbone after the step: {measured:.2} Hz, mode {:.2} Hz damped by {ratio:.3}: {theory:.2} Hz; \
-         wheel {:.1} mm up for {:.0} mm of road, overshoot {:.1} mm",
-        modes.frequencies[hop],
-        1e3 * (end.1 - before),
-        1e3 * road,
-        1e3 * (highest - end.1)
-    ));
     // The modes are linear and the wheel swings by 10 mm; five half cycles of 42 ms.
     assert!((measured / theory - 1.0).abs() < 0.03, "{measured} {theory}");
     assert!((0.1..0.3).contains(&ratio), "{ratio}");
@@ -216,14 +196,17 @@ fn the_wheel_hops_after_the_step_as_its_mode_does() {
     let share = (end.1 - before) / road;
     assert!((0.85..0.93).contains(&share), "{share}");
     assert!(highest - end.1 > 0.2 * road, "{highest}");
+    format!(
+        "wheel hops at {measured:.1} Hz after a step of the road; its damped mode is at {theory:.1} Hz"
+    )
 }
 
 /// Section 4.7: twenty bodies, the first mode of the bushings near 20 Hz, the sixth near 250 Hz.
-#[test]
-fn the_macpherson_axle_vibrates_where_the_paper_says() {
+pub fn macpherson() -> String {
     let (scene, state, modes) = settled("macpherson");
     assert_eq!(scene.model.bodies.len(), 20);
     // An arm alone on its two bushings, as in the paper's source: six freedoms, six modes.
+    let mut range = [f64::INFINITY, 0.0_f64];
     for side in ["left", "right"] {
         let arm = format!("{side} arm");
         let row = scene.body_names.iter().position(|name| *name == arm).unwrap();
@@ -233,14 +216,13 @@ fn the_macpherson_axle_vibrates_where_the_paper_says() {
         let squares = SymmetricEigen::new(block).eigenvalues;
         let mut alone: Vec<f64> = squares.iter().map(|s| s.sqrt() / TAU).collect();
         alone.sort_by(f64::total_cmp);
-        print(&format!("macpherson, {arm} alone: {alone:.1?} Hz"));
         within(15.0..25.0, "macpherson, first mode of an arm on its bushings", alone[0]);
         within(200.0..280.0, "macpherson, sixth mode of an arm on its bushings", alone[5]);
+        range = [range[0].min(alone[0]), range[1].max(alone[5])];
     }
     let rubber = ["arm", "mount", "bearing", "subframe"];
     let bushing = |name: &str| rubber.iter().any(|part| name.contains(part));
     let rubber = rubber_modes(&scene, &state, &modes, bushing);
-    print(&format!("macpherson, modes in rubber: {rubber:.1?} Hz"));
     within(12.0..25.0, "macpherson, first in rubber", rubber[0]);
     within(200.0..280.0, "macpherson, last in rubber", rubber[rubber.len() - 1]);
     assert!(rubber.len() >= 12, "{rubber:?}");
@@ -253,15 +235,21 @@ fn the_macpherson_axle_vibrates_where_the_paper_says() {
         (0..shares.len()).max_by(by).unwrap()
     };
     let (bounce, pitch) = (most(0), most(1));
-    print(&format!("macpherson, bounce {:.2?}, pitch {:.2?}", shares[bounce], shares[pitch]));
     within(1.2..1.6, "macpherson, bounce of the body", modes.frequencies[bounce]);
     within(1.75..2.25, "macpherson, pitch of the body", modes.frequencies[pitch]);
     assert!(shares[bounce][0] > 0.6 && shares[pitch][1] > 0.6, "{shares:?}");
     let above = modes.frequencies.iter().filter(|frequency| **frequency > 250.0).count();
     let highest = modes.frequencies[modes.frequencies.len() - 1];
-    print(&format!("macpherson: {above} modes above 250 Hz, the highest {highest:.1} Hz"));
     assert_eq!((above, modes.frequencies.len()), (40, 120));
     within(640.0..650.0, "macpherson, highest of all", highest);
     let (hop, _) = heave(&modes, &[row("left wheel"), row("right wheel")]);
     within(10.0..15.0, "macpherson, hop of the wheels", modes.frequencies[hop]);
+    format!(
+        "an arm alone on its bushings: six modes, {} to {} Hz (paper: 20 to 250); modes mostly in \
+         rubber {} to {} Hz",
+        figure(range[0], 3),
+        figure(range[1], 3),
+        figure(rubber[0], 2),
+        figure(rubber[rubber.len() - 1], 3)
+    )
 }
