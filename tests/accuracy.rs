@@ -8,10 +8,10 @@ use dbd_kernel::energy::energy;
 use dbd_kernel::{
     BlanesMoanS6, Dbd, DbdP1, F64, Leapfrog, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler, State,
 };
+use dbd_reference::Trajectory;
 use dbd_scene::SceneModel;
 use dbd_tests::page::{block, figure, table};
 use dbd_tests::scene;
-use host_sim::reference::Trajectory;
 use nalgebra::Vector3;
 
 /// A mechanism, its force evaluations per simulated second and the time looked at \[s\].

@@ -3,16 +3,16 @@
 use std::sync::OnceLock;
 
 use dbd_kernel::builder::{LineLaw, Stars};
-use dbd_kernel::inputs::InputKind;
+use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::{
     BodyIndex, BodyState, F64, Leapfrog, ModelOwner, Plant, Quaternion, State, Vec3, frequency,
 };
+use dbd_plant::frequencies::Frequencies;
+use dbd_reference::instant::End;
+use dbd_reference::signals::Clock;
+use dbd_reference::{self as reference, Mechanism, eigenfrequencies};
 use dbd_tests::page::{block, table};
 use dbd_tests::{Bench, hung_ring, scene, scene_names};
-use host_sim::frequencies::Frequencies;
-use host_sim::reference::elements::End;
-use host_sim::reference::signals::Clock;
-use host_sim::reference::{self, Mechanism, eigenfrequencies};
 use nalgebra::{Matrix6, Vector6};
 
 /// The highest eigenfrequency \[rad/s\], and the bound over it.

@@ -1,8 +1,10 @@
 //! Inputs against closed forms, and what may not be set.
 
 use dbd_kernel::builder::{BuildError, Quantity};
-use dbd_kernel::inputs::{Input, InputIndex, InputKind};
-use dbd_kernel::model::{ClearanceIndex, DamperIndex, Group, Law};
+use dbd_kernel::elements::input::{Input, InputKind};
+use dbd_kernel::index::InputIndex;
+use dbd_kernel::index::{ClearanceIndex, DamperIndex};
+use dbd_kernel::model::{Group, Law};
 use dbd_kernel::plant::InputError;
 use dbd_kernel::{
     Body, BodyIndex, Dbd, F32, F64, Geometry, Leapfrog, LoadFrame, Model, Plant, Scheme, Tsda, Vec3,

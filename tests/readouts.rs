@@ -1,7 +1,8 @@
 //! Read-outs against what is known.
 
+use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::energy::energy;
-use dbd_kernel::inputs::{InputIndex, InputKind};
+use dbd_kernel::index::InputIndex;
 use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::{BodyIndex, BodyState, F64, Geometry, Leapfrog, Plant, Vec3};
 use dbd_tests::{Bench, at, scene, scene_names, turned};

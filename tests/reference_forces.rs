@@ -1,14 +1,15 @@
 //! The std reference against the kernel: two writings of one set of equations.
 
 use dbd_kernel::builder::{LineLaw, Stars};
+use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::forces::wrenches;
-use dbd_kernel::inputs::{InputKind, Signal};
+use dbd_kernel::schedule::Signal;
 use dbd_kernel::{
     BodyIndex, Dbd, F64, Leapfrog, Load, LoadFrame, ModelOwner, Plant, Scheme, State, Vec3,
 };
+use dbd_reference::signals::Clock;
+use dbd_reference::{self as reference, Mechanism, naive::Naive};
 use dbd_tests::{Bench, hung_ring, run, scene, scene_names};
-use host_sim::reference::signals::Clock;
-use host_sim::reference::{self, Mechanism, naive::Naive};
 use nalgebra::Vector3;
 
 /// The largest difference of a body's accelerations over the largest acceleration of all bodies,

@@ -1,12 +1,12 @@
 //! Linearly implicit Euler: its order against the truth, its calm at steps no explicit scheme takes.
 
 use dbd_kernel::{F64, ModelOwner};
+use dbd_plant::frequencies::Frequencies;
+use dbd_reference::implicit::Implicit;
+use dbd_reference::trajectory::{Positions, sample_times};
+use dbd_reference::{Mechanism, Trajectory};
 use dbd_tests::page::{block, table};
 use dbd_tests::{hung_ring, scene};
-use host_sim::frequencies::Frequencies;
-use host_sim::reference::implicit::Implicit;
-use host_sim::reference::trajectory::{Positions, sample_times};
-use host_sim::reference::{Mechanism, Trajectory};
 
 /// The error against the truth at `samples` samples with `steps` steps between them.
 fn error<M: ModelOwner<Precision = F64>>(model: &M, truth: &Trajectory, steps: u32) -> f64 {

@@ -2,15 +2,16 @@
 
 use std::f64::consts::TAU;
 
-use dbd_kernel::inputs::InputKind;
+use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::{BodyIndex, BodyState, F64, Load, LoadFrame, Vec3};
+use dbd_plant::{Method, PrecisionName, SchemeName};
+use dbd_reference::metric::distance;
+use dbd_reference::trajectory::{Positions, sample_times};
+use dbd_reference::window::{GROWTH, PERTURBATION, before_chaos, perturbed};
+use dbd_reference::{Mechanism, Trajectory};
 use dbd_scene::Scene;
 use dbd_tests::page::{block, figure, table};
 use dbd_tests::{Bench, at, scene, scene_names, turned};
-use host_sim::method::{Method, PrecisionName, SchemeName};
-use host_sim::reference::trajectory::{Positions, distance, sample_times};
-use host_sim::reference::window::{GROWTH, PERTURBATION, before_chaos, perturbed};
-use host_sim::reference::{Mechanism, Trajectory};
 use nalgebra::{UnitQuaternion, Vector3};
 
 const WORLD: BodyIndex = BodyIndex::WORLD;
@@ -21,7 +22,7 @@ fn truth(model: &Bench<F64>, window: f64, samples: u32) -> Trajectory {
 }
 
 /// The largest difference of a quantity from its closed form over all samples.
-fn worst(truth: &Trajectory, difference: impl Fn(f64, &host_sim::reference::State) -> f64) -> f64 {
+fn worst(truth: &Trajectory, difference: impl Fn(f64, &dbd_reference::State) -> f64) -> f64 {
     let pairs = truth.times.iter().zip(&truth.states);
     pairs.map(|(t, state)| difference(*t, state).abs()).fold(0.0, f64::max)
 }

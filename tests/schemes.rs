@@ -1,8 +1,8 @@
 //! What each scheme states of itself: stability limit, dissipation, evaluations, what it
 //! conserves, and that inputs are held for all its stages.
 
+use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::energy::energy;
-use dbd_kernel::inputs::InputKind;
 use dbd_kernel::{
     BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Geometry, Leapfrog,
     LoadFrame, ModelOwner, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler, State, Vec3,

@@ -1,7 +1,7 @@
 //! Snapshots: exact resume, and every kind of wrong bytes.
 
+use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::euler::{EulerF32, SingleEulerF64};
-use dbd_kernel::inputs::InputKind;
 use dbd_kernel::snapshot::SnapshotError;
 use dbd_kernel::{
     BlanesMoanS6, BodyIndex, Dbd, DbdP2, Explicit, F32, F64, Geometry, Leapfrog, Load, LoadFrame,
@@ -26,7 +26,7 @@ fn busy<P: Geometry>() -> Bench<P> {
 
 fn resumes<P: Geometry, S: Scheme>(scheme: S) {
     let model = busy::<P>();
-    let input = dbd_kernel::inputs::InputIndex(0);
+    let input = dbd_kernel::index::InputIndex(0);
     let mut whole = Plant::new(&model, scheme, 1e-4).unwrap();
     let mut bytes = vec![0; whole.snapshot_size()];
     // 500 steps lie within the load's window.

@@ -6,13 +6,14 @@
 use std::sync::OnceLock;
 
 use dbd_kernel::State;
-use dbd_kernel::model::{DamperIndex, Law};
+use dbd_kernel::index::DamperIndex;
+use dbd_kernel::model::Law;
+use dbd_plant::{DampingName, Method, PrecisionName, SchemeName};
+use dbd_reference::Trajectory;
 use dbd_scene::Scene;
 use dbd_tests::page::{block, figure, table};
 use dbd_tests::results::cost;
 use dbd_tests::scene;
-use host_sim::method::{DampingName, Method, PrecisionName, SchemeName};
-use host_sim::reference::Trajectory;
 use host_sim::stability::{Stability, stability};
 
 fn of(scene: &Scene, method: &Method) -> Stability {

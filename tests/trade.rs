@@ -4,16 +4,16 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use dbd_plant::plan::{Request, StepRequest, plan};
+use dbd_plant::time::Time;
 use dbd_scene::Scene;
+use dbd_study::advice::{advice, choice, remark};
+use dbd_study::command::Command;
+use dbd_study::{Machine, Point, Trade, TradeOptions, front, survey};
 use dbd_tests::scene;
 use host_sim::cli::main_with;
-use host_sim::console::Console;
-use host_sim::error::Exit;
-use host_sim::plan::{Request, StepRequest, plan};
-use host_sim::time::Time;
-use host_sim::trade::advice::{advice, choice, remark};
-use host_sim::trade::command::Command;
-use host_sim::trade::{Machine, Point, Trade, TradeOptions, front, survey};
+use host_sim::terminal::Console;
+use host_sim::terminal::Exit;
 
 /// A survey of a scene's first moments; `cache` where results are kept.
 fn trade(name: &str, window: f64, cache: Option<&Path>) -> Trade {
@@ -185,7 +185,7 @@ fn the_command_leaves_its_files_and_says_how_to_run_what_it_chose() {
     let results = folder.path().join("spring-ball");
     let table = fs::read_to_string(results.join("trade.csv")).unwrap();
     let columns: Vec<&str> = table.lines().next().unwrap().split(',').collect();
-    assert_eq!(columns, host_sim::trade::files::COLUMNS);
+    assert_eq!(columns, dbd_study::files::COLUMNS);
     assert_eq!((columns.len(), *columns.last().unwrap()), (19, "lost"));
     for file in ["trade.svg", "trade-cortex-m4f.svg", "trade.html"] {
         assert!(results.join(file).is_file(), "{file}");

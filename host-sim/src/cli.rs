@@ -6,25 +6,21 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
-use dbd_kernel::F32;
-use dbd_scene::export;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand};
+use dbd_plant::time::Time;
+use dbd_plant::{DampingName, Method, Named, OrientationName, PrecisionName, SchemeName};
+use dbd_study::{Phase, files};
 
-use crate::catalogue::Catalogue;
-use crate::check::check;
-use crate::console::Console;
-use crate::error::{Error, Exit};
-use crate::frequencies::Frequencies;
-use crate::list::list;
-use crate::method::{DampingName, Method, OrientationName, PrecisionName, SchemeName};
-use crate::output;
-use crate::progress::Progress;
-use crate::run::{Outcome, RunOptions, run};
-use crate::stability_check::StabilityCheck;
-use crate::summary::{json, table};
-use crate::time::Time;
-use crate::trade::survey::longest_window;
-use crate::trade::{Phase, TradeOptions, files, survey};
+use crate::commands::check::check;
+use crate::commands::export::{ExportPrecision, export};
+use crate::commands::list::list;
+use crate::commands::run::{Outcome, RunOptions, run};
+use crate::commands::stability::StabilityCheck;
+use crate::commands::trade::{TradeRequest, trade};
+use crate::error::Error;
+use crate::terminal::text::{json, table};
+use crate::terminal::{Catalogue, Console, Exit, Progress};
 
 /// Discrete Body Dynamics: simulates mechanisms of rigid bodies and springs.
 #[derive(Debug, Parser)]
@@ -59,11 +55,12 @@ enum Command {
     },
 }
 
-/// Precisions that const models are written in.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum ExportPrecision {
-    F64,
-    F32,
+/// Takes a choice by its name; what it is shows in the help.
+fn names<N: Named + Send + Sync>() -> impl TypedValueParser<Value = N> {
+    let values =
+        N::ALL.iter().map(|choice| PossibleValue::new(choice.name()).help(choice.summary()));
+    PossibleValuesParser::new(values)
+        .try_map(|name| N::of_name(&name).ok_or("there is no such name"))
 }
 
 #[derive(Debug, Args)]
@@ -83,16 +80,16 @@ struct CheckArguments {
     #[arg(long)]
     stability: bool,
     /// Its time-stepping scheme
-    #[arg(long, value_enum, default_value_t, requires = "stability")]
+    #[arg(long, value_parser = names::<SchemeName>(), default_value = SchemeName::default().name(), requires = "stability")]
     scheme: SchemeName,
     /// Its Newton iterations per step, at most 8 [default: 0]
     #[arg(long, value_name = "N", requires = "stability")]
     newton: Option<u32>,
     /// How its dampers act [default: the scheme's own]
-    #[arg(long, value_enum, requires = "stability")]
+    #[arg(long, value_parser = names::<DampingName>(), requires = "stability")]
     damping: Option<DampingName>,
     /// Its precision
-    #[arg(long, value_enum, default_value_t, requires = "stability")]
+    #[arg(long, value_parser = names::<PrecisionName>(), default_value = PrecisionName::default().name(), requires = "stability")]
     precision: PrecisionName,
 }
 
@@ -101,13 +98,13 @@ struct RunArguments {
     #[command(flatten)]
     scene: SceneArgument,
     /// Time-stepping scheme
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = names::<SchemeName>(), default_value = SchemeName::default().name())]
     scheme: SchemeName,
     /// Newton iterations per step of the dbd schemes, at most 8 [default: 0]
     #[arg(long, value_name = "N")]
     newton: Option<u32>,
     /// How dampers act [default: the scheme's own]
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = names::<DampingName>())]
     damping: Option<DampingName>,
     /// Step, e.g. 20us [default: the scene's, else the advised one, shortened to fit]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
@@ -116,10 +113,10 @@ struct RunArguments {
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     duration: Option<Time>,
     /// Precision of all arithmetic in a step
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = names::<PrecisionName>(), default_value = PrecisionName::default().name())]
     precision: PrecisionName,
     /// How orientations are stored
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = names::<OrientationName>(), default_value = OrientationName::default().name())]
     orientation: OrientationName,
     /// Sampling interval, e.g. 1ms [default: the scene's, else about 500 samples]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
@@ -202,6 +199,7 @@ fn run_scene(
 ) -> Result<Exit, Error> {
     let method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
     let method = damped(method, arguments.damping)?.with_orientation(arguments.orientation);
+    method.check_built()?;
     let scene = catalogue.load(&arguments.scene.scene)?;
     let options = RunOptions {
         method,
@@ -257,6 +255,7 @@ fn check_scene(
 ) -> Result<Exit, Error> {
     let method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
     let method = damped(method, arguments.damping)?;
+    method.check_built()?;
     let scene = catalogue.load(&arguments.scene.scene)?;
     let mut check = check(&scene);
     if arguments.stability {
@@ -273,15 +272,14 @@ fn trade_scene(
 ) -> Result<Exit, Error> {
     let called = &arguments.scene.scene;
     let scene = catalogue.load(called)?;
-    let window = arguments.window.map(Time::seconds);
-    // Bad input leaves no folder behind.
-    longest_window(&scene, window)?;
-    let folder = output::folder(&arguments.out, &scene.name)
-        .map_err(|reason| Error::Folder { folder: arguments.out.join(&scene.name), reason })?;
-    let shipped = catalogue.ships(&scene);
-    let options = TradeOptions { window, cache: Some(folder.clone()), shipped };
+    let request = TradeRequest {
+        called,
+        window: arguments.window.map(Time::seconds),
+        out: &arguments.out,
+        shipped: catalogue.ships(&scene),
+    };
     let mut progress = Progress::of(console.terminal && !arguments.quiet, "evaluations");
-    let trade = survey(&scene, &options, &mut |phase| match phase {
+    let done = trade(&scene, &request, &mut |phase| match phase {
         Phase::Window => progress.begin("how long before chaos"),
         Phase::Truth => progress.begin("the truth"),
         Phase::Opinion => progress.begin("the truth, a second opinion"),
@@ -290,9 +288,8 @@ fn trade_scene(
         Phase::Times(..) => {}
     });
     progress.finish();
-    let trade = trade?;
+    let (trade, folder) = done?;
     let report = files::Report { scene: &scene, called, trade: &trade };
-    report.write(&folder).map_err(Error::Write)?;
     if arguments.json {
         console.print(&json(&report.json()));
     } else if !arguments.quiet {
@@ -302,26 +299,13 @@ fn trade_scene(
     Ok(Exit::Done)
 }
 
-/// The constant of the step is the scene's, else the default one before it is shortened to fit.
 fn export_scene(
     catalogue: &Catalogue,
     scene: &str,
     precision: Option<ExportPrecision>,
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
-    let scene = catalogue.load(scene)?;
-    let step = Frequencies::of(&scene).default_limit(scene.duration);
-    let mut source = export::preamble(&scene, step);
-    for precision in precision.map_or(ExportPrecision::value_variants().to_vec(), |one| vec![one]) {
-        source += &match precision {
-            ExportPrecision::F64 => export::model::<f64>(&scene),
-            ExportPrecision::F32 => {
-                scene.check_inputs::<F32>()?;
-                export::model::<f32>(&scene)
-            }
-        };
-    }
-    console.print(&source);
+    console.print(&export(&catalogue.load(scene)?, precision)?);
     Ok(Exit::Done)
 }
 
@@ -333,5 +317,28 @@ mod tests {
     fn the_command_line_is_consistent() {
         use clap::CommandFactory as _;
         Cli::command().debug_assert();
+    }
+
+    /// With the feature, `run` takes Euler angles; without, it says what to do.
+    #[test]
+    fn what_is_for_comparison_is_refused_with_its_remedy_where_it_is_not_built() {
+        let out = tempfile::tempdir().unwrap();
+        let folder = out.path().to_str().unwrap();
+        let words = ["run", "spring-ball", "--duration", "0.1s", "--out", folder];
+        let options = [["--orientation", "euler-321"], ["--precision", "f32-micromath"]];
+        for option in options {
+            let (mut said, mut wrong) = (Vec::new(), Vec::new());
+            let mut console = Console { out: &mut said, err: &mut wrong, terminal: false };
+            let line = ["host-sim"].into_iter().chain(words).chain(option);
+            let exit = main_with(line, &mut console);
+            let wrong = String::from_utf8(wrong).unwrap();
+            // Whoever builds this crate's library for more programs decides.
+            if Method::default().with_orientation(OrientationName::Euler321).check_built().is_ok() {
+                assert_eq!((exit, wrong.as_str()), (Exit::Done, ""));
+            } else {
+                assert_eq!(exit, Exit::Refused);
+                assert!(wrong.contains("--features comparison"), "{wrong}");
+            }
+        }
     }
 }

@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal as _};
 use std::process::ExitCode;
 
 use host_sim::cli::main_with;
-use host_sim::console::Console;
+use host_sim::terminal::Console;
 
 fn main() -> ExitCode {
     let terminal = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();

@@ -83,14 +83,6 @@ pub mod step;
 pub mod vector;
 pub mod words;
 
-#[doc(hidden)]
-pub mod inputs {
-    //! Moved.
-    pub use crate::elements::input::{Input, InputKind, Knot};
-    pub use crate::index::InputIndex;
-    pub use crate::schedule::{KnotStep, Signal};
-}
-
 pub use body::{Body, BodyState};
 pub use elements::load::{Load, LoadFrame};
 pub use elements::point_bushing::PointBushing;

@@ -37,7 +37,7 @@ fn of_body(name: &str) -> impl Iterator<Item = String> + use<'_> {
 pub(crate) struct Taken(BTreeMap<String, String>);
 
 impl Taken {
-    /// Those of time, bodies and energies.
+    /// The columns of time, bodies and energies.
     pub(crate) fn new(bodies: &[String]) -> Self {
         let mut taken = BTreeMap::from([(TIME.to_owned(), "the time".to_owned())]);
         for body in bodies {

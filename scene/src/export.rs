@@ -11,9 +11,11 @@
 
 use std::fmt::{Display, Write};
 
+use dbd_kernel::body::Body;
+use dbd_kernel::elements::input::{Input, InputKind, Knot};
 use dbd_kernel::geometry::{Float, Named};
-use dbd_kernel::inputs::{Input, InputKind, Knot};
-use dbd_kernel::model::{Body, BodyIndex, DamperIndex, Group, ModelOwner};
+use dbd_kernel::index::{BodyIndex, DamperIndex};
+use dbd_kernel::model::{Group, ModelOwner};
 use dbd_kernel::readouts::Readout;
 use dbd_kernel::{
     BodyState, Load, LoadFrame, PointBushing, PointOnLine, Quaternion, Real, TorsionSpring, Tsda,
@@ -111,8 +113,9 @@ pub fn preamble(scene: &Scene, step: f64) -> String {
          use dbd_kernel::{{\n    \
              Body, BodyIndex, BodyState, F32, F64, Load, LoadFrame, Model, PointBushing, PointOnLine,\n    \
              Quaternion, TorsionSpring, Tsda, Vec3,\n    \
-             inputs::{{Input, InputIndex, InputKind, Knot}},\n    \
-             model::{{ClearanceIndex, DamperIndex, Group, Law}},\n    \
+             elements::input::{{Input, InputKind, Knot}},\n    \
+             index::{{ClearanceIndex, DamperIndex, InputIndex}},\n    \
+             model::{{Group, Law}},\n    \
              readouts::Readout,\n\
          }};\n\n\
          /// \\[s\\] the step of the scene {scene_name}.\n\

@@ -3,7 +3,8 @@
 //! `table => input of the model`. A type is one row of [`TYPES`]: its keys and what it makes of
 //! them.
 
-use dbd_kernel::inputs::{InputIndex, InputKind};
+use dbd_kernel::elements::input::InputKind;
+use dbd_kernel::index::InputIndex;
 use dbd_kernel::{F64, Geometry, LoadFrame, Vec3};
 
 use crate::assembly::{Drive, NoAnchor};

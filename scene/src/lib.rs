@@ -11,6 +11,7 @@ mod direction;
 mod error;
 pub mod export;
 mod facts;
+mod file_lines;
 mod hinge;
 mod input;
 mod joints;
@@ -20,7 +21,6 @@ mod names;
 mod nearest;
 mod orientation;
 mod pair;
-mod places;
 mod point_on_line;
 mod readout;
 mod runtime;
@@ -43,14 +43,14 @@ pub use nearest::nearest;
 pub use readout::ReadoutInfo;
 pub use runtime::{SceneModel, widen};
 
-use dbd_kernel::inputs::InputIndex;
+use dbd_kernel::index::InputIndex;
 use dbd_kernel::readouts::Readout;
 use dbd_kernel::{F64, Geometry};
 
 use crate::assembly::Assembly;
 use crate::error::Source;
+use crate::file_lines::FileLines;
 use crate::hinge::Known;
-use crate::places::Places;
 use crate::target::Elements;
 use crate::text::{Number, Numbers, Text};
 
@@ -98,7 +98,7 @@ pub struct Scene {
     pub readouts: Vec<ReadoutInfo>,
     /// The assembled model in double precision; every other precision is a rounding of it.
     pub model: SceneModel<F64>,
-    places: Places,
+    file_lines: FileLines,
     /// What messages call raw TSDAs, then points on lines.
     raw_names: Vec<String>,
 }
@@ -148,7 +148,7 @@ pub struct JointInfo {
     /// Its groups in the model.
     pub groups: Range<usize>,
     /// The axes about which its second body turns: one of a revolute and a cylindrical joint, the
-    /// two of a universal joint, none where there is none or any will do.
+    /// two of a universal joint, empty where there is none or any will do.
     pub hinges: Vec<Hinge>,
     /// Its TSDAs, points on lines included.
     pub tsdas: usize,
@@ -210,7 +210,7 @@ impl Scene {
             inputs,
             readouts,
             model,
-            places: Places::of(&root)?,
+            file_lines: FileLines::of(&root)?,
             raw_names,
         })
     }
@@ -243,7 +243,7 @@ impl Scene {
         let Some(index) = self.model.convert::<P>().unfit_input() else { return Ok(()) };
         let row = usize::from(index.0);
         let input = self.inputs.get(row).map_or_else(String::new, |input| input.name.clone());
-        let line = self.places.inputs.get(row).copied().unwrap_or_default();
+        let line = self.file_lines.inputs.get(row).copied().unwrap_or_default();
         Err(UnfitInput { input, line, precision: P::NAME })
     }
 
@@ -260,7 +260,7 @@ impl Scene {
     /// Torsion springs of the scene file, without those that only count turns.
     #[must_use]
     pub fn torsion_springs(&self) -> usize {
-        self.places.torsion_springs.len()
+        self.file_lines.torsion_springs.len()
     }
 }
 

@@ -4,9 +4,12 @@
 
 use std::marker::PhantomData;
 
-use dbd_kernel::inputs::{Input, InputIndex, Knot, KnotStep, Signal};
-use dbd_kernel::model::{AllTerms, Body, Group, ModelOwner, ModelRef};
+use dbd_kernel::body::Body;
+use dbd_kernel::elements::input::{Input, Knot};
+use dbd_kernel::index::InputIndex;
+use dbd_kernel::model::{AllTerms, Group, ModelOwner, ModelRef};
 use dbd_kernel::schedule::LoadWindow;
+use dbd_kernel::schedule::{KnotStep, Signal};
 use dbd_kernel::{
     BodyState, F64, Geometry, Load, PointBushing, PointOnLine, Real, State, TorsionSpring, Tsda,
     Vec3,

@@ -1,6 +1,7 @@
 //! Inputs, read-outs, clearances and names of elements: what a scene file makes of them.
 
-use dbd_kernel::inputs::{InputIndex, InputKind};
+use dbd_kernel::elements::input::InputKind;
+use dbd_kernel::index::InputIndex;
 use dbd_kernel::readouts::Readout;
 use dbd_kernel::{BodyIndex, LoadFrame, Vec3};
 use dbd_scene::Scene;

@@ -1,7 +1,7 @@
 //! What is said without running: `list`, `check`, `export`; and the step that `check` advises.
 
 use dbd_tests::page::{block, table};
-use host_sim::error::Exit;
+use host_sim::terminal::Exit;
 use serde_json::Value;
 
 use crate::{Folder, PENDULUM, call};

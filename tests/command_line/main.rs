@@ -8,8 +8,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use host_sim::cli::main_with;
-use host_sim::console::Console;
-use host_sim::error::Exit;
+use host_sim::terminal::Console;
+use host_sim::terminal::Exit;
 use serde_json::Value;
 use tempfile::TempDir;
 

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use host_sim::error::Exit;
+use host_sim::terminal::Exit;
 use serde_json::Value;
 
 use crate::{Folder, PENDULUM, call, times_in};

@@ -3,7 +3,7 @@
 use std::fs;
 
 use dbd_kernel::words::{Fnv1a, Word, WordVisitor};
-use host_sim::error::Exit;
+use host_sim::terminal::Exit;
 use serde_json::Value;
 
 use crate::{Folder, PENDULUM};

@@ -6,10 +6,10 @@ use std::fs;
 use std::path::Path;
 use std::sync::Once;
 
+use dbd_study::advice::choice;
+use dbd_study::need::{Need, paper_need};
+use dbd_study::point::{Machine, Point, Stepper, is_paper};
 use dbd_tests::results::{Row, path, rows, rows_of};
-use host_sim::trade::advice::{choice, is_paper};
-use host_sim::trade::need::{Need, paper_need};
-use host_sim::trade::{Machine, Point, Stepper};
 
 use crate::ACCURACIES;
 
@@ -103,7 +103,7 @@ fn choices(name: &str, points: &[Point]) -> String {
                 continue;
             };
             let (chosen, paper) = (&points[row], paper_need(points, machine, target));
-            let (cost, _) = chosen.place(machine).unwrap();
+            let (cost, _) = chosen.kept(machine).unwrap();
             let (ratio, known) = match paper.as_ref().map(|paper| paper.need) {
                 _ if is_paper(&chosen.stepper, machine) => (None, "itself"),
                 Some(Need::Largest { cost, .. }) => (Some(cost), "at-largest-step"),
@@ -154,9 +154,9 @@ fn times(name: &str, points: &[Point]) -> String {
 
 #[test]
 fn a_survey_becomes_rows() {
+    use dbd_study::files::Report;
+    use dbd_study::survey::{TradeOptions, survey};
     use dbd_tests::scene;
-    use host_sim::trade::files::Report;
-    use host_sim::trade::{TradeOptions, survey};
 
     let options = TradeOptions { window: Some(1e-3), cache: None, shipped: true };
     let scene = scene("spring-ball");

@@ -12,13 +12,12 @@
 mod owned;
 mod terms;
 
-pub use crate::body::Body;
-pub use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
 pub use owned::Model;
 pub use terms::{AllTerms, CountedTerms, Terms};
 
 use core::marker::PhantomData;
 
+use crate::body::Body;
 use crate::body::BodyState;
 use crate::elements::element::Element;
 pub use crate::elements::element::Law;
@@ -30,6 +29,7 @@ use crate::elements::point_on_line::PointOnLine;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::geometry::Geometry;
+use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
 use crate::schedule::{KnotStep, LoadWindow, Signal};
 use crate::vector::Vec3;
 

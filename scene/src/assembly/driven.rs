@@ -1,6 +1,7 @@
 //! Inputs and what read-outs need: parts of the model that name other parts.
 
-use dbd_kernel::inputs::{Input, InputIndex, InputKind, Knot};
+use dbd_kernel::elements::input::{Input, InputKind, Knot};
+use dbd_kernel::index::InputIndex;
 use dbd_kernel::{BodyIndex, F64, Vec3};
 
 use crate::assembly::{Assembly, Defect, index};

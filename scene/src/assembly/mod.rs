@@ -11,7 +11,8 @@ use std::collections::BTreeMap;
 
 use dbd_kernel::attitude::Attitude as _;
 use dbd_kernel::energy::each_extension;
-use dbd_kernel::model::{ClearanceIndex, DamperIndex, Group, Law};
+use dbd_kernel::index::{ClearanceIndex, DamperIndex};
+use dbd_kernel::model::{Group, Law};
 use dbd_kernel::{
     Body, BodyIndex, BodyState, F64, Geometry, Load, PointBushing, PointOnLine, Quaternion, State,
     TorsionSpring, Tsda, Vec3,
@@ -164,7 +165,7 @@ impl Assembly {
         }
     }
 
-    /// Sets the field of gravity \[m/s²\]; a field of 0 is none.
+    /// Sets the field of gravity \[m/s²\]; a field of 0 counts as no gravity.
     pub(crate) fn set_gravity(&mut self, gravity: [f64; 3]) {
         self.model.gravity =
             if gravity == [0.0; 3] { Vec::new() } else { vec![Vec3::from_f64(gravity)] };

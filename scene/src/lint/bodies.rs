@@ -57,9 +57,9 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
 
 fn of_body(scene: &Scene, row: usize, severity: Severity, text: &str) -> Warning {
     let name = &scene.body_names[row];
-    let line = scene.places.bodies.get(row).copied().or_else(|| {
+    let line = scene.file_lines.bodies.get(row).copied().or_else(|| {
         let joint = scene.joints.iter().position(|joint| joint.spider.as_ref() == Some(name))?;
-        scene.places.joints.get(joint).copied()
+        scene.file_lines.joints.get(joint).copied()
     });
     Warning { severity, name: format!("body `{name}`"), line, text: text.into() }
 }

@@ -13,7 +13,7 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
     let groups = facts::groups(scene);
     for (number, joint) in scene.joints.iter().enumerate() {
         let mut warn = |severity, text: &str| {
-            let line = scene.places.joints.get(number).copied();
+            let line = scene.file_lines.joints.get(number).copied();
             let name = format!("joint `{}`", joint.name);
             warnings.push(Warning { severity, name, line, text: text.into() });
         };
@@ -37,7 +37,7 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
         }
     }
     let raw = scene.joints.last().map_or(0, |joint| joint.groups.end);
-    let mut lines = scene.places.tsdas.iter().chain(&scene.places.points_on_lines);
+    let mut lines = scene.file_lines.tsdas.iter().chain(&scene.file_lines.points_on_lines);
     let rows = scene.model.groups[raw..].iter().zip(&groups[raw..]);
     for ((group, facts), name) in rows.zip(&scene.raw_names) {
         let line = lines.next().copied();

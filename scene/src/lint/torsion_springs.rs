@@ -14,7 +14,7 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
     for (number, spring) in springs.enumerate() {
         let mut warn = |severity, text: String| {
             let name = scene.torsion_names.get(number).cloned().unwrap_or_default();
-            let line = scene.places.torsion_springs.get(number).copied();
+            let line = scene.file_lines.torsion_springs.get(number).copied();
             warnings.push(Warning { severity, name, line, text });
         };
         if spring.stiffness == 0.0 && spring.preload == 0.0 && spring.damper.row().is_none() {

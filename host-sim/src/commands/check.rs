@@ -1,0 +1,311 @@
+//! `host-sim check`: what a scene is, without running it.
+//!
+//! `scene => counts, degrees of freedom, per joint what it holds and how well it fits, highest
+//! frequency, warnings, notes`. Warnings are for things that are probably not meant; they do not
+//! change the exit code.
+
+use dbd_kernel::schemes::{Leapfrog, Scheme};
+use dbd_plant::Frequencies;
+use dbd_plant::digits::{approximate, significant};
+use dbd_plant::frequencies::advised_text;
+use dbd_plant::time::display;
+use dbd_scene::{InputInfo, JointFacts, JointInfo, ReadoutInfo, Scene, Severity};
+use serde::Serialize;
+
+use crate::commands::stability::StabilityCheck;
+use crate::terminal::text::{aligned, table};
+
+/// What is known of a scene before it runs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Check {
+    /// Its name.
+    pub scene: String,
+    /// Bodies.
+    pub bodies: usize,
+    /// TSDAs.
+    pub tsdas: usize,
+    /// Torsion springs.
+    pub torsion_springs: usize,
+    /// Loads.
+    pub loads: usize,
+    /// The inputs: name, type, unit and whether a table drives it.
+    pub inputs: Vec<InputCheck>,
+    /// The read-outs: name, type and units of their columns.
+    pub readouts: Vec<ReadoutCheck>,
+    /// The joints.
+    pub joints: Vec<JointCheck>,
+    /// 6 per body less what the joints hold; too low where joints hold the same twice.
+    pub degrees_of_freedom: i64,
+    /// Equations of motion: 6 per body.
+    pub equations: usize,
+    /// Equations of a solver with constraints (Franco & Degani 2026, Table 7a).
+    pub constraint_equations: usize,
+    /// Groups of bodies that nothing connects with each other.
+    pub islands: usize,
+    /// \[m\] the largest assembly error of a joint.
+    pub assembly_error: f64,
+    /// \[Hz\] upper bound of the highest frequency at t = 0.
+    pub frequency_bound_hz: f64,
+    /// \[Hz\] estimate of the highest frequency at t = 0.
+    pub frequency_estimate_hz: f64,
+    /// \[s\] 1/ω of the bound, or less where a body spins fast; `None` where nothing does either.
+    pub advised_step: Option<f64>,
+    /// \[s\] the scene's own step, where it gives one.
+    pub step: Option<f64>,
+    /// The largest stable step of a method, where it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stability: Option<StabilityCheck>,
+    /// What is probably not meant.
+    pub warnings: Vec<String>,
+    /// What is good to know.
+    pub notes: Vec<String>,
+}
+
+/// What is known of a joint before the scene runs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct JointCheck {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    #[serde(rename = "type")]
+    pub kind: &'static str,
+    /// Its bodies.
+    pub between: [String; 2],
+    /// Degrees of freedom that it holds.
+    pub holds: u32,
+    /// Its TSDAs.
+    pub tsdas: usize,
+    /// \[m\] free length of its elements.
+    pub free_length: f64,
+    /// \[m\] the shortest and the longest of its elements at t = 0.
+    pub initial_length: [f64; 2],
+    /// \[m\] the largest |L − L0| at t = 0.
+    pub assembly_error: f64,
+    /// \[m/s\] the largest rate of a TSDA's length at t = 0: what the bodies' velocities do to it.
+    pub stretching_rate: f64,
+}
+
+/// What is known of an input.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InputCheck {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    #[serde(rename = "type")]
+    pub kind: &'static str,
+    /// The unit of its value.
+    pub unit: &'static str,
+    /// Whether a table of the scene drives it.
+    pub table: bool,
+}
+
+/// What is known of a read-out.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ReadoutCheck {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    #[serde(rename = "type")]
+    pub kind: &'static str,
+    /// Its columns in the trace.
+    pub columns: Vec<String>,
+    /// Their units.
+    pub units: Vec<&'static str>,
+}
+
+impl InputCheck {
+    fn of(input: &InputInfo) -> Self {
+        let InputInfo { name, kind, unit, table, .. } = input;
+        Self { name: name.clone(), kind, unit, table: *table }
+    }
+}
+
+impl ReadoutCheck {
+    fn of(readout: &ReadoutInfo) -> Self {
+        let ReadoutInfo { name, kind, columns, .. } = readout;
+        Self {
+            name: name.clone(),
+            kind,
+            columns: columns.iter().map(|(column, _)| format!("{name}{column}")).collect(),
+            units: columns.iter().map(|(_, unit)| *unit).collect(),
+        }
+    }
+}
+
+/// Checks a scene.
+#[must_use]
+pub fn check(scene: &Scene) -> Check {
+    let model = &scene.model;
+    let frequencies = Frequencies::of(scene);
+    let facts = scene.facts();
+    let joint = |(joint, facts): (&JointInfo, &JointFacts)| JointCheck {
+        name: joint.name.clone(),
+        kind: joint.kind,
+        between: joint.between.clone(),
+        holds: joint.holds,
+        tsdas: joint.tsdas,
+        free_length: facts.free_length,
+        initial_length: facts.initial_length,
+        assembly_error: facts.assembly_error,
+        stretching_rate: facts.stretching_rate,
+    };
+    let joints: Vec<JointCheck> = scene.joints.iter().zip(&facts.joints).map(joint).collect();
+    let mut check = Check {
+        scene: scene.name.clone(),
+        bodies: model.bodies.len(),
+        tsdas: model.tsda_count(),
+        torsion_springs: scene.torsion_springs(),
+        loads: model.loads.len(),
+        inputs: scene.inputs.iter().map(InputCheck::of).collect(),
+        readouts: scene.readouts.iter().map(ReadoutCheck::of).collect(),
+        degrees_of_freedom: facts.degrees_of_freedom,
+        equations: facts.equations,
+        constraint_equations: facts.constraint_equations,
+        islands: facts.islands.len(),
+        assembly_error: joints.iter().map(|joint| joint.assembly_error).fold(0.0, f64::max),
+        joints,
+        frequency_bound_hz: frequencies.bound_hz(),
+        frequency_estimate_hz: frequencies.estimate_hz(),
+        advised_step: frequencies.advised_step(),
+        step: scene.step,
+        stability: None,
+        warnings: Vec::new(),
+        notes: Vec::new(),
+    };
+    warn_of_step(scene, &frequencies, &mut check);
+    note_count(facts.planar_loops, &mut check);
+    for warning in scene.warnings() {
+        match warning.severity {
+            Severity::Warning => check.warnings.push(warning.to_string()),
+            Severity::Note => check.notes.push(warning.to_string()),
+        }
+    }
+    check
+}
+
+fn warn_of_step(scene: &Scene, frequencies: &Frequencies, check: &mut Check) {
+    let limit = Leapfrog.stability_limit();
+    if let Some(step) = scene.step.filter(|step| step * frequencies.bound > limit) {
+        let longest = limit / frequencies.bound;
+        check.warnings.push(format!(
+            "the scene's step of {} is beyond {limit}/ω of the bound, {}: the run may diverge",
+            display(step),
+            approximate(longest),
+        ));
+    }
+    let spin = scene.step.and_then(|step| frequencies.warning(scene, step));
+    check.warnings.extend(spin);
+}
+
+fn note_count(planar_loops: usize, check: &mut Check) {
+    if planar_loops > 0 {
+        let twice = 3 * planar_loops as i64;
+        check.notes.push(format!(
+            "{planar_loops} planar loop{} hold{} {twice} degrees of freedom twice: {} remain",
+            if planar_loops == 1 { "" } else { "s" },
+            if planar_loops == 1 { "s" } else { "" },
+            check.degrees_of_freedom + twice,
+        ));
+    } else if check.degrees_of_freedom <= 0 {
+        let note = "the count of degrees of freedom is too low where joints hold the same twice";
+        check.notes.push(note.into());
+    }
+}
+
+impl Check {
+    /// What people read.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let advised = advised_text(self.advised_step, self.frequency_bound_hz);
+        let step = self.step.map_or_else(|| "– (the advised one)".into(), display);
+        let mut rows = vec![
+            ("scene", self.scene.clone()),
+            ("bodies", self.bodies.to_string()),
+            ("joints", self.joints.len().to_string()),
+            ("TSDAs", self.tsdas.to_string()),
+            ("torsion springs", self.torsion_springs.to_string()),
+            ("loads", self.loads.to_string()),
+            ("inputs", self.inputs.len().to_string()),
+            ("read-outs", self.readouts.len().to_string()),
+            ("degrees of freedom", format!("{} by count", self.degrees_of_freedom)),
+            (
+                "equations",
+                format!("{}; {} with constraints", self.equations, self.constraint_equations),
+            ),
+            ("islands", self.islands.to_string()),
+            ("assembly error", format!("{} m", significant(self.assembly_error, 3))),
+            (
+                "highest frequency",
+                format!(
+                    "≤ {} Hz (estimate {} Hz)",
+                    significant(self.frequency_bound_hz, 5),
+                    significant(self.frequency_estimate_hz, 5)
+                ),
+            ),
+            ("advised step", advised),
+            ("step of the scene", step),
+        ];
+        rows.extend(self.stability.iter().flat_map(StabilityCheck::rows));
+        rows.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
+        rows.extend(self.notes.iter().map(|note| ("note", note.clone())));
+        let mut text = table(&rows);
+        if !self.joints.is_empty() {
+            text.push('\n');
+            text.push_str(&self.joint_lines());
+        }
+        if !(self.inputs.is_empty() && self.readouts.is_empty()) {
+            text.push('\n');
+            text.push_str(&self.signal_lines());
+        }
+        text
+    }
+
+    fn joint_lines(&self) -> String {
+        let head = [
+            "joint",
+            "type",
+            "between",
+            "holds",
+            "TSDAs",
+            "L0 [m]",
+            "L at t = 0",
+            "error [m]",
+            "rate [m/s]",
+        ];
+        let mut lines = vec![head.map(str::to_owned)];
+        lines.extend(self.joints.iter().map(|joint| {
+            [
+                joint.name.clone(),
+                joint.kind.into(),
+                joint.between.join("–"),
+                joint.holds.to_string(),
+                joint.tsdas.to_string(),
+                significant(joint.free_length, 5),
+                lengths(joint.initial_length),
+                significant(joint.assembly_error, 3),
+                significant(joint.stretching_rate, 3),
+            ]
+        }));
+        aligned(&lines)
+    }
+
+    fn signal_lines(&self) -> String {
+        let mut lines = vec![["signal", "type", "unit", "driven by"].map(str::to_owned)];
+        lines.extend(self.inputs.iter().map(|input| {
+            let by = if input.table { "table" } else { "caller" };
+            [&input.name, input.kind, input.unit, by].map(str::to_owned)
+        }));
+        lines.extend(self.readouts.iter().map(|readout| {
+            let mut units = readout.units.clone();
+            units.dedup();
+            [&readout.name, readout.kind, &units.join(", "), "read-out"].map(str::to_owned)
+        }));
+        aligned(&lines)
+    }
+}
+
+/// One length, or two where they differ by more than rounding.
+fn lengths([shortest, longest]: [f64; 2]) -> String {
+    let [a, b] = [shortest, longest].map(|length| significant(length, 5));
+    if a == b { a } else { format!("{a} to {b}") }
+}

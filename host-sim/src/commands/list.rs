@@ -1,0 +1,100 @@
+//! `host-sim list`: the scenes that ship, one line each.
+
+use serde::Serialize;
+
+use crate::terminal::text::json;
+use crate::terminal::{Catalogue, Console, Exit};
+
+/// A scene of the list.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Entry {
+    /// Its name.
+    pub name: String,
+    /// Bodies.
+    pub bodies: usize,
+    /// TSDAs.
+    pub tsdas: usize,
+    /// What it shows.
+    pub shows: String,
+}
+
+/// Prints the scenes of a catalogue. A refused scene is reported and decides the exit code.
+pub fn list(catalogue: &Catalogue, as_json: bool, console: &mut Console<'_>) -> Exit {
+    let mut exit = Exit::Done;
+    let mut entries = Vec::new();
+    for name in catalogue.names() {
+        match catalogue.load(&name) {
+            Ok(scene) => entries.push(Entry {
+                name,
+                bodies: scene.body_names.len(),
+                tsdas: scene.model.tsda_count(),
+                shows: first_sentence(&scene.description).into(),
+            }),
+            Err(error) => {
+                console.report(&error);
+                exit = Exit::Refused;
+            }
+        }
+    }
+    console.print(&if as_json { json(&entries) } else { lines(&entries) });
+    exit
+}
+
+fn lines(entries: &[Entry]) -> String {
+    let widest = |text: fn(&Entry) -> String| {
+        entries.iter().map(|entry| text(entry).chars().count()).max().unwrap_or(0)
+    };
+    let name = widest(|entry| entry.name.clone());
+    let bodies = widest(|entry| counted(entry.bodies, "body", "bodies"));
+    let tsdas = widest(|entry| counted(entry.tsdas, "TSDA", "TSDAs"));
+    let line = |entry: &Entry| {
+        format!(
+            "{:<name$}  {:<bodies$}  {:<tsdas$}  {}\n",
+            entry.name,
+            counted(entry.bodies, "body", "bodies"),
+            counted(entry.tsdas, "TSDA", "TSDAs"),
+            entry.shows,
+        )
+    };
+    entries.iter().map(line).collect()
+}
+
+/// `1 body`, `3 bodies`, right-aligned for up to three digits.
+fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count:>3} {}", if count == 1 { one } else { many })
+}
+
+/// Up to the first full stop that ends a sentence.
+fn first_sentence(text: &str) -> &str {
+    let text = text.trim();
+    let end = text.find(". ").or_else(|| text.find(".\n"));
+    let sentence = end.map_or(text, |end| &text[..end]);
+    sentence.strip_suffix('.').unwrap_or(sentence)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_sentence_of_a_description() {
+        assert_eq!(first_sentence("A linkage of 2.5 m. It swings."), "A linkage of 2.5 m");
+        assert_eq!(first_sentence("A linkage."), "A linkage");
+        assert_eq!(first_sentence(""), "");
+    }
+
+    #[test]
+    fn one_aligned_line_per_scene() {
+        let entry = |name: &str, bodies, tsdas| Entry {
+            name: name.into(),
+            bodies,
+            tsdas,
+            shows: "swings".into(),
+        };
+        let text = lines(&[entry("four-bar", 3, 24), entry("top", 1, 0)]);
+        assert_eq!(
+            text,
+            "four-bar    3 bodies   24 TSDAs  swings\ntop         1 body      0 TSDAs  swings\n"
+        );
+    }
+}

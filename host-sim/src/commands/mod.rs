@@ -1,0 +1,16 @@
+//! The commands, each as a function without a terminal.
+//!
+//! - [`list`]: the scenes that ship.
+//! - [`stability`], [`check`]: what a scene is, without running it.
+//! - [`folder`]: where results go.
+//! - [`run`]: a scene becomes a trace, a summary and a report.
+//! - [`trade`]: speed against accuracy.
+//! - [`export`]: Rust source of a scene's const model.
+
+pub mod check;
+pub mod export;
+pub mod folder;
+pub mod list;
+pub mod run;
+pub mod stability;
+pub mod trade;

@@ -1,0 +1,229 @@
+//! `host-sim run`: a scene becomes a trace, a summary and a report.
+//!
+//! `(scene, options) => plan => samples => OUT/SCENE/{trace.csv,report.html,summary.json}`. The
+//! folder is made once the input is known to be good; each file appears when it is complete, the
+//! summary last. A run that fails keeps its trace up to there.
+
+use std::io;
+use std::path::PathBuf;
+
+use dbd_kernel::damping::Damping;
+use dbd_output::file::{self, PendingFile};
+use dbd_plant::judge::conserves_energy;
+use dbd_plant::plan::{Request, StepRequest, plan};
+use dbd_plant::plant::{check_inputs, check_step};
+use dbd_plant::{Frequencies, Method, Plan, PlanError, PlantError};
+use dbd_scene::Scene;
+use miette::Diagnostic;
+use thiserror::Error;
+
+use crate::commands::folder::{FolderError, results};
+use crate::report::{Curves, Report, Statistics, Summary, TraceWriter, html};
+use crate::simulate::{Ending, FailedRun, Observer, Sample, SimulationError, simulate};
+
+/// What a run is asked for. What is `None` is the scene's, or ours.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunOptions {
+    /// Scheme and precision.
+    pub method: Method,
+    /// \[s\] the step.
+    pub step: Option<f64>,
+    /// \[s\] simulated time.
+    pub duration: Option<f64>,
+    /// \[s\] the sampling interval.
+    pub every: Option<f64>,
+    /// The folder below which results go; `None` writes nothing.
+    pub out: Option<PathBuf>,
+    /// What a command line calls the scene; its name where `None`.
+    pub called: Option<String>,
+}
+
+impl RunOptions {
+    /// A method with the scene's step, duration and sampling interval; writes nothing.
+    #[must_use]
+    pub fn new(method: Method) -> Self {
+        Self { method, step: None, duration: None, every: None, out: None, called: None }
+    }
+}
+
+/// What a run came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// The summary.
+    pub summary: Summary,
+    /// The folder of the results, where they were written.
+    pub folder: Option<PathBuf>,
+    /// The failure, where it failed.
+    pub failure: Option<FailedRun>,
+}
+
+/// Why a run could not be carried out, or its results not be written.
+#[derive(Debug, Error, Diagnostic)]
+pub enum RunError {
+    /// The step does not fit.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Plan(#[from] PlanError),
+    /// The precision cannot hold the step or an input, or this build does not hold the method.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Plant(#[from] PlantError),
+    /// The folder for the results cannot be made.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Folder(#[from] FolderError),
+    /// Results cannot be written.
+    #[error("cannot write the results: {0}")]
+    Write(io::Error),
+}
+
+impl From<SimulationError> for RunError {
+    fn from(error: SimulationError) -> Self {
+        match error {
+            SimulationError::Plant(error) => Self::Plant(error),
+            SimulationError::Observer(error) => Self::Write(error),
+        }
+    }
+}
+
+/// The plan of a run: the options' values before the scene's, the scene's before ours.
+///
+/// # Errors
+/// Where the step does not fit, or steps or samples are too many.
+pub fn plan_of(
+    scene: &Scene,
+    options: &RunOptions,
+    frequencies: &Frequencies,
+) -> Result<Plan, PlanError> {
+    let duration = options.duration.unwrap_or(scene.duration);
+    let step = match options.step.or(scene.step) {
+        Some(step) => StepRequest::Given(step),
+        None => StepRequest::AtMost(frequencies.default_limit(duration)),
+    };
+    plan(&Request { step, duration, every: options.every.or(scene.every) })
+}
+
+/// Runs a scene. `progress` hears of steps done and steps to do, now and then.
+///
+/// # Errors
+/// Bad input before anything is written; or results that cannot be written. A run that fails is
+/// an outcome, not an error.
+pub fn run(
+    scene: &Scene,
+    options: &RunOptions,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<Outcome, RunError> {
+    let frequencies = Frequencies::of(scene);
+    let plan = plan_of(scene, options, &frequencies)?;
+    check_step(&options.method, plan.step)?;
+    check_inputs(scene, &options.method)?;
+    let folder = match &options.out {
+        Some(out) => Some(results(out, scene)?),
+        None => None,
+    };
+    let trace = match &folder {
+        Some(folder) => {
+            let file = PendingFile::create(folder, "trace.csv").map_err(RunError::Write)?;
+            Some(TraceWriter::new(file, scene).map_err(RunError::Write)?)
+        }
+        None => None,
+    };
+    let columns = scene.readouts.iter().map(|readout| readout.columns.len()).sum();
+    let curves =
+        folder.as_ref().map(|_| Curves::new(scene.body_names.len(), columns, plan.samples()));
+    let mut recorder = Recorder {
+        trace,
+        curves,
+        statistics: Statistics::default(),
+        progress: &mut |steps| progress(steps, plan.steps),
+    };
+    let ending = simulate(scene, &options.method, &plan, &mut recorder)?;
+    let Recorder { trace, curves, statistics, .. } = recorder;
+    if let Some(trace) = trace {
+        trace.finish().and_then(PendingFile::complete).map_err(RunError::Write)?;
+    }
+    let every = options.every.or(scene.every);
+    let failure = ending
+        .trouble
+        .map(|trouble| FailedRun::new(scene, &options.method, &plan, every, &ending, trouble));
+    let summary =
+        summarise(scene, &options.method, &plan, &frequencies, &ending, &statistics, &failure);
+    if let (Some(folder), Some(mut curves)) = (&folder, curves) {
+        curves.close();
+        let called = options.called.as_deref().unwrap_or(&scene.name);
+        let report = Report { scene, plan: &plan, summary: &summary, curves: &curves, called };
+        file::write(folder, "report.html", &html(&report)).map_err(RunError::Write)?;
+        file::write(folder, "summary.json", &summary.json()).map_err(RunError::Write)?;
+    }
+    Ok(Outcome { summary, folder, failure })
+}
+
+/// Passes samples on to trace, curves and statistics.
+struct Recorder<'p> {
+    trace: Option<TraceWriter<PendingFile>>,
+    curves: Option<Curves>,
+    statistics: Statistics,
+    progress: &'p mut dyn FnMut(u64),
+}
+
+impl Observer for Recorder<'_> {
+    fn sample(&mut self, sample: &Sample<'_>) -> io::Result<()> {
+        self.statistics.push(sample);
+        if let Some(curves) = &mut self.curves {
+            curves.push(sample);
+        }
+        match &mut self.trace {
+            Some(trace) => trace.row(sample),
+            None => Ok(()),
+        }
+    }
+
+    fn progress(&mut self, steps: u64) {
+        (self.progress)(steps);
+    }
+}
+
+fn summarise(
+    scene: &Scene,
+    method: &Method,
+    plan: &Plan,
+    frequencies: &Frequencies,
+    ending: &Ending,
+    statistics: &Statistics,
+    failure: &Option<FailedRun>,
+) -> Summary {
+    let duration = match failure {
+        Some(failure) => failure.time,
+        None => plan.duration,
+    };
+    let wall_seconds = ending.wall.as_secs_f64();
+    let status = match failure {
+        Some(failure) => format!("{failure}; {}", failure.advice()),
+        None => "ok".into(),
+    };
+    Summary {
+        scene: scene.name.clone(),
+        scheme: method.scheme_name(),
+        newton: method.newton(),
+        damping: method.foreign_damping().map(Damping::name),
+        precision: method.precision_name(),
+        orientation: method.orientation_name(),
+        step: plan.step,
+        steps: ending.steps,
+        duration,
+        force_evaluations: ending.evaluations,
+        wall_seconds,
+        srt: wall_seconds / duration,
+        energy_initial: statistics.energy_initial(),
+        energy_final: statistics.energy_final(),
+        energy_drift_rate: statistics.energy_drift_rate(),
+        energy_rms_error: conserves_energy(scene).then(|| statistics.energy_rms_error()),
+        max_joint_extension: statistics.max_joint_extension(),
+        frequency_bound_hz: frequencies.bound_hz(),
+        frequency_estimate_hz: frequencies.estimate_hz(),
+        advised_step: frequencies.advised_step(),
+        state_hash: format!("{:016x}", statistics.hash()),
+        status,
+        warnings: frequencies.warning(scene, plan.step).into_iter().collect(),
+    }
+}

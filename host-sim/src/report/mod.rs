@@ -1,0 +1,17 @@
+//! What is left of a run.
+//!
+//! - [`trace`]: every sample, as rows.
+//! - [`statistics`], [`summary`]: what they amount to.
+//! - [`curves`], [`page`]: what people look at.
+
+pub mod curves;
+pub mod page;
+pub mod statistics;
+pub mod summary;
+pub mod trace;
+
+pub use curves::Curves;
+pub use page::{Report, html};
+pub use statistics::Statistics;
+pub use summary::Summary;
+pub use trace::TraceWriter;

@@ -1,0 +1,119 @@
+//! `summary.json` and the table of the same: what a run was and what it came to.
+//!
+//! Keys and their order are fixed. Of a run that failed, `steps` and `duration` say how far it
+//! came, and `energy_final` and `state_hash` are those of the last row of its trace.
+
+use dbd_plant::digits::significant;
+use dbd_plant::frequencies::advised_text;
+use dbd_plant::time::display;
+use serde::Serialize;
+
+use crate::terminal::text::json;
+
+/// The summary of a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// The scene's name.
+    pub scene: String,
+    /// The scheme's name.
+    pub scheme: &'static str,
+    /// Newton iterations per step; `None` for a scheme without any.
+    pub newton: Option<u32>,
+    /// How dampers acted, where that is not the scheme's own way.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping: Option<&'static str>,
+    /// The precision's name.
+    pub precision: &'static str,
+    /// How orientations are stored.
+    pub orientation: &'static str,
+    /// \[s\] the step.
+    pub step: f64,
+    /// Steps done.
+    pub steps: u64,
+    /// \[s\] simulated time.
+    pub duration: f64,
+    /// Force evaluations performed.
+    pub force_evaluations: u64,
+    /// \[s\] time on the clock spent stepping.
+    pub wall_seconds: f64,
+    /// Time on the clock over simulated time.
+    pub srt: f64,
+    /// \[J\] total energy at t = 0.
+    pub energy_initial: f64,
+    /// \[J\] total energy of the last sample.
+    pub energy_final: f64,
+    /// \[W\] least-squares slope of the total energy over the samples.
+    pub energy_drift_rate: f64,
+    /// \[J\] RMS of E − E(0) over the samples; `None` where energy is not meant to stay.
+    pub energy_rms_error: Option<f64>,
+    /// \[m\] largest |L − L0| or |e| over samples and the joints' elements.
+    pub max_joint_extension: f64,
+    /// \[Hz\] upper bound of the highest frequency at t = 0.
+    pub frequency_bound_hz: f64,
+    /// \[Hz\] estimate of the highest frequency at t = 0.
+    pub frequency_estimate_hz: f64,
+    /// \[s\] 1/ω of the bound, or less where a body spins fast; `None` where nothing does either.
+    pub advised_step: Option<f64>,
+    /// FNV-1a 64 over the state's words, 16 hexadecimal digits.
+    pub state_hash: String,
+    /// `ok`, or a sentence that names the failure.
+    pub status: String,
+    /// What is probably not meant; for people, no key.
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+impl Summary {
+    /// As JSON with a final line feed.
+    #[must_use]
+    pub fn json(&self) -> String {
+        json(self)
+    }
+
+    /// What people read: a name and a text with units each.
+    #[must_use]
+    pub fn rows(&self) -> Vec<(&'static str, String)> {
+        let newton = match self.newton {
+            Some(1) => ", 1 Newton iteration".into(),
+            Some(n) if n > 1 => format!(", {n} Newton iterations"),
+            _ => String::new(),
+        };
+        let rms = match self.energy_rms_error {
+            Some(error) => format!("{} J", significant(error, 4)),
+            None => "– (dampers, loads or inputs change the energy)".into(),
+        };
+        let damping = self.damping.map(|name| format!(", {name} damping")).unwrap_or_default();
+        let method =
+            format!("{}{newton}{damping}, {}, {}", self.scheme, self.precision, self.orientation);
+        let frequency = format!(
+            "≤ {} Hz (estimate {} Hz)",
+            significant(self.frequency_bound_hz, 5),
+            significant(self.frequency_estimate_hz, 5),
+        );
+        let wall = format!(
+            "{} s, {} × simulated time",
+            significant(self.wall_seconds, 3),
+            significant(self.srt, 3),
+        );
+        let span = format!("{} × {} = {}", self.steps, display(self.step), display(self.duration));
+        let advised = advised_text(self.advised_step, self.frequency_bound_hz);
+        let mut rows = vec![
+            ("scene", self.scene.clone()),
+            ("method", method),
+            ("steps", span),
+            ("force evaluations", self.force_evaluations.to_string()),
+            ("wall time", wall),
+            ("energy, initial", format!("{} J", significant(self.energy_initial, 10))),
+            ("energy, final", format!("{} J", significant(self.energy_final, 10))),
+            ("energy, drift rate", format!("{} W", significant(self.energy_drift_rate, 4))),
+            ("energy, RMS error", rms),
+            ("joint extension, largest", format!("{} m", significant(self.max_joint_extension, 4))),
+            ("highest frequency", frequency),
+            ("advised step", advised),
+            ("state hash", self.state_hash.clone()),
+            ("status", self.status.clone()),
+        ];
+        rows.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
+        rows
+    }
+}

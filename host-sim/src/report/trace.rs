@@ -1,0 +1,70 @@
+//! `trace.csv`: a header, then one row per sample.
+//!
+//! `samples => rows`, streamed. Columns: time, per body position, quaternion, velocity and angular
+//! velocity, then the energies, then the read-outs ([`Scene::columns`]). Every number is the
+//! shortest text that reads back to its bits.
+
+use std::io::{self, Write};
+
+use dbd_plant::numerals::Digits;
+use dbd_scene::Scene;
+
+use crate::simulate::Sample;
+
+/// Writes a trace.
+pub struct TraceWriter<W: Write> {
+    rows: csv::Writer<W>,
+    text: Vec<u8>,
+}
+
+impl<W: Write> TraceWriter<W> {
+    /// A trace with the scene's header.
+    ///
+    /// # Errors
+    /// Where the writer cannot take it.
+    pub fn new(to: W, scene: &Scene) -> io::Result<Self> {
+        let mut rows = csv::Writer::from_writer(to);
+        for column in scene.columns() {
+            rows.write_field(column)?;
+        }
+        rows.write_record(None::<&[u8]>)?;
+        Ok(Self { rows, text: Vec::new() })
+    }
+
+    /// Appends the row of a sample.
+    ///
+    /// # Errors
+    /// Where the writer cannot take it.
+    pub fn row(&mut self, sample: &Sample<'_>) -> io::Result<()> {
+        self.numbers(Digits::Double, &[sample.time])?;
+        let numerals = sample.numerals;
+        for body in &sample.state.bodies {
+            self.numbers(numerals.position, &body.position.to_f64())?;
+            self.numbers(numerals.orientation, &body.orientation.to_f64())?;
+            self.numbers(numerals.velocity, &body.velocity.to_f64())?;
+            self.numbers(numerals.velocity, &body.angular_velocity.to_f64())?;
+        }
+        let energy = &sample.energy;
+        self.numbers(Digits::Double, &[energy.kinetic, energy.potential(), energy.total()])?;
+        self.numbers(numerals.reading, sample.readings)?;
+        self.rows.write_record(None::<&[u8]>)?;
+        Ok(())
+    }
+
+    fn numbers(&mut self, digits: Digits, values: &[f64]) -> io::Result<()> {
+        for value in values {
+            self.text.clear();
+            digits.write(*value, &mut self.text)?;
+            self.rows.write_field(&self.text)?;
+        }
+        Ok(())
+    }
+
+    /// Writes what is buffered and returns the writer.
+    ///
+    /// # Errors
+    /// Where the writer cannot take it.
+    pub fn finish(self) -> io::Result<W> {
+        self.rows.into_inner().map_err(|error| io::Error::other(error.to_string()))
+    }
+}

@@ -1,0 +1,177 @@
+//! A run that failed: where, and which step works instead.
+//!
+//! `(trouble, scene, plan) => sentence`. A step is only named after a run with it over the same
+//! duration has come to its end; the candidates are the advised step, shortened to a round one that
+//! fits, and its halves, all shorter than the one that failed.
+
+use std::fmt;
+use std::io;
+
+use dbd_kernel::status::Cause;
+use dbd_plant::digits::significant;
+use dbd_plant::judge::Trouble;
+use dbd_plant::plan::{Request, StepRequest, plan};
+use dbd_plant::time::display;
+use dbd_plant::{Frequencies, Method, Plan};
+use dbd_scene::Scene;
+use miette::Diagnostic;
+
+use crate::simulate::run::{Ending, Observer, Sample, simulate};
+
+/// How often the advised step is halved.
+const HALVINGS: u32 = 4;
+
+/// Candidates that would take more evaluations of an element or body are not tried: at 10 ns
+/// each, that is the better part of a minute.
+const MOST_EVALUATIONS: f64 = 4e9;
+
+/// A run that failed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FailedRun {
+    /// What went wrong, e.g. ``the velocity of body `crank` is not finite``.
+    pub what: String,
+    /// The step that failed, counted from 1.
+    pub step: u64,
+    /// Steps the run was to take.
+    pub steps: u64,
+    /// \[s\] the step size.
+    pub step_size: f64,
+    /// \[s\] the time after the step that failed.
+    pub time: f64,
+    /// What helps.
+    pub remedy: Remedy,
+}
+
+/// What helps a run that failed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Remedy {
+    /// \[s\] a step with which the same run comes to its end.
+    Step(f64),
+    /// \[s\] these shorter steps fail, too.
+    NoneOf(Vec<f64>),
+    /// \[s\] a step that takes too long to try.
+    Untried(f64),
+}
+
+impl FailedRun {
+    /// Describes the failure and looks for a step that works; `every` is the sampling interval
+    /// where one was given.
+    #[must_use]
+    pub fn new(
+        scene: &Scene,
+        method: &Method,
+        run: &Plan,
+        every: Option<f64>,
+        ending: &Ending,
+        trouble: Trouble,
+    ) -> Self {
+        Self {
+            what: describe(scene, trouble),
+            step: ending.steps,
+            steps: run.steps,
+            step_size: run.step,
+            time: run.time(ending.steps),
+            remedy: find_remedy(scene, method, run, every),
+        }
+    }
+
+    /// What helps, in words.
+    #[must_use]
+    pub fn advice(&self) -> String {
+        match &self.remedy {
+            Remedy::Step(step) => {
+                format!("--step {} works: it was run over the same time", display(*step))
+            }
+            Remedy::NoneOf(tried) => {
+                let tried: Vec<String> = tried.iter().map(|step| display(*step)).collect();
+                format!(
+                    "shorter steps fail, too ({}): look at the scene's pose, stiffnesses, \
+                     preloads, loads and inputs",
+                    tried.join(", ")
+                )
+            }
+            Remedy::Untried(step) => {
+                format!("--step {} is advised; it takes too long to be tried here", display(*step))
+            }
+        }
+    }
+}
+
+impl fmt::Display for FailedRun {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { what, step, steps, step_size, time, .. } = self;
+        let (time, size) = (display(*time), display(*step_size));
+        write!(f, "{what} at t = {time}, in step {step} of {steps} with the step size {size}")
+    }
+}
+
+impl std::error::Error for FailedRun {}
+
+impl Diagnostic for FailedRun {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        Some(Box::new(self.advice()))
+    }
+}
+
+fn describe(scene: &Scene, trouble: Trouble) -> String {
+    let name = |names: &[String], row: usize| names.get(row).cloned().unwrap_or_default();
+    match trouble {
+        Trouble::Step(Cause::NonFinite { body }) => {
+            let body = name(&scene.body_names, body.row());
+            format!("the run diverged: the velocity of body `{body}` is not finite")
+        }
+        Trouble::Step(Cause::UndefinedTwist { spring }) => {
+            let spring = name(&scene.torsion_names, usize::from(spring.0));
+            format!("the twist of {spring} is undefined: its bodies turned half a turn across it")
+        }
+        Trouble::Growth { growth, body } => {
+            let (growth, body) = (significant(growth, 2), name(&scene.body_names, body));
+            format!("the run diverged: {growth} J came from nowhere, body `{body}` is the fastest,")
+        }
+        Trouble::Torn { joint, extension } => {
+            let joint = scene.joints.get(joint).map(|joint| joint.name.clone()).unwrap_or_default();
+            let extension = significant(extension, 2);
+            format!("the run diverged: joint `{joint}` is stretched by {extension} m")
+        }
+        Trouble::Energy { body } => {
+            let body = name(&scene.body_names, body);
+            format!("the run diverged: the energy of body `{body}` is not finite")
+        }
+    }
+}
+
+fn find_remedy(scene: &Scene, method: &Method, run: &Plan, every: Option<f64>) -> Remedy {
+    let advised = Frequencies::of(scene).default_limit(run.duration);
+    // Not the failed step itself, nor one as good as equal to it.
+    let mut limit = advised.min(run.step / 2.0);
+    let mut tried = Vec::new();
+    for _ in 0..=HALVINGS {
+        let request =
+            Request { step: StepRequest::RoundAtMost(limit), duration: run.duration, every };
+        let Ok(candidate) = plan(&request) else { return Remedy::Untried(limit) };
+        if cost(scene, method, &candidate) > MOST_EVALUATIONS {
+            return Remedy::Untried(candidate.step);
+        }
+        if comes_to_its_end(scene, method, &candidate) {
+            return Remedy::Step(candidate.step);
+        }
+        tried.push(candidate.step);
+        limit /= 2.0;
+    }
+    Remedy::NoneOf(tried)
+}
+
+fn cost(scene: &Scene, method: &Method, plan: &Plan) -> f64 {
+    let parts = scene.model.bodies.len() + scene.model.tsda_count() + scene.model.torsions.len();
+    plan.steps as f64 * f64::from(method.evaluations()) * parts as f64
+}
+
+fn comes_to_its_end(scene: &Scene, method: &Method, plan: &Plan) -> bool {
+    struct Nobody;
+    impl Observer for Nobody {
+        fn sample(&mut self, _: &Sample<'_>) -> io::Result<()> {
+            Ok(())
+        }
+    }
+    simulate(scene, method, plan, &mut Nobody).is_ok_and(|ending| ending.trouble.is_none())
+}

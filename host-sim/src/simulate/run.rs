@@ -1,0 +1,150 @@
+//! A planned run, sample by sample.
+//!
+//! `(scene, method, plan) => samples to an observer, ending`. The kernel steps in the method's
+//! precision; what is said of a sample is computed in double precision from its stored words.
+
+use std::io;
+use std::time::{Duration, Instant};
+
+use dbd_kernel::{Energy, F64, State, Status};
+use dbd_plant::judge::{Judge, Trouble, Verdict};
+use dbd_plant::numerals::Numerals;
+use dbd_plant::readings::append;
+use dbd_plant::{AnyPlant, Method, Plan, PlantError, plant};
+use dbd_scene::{Scene, SceneModel};
+use miette::Diagnostic;
+use thiserror::Error;
+
+/// A run is looked at this often at least, whatever its sampling interval.
+const LOOKS: u64 = 1000;
+
+/// Steps between two looks at most, so that progress is seen.
+const MOST_STEPS_UNSEEN: u64 = 1024;
+
+/// What is known at a sample.
+pub struct Sample<'s> {
+    /// \[s\] the time.
+    pub time: f64,
+    /// The state, widened exactly.
+    pub state: &'s State<SceneModel<F64>>,
+    /// How many digits its words have.
+    pub numerals: Numerals,
+    /// The scene's read-outs, one number per column; NaN where a twist is undefined.
+    pub readings: &'s [f64],
+    /// \[J\] its energy.
+    pub energy: Energy<f64>,
+    /// \[m\] the largest extension of the joints' elements.
+    pub extension: f64,
+    /// The hash of the stored words.
+    pub hash: u64,
+}
+
+/// Receives what a run has to say.
+pub trait Observer {
+    /// Takes the next sample. The first is at t = 0, the last at the duration.
+    ///
+    /// # Errors
+    /// Where it cannot be recorded; the run then ends.
+    fn sample(&mut self, sample: &Sample<'_>) -> io::Result<()>;
+
+    /// Hears of the number of steps done, now and then.
+    fn progress(&mut self, steps: u64) {
+        let _ = steps;
+    }
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ending {
+    /// Steps done, the failed one included.
+    pub steps: u64,
+    /// Force evaluations performed.
+    pub evaluations: u64,
+    /// Time on the clock spent stepping; sampling does not count.
+    pub wall: Duration,
+    /// Why it ended early.
+    pub trouble: Option<Trouble>,
+}
+
+/// Why a run could not be carried out.
+#[derive(Debug, Error, Diagnostic)]
+pub enum SimulationError {
+    /// There is no plant of the method with this step.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Plant(#[from] PlantError),
+    /// A sample could not be recorded.
+    #[error("cannot write the results: {0}")]
+    Observer(io::Error),
+}
+
+/// Runs the plan to its end or to the first failure.
+///
+/// # Errors
+/// Where there is no plant of the method with the plan's step, or the observer fails.
+pub fn simulate(
+    scene: &Scene,
+    method: &Method,
+    plan: &Plan,
+    observer: &mut dyn Observer,
+) -> Result<Ending, SimulationError> {
+    let mut plant = plant(scene, method, plan.step)?;
+    let mut judge = Judge::new(scene, plant.as_ref());
+    let mut readings = Vec::new();
+    let stride = (plan.steps / LOOKS).clamp(1, MOST_STEPS_UNSEEN);
+    let mut wall = Duration::ZERO;
+    let mut next_sample = 0;
+    let trouble = loop {
+        let state = plant.state();
+        let verdict = match judge.judge(&state) {
+            Ok(verdict) => verdict,
+            Err(trouble) => break Some(trouble),
+        };
+        let done = state.step;
+        observer.progress(done);
+        if done == next_sample {
+            read(scene, plant.as_ref(), &mut readings);
+            let sample = Sample::new(plant.as_ref(), &state, &readings, &verdict);
+            observer.sample(&sample).map_err(SimulationError::Observer)?;
+            next_sample = plan.steps.min(next_sample + plan.stride);
+        }
+        if done == plan.steps {
+            break None;
+        }
+        let start = Instant::now();
+        let status = plant.advance(next_sample.min(done + stride) - done);
+        wall += start.elapsed();
+        if let Status::Failed(failure) = status {
+            break Some(Trouble::Step(failure.cause));
+        }
+    };
+    let (steps, evaluations) = (plant.steps(), plant.evaluations());
+    Ok(Ending { steps, evaluations, wall, trouble })
+}
+
+/// The scene's read-outs now, one number per column of the trace.
+fn read(scene: &Scene, plant: &dyn AnyPlant, readings: &mut Vec<f64>) {
+    readings.clear();
+    for info in &scene.readouts {
+        append(plant.read(&info.readout), info.columns.len(), readings);
+    }
+}
+
+impl<'s> Sample<'s> {
+    fn new(
+        plant: &dyn AnyPlant,
+        state: &'s State<SceneModel<F64>>,
+        readings: &'s [f64],
+        verdict: &Verdict,
+    ) -> Self {
+        Self {
+            time: plant.time(),
+            state,
+            numerals: plant.numerals(),
+            readings,
+            energy: verdict.energy,
+            extension: verdict.extension,
+            hash: plant.hash(),
+        }
+    }
+}

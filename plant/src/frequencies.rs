@@ -1,0 +1,129 @@
+//! How fast a scene can vibrate at t = 0, how fast its bodies spin, and the step that follows.
+//!
+//! `scene => highest frequency: bound, estimate; fastest spin; advised step`. In double precision
+//! whatever precision runs, so that a default step is a function of the scene alone. Speaks for
+//! t = 0, not for the future.
+
+use std::f64::consts::TAU;
+
+use dbd_kernel::{State, frequency};
+use dbd_scene::Scene;
+
+use crate::digits::{approximate, significant};
+use crate::time::display;
+
+/// Power iterations of the estimate: beyond 0.99 of the highest frequency on every scene that
+/// ships, chains included, whose frequencies lie close together.
+const ITERATIONS: u32 = 200;
+
+/// Where nothing vibrates, a run takes this many steps.
+const STEPS_WITHOUT_SPRINGS: f64 = 1000.0;
+
+/// \[rad\] the largest turn of a body in a step: beyond it the free rotor's splitting loses energy
+/// and accuracy.
+pub const LARGEST_TURN: f64 = 0.1;
+
+/// The highest angular frequency and the fastest spin of a scene at t = 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frequencies {
+    /// \[rad/s\] never below the true value; 0 where nothing vibrates.
+    pub bound: f64,
+    /// \[rad/s\] never above that of the springs, but for rounding: see
+    /// [`dbd_kernel::frequency::estimate`].
+    pub estimate: f64,
+    /// \[rad/s\] the largest angular velocity of a body.
+    pub spin: f64,
+    /// The body that spins so.
+    pub fastest: usize,
+}
+
+impl Frequencies {
+    /// The frequencies of a scene.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        let state = State::initial(&scene.model);
+        let (mut spin, mut fastest) = (0.0, 0);
+        for (row, body) in state.bodies.iter().enumerate() {
+            let rate = body.angular_velocity;
+            let rate = rate.dot(rate).sqrt();
+            if rate > spin {
+                (spin, fastest) = (rate, row);
+            }
+        }
+        Self {
+            spin,
+            fastest,
+            bound: frequency::bound(&scene.model, &state),
+            estimate: frequency::estimate(&scene.model, &state, ITERATIONS),
+        }
+    }
+
+    /// \[Hz\] the bound.
+    #[must_use]
+    pub fn bound_hz(&self) -> f64 {
+        self.bound / TAU
+    }
+
+    /// \[Hz\] the estimate.
+    #[must_use]
+    pub fn estimate_hz(&self) -> f64 {
+        self.estimate / TAU
+    }
+
+    /// \[s\] half the stability limit of leapfrog, 1/ω of the bound, or the step in which the
+    /// fastest body turns by [`LARGEST_TURN`], if that is shorter. `None` where nothing vibrates or
+    /// spins.
+    #[must_use]
+    pub fn advised_step(&self) -> Option<f64> {
+        match (self.vibration_step(), self.spin_step()) {
+            (Some(vibration), Some(spin)) => Some(vibration.min(spin)),
+            (one, other) => one.or(other),
+        }
+    }
+
+    fn vibration_step(&self) -> Option<f64> {
+        (self.bound > 0.0).then(|| 1.0 / self.bound)
+    }
+
+    fn spin_step(&self) -> Option<f64> {
+        (self.spin > 0.0).then(|| LARGEST_TURN / self.spin)
+    }
+
+    /// \[s\] the longest step to take where none is given.
+    #[must_use]
+    pub fn default_limit(&self, duration: f64) -> f64 {
+        let longest = duration / STEPS_WITHOUT_SPRINGS;
+        let vibration = self.vibration_step().unwrap_or(longest);
+        self.spin_step().map_or(vibration, |spin| vibration.min(spin))
+    }
+
+    /// What to say of a step in which a body turns too far.
+    #[must_use]
+    pub fn warning(&self, scene: &Scene, step: f64) -> Option<String> {
+        let longest = self.spin_step()?;
+        let turn = self.spin * step;
+        if turn <= LARGEST_TURN * (1.0 + 1e-9) {
+            return None;
+        }
+        let body = scene.body_names.get(self.fastest).map_or("", String::as_str);
+        Some(format!(
+            "body `{body}` turns by {} rad in a step of {} at t = 0: beyond {LARGEST_TURN} rad \
+             energy and attitude go wrong; a step of at most {}",
+            significant(turn, 2),
+            display(step),
+            approximate(longest),
+        ))
+    }
+}
+
+/// An advised step and where it comes from, for people.
+#[must_use]
+pub fn advised_text(step: Option<f64>, bound_hz: f64) -> String {
+    match step {
+        Some(step) if step * bound_hz * TAU < 1.0 - 1e-9 => {
+            format!("{} ({LARGEST_TURN} rad of the fastest spin)", approximate(step))
+        }
+        Some(step) => format!("{} (1/ω of the bound)", approximate(step)),
+        None => "– (nothing vibrates)".into(),
+    }
+}

@@ -1,0 +1,231 @@
+//! What a state holds, and whether a run can go on from it.
+//!
+//! `(model in the precision that runs, state) => energy, largest joint extension | trouble`, in
+//! double precision: the stored words are taken as exact, whatever precision stepped them. A run
+//! that diverges need not reach infinity before its end; it shows in joints that are torn and,
+//! without loads and inputs, in energy that came from nowhere.
+
+use std::ops::Range;
+
+use dbd_kernel::energy::{energy, largest_extension};
+use dbd_kernel::model::Law;
+use dbd_kernel::status::Cause;
+use dbd_kernel::{BodyState, Energy, F64, State};
+use dbd_scene::{Scene, SceneModel};
+
+use crate::any::AnyPlant;
+
+/// A joint's element that is longer than this many times the largest free length of all joints
+/// is torn: a run that diverges slowly passes through here before anything becomes infinite.
+const TORN: f64 = 1000.0;
+
+/// Energy that came from nowhere is a divergence once it exceeds this many times the energies
+/// of the run. Far beyond any error of a run that is merely coarse.
+const GROWN: f64 = 100.0;
+
+/// Extension of all springs, as a share of the scene's size, whose energy counts as an energy of
+/// the run: far above what rounding does in any precision.
+const SHARE: f64 = 1e-4;
+
+/// Why a run ended early.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Trouble {
+    /// A step failed.
+    Step(Cause),
+    /// The energy of a sample is infinite or not a number, though no velocity is.
+    Energy {
+        /// The row of the fastest body.
+        body: usize,
+    },
+    /// The energy grew beyond all measure, though nothing drives the scene.
+    Growth {
+        /// \[J\] by so much.
+        growth: f64,
+        /// The row of the fastest body.
+        body: usize,
+    },
+    /// A joint is stretched beyond all that can be meant, though everything is finite.
+    Torn {
+        /// The row of the joint.
+        joint: usize,
+        /// \[m\] the extension of its elements.
+        extension: f64,
+    },
+}
+
+/// What a state holds.
+pub struct Verdict {
+    /// \[J\] its energy.
+    pub energy: Energy<f64>,
+    /// \[m\] the largest extension of the joints' elements.
+    pub extension: f64,
+}
+
+/// The model that runs, its stored words taken as exact in double precision.
+pub struct Judge {
+    model: SceneModel<F64>,
+    /// The joints' elements alone.
+    joints: SceneModel<F64>,
+    /// The groups of each joint.
+    ranges: Vec<Range<usize>>,
+    /// \[m\] the extension of a joint's element at which it counts as torn.
+    torn: f64,
+    step_size: f64,
+    /// Without loads and inputs.
+    growth: Option<Growth>,
+}
+
+/// What the total energy of a run without loads and inputs is held against.
+struct Growth {
+    /// \[J\] energies at t = 0, and of springs stretched by [`SHARE`].
+    scale: f64,
+    /// \[J\] potential and total energy at t = 0.
+    initial: [f64; 2],
+    /// \[J\] the most potential energy that was released so far.
+    released: f64,
+}
+
+impl Growth {
+    fn new(model: &SceneModel<F64>, start: &Energy<f64>, size: f64) -> Self {
+        // Without `..`, so that a further kind of energy is not forgotten.
+        let Energy { kinetic, gravity, tsda, bushing, line, torsion, load } = *start;
+        let parts = [gravity, tsda, bushing, line, torsion, load];
+        let stiffness: f64 = model.tsdas.iter().map(|tsda| tsda.stiffness).sum::<f64>()
+            + model.bushings.iter().map(|bushing| bushing.stiffness).sum::<f64>()
+            + model.lines.iter().map(|line| line.stiffness).sum::<f64>();
+        let stretch = SHARE * size;
+        let scale = kinetic
+            + parts.iter().map(|part| part.abs()).sum::<f64>()
+            + 0.5 * stiffness * stretch * stretch;
+        Self { scale, initial: [start.potential(), start.total()], released: 0.0 }
+    }
+
+    /// The growth of the energy where it is beyond all measure.
+    fn beyond(&mut self, energy: &Energy<f64>) -> Option<f64> {
+        let [potential, total] = self.initial;
+        self.released = self.released.max(potential - energy.potential());
+        let growth = energy.total() - total;
+        (growth > GROWN * (self.scale + self.released)).then_some(growth)
+    }
+}
+
+impl Judge {
+    /// The judge of a scene's plant.
+    #[must_use]
+    pub fn new(scene: &Scene, plant: &dyn AnyPlant) -> Self {
+        let model = plant.model();
+        let step_size = plant.step_size();
+        let mut joints = model.clone();
+        let ranges: Vec<_> = scene.joints.iter().map(|joint| joint.groups.clone()).collect();
+        joints.groups.truncate(ranges.last().map_or(0, |range| range.end));
+        let elements = joints.groups.iter().filter(|group| group.law == Law::Tsda);
+        let lengths = elements.flat_map(|group| {
+            let first = usize::from(group.element);
+            joints.tsdas[first..first + group.elements()].iter().map(|tsda| tsda.free_length)
+        });
+        let torn = TORN * lengths.fold(0.0, f64::max);
+        let start = State::initial(model);
+        let growth = undriven(model).then(|| {
+            let energy = energy(model, &start, step_size);
+            Growth::new(model, &energy, size(&start))
+        });
+        Self { model: model.clone(), joints, ranges, torn, step_size, growth }
+    }
+
+    /// What a state holds.
+    ///
+    /// # Errors
+    /// A [`Trouble`] where the run cannot go on from it.
+    pub fn judge(&mut self, state: &State<SceneModel<F64>>) -> Result<Verdict, Trouble> {
+        let energy = energy(&self.model, state, self.step_size);
+        if !energy.total().is_finite() {
+            return Err(Trouble::Energy { body: fastest(state) });
+        }
+        let extension = largest_extension(&self.joints, state);
+        if self.torn > 0.0 && extension > self.torn {
+            return Err(Trouble::Torn { joint: self.longest(state), extension });
+        }
+        if let Some(growth) = self.growth.as_mut().and_then(|growth| growth.beyond(&energy)) {
+            return Err(Trouble::Growth { growth, body: fastest(state) });
+        }
+        Ok(Verdict { energy, extension })
+    }
+
+    /// The row of the joint with the largest extension.
+    fn longest(&self, state: &State<SceneModel<F64>>) -> usize {
+        let extension = |groups: &Range<usize>| {
+            let mut joint = self.joints.clone();
+            joint.groups = joint.groups[groups.clone()].to_vec();
+            largest_extension(&joint, state)
+        };
+        let extensions = self.ranges.iter().map(extension).enumerate();
+        extensions.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(row, _)| row)
+    }
+}
+
+/// Whether a scene's total energy is meant to stay as it is.
+#[must_use]
+pub fn conserves_energy(scene: &Scene) -> bool {
+    undriven(&scene.model) && scene.model.dampers.iter().all(|c| c.abs() == 0.0)
+}
+
+/// Whether nothing but the initial state gives energy.
+fn undriven(model: &SceneModel<F64>) -> bool {
+    model.loads.is_empty() && model.inputs.is_empty()
+}
+
+/// \[m\] the largest coordinate.
+fn size(state: &State<SceneModel<F64>>) -> f64 {
+    let coordinates = state.bodies.iter().flat_map(|body| body.position.to_f64());
+    coordinates.fold(0.0, |size, x| size.max(x.abs()))
+}
+
+/// The row of the body with the largest component of a velocity.
+fn fastest(state: &State<SceneModel<F64>>) -> usize {
+    let speed = |body: &BodyState<F64>| {
+        let components = [body.velocity.to_f64(), body.angular_velocity.to_f64()];
+        components.as_flattened().iter().fold(0.0, |most: f64, v| most.max(v.abs()))
+    };
+    let speeds = state.bodies.iter().map(speed).enumerate();
+    speeds.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(row, _)| row)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn released_energy_is_no_growth_and_energy_from_nowhere_is() {
+        let mut growth = Growth { scale: 1.0, initial: [10.0, 10.0], released: 0.0 };
+        let energy = |kinetic, gravity| Energy { kinetic, gravity, ..Energy::default() };
+        assert_eq!(growth.beyond(&energy(1000.0, -990.0)), None);
+        // What was released once may come back, and an error of that size is only an error.
+        assert_eq!(growth.beyond(&energy(1000.0, 10.0)), None);
+        assert_eq!(growth.beyond(&energy(2e5, 10.0)), Some(2e5));
+        // At rest with no energy at all: nothing to be beyond of.
+        let mut growth = Growth { scale: 0.0, initial: [0.0, 0.0], released: 0.0 };
+        assert_eq!(growth.beyond(&energy(0.0, 0.0)), None);
+    }
+
+    #[test]
+    fn a_stretched_line_is_an_energy_of_the_run() {
+        let text = |offset: f64| {
+            format!(
+                "name = \"slider\"\nduration = 1\n[[body]]\nname = \"b\"\nmass = 1\n\
+                 inertia = [1, 1, 1]\nposition = [0, {offset}, 0]\n[[point_on_line]]\n\
+                 between = [\"world\", \"b\"]\nline_point = [0, 0, 0]\nline_direction = [1, 0, 0]\n\
+                 point = [0, 0, 0]\nstiffness = 1e4\nfree_length = 0\n"
+            )
+        };
+        let scale = |offset: f64| {
+            let scene = Scene::parse(&text(offset), "slider.toml").unwrap();
+            let start = State::initial(&scene.model);
+            let energy = energy(&scene.model, &start, 1e-3);
+            Growth::new(&scene.model, &energy, 1.0).scale
+        };
+        // At rest what a stretch of the scene's share holds; stretched by 0.1 m 50 J more.
+        let least = 0.5 * 1e4 * SHARE * SHARE;
+        assert!((scale(0.0) - least).abs() < 1e-12);
+        assert!((scale(0.1) - 50.0 - least).abs() < 1e-9);
+    }
+}

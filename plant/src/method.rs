@@ -1,0 +1,396 @@
+//! Methods: a scheme with its parameters, damping, precision and way of storing orientations.
+//!
+//! `(scheme, newton, damping, precision, orientation) => method`. Where the names become the
+//! kernel's types is [`plant`](mod@crate::plant). A further scheme or precision is one variant here
+//! and one arm there.
+
+use dbd_kernel::damping::Damping;
+use dbd_kernel::schemes::{
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, Leapfrog, Pefrl, Rk4, Scheme, SemiImplicitEuler,
+};
+use miette::Diagnostic;
+use thiserror::Error;
+
+use crate::names::{DampingName, Named as _, OrientationName, PrecisionName, SchemeName};
+
+/// Newton iterations that may be asked for: more change nothing but the stable step.
+pub const MOST_ITERATIONS: u32 = 8;
+
+/// A scheme with its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum SchemeChoice {
+    Dbd(Dbd),
+    DbdP1(DbdP1),
+    DbdP2(DbdP2),
+    SemiImplicitEuler(SemiImplicitEuler),
+    ExplicitSemiImplicitEuler(Explicit<SemiImplicitEuler>),
+    Leapfrog(Leapfrog),
+    ExplicitLeapfrog(Explicit<Leapfrog>),
+    Pefrl(Pefrl),
+    BlanesMoanS6(BlanesMoanS6),
+    Rk4(Rk4),
+}
+
+/// A scheme with its parameters, in a precision, with a way of storing orientations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Method {
+    pub(crate) scheme: SchemeChoice,
+    precision: PrecisionName,
+    orientation: OrientationName,
+}
+
+/// Why there is no such method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error, Diagnostic)]
+pub enum MethodError {
+    /// Newton iterations for a scheme without any.
+    #[error("the scheme {scheme} has no Newton iterations")]
+    #[diagnostic(help(
+        "--newton goes with --scheme dbd, dbd-p1 or dbd-p2; leave it out for {scheme}"
+    ))]
+    Newton {
+        /// The scheme's name.
+        scheme: &'static str,
+    },
+    /// More than [`MOST_ITERATIONS`].
+    #[error("{newton} Newton iterations are more than {MOST_ITERATIONS}")]
+    #[diagnostic(help("--newton 0 to --newton {MOST_ITERATIONS}; more of them buy nothing"))]
+    Iterations {
+        /// How many.
+        newton: u32,
+    },
+    /// A damping that the scheme has not.
+    #[error("the scheme {scheme} has no {asked} damping, only {}", other(asked))]
+    #[diagnostic(help(
+        "leapfrog and semi-implicit-euler have both; leave --damping out for {scheme}"
+    ))]
+    Damping {
+        /// The scheme's name.
+        scheme: &'static str,
+        /// What was asked for.
+        asked: &'static str,
+    },
+    /// A method for comparison, in a build without the feature `comparison`.
+    #[error("{what} is there for comparison only, and not part of this build")]
+    #[diagnostic(help(
+        "cargo run --release --features comparison -- …; or --precision f64 or f32, --orientation \
+         quaternion"
+    ))]
+    Comparison {
+        /// The precision or the way of storing orientations.
+        what: &'static str,
+    },
+    /// A precision in which no pose is at rest.
+    #[error("there is no stability to look at in {precision}: its square root is off by per cents")]
+    #[diagnostic(help(
+        "no frozen pose is at rest in it, nothing vibrates about one; --precision f64 or f32"
+    ))]
+    Restless {
+        /// The precision's name.
+        precision: &'static str,
+    },
+}
+
+fn other(damping: &str) -> &'static str {
+    if damping == Damping::Sweeps.name() {
+        Damping::Explicit.name()
+    } else {
+        Damping::Sweeps.name()
+    }
+}
+
+impl Method {
+    /// A method from names and parameters; `newton` is the number of Newton iterations, for the
+    /// schemes that have them. The damping is the scheme's own, orientations are quaternions.
+    ///
+    /// # Errors
+    /// [`MethodError::Newton`] where the scheme has none, [`MethodError::Iterations`].
+    pub fn new(
+        scheme: SchemeName,
+        newton: Option<u32>,
+        precision: PrecisionName,
+    ) -> Result<Self, MethodError> {
+        let iterations = newton.unwrap_or(0);
+        let scheme = match scheme {
+            SchemeName::Dbd => SchemeChoice::Dbd(Dbd { newton: iterations }),
+            SchemeName::DbdP1 => SchemeChoice::DbdP1(DbdP1 { newton: iterations }),
+            SchemeName::DbdP2 => SchemeChoice::DbdP2(DbdP2 { newton: iterations }),
+            SchemeName::SemiImplicitEuler => SchemeChoice::SemiImplicitEuler(SemiImplicitEuler),
+            SchemeName::Leapfrog => SchemeChoice::Leapfrog(Leapfrog),
+            SchemeName::Pefrl => SchemeChoice::Pefrl(Pefrl),
+            SchemeName::BlanesMoanS6 => SchemeChoice::BlanesMoanS6(BlanesMoanS6),
+            SchemeName::Rk4 => SchemeChoice::Rk4(Rk4),
+        };
+        let method = Self { scheme, precision, orientation: OrientationName::default() };
+        if newton.is_some() && method.newton().is_none() {
+            return Err(MethodError::Newton { scheme: method.scheme_name() });
+        }
+        if iterations > MOST_ITERATIONS {
+            return Err(MethodError::Iterations { newton: iterations });
+        }
+        Ok(method)
+    }
+
+    /// The same method with another damping.
+    ///
+    /// # Errors
+    /// [`MethodError::Damping`] where the scheme has no such one.
+    pub fn with_damping(self, damping: DampingName) -> Result<Self, MethodError> {
+        let scheme = match (self.scheme, damping) {
+            (SchemeChoice::Leapfrog(_) | SchemeChoice::ExplicitLeapfrog(_), damping) => {
+                match damping {
+                    DampingName::Sweeps => SchemeChoice::Leapfrog(Leapfrog),
+                    DampingName::Explicit => SchemeChoice::ExplicitLeapfrog(Explicit(Leapfrog)),
+                }
+            }
+            (
+                SchemeChoice::SemiImplicitEuler(_) | SchemeChoice::ExplicitSemiImplicitEuler(_),
+                damping,
+            ) => match damping {
+                DampingName::Sweeps => SchemeChoice::SemiImplicitEuler(SemiImplicitEuler),
+                DampingName::Explicit => {
+                    SchemeChoice::ExplicitSemiImplicitEuler(Explicit(SemiImplicitEuler))
+                }
+            },
+            (scheme, _) => scheme,
+        };
+        let method = Self { scheme, ..self };
+        let asked = match damping {
+            DampingName::Sweeps => Damping::Sweeps,
+            DampingName::Explicit => Damping::Explicit,
+        };
+        if method.damping() == asked {
+            Ok(method)
+        } else {
+            Err(MethodError::Damping { scheme: method.scheme_name(), asked: asked.name() })
+        }
+    }
+
+    /// The same method with another way of storing orientations.
+    #[must_use]
+    pub fn with_orientation(self, orientation: OrientationName) -> Self {
+        Self { orientation, ..self }
+    }
+
+    /// Its precision.
+    #[must_use]
+    pub fn precision(&self) -> PrecisionName {
+        self.precision
+    }
+
+    /// Newton iterations per step, `None` for a scheme without any.
+    #[must_use]
+    pub fn newton(&self) -> Option<u32> {
+        match self.scheme {
+            SchemeChoice::Dbd(dbd) => Some(dbd.newton),
+            SchemeChoice::DbdP1(dbd) => Some(dbd.newton),
+            SchemeChoice::DbdP2(dbd) => Some(dbd.newton),
+            _ => None,
+        }
+    }
+
+    /// How it stores orientations.
+    #[must_use]
+    pub fn orientation(&self) -> OrientationName {
+        self.orientation
+    }
+
+    /// Whether this build holds it: micromath and Euler angles take the feature `comparison`.
+    ///
+    /// # Errors
+    /// [`MethodError::Comparison`] where it does not.
+    pub fn check_built(&self) -> Result<(), MethodError> {
+        let usual = self.precision != PrecisionName::F32Micromath
+            && self.orientation == OrientationName::Quaternion;
+        if usual || cfg!(feature = "comparison") { Ok(()) } else { Err(self.not_built()) }
+    }
+
+    /// The refusal of a method that is there for comparison.
+    pub(crate) fn not_built(&self) -> MethodError {
+        let what = match self.precision {
+            PrecisionName::F32Micromath => self.precision.name(),
+            PrecisionName::F64 | PrecisionName::F32 => self.orientation.name(),
+        };
+        MethodError::Comparison { what }
+    }
+
+    /// What the scheme says of itself.
+    fn traits(&self) -> Traits {
+        match self.scheme {
+            SchemeChoice::Dbd(scheme) => Traits::of(scheme),
+            SchemeChoice::DbdP1(scheme) => Traits::of(scheme),
+            SchemeChoice::DbdP2(scheme) => Traits::of(scheme),
+            SchemeChoice::SemiImplicitEuler(scheme) => Traits::of(scheme),
+            SchemeChoice::ExplicitSemiImplicitEuler(scheme) => Traits::of(scheme),
+            SchemeChoice::Leapfrog(scheme) => Traits::of(scheme),
+            SchemeChoice::ExplicitLeapfrog(scheme) => Traits::of(scheme),
+            SchemeChoice::Pefrl(scheme) => Traits::of(scheme),
+            SchemeChoice::BlanesMoanS6(scheme) => Traits::of(scheme),
+            SchemeChoice::Rk4(scheme) => Traits::of(scheme),
+        }
+    }
+
+    /// How its dampers act.
+    #[must_use]
+    pub fn damping(&self) -> Damping {
+        self.traits().damping
+    }
+
+    /// How its dampers act, where that is not the scheme's own way.
+    #[must_use]
+    pub fn foreign_damping(&self) -> Option<Damping> {
+        let foreign = matches!(
+            self.scheme,
+            SchemeChoice::ExplicitLeapfrog(_) | SchemeChoice::ExplicitSemiImplicitEuler(_)
+        );
+        foreign.then(|| self.damping())
+    }
+
+    /// Largest stable `ω_max·h` of an undamped oscillator.
+    #[must_use]
+    pub fn stability_limit(&self) -> f64 {
+        self.traits().stability_limit
+    }
+
+    /// The scheme's name, e.g. `leapfrog`.
+    #[must_use]
+    pub fn scheme_name(&self) -> &'static str {
+        self.traits().name
+    }
+
+    /// The precision's name, e.g. `f64`.
+    #[must_use]
+    pub fn precision_name(&self) -> &'static str {
+        self.precision.name()
+    }
+
+    /// How orientations are stored, e.g. `quaternion`.
+    #[must_use]
+    pub fn orientation_name(&self) -> &'static str {
+        self.orientation.name()
+    }
+
+    /// \[s\] the step rounded to the precision.
+    #[must_use]
+    pub fn rounded(&self, step: f64) -> f64 {
+        match self.precision {
+            PrecisionName::F64 => step,
+            PrecisionName::F32 | PrecisionName::F32Micromath => f64::from(step as f32),
+        }
+    }
+
+    /// Force evaluations per step.
+    #[must_use]
+    pub fn evaluations(&self) -> u32 {
+        self.traits().evaluations
+    }
+}
+
+impl Default for Method {
+    /// Leapfrog in double precision.
+    fn default() -> Self {
+        let scheme = SchemeChoice::Leapfrog(Leapfrog);
+        let (precision, orientation) = (PrecisionName::default(), OrientationName::default());
+        Self { scheme, precision, orientation }
+    }
+}
+
+/// What a scheme says of itself.
+struct Traits {
+    name: &'static str,
+    damping: Damping,
+    stability_limit: f64,
+    evaluations: u32,
+}
+
+impl Traits {
+    fn of<S: Scheme>(scheme: S) -> Self {
+        Self {
+            name: S::NAME,
+            damping: S::DAMPING,
+            stability_limit: scheme.stability_limit(),
+            evaluations: scheme.evaluations(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_names_are_those_of_the_kernel() {
+        for scheme in SchemeName::ALL {
+            let method = Method::new(*scheme, None, PrecisionName::F64).unwrap();
+            assert_eq!(method.scheme_name(), scheme.name());
+            assert_eq!(SchemeName::of_name(scheme.name()), Some(*scheme));
+        }
+        assert_eq!(SchemeName::of_name("euler"), None);
+        assert_eq!(
+            Method::default(),
+            Method::new(SchemeName::default(), None, PrecisionName::F64).unwrap()
+        );
+        assert_eq!(
+            DampingName::Explicit.summary(),
+            "Forces at the velocities of each evaluation: limit the step"
+        );
+    }
+
+    #[test]
+    fn what_is_for_comparison_is_refused_with_its_remedy_where_it_is_not_built() {
+        let built = cfg!(feature = "comparison");
+        for precision in PrecisionName::ALL {
+            for orientation in OrientationName::ALL {
+                let method = Method::new(SchemeName::Rk4, None, *precision).unwrap();
+                let method = method.with_orientation(*orientation);
+                let usual = *precision != PrecisionName::F32Micromath
+                    && *orientation == OrientationName::Quaternion;
+                assert_eq!(method.check_built().is_ok(), usual || built, "{method:?}");
+            }
+        }
+        let help = MethodError::Comparison { what: "euler-321" }.help().unwrap().to_string();
+        assert!(help.contains("--features comparison"), "{help}");
+    }
+
+    #[test]
+    fn newton_iterations_belong_to_the_dbd_schemes() {
+        for (scheme, evaluations) in
+            [(SchemeName::Dbd, 5), (SchemeName::DbdP1, 4), (SchemeName::DbdP2, 5)]
+        {
+            let method = Method::new(scheme, Some(2), PrecisionName::F64).unwrap();
+            assert_eq!((method.newton(), method.evaluations()), (Some(2), evaluations));
+            assert!(Method::new(scheme, Some(8), PrecisionName::F64).is_ok());
+            let refused = Method::new(scheme, Some(9), PrecisionName::F64);
+            assert_eq!(refused, Err(MethodError::Iterations { newton: 9 }));
+        }
+        for scheme in SchemeName::ALL {
+            let method = Method::new(*scheme, None, PrecisionName::F64).unwrap();
+            if method.newton().is_none() {
+                let refused = Method::new(*scheme, Some(0), PrecisionName::F64);
+                assert_eq!(refused, Err(MethodError::Newton { scheme: method.scheme_name() }));
+            }
+        }
+    }
+
+    #[test]
+    fn a_scheme_has_its_own_damping_and_two_have_both() {
+        let both = ["semi-implicit-euler", "leapfrog"];
+        for scheme in SchemeName::ALL {
+            let own = Method::new(*scheme, None, PrecisionName::F64).unwrap();
+            for damping in DampingName::ALL {
+                let name = damping.name();
+                match own.with_damping(*damping) {
+                    Ok(method) => {
+                        assert_eq!(method.damping().name(), name);
+                        assert_eq!(method.scheme_name(), own.scheme_name());
+                        assert!(method == own || both.contains(&own.scheme_name()));
+                    }
+                    Err(refused) => {
+                        assert!(!both.contains(&own.scheme_name()));
+                        let text = refused.to_string();
+                        assert!(text.contains(name) && text.contains(own.damping().name()));
+                    }
+                }
+            }
+        }
+    }
+}

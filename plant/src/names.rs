@@ -1,0 +1,132 @@
+//! Scheme, damping, precision and orientation by name.
+//!
+//! `name => choice; choice => name, what it is`. The documentation of a choice is what users read of
+//! it, too.
+
+/// A choice by name.
+pub trait Named: Copy + PartialEq + 'static {
+    /// All of them, in the order in which they are listed.
+    const ALL: &'static [Self];
+
+    /// What users call it, also in summaries and tables.
+    fn name(self) -> &'static str;
+
+    /// What it is, in one sentence without a full stop.
+    fn summary(self) -> &'static str;
+
+    /// The choice of a name; `None` where nothing is called so.
+    #[must_use]
+    fn of_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|choice| choice.name() == name)
+    }
+}
+
+/// An enumeration whose variants have names, and whose documentation users read, too.
+macro_rules! named {
+    (
+        $(#[$outer:meta])*
+        $choice:ident {
+            $(#[doc = $summary:literal] $(#[$default:meta])? $variant:ident = $name:literal,)*
+        }
+    ) => {
+        $(#[$outer])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $choice {
+            $(#[doc = $summary] $(#[$default])? $variant,)*
+        }
+
+        impl Named for $choice {
+            const ALL: &'static [Self] = &[$(Self::$variant,)*];
+
+            fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name,)*
+                }
+            }
+
+            fn summary(self) -> &'static str {
+                let text = match self {
+                    $(Self::$variant => $summary,)*
+                };
+                text.trim().trim_end_matches('.')
+            }
+        }
+    };
+}
+
+named! {
+    /// The schemes by name; leapfrog where nothing is said.
+    #[derive(Default)]
+    SchemeName {
+        /// The paper's step: order 1, three evaluations, one more per Newton iteration.
+        Dbd = "dbd",
+        /// The same with predicted positions: order 1, two evaluations, dissipates.
+        DbdP1 = "dbd-p1",
+        /// The same with corrected positions, too: order 1, three evaluations, dissipates.
+        DbdP2 = "dbd-p2",
+        /// Kick, then drift: order 1, one evaluation, no energy drift.
+        SemiImplicitEuler = "semi-implicit-euler",
+        /// Kick–drift–kick: order 2, one evaluation, no energy drift.
+        #[default]
+        Leapfrog = "leapfrog",
+        /// Omelyan, Mryglod & Folk: order 4, four evaluations, no energy drift.
+        Pefrl = "pefrl",
+        /// Blanes & Moan: order 4, six evaluations, no energy drift.
+        BlanesMoanS6 = "blanes-moan-s6",
+        /// Classical Runge–Kutta: order 4, four evaluations, dissipates.
+        Rk4 = "rk4",
+    }
+}
+
+named! {
+    /// The ways of damping by name.
+    DampingName {
+        /// Exact pairwise impulses before and after: no limit of the step.
+        Sweeps = "sweeps",
+        /// Forces at the velocities of each evaluation: limit the step.
+        Explicit = "explicit",
+    }
+}
+
+named! {
+    /// The precisions by name; double where nothing is said.
+    #[derive(Default)]
+    PrecisionName {
+        /// Double precision.
+        #[default]
+        F64 = "f64",
+        /// Single precision.
+        F32 = "f32",
+        /// Single precision with micromath's square root, sine and cosine: what fast and loose costs.
+        F32Micromath = "f32-micromath",
+    }
+}
+
+named! {
+    /// The ways of storing an orientation by name; quaternions where nothing is said.
+    #[derive(Default)]
+    OrientationName {
+        /// Unit quaternions.
+        #[default]
+        Quaternion = "quaternion",
+        /// The paper's yaw, pitch, roll, with a second sequence near the pole.
+        Euler321 = "euler-321",
+        /// Yaw, pitch, roll alone: loses precision near a pitch of ±90°.
+        Euler321Single = "euler-321-single",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_choice_is_found_by_its_name_and_described_in_a_sentence() {
+        for scheme in SchemeName::ALL {
+            assert_eq!(SchemeName::of_name(scheme.name()), Some(*scheme));
+        }
+        assert_eq!(SchemeName::of_name("euler"), None);
+        let summary = "Forces at the velocities of each evaluation: limit the step";
+        assert_eq!(DampingName::Explicit.summary(), summary);
+    }
+}

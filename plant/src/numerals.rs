@@ -1,0 +1,116 @@
+//! How many digits a precision's numbers have: the shortest text that reads back to its bits.
+//!
+//! `precision => for each quantity of a body: single or double`. A quantity stored as plain f32
+//! words is written as f32, anything else as the f64 it is exactly widened to.
+
+use std::io::{self, Write};
+
+use dbd_kernel::words::{Word, WordVisitor, Words};
+use dbd_kernel::{Geometry, Real};
+
+/// Which number a text must read back to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Digits {
+    /// An f32.
+    Single,
+    /// An f64.
+    Double,
+}
+
+/// The digits of a body's quantities.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Numerals {
+    /// Of a position.
+    pub position: Digits,
+    /// Of an orientation.
+    pub orientation: Digits,
+    /// Of a velocity, linear or angular.
+    pub velocity: Digits,
+    /// Of a read-out, which is computed in the precision's forces.
+    pub reading: Digits,
+}
+
+impl Numerals {
+    /// The numerals of a precision.
+    #[must_use]
+    pub fn of<P: Geometry>() -> Self {
+        Self {
+            position: digits(&P::Position::default(), 3),
+            orientation: digits(&P::Orientation::default(), 4),
+            velocity: digits(&P::Velocity::default(), 3),
+            reading: match P::Real::ZERO.word() {
+                Word::F32(_) => Digits::Single,
+                _ => Digits::Double,
+            },
+        }
+    }
+}
+
+/// `Single` where the quantity is stored as f32 words, one per component.
+fn digits(stored: &impl Words, components: usize) -> Digits {
+    struct Singles {
+        singles: usize,
+        others: usize,
+    }
+    impl WordVisitor for Singles {
+        fn word(&mut self, word: Word) {
+            match word {
+                Word::F32(_) => self.singles += 1,
+                _ => self.others += 1,
+            }
+        }
+    }
+    let mut count = Singles { singles: 0, others: 0 };
+    stored.visit(&mut count);
+    let plain = count.singles == components && count.others == 0;
+    if plain { Digits::Single } else { Digits::Double }
+}
+
+impl Digits {
+    /// Writes the shortest text that reads back to the same bits.
+    ///
+    /// # Errors
+    /// Where the writer cannot take it.
+    pub fn write(self, value: f64, to: &mut impl Write) -> io::Result<()> {
+        match self {
+            Digits::Single => write!(to, "{:?}", value as f32),
+            Digits::Double => write!(to, "{value:?}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dbd_kernel::{F32, F64};
+
+    use super::*;
+
+    fn text(digits: Digits, value: f64) -> String {
+        let mut text = Vec::new();
+        digits.write(value, &mut text).unwrap();
+        String::from_utf8(text).unwrap()
+    }
+
+    #[test]
+    fn single_words_have_single_digits() {
+        assert_eq!(Numerals::of::<F32>().position, Digits::Single);
+        assert_eq!(Numerals::of::<F32>().velocity, Digits::Single);
+        assert_eq!(Numerals::of::<F64>().orientation, Digits::Double);
+    }
+
+    #[test]
+    fn texts_are_short_and_exact() {
+        assert_eq!(text(Digits::Single, f64::from(0.1_f32)), "0.1");
+        assert_eq!(text(Digits::Double, f64::from(0.1_f32)), "0.10000000149011612");
+        assert_eq!(text(Digits::Double, -0.0), "-0.0");
+        for value in [1.0 / 3.0, f64::MIN_POSITIVE, 5e-324, f64::MAX, 2e-5] {
+            let read: f64 = text(Digits::Double, value).parse().unwrap();
+            assert_eq!(read.to_bits(), value.to_bits());
+            let single = value as f32;
+            if single.is_finite() {
+                let read: f32 = text(Digits::Single, f64::from(single)).parse().unwrap();
+                assert_eq!(read.to_bits(), single.to_bits());
+            }
+        }
+    }
+}

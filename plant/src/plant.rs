@@ -1,0 +1,285 @@
+//! A plant of any method behind one type: where the names of a method become the kernel's types.
+//!
+//! `(model, method, step) => plant`. Every scheme is compiled here for every precision, once for
+//! all that steps scenes on a host. A plant owns its model and can be sent to another thread.
+
+use std::sync::Arc;
+
+use dbd_kernel::energy::energy;
+#[cfg(feature = "comparison")]
+use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
+use dbd_kernel::index::InputIndex;
+#[cfg(feature = "comparison")]
+use dbd_kernel::loose::{Loose32, LooseEuler32, LooseSingleEuler32};
+use dbd_kernel::plant::{InputError, Plant, StateError};
+use dbd_kernel::readouts::{Reading, Readout};
+use dbd_kernel::schedule::Signal;
+use dbd_kernel::snapshot::SnapshotError;
+use dbd_kernel::{BodyState, Energy, F32, F64, Geometry, Scheme, State, Status};
+use dbd_scene::{Scene, SceneModel, UnfitInput, widen};
+use miette::Diagnostic;
+use thiserror::Error;
+
+use crate::any::AnyPlant;
+use crate::method::{Method, MethodError, SchemeChoice};
+use crate::names::{OrientationName, PrecisionName};
+use crate::numerals::Numerals;
+use crate::readings::widened;
+use crate::time::display;
+
+/// `$body` with `$P` the kernel's type for a method's precision and orientation.
+macro_rules! with_precision {
+    ($method:expr, $P:ident => $body:expr) => {
+        match ($method.precision(), $method.orientation()) {
+            (PrecisionName::F64, OrientationName::Quaternion) => {
+                type $P = F64;
+                $body
+            }
+            (PrecisionName::F32, OrientationName::Quaternion) => {
+                type $P = F32;
+                $body
+            }
+            #[cfg(feature = "comparison")]
+            (PrecisionName::F64, OrientationName::Euler321) => {
+                type $P = EulerF64;
+                $body
+            }
+            #[cfg(feature = "comparison")]
+            (PrecisionName::F32, OrientationName::Euler321) => {
+                type $P = EulerF32;
+                $body
+            }
+            #[cfg(feature = "comparison")]
+            (PrecisionName::F64, OrientationName::Euler321Single) => {
+                type $P = SingleEulerF64;
+                $body
+            }
+            #[cfg(feature = "comparison")]
+            (PrecisionName::F32, OrientationName::Euler321Single) => {
+                type $P = SingleEulerF32;
+                $body
+            }
+            #[cfg(feature = "comparison")]
+            (PrecisionName::F32Micromath, OrientationName::Quaternion) => {
+                type $P = Loose32;
+                $body
+            }
+            #[cfg(feature = "comparison")]
+            (PrecisionName::F32Micromath, OrientationName::Euler321) => {
+                type $P = LooseEuler32;
+                $body
+            }
+            #[cfg(feature = "comparison")]
+            (PrecisionName::F32Micromath, OrientationName::Euler321Single) => {
+                type $P = LooseSingleEuler32;
+                $body
+            }
+            #[cfg(not(feature = "comparison"))]
+            (_, _) => Err($method.not_built().into()),
+        }
+    };
+}
+
+/// `$body` with `$scheme` a method's scheme in the kernel's type.
+macro_rules! with_scheme {
+    ($method:expr, $scheme:ident => $body:expr) => {
+        match $method.scheme {
+            SchemeChoice::Dbd($scheme) => $body,
+            SchemeChoice::DbdP1($scheme) => $body,
+            SchemeChoice::DbdP2($scheme) => $body,
+            SchemeChoice::SemiImplicitEuler($scheme) => $body,
+            SchemeChoice::ExplicitSemiImplicitEuler($scheme) => $body,
+            SchemeChoice::Leapfrog($scheme) => $body,
+            SchemeChoice::ExplicitLeapfrog($scheme) => $body,
+            SchemeChoice::Pefrl($scheme) => $body,
+            SchemeChoice::BlanesMoanS6($scheme) => $body,
+            SchemeChoice::Rk4($scheme) => $body,
+        }
+    };
+}
+/// Why there is no such plant.
+#[derive(Clone, Debug, PartialEq, Error, Diagnostic)]
+pub enum PlantError {
+    /// The step is zero or infinite once it is rounded to the precision.
+    #[error("a step of {} is {rounded} in {precision}", display(*step))]
+    #[diagnostic(help("a longer step, or --precision f64"))]
+    Step {
+        /// \[s\] the step.
+        step: f64,
+        /// \[s\] what it is rounded to.
+        rounded: f64,
+        /// The precision's name.
+        precision: &'static str,
+    },
+    /// This build does not hold the method.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Method(#[from] MethodError),
+    /// The precision cannot hold what an input is given.
+    #[error(transparent)]
+    #[diagnostic(help("smaller values, gentler rises, a later begin, or --precision f64"))]
+    Input(#[from] UnfitInput),
+}
+
+/// A plant of a scene at t = 0, with the step `step` \[s\].
+///
+/// # Errors
+/// [`PlantError`] where the precision cannot hold the step or what an input is given, or this build
+/// does not hold the method.
+pub fn plant(scene: &Scene, method: &Method, step: f64) -> Result<Box<dyn AnyPlant>, PlantError> {
+    check_inputs(scene, method)?;
+    plant_of_model(&scene.model, method, step)
+}
+
+/// A plant of an assembled model at t = 0, with the step `step` \[s\].
+///
+/// # Errors
+/// [`PlantError`] where the precision cannot hold the step, or this build does not hold the method.
+pub fn plant_of_model(
+    model: &SceneModel<F64>,
+    method: &Method,
+    step: f64,
+) -> Result<Box<dyn AnyPlant>, PlantError> {
+    check_step(method, step)?;
+    let new = New { model, method, step };
+    with_precision!(method, P => with_scheme!(method, scheme => new.typed::<P, _>(scheme)))
+}
+
+/// Whether a step is positive and finite once it is rounded to a method's precision.
+///
+/// # Errors
+/// [`PlantError::Step`] where it is not.
+pub fn check_step(method: &Method, step: f64) -> Result<(), PlantError> {
+    let rounded = method.rounded(step);
+    if rounded > 0.0 && rounded.is_finite() { Ok(()) } else { Err(refused(method, step)) }
+}
+
+/// Whether a method's precision holds what a scene's inputs are given.
+///
+/// # Errors
+/// [`PlantError::Input`] with the first input that it does not; [`PlantError::Method`] where this
+/// build does not hold the precision.
+pub fn check_inputs(scene: &Scene, method: &Method) -> Result<(), PlantError> {
+    with_precision!(method, P => Ok(scene.check_inputs::<P>()?))
+}
+
+fn refused(method: &Method, step: f64) -> PlantError {
+    PlantError::Step { step, rounded: method.rounded(step), precision: method.precision_name() }
+}
+
+/// What a plant is made from.
+struct New<'n> {
+    model: &'n SceneModel<F64>,
+    method: &'n Method,
+    step: f64,
+}
+
+impl New<'_> {
+    fn typed<P, S>(&self, scheme: S) -> Result<Box<dyn AnyPlant>, PlantError>
+    where
+        P: Geometry,
+        S: Scheme,
+        Typed<P, S>: AnyPlant + 'static,
+    {
+        let model: SceneModel<P> = self.model.convert();
+        let exact = model.convert();
+        let plant = Plant::new(Arc::new(model), scheme, self.step)
+            .map_err(|_| refused(self.method, self.step))?;
+        Ok(Box::new(Typed { plant, exact, method: *self.method }))
+    }
+}
+
+/// A plant of one precision and one scheme.
+struct Typed<P: Geometry, S: Scheme> {
+    plant: Plant<Arc<SceneModel<P>>, S>,
+    exact: SceneModel<F64>,
+    method: Method,
+}
+
+impl<P: Geometry, S: Scheme> AnyPlant for Typed<P, S>
+where
+    Plant<Arc<SceneModel<P>>, S>: Send,
+{
+    fn step(&mut self) -> Status {
+        self.plant.step()
+    }
+
+    fn advance(&mut self, n: u64) -> Status {
+        self.plant.advance(n)
+    }
+
+    fn set(&mut self, input: InputIndex, value: f64, rate: f64) -> Result<(), InputError> {
+        self.plant.set_signal(input, value, rate)
+    }
+
+    fn read(&self, readout: &Readout<F64>) -> Option<Reading<f64>> {
+        self.plant.read(&readout.convert()).map(widened)
+    }
+
+    fn state(&self) -> State<SceneModel<F64>> {
+        widen(self.plant.state())
+    }
+
+    fn energy(&self) -> Energy<f64> {
+        energy(&self.exact, &self.state(), self.step_size())
+    }
+
+    fn reset(&mut self) {
+        self.plant.reset();
+    }
+
+    fn set_state(&mut self, state: &State<SceneModel<F64>>) -> Result<(), StateError> {
+        self.plant.set_state(State {
+            bodies: state.bodies.iter().map(BodyState::convert).collect(),
+            turns: state.turns.clone(),
+            step: state.step,
+            signals: state.signals.iter().map(Signal::convert).collect(),
+        })
+    }
+
+    fn snapshot(&self) -> Result<Vec<u8>, SnapshotError> {
+        let mut bytes = vec![0; self.plant.snapshot_size()];
+        self.plant.snapshot(&mut bytes)?;
+        Ok(bytes)
+    }
+
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), SnapshotError> {
+        self.plant.restore(bytes)
+    }
+
+    fn hash(&self) -> u64 {
+        self.plant.hash()
+    }
+
+    fn status(&self) -> Status {
+        self.plant.status()
+    }
+
+    fn time(&self) -> f64 {
+        self.plant.time()
+    }
+
+    fn steps(&self) -> u64 {
+        self.plant.state().step
+    }
+
+    fn evaluations(&self) -> u64 {
+        self.plant.evaluations()
+    }
+
+    fn step_size(&self) -> f64 {
+        self.plant.step_size()
+    }
+
+    fn numerals(&self) -> Numerals {
+        Numerals::of::<P>()
+    }
+
+    fn method(&self) -> &Method {
+        &self.method
+    }
+
+    fn model(&self) -> &SceneModel<F64> {
+        &self.exact
+    }
+}

@@ -1,0 +1,38 @@
+//! References in plain std Rust: another way to the same equations, sharing no force code with
+//! the kernel.
+//!
+//! `model's data => mechanism => accelerations`, and from them what runs are held against. The
+//! modules in the order in which they stand on each other:
+//!
+//! - [`state`], [`signals`]: a mechanism's state and time, in nalgebra's types.
+//! - [`instant`]: bodies, points and wrenches at one instant.
+//! - [`elements`], [`driven`]: springs, loads and inputs as a std user would write them, `Vec`,
+//!   nalgebra, `Box<dyn Element>`, double precision.
+//! - [`mechanism`]: a scene of them.
+//! - [`naive`]: semi-implicit Euler and leapfrog on it, the baseline of every timing.
+//! - [`ordering`], [`implicit`]: linearly implicit Euler with a sparse solve, and its elimination.
+//! - [`spectrum`]: all eigenfrequencies of a pose.
+//! - [`equations`], [`truth`]: the mechanism as a first-order system; DOP853 with a second opinion.
+//! - [`metric`], [`trajectory`]: how far a run is from the truth.
+//! - [`window`]: how long a trajectory can be told from a perturbed one.
+
+pub mod driven;
+pub mod elements;
+pub mod equations;
+pub mod implicit;
+pub mod instant;
+pub mod mechanism;
+pub mod metric;
+pub mod naive;
+pub mod ordering;
+pub mod signals;
+pub mod spectrum;
+pub mod state;
+pub mod trajectory;
+pub mod truth;
+pub mod window;
+
+pub use mechanism::Mechanism;
+pub use spectrum::eigenfrequencies;
+pub use state::State;
+pub use trajectory::Trajectory;

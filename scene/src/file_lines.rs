@@ -1,0 +1,28 @@
+//! On which lines of its file a scene's things begin.
+
+use crate::text::Table;
+
+/// Lines from 1, per kind in scene order.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct FileLines {
+    pub(crate) bodies: Vec<usize>,
+    pub(crate) joints: Vec<usize>,
+    pub(crate) tsdas: Vec<usize>,
+    pub(crate) points_on_lines: Vec<usize>,
+    pub(crate) torsion_springs: Vec<usize>,
+    pub(crate) inputs: Vec<usize>,
+}
+
+impl FileLines {
+    /// The lines of all tables of the scene.
+    pub(crate) fn of(root: &Table<'_>) -> Result<Self, crate::SceneError> {
+        Ok(Self {
+            bodies: root.lines("body")?,
+            joints: root.lines("joint")?,
+            tsdas: root.lines("tsda")?,
+            points_on_lines: root.lines("point_on_line")?,
+            torsion_springs: root.lines("torsion_spring")?,
+            inputs: root.lines("input")?,
+        })
+    }
+}

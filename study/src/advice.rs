@@ -1,0 +1,389 @@
+//! What the points say in words: which way of stepping to take for an accuracy, and the front as a
+//! table.
+//!
+//! `points => advice, text`. A choice is a measured point; what the paper's scheme would
+//! need for the same is read between its own points and said to be so.
+
+use std::fmt;
+
+use dbd_plant::digits::{approximate, significant};
+use dbd_plant::time::{display, rounded};
+
+use crate::need::{Need, PaperNeed, paper_need};
+use crate::point::{Machine, Point, Stepper, counted, front, is_paper};
+
+/// Decimal exponents of the accuracies spoken of, in metres.
+const DECADES: std::ops::RangeInclusive<i32> = -9..=-3;
+
+/// The row of the cheapest point of the kernel that is at most so far off \[m\]; of references with
+/// `kernel` false.
+#[must_use]
+pub fn choice(points: &[Point], machine: Machine, target: f64, kernel: bool) -> Option<usize> {
+    let of = |point: &Point| point.stepper.kernel == kernel && point.stepper.is_exact();
+    let rows = points.iter().enumerate().filter(|(_, point)| of(point));
+    let good = rows.filter_map(|(row, point)| {
+        let (cost, error) = point.kept(machine)?;
+        (error <= target).then_some((cost, error, row))
+    });
+    good.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)))
+        .map(|(.., row)| row)
+}
+
+/// What to choose for an accuracy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Advice {
+    /// Decimal exponent of the accuracy \[m\].
+    pub decade: i32,
+    /// The chosen point's row.
+    pub row: usize,
+    /// In words.
+    pub sentence: String,
+}
+
+/// One for each power of ten from 1 mm down to 1 nm that some point of the kernel reaches, but not
+/// below what the truth is known to \[m\].
+#[must_use]
+pub fn advice(points: &[Point], machine: Machine, uncertainty: f64) -> Vec<Advice> {
+    let among = match machine {
+        Machine::Host => String::new(),
+        Machine::Target => match counted(points, machine) {
+            1 => ", the only method counted,".into(),
+            many => format!(", of the {many} methods counted,"),
+        },
+    };
+    DECADES
+        .rev()
+        .map(|decade| (decade, power_of_ten(decade)))
+        .filter(|(_, target)| *target >= uncertainty)
+        .filter_map(|(decade, target)| {
+            let row = choice(points, machine, target, true)?;
+            let chosen = &points[row];
+            let (cost, _) = chosen.kept(machine)?;
+            let mut sentence = format!(
+                "for 1e{decade} m choose{among} {}, step {} ({})",
+                named(&chosen.stepper),
+                display(chosen.step),
+                Cost(cost, machine),
+            );
+            if is_paper(&chosen.stepper, machine) {
+                sentence += ": the paper's scheme";
+            } else if let Some(PaperNeed { need, precision }) = paper_need(points, machine, target)
+            {
+                let whose = match machine {
+                    Machine::Host => String::new(),
+                    Machine::Target => format!(" in {precision}"),
+                };
+                sentence += &format!("; the paper's scheme{whose} {}", Against(need, cost));
+            }
+            let reference = choice(points, machine, target, false).map(|row| &points[row]);
+            let cheaper = reference
+                .and_then(|point| Some((point, point.kept(machine)?.0 / cost)))
+                .filter(|(_, ratio)| *ratio < 1.0);
+            if let Some((point, ratio)) = cheaper {
+                let (who, step) = (named(&point.stepper), shown(point.step));
+                let ratio = times(ratio);
+                sentence +=
+                    &format!("; the reference {who}, step {step}, needs {ratio} times as much");
+            }
+            Some(Advice { decade, row, sentence })
+        })
+        .collect()
+}
+
+/// Why no advice can be given; `None` where it can.
+#[must_use]
+pub fn remark(points: &[Point], machine: Machine) -> Option<&'static str> {
+    let drawn = || points.iter().filter_map(|point| point.drawn(machine));
+    let costs = points.iter().filter_map(|point| point.cost(machine));
+    if !costs.into_iter().any(|cost| cost.is_finite() && cost > 0.0) {
+        Some("no point has a cost")
+    } else if drawn().next().is_none() {
+        Some("no step is stable")
+    } else if drawn().all(|(_, error)| error == 0.0) {
+        Some("every error is zero")
+    } else {
+        None
+    }
+}
+
+/// A step, after ≈ where it is not the exact number.
+#[must_use]
+pub fn shown(step: f64) -> String {
+    let (exact, short) = (display(step), approximate(step));
+    if exact == short { exact } else { format!("≈{short}") }
+}
+
+/// The nearest f64 to a power of ten, which `powi` need not be.
+fn power_of_ten(exponent: i32) -> f64 {
+    format!("1e{exponent}").parse().unwrap_or(f64::NAN)
+}
+
+/// `leapfrog, f32`, as on the command line.
+fn named(stepper: &Stepper) -> String {
+    let mut text = stepper.scheme.clone();
+    if let Some(newton) = stepper.newton.filter(|newton| *newton > 0) {
+        text += &format!(" with {newton} Newton iteration{}", if newton > 1 { "s" } else { "" });
+    }
+    if let Some(damping) = &stepper.damping {
+        text += &format!(" with {damping} damping");
+    }
+    text += &format!(", {}", stepper.precision);
+    if stepper.orientation != "quaternion" {
+        text += &format!(", {}", stepper.orientation);
+    }
+    text
+}
+
+/// A ratio as people say it: two digits.
+#[must_use]
+pub fn times(ratio: f64) -> String {
+    significant(rounded(ratio, 2), 2)
+}
+
+/// A cost with its unit.
+pub struct Cost(pub f64, pub Machine);
+
+impl fmt::Display for Cost {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.1 {
+            Machine::Host => {
+                let seconds = significant(rounded(self.0, 2), 2);
+                write!(f, "{seconds} s of a core per simulated second")
+            }
+            Machine::Target => {
+                let millions = significant(rounded(self.0 * 1e-6, 3), 3);
+                write!(f, "{millions} million instructions per simulated second")
+            }
+        }
+    }
+}
+
+/// What the paper's scheme needs against a cost.
+struct Against(Need, f64);
+
+impl fmt::Display for Against {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ratio = |cost: f64| times(cost / self.1);
+        match self.0 {
+            Need::Largest { cost, step } => {
+                let (ratio, step) = (ratio(cost), shown(step));
+                write!(f, "needs {ratio} times as much at {step}, its largest step here")
+            }
+            Need::Between { cost } => write!(f, "needs about {} times as much", ratio(cost)),
+            Need::Beyond { cost, order } => {
+                let (ratio, order) = (ratio(cost), significant(order, 2));
+                write!(f, "needs about {ratio} times as much, by extrapolation at order {order}")
+            }
+            Need::MoreThan { cost } => {
+                let ratio = ratio(cost);
+                write!(f, "needs more than {ratio} times as much, by extrapolation")
+            }
+            Need::Never => f.write_str("does not reach it"),
+            Need::Unstable => f.write_str("has no stable step here"),
+            Need::Uncounted => f.write_str("was not counted here"),
+        }
+    }
+}
+
+/// Headings of the front's table, their units beneath.
+#[must_use]
+pub fn headings(machine: Machine) -> [[&'static str; 2]; 6] {
+    let cost = match machine {
+        Machine::Host => ["cost", "core s/s"],
+        Machine::Target => ["cost", "10⁶ instr/s"],
+    };
+    [
+        ["error", "m"],
+        ["stepper", ""],
+        ["step", ""],
+        cost,
+        ["paper's scheme", "times this"],
+        ["energy rms", "J"],
+    ]
+}
+
+/// The front's rows: cells beneath [`headings`], the cheapest first.
+#[must_use]
+pub fn rows(points: &[Point], machine: Machine) -> Vec<(usize, [String; 6])> {
+    front(points, machine)
+        .into_iter()
+        .filter_map(|row| {
+            let point = &points[row];
+            let (cost, error) = point.kept(machine)?;
+            let unit = if machine == Machine::Host { 1.0 } else { 1e-6 };
+            let paper = match paper_need(points, machine, error).map(|paper| paper.need) {
+                _ if is_paper(&point.stepper, machine) => "itself".into(),
+                None | Some(Need::Uncounted | Need::Unstable) => "–".into(),
+                Some(Need::MoreThan { cost: needed }) => format!("> {} *", times(needed / cost)),
+                Some(Need::Never) => "never".into(),
+                Some(Need::Largest { cost: needed, .. }) => format!("≤ {}", times(needed / cost)),
+                Some(Need::Between { cost: needed }) => times(needed / cost),
+                Some(Need::Beyond { cost: needed, .. }) => format!("{} *", times(needed / cost)),
+            };
+            let cells = [
+                format!("{error:.1e}"),
+                point.stepper.label(),
+                shown(point.step),
+                significant(rounded(cost * unit, 3), 3),
+                paper,
+                point.energy_rms.map_or("–".into(), |energy| format!("{energy:.1e}")),
+            ];
+            Some((row, cells))
+        })
+        .collect()
+}
+
+/// The front for the terminal.
+#[must_use]
+pub fn table(points: &[Point], machine: Machine) -> String {
+    let rows = rows(points, machine);
+    if rows.is_empty() {
+        return String::new();
+    }
+    let headings = headings(machine);
+    let cells = |line: usize| headings.map(|heading| heading[line].to_owned());
+    let lines: Vec<[String; 6]> =
+        [cells(0), cells(1)].into_iter().chain(rows.into_iter().map(|(_, cells)| cells)).collect();
+    let width = |column: usize| lines.iter().map(|row| row[column].chars().count()).max();
+    let widths: [usize; 6] = std::array::from_fn(|column| width(column).unwrap_or(0));
+    let mut text = String::new();
+    for row in &lines {
+        let padded: Vec<String> = row
+            .iter()
+            .zip(widths)
+            .enumerate()
+            .map(|(column, (cell, width))| match column {
+                1 => format!("{cell:<width$}"),
+                _ => format!("{cell:>width$}"),
+            })
+            .collect();
+        text += padded.join("  ").trim_end();
+        text.push('\n');
+    }
+    if lines.iter().any(|row| row[4].ends_with('*')) {
+        text += "* by extrapolation along its last two steps\n";
+    }
+    text
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::point::tests::point;
+
+    /// The paper's scheme at order 1, and a better one at order 4.
+    pub(crate) fn ladder() -> Vec<Point> {
+        let paper = [1e-3, 1e-4, 1e-5].map(|h| point("dbd", h, 1e-6 / h, Some(h)));
+        let better = [1e-3, 1e-4].map(|h| point("pefrl", h, 2e-6 / h, Some(9e7 * h.powi(4))));
+        paper.into_iter().chain(better).chain([point("rk4", 1e-2, 1e-9, None)]).collect()
+    }
+
+    fn sentences(points: &[Point], machine: Machine, uncertainty: f64) -> Vec<String> {
+        advice(points, machine, uncertainty).into_iter().map(|advice| advice.sentence).collect()
+    }
+
+    #[test]
+    fn the_chips_sentences_say_what_was_counted() {
+        let mut points = ladder();
+        let mut single = points[1].clone();
+        single.stepper.precision = "f32".into();
+        points.push(single);
+        for point in points.iter_mut().filter(|p| is_paper(&p.stepper, Machine::Host)) {
+            point.target_instructions = None;
+        }
+        let said = sentences(&points, Machine::Target, 1e-5);
+        assert_eq!(
+            said.last().unwrap(),
+            "for 1e-5 m choose, of the 3 methods counted, pefrl, f64, step 100us (20 million \
+             instructions per simulated second); the paper's scheme in f32 does not reach it"
+        );
+        assert!(said.iter().all(|sentence| !sentence.contains("stable")));
+        let alone = [points[4].clone()];
+        let said = sentences(&alone, Machine::Target, 1e-5).pop().unwrap();
+        assert!(said.contains(" choose, the only method counted, pefrl, f64, "), "{said}");
+        let said = sentences(&ladder(), Machine::Target, 1e-5).pop().unwrap();
+        assert!(
+            said.ends_with("; the paper's scheme in f64 needs about 5 times as much"),
+            "{said}"
+        );
+    }
+
+    #[test]
+    fn loose_arithmetic_is_not_advised_and_zeros_are_called_so() {
+        let mut points = ladder();
+        points.truncate(3);
+        let mut loose = points[0].clone();
+        loose.stepper.precision = "f32-micromath".into();
+        (loose.error, loose.host_seconds) = (Some(0.0), 1e-9);
+        points.push(loose);
+        assert!(sentences(&points, Machine::Host, 0.0).iter().all(|s| !s.contains("micromath")));
+        assert_eq!(remark(&points, Machine::Host), None);
+        points.iter_mut().for_each(|point| point.error = Some(0.0));
+        assert_eq!(remark(&points, Machine::Host), Some("every error is zero"));
+        assert!(table(&points, Machine::Host).contains("dbd f64"));
+    }
+
+    #[test]
+    fn each_decade_reached_has_its_cheapest_point() {
+        let mut points = ladder();
+        assert_eq!(
+            sentences(&points, Machine::Host, 0.0),
+            [
+                "for 1e-3 m choose dbd, f64, step 1ms (0.001 s of a core per simulated second): \
+                 the paper's scheme",
+                "for 1e-4 m choose pefrl, f64, step 1ms (0.002 s of a core per simulated second); \
+                 the paper's scheme needs about 5 times as much",
+                "for 1e-5 m choose pefrl, f64, step 100us (0.02 s of a core per simulated \
+                 second); the paper's scheme needs about 5 times as much",
+                "for 1e-6 m choose pefrl, f64, step 100us (0.02 s of a core per simulated \
+                 second); the paper's scheme needs about 50 times as much, by extrapolation at \
+                 order 1",
+                "for 1e-7 m choose pefrl, f64, step 100us (0.02 s of a core per simulated \
+                 second); the paper's scheme needs about 500 times as much, by extrapolation at \
+                 order 1",
+                "for 1e-8 m choose pefrl, f64, step 100us (0.02 s of a core per simulated \
+                 second); the paper's scheme needs more than 500 times as much, by extrapolation",
+            ]
+        );
+        // What the truth is not known to is not spoken of.
+        assert_eq!(sentences(&points, Machine::Host, 5e-7).len(), 4);
+        // A reference is not chosen, but said to be cheaper where it is.
+        let mut reference = point("naive", 1e-3, 0.01, Some(1e-6));
+        reference.stepper.kernel = false;
+        points.push(reference);
+        let said = sentences(&points, Machine::Host, 0.0);
+        assert!(said[3].starts_with("for 1e-6 m choose pefrl"), "{}", said[3]);
+        assert!(said[3].ends_with("; the reference naive, f64, step 1ms, needs 0.5 times as much"));
+        assert!(!said[4].contains("reference"));
+    }
+
+    #[test]
+    fn the_table_is_the_front() {
+        let mut points = ladder();
+        let text = table(&points, Machine::Target);
+        let steppers: Vec<&str> = text.lines().filter(|line| line.contains("f64")).collect();
+        assert_eq!(steppers.len(), front(&points, Machine::Target).len());
+        assert!(steppers[0].contains("dbd f64") && steppers[0].contains("itself"), "{text}");
+        assert!(text.contains('*') && text.ends_with("last two steps\n"), "{text}");
+        for point in &mut points {
+            point.target_instructions = None;
+        }
+        assert_eq!(table(&points, Machine::Target), "");
+        assert!(sentences(&points, Machine::Target, 0.0).is_empty());
+        assert_eq!(remark(&points, Machine::Target), Some("no point has a cost"));
+    }
+
+    #[test]
+    fn the_paper_is_one_stepper() {
+        let mut stepper = point("dbd", 1.0, 1.0, None).stepper;
+        let is = |stepper: &Stepper| is_paper(stepper, Machine::Host);
+        assert!(is(&stepper));
+        stepper.newton = Some(0);
+        assert!(is(&stepper));
+        stepper.newton = Some(1);
+        assert!(!is(&stepper));
+        stepper.newton = None;
+        stepper.precision = "f32".into();
+        assert!(!is(&stepper) && is_paper(&stepper, Machine::Target));
+    }
+}

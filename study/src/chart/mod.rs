@@ -1,0 +1,22 @@
+//! The accuracy-against-speed chart as an SVG.
+//!
+//! `(points, machine) => SVG`: cost to the right, error upwards, both logarithmic; a line for each
+//! stepper through its steps, the front as a band, to the right of each power of ten what to choose
+//! for it, what is unstable in a strip at the top.
+//!
+//! - `axis`, `style`, `label_spots`: where a value lies, what a stepper looks like, where names go.
+//! - `drawing`: measures, lines and marks.
+//! - `choices`, `frame`, `labels`: what lies beside, around and beneath them, and their names.
+
+mod axis;
+mod choices;
+mod drawing;
+mod frame;
+mod label_spots;
+mod labels;
+mod style;
+
+pub use drawing::{Chart, hover, steppers, svg};
+
+#[cfg(test)]
+pub(crate) mod tests;

@@ -1,0 +1,184 @@
+//! What a step costs on Cortex-M4F, as counted: the table `docs/costs.csv`.
+//!
+//! `(scene, scheme, newton, damping, precision, orientation) => instructions per step`. The table
+//! is part of the binary; `cargo xtask cost` measures it, `docs/target.md` tells how. A count is
+//! that of the shipped scene: a scene with other bodies or elements costs otherwise under the same
+//! name.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+/// The table as shipped.
+const TABLE: &str = include_str!("../../docs/costs.csv");
+
+/// The only way of storing orientations that is counted.
+const ORIENTATION: &str = "quaternion";
+
+/// Instructions per step on Cortex-M4F by scene, scheme and precision.
+#[derive(Clone, Debug)]
+pub struct Costs {
+    rows: BTreeMap<(String, String, String), f64>,
+}
+
+/// The columns that are read.
+#[derive(Deserialize)]
+struct Row {
+    scene: String,
+    /// With `+1` for a Newton iteration, `-explicit` for explicit dampers in place of sweeps.
+    scheme: String,
+    precision: String,
+    instructions_mean: f64,
+}
+
+impl Costs {
+    /// The counts that the binary was built with.
+    ///
+    /// # Panics
+    /// Never: a test reads the table.
+    #[must_use]
+    pub fn shipped() -> Self {
+        Self::read(TABLE).expect("the table is read by a test")
+    }
+
+    /// No counts at all.
+    #[must_use]
+    pub fn none() -> Self {
+        Self { rows: BTreeMap::new() }
+    }
+
+    fn read(table: &str) -> Result<Self, csv::Error> {
+        let mut reader = csv::Reader::from_reader(table.as_bytes());
+        let rows = reader.deserialize().map(|row| {
+            let Row { scene, scheme, precision, instructions_mean } = row?;
+            Ok(((scene, scheme, precision), instructions_mean))
+        });
+        Ok(Self { rows: rows.collect::<Result<_, csv::Error>>()? })
+    }
+
+    /// Instructions per step, the mean of the counted steps; `None` for what was not counted.
+    ///
+    /// `newton` is the number of Newton iterations, `damping_explicit` whether dampers are explicit
+    /// where the scheme's own way is another.
+    #[must_use]
+    pub fn instructions_per_step(
+        &self,
+        scene: &str,
+        scheme: &str,
+        newton: Option<u32>,
+        damping_explicit: bool,
+        precision: &str,
+        orientation: &str,
+    ) -> Option<f64> {
+        if orientation != ORIENTATION {
+            return None;
+        }
+        let mut scheme = scheme.to_owned();
+        if let Some(newton) = newton.filter(|newton| *newton > 0) {
+            scheme += &format!("+{newton}");
+        }
+        if damping_explicit {
+            scheme += "-explicit";
+        }
+        self.rows.get(&(scene.to_owned(), scheme, precision.to_owned())).copied()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dbd_plant::{Named as _, SchemeName};
+
+    use super::*;
+
+    const CHARTED: [&str; 9] = [
+        "four-bar",
+        "five-bar-a",
+        "five-bar-b",
+        "six-bar",
+        "3rrr",
+        "crank-slider",
+        "3ruu",
+        "hexagon",
+        "double-wishbone",
+    ];
+
+    fn plain(costs: &Costs, scene: &str, scheme: &str, precision: &str) -> Option<f64> {
+        costs.instructions_per_step(scene, scheme, None, false, precision, ORIENTATION)
+    }
+
+    #[test]
+    fn every_row_of_the_table_is_one_of_the_map() {
+        assert_eq!(Costs::shipped().rows.len(), TABLE.lines().count() - 1);
+    }
+
+    #[test]
+    fn a_row_is_found_by_its_names() {
+        let table = "scene,scheme,precision,step_s,instructions_mean,more\n\
+                     a,dbd,f32,1e-4,300,\na,dbd+1,f32,1e-4,400,7\na,leapfrog-explicit,f64,1e-4,200,\n";
+        let costs = Costs::read(table).unwrap();
+        let get = |scheme, newton, explicit, precision, orientation| {
+            costs.instructions_per_step("a", scheme, newton, explicit, precision, orientation)
+        };
+        assert_eq!(get("dbd", None, false, "f32", "quaternion"), Some(300.0));
+        assert_eq!(get("dbd", Some(0), false, "f32", "quaternion"), Some(300.0));
+        assert_eq!(get("dbd", Some(1), false, "f32", "quaternion"), Some(400.0));
+        assert_eq!(get("leapfrog", None, true, "f64", "quaternion"), Some(200.0));
+        for missing in [
+            get("dbd", Some(2), false, "f32", "quaternion"),
+            get("dbd", None, true, "f32", "quaternion"),
+            get("dbd", None, false, "f64", "quaternion"),
+            get("dbd", None, false, "f32", "euler-321"),
+            get("leapfrog", None, false, "f64", "quaternion"),
+            costs.instructions_per_step("b", "dbd", None, false, "f32", "quaternion"),
+        ] {
+            assert_eq!(missing, None);
+        }
+        assert!(Costs::read("scene,scheme,precision\na,dbd,f32\n").is_err());
+    }
+
+    #[test]
+    fn every_scheme_of_a_charted_scene_was_counted() {
+        let costs = Costs::shipped();
+        for scheme in SchemeName::ALL {
+            let name = scheme.name();
+            for scene in CHARTED {
+                for precision in ["f32", "f64"] {
+                    let count = plain(&costs, scene, name, precision);
+                    assert!(count.is_some(), "{scene} {name} {precision}");
+                }
+            }
+        }
+        let explicit = |scheme| {
+            costs.instructions_per_step("double-wishbone", scheme, None, true, "f32", ORIENTATION)
+        };
+        assert!(explicit("leapfrog").is_some() && explicit("semi-implicit-euler").is_some());
+    }
+
+    /// A step is its evaluations and little else, where no damper is swept.
+    #[test]
+    fn counts_grow_with_the_evaluations() {
+        let costs = Costs::shipped();
+        for scene in CHARTED.into_iter().filter(|scene| *scene != "double-wishbone") {
+            let one = plain(&costs, scene, "leapfrog", "f32").unwrap();
+            for (scheme, evaluations) in [
+                ("dbd-p1", 2.0),
+                ("dbd", 3.0),
+                ("dbd-p2", 3.0),
+                ("pefrl", 4.0),
+                ("rk4", 4.0),
+                ("blanes-moan-s6", 6.0),
+            ] {
+                let ratio = plain(&costs, scene, scheme, "f32").unwrap() / one;
+                assert!(
+                    (0.7 * evaluations..1.3 * evaluations).contains(&ratio),
+                    "{scene} {scheme}: {ratio}"
+                );
+            }
+            let dbd = plain(&costs, scene, "dbd", "f32").unwrap();
+            let iterated =
+                costs.instructions_per_step(scene, "dbd", Some(1), false, "f32", ORIENTATION);
+            let ratio = iterated.unwrap() / dbd;
+            assert!((1.25..1.5).contains(&ratio), "{scene}: {ratio}");
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! What a survey leaves: `trade.csv`, the charts, the page.
+//!
+//! `survey => files in a folder`. Each appears when it is complete.
+
+use std::io;
+use std::path::Path;
+
+use dbd_output::file::{self, PendingFile};
+use dbd_plant::digits::significant;
+use dbd_plant::time::{display, rounded};
+use dbd_scene::Scene;
+use serde::Serialize;
+
+use crate::advice::{advice, remark, table as table_of};
+use crate::cache::Head;
+use crate::chart::{Chart, svg};
+use crate::command::Command;
+use crate::page::html;
+use crate::point::{Machine, Point, front};
+use crate::survey::Trade;
+
+/// Columns of `trade.csv`.
+pub const COLUMNS: [&str; 19] = [
+    "scheme",
+    "newton",
+    "damping",
+    "precision",
+    "orientation",
+    "kernel",
+    "step",
+    "steps",
+    "stable",
+    "error",
+    "energy_rms",
+    "energy_peak",
+    "evaluations_per_second",
+    "host_seconds_per_second",
+    "host_spread",
+    "target_instructions_per_second",
+    "host_front",
+    "target_front",
+    "lost",
+];
+
+/// \[1/s\] instructions of a Cortex-M4F at 168 MHz, 1.5 cycles each: an estimate, see docs/target.md.
+const REAL_TIME: f64 = 168e6 / 1.5;
+
+/// A survey to be reported.
+#[derive(Clone, Copy)]
+pub struct Report<'r> {
+    /// The scene.
+    pub scene: &'r Scene,
+    /// What the user calls it.
+    pub called: &'r str,
+    /// The survey.
+    pub trade: &'r Trade,
+}
+
+/// A survey as JSON.
+#[derive(Serialize)]
+pub struct Json<'r> {
+    scene: &'r str,
+    /// \[s\].
+    window: f64,
+    samples: u32,
+    /// Of a perturbation at the window's end.
+    growth: f64,
+    /// \[m\] what the truth is known to.
+    uncertainty: f64,
+    points: &'r [Point],
+}
+
+impl<'r> Report<'r> {
+    /// Writes all files.
+    ///
+    /// # Errors
+    /// Where the folder cannot be written to.
+    pub fn write(&self, folder: &Path) -> io::Result<()> {
+        let Self { scene, called, trade } = *self;
+        table(folder, &trade.points)?;
+        let conditions = conditions(trade);
+        let chart = Chart {
+            scene: &scene.name,
+            description: &scene.description,
+            window: trade.head.window(),
+            uncertainty: trade.head.uncertainty,
+            points: &trade.points,
+            command: Command::new(scene, called),
+            real_time_instructions: REAL_TIME,
+            conditions: &conditions,
+        };
+        file::write(folder, "trade.svg", &svg(&chart, Machine::Host))?;
+        if trade.points.iter().any(|point| point.target_instructions.is_some()) {
+            file::write(folder, "trade-cortex-m4f.svg", &svg(&chart, Machine::Target))?;
+        }
+        file::write(folder, "trade.html", &html(&chart))
+    }
+
+    /// What people read on a terminal: for both machines what nothing beats, what to choose and
+    /// how to run it.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let Self { scene, called, trade } = *self;
+        let mut text = format!("{}\n", scene.name);
+        for line in conditions(trade) {
+            text += &format!("  {line}\n");
+        }
+        let command = Command::new(scene, called);
+        let points = &trade.points;
+        for (machine, name) in
+            [(Machine::Host, "one core of this machine"), (Machine::Target, "Cortex-M4F")]
+        {
+            if points.iter().all(|point| point.cost(machine).is_none()) {
+                continue;
+            }
+            text += &format!("\n{name}: what nothing beats\n{}\n", table_of(points, machine));
+            if let Some(remark) = remark(points, machine) {
+                text += &format!("{remark}\n");
+            }
+            for advice in advice(points, machine, trade.head.uncertainty) {
+                text += &format!("{}\n", advice.sentence);
+                if let Some(line) = command.line(&points[advice.row]) {
+                    text += &format!("    {line}\n");
+                }
+            }
+        }
+        text
+    }
+
+    /// What programs read.
+    #[must_use]
+    pub fn json(&self) -> Json<'r> {
+        let Head { grid, growth, uncertainty, .. } = self.trade.head;
+        let (scene, points) = (self.scene.name.as_str(), self.trade.points.as_slice());
+        Json { scene, window: grid.window(), samples: grid.samples, growth, uncertainty, points }
+    }
+}
+
+/// What the figures depend on.
+fn conditions(trade: &Trade) -> Vec<String> {
+    let Head { grid, growth, uncertainty, .. } = trade.head;
+    let build = if cfg!(debug_assertions) { "a debug build: times mean little" } else { "release" };
+    vec![
+        format!(
+            "compared over {}, where a perturbation has grown {} times; the truth is known to {:.0e} m",
+            display(rounded(grid.window(), 12)),
+            significant(growth, 2),
+            uncertainty,
+        ),
+        format!(
+            "error: root mean square over bodies and {} samples of the distance from DOP853 at 1e-12; \
+             of a body the centres' distance and, at right angles, the angle between the attitudes \
+             times the root mean square distance of its mass from its centre",
+            grid.samples,
+        ),
+        "a step counts as unstable beyond the linear limit at t = 0, or where the run fails; as lost \
+         where it is further off than the truth goes at all: its error is shown, it is not advised"
+            .into(),
+        format!(
+            "times: median of 15 measurements on one thread, {}, {}, {build}; one step size of each \
+             method is timed and counts for all its steps",
+            std::env::consts::ARCH,
+            std::env::consts::OS,
+        ),
+        "Cortex-M4F: instructions per step counted in QEMU (docs/costs.csv); real time at 168 MHz \
+         with 1.5 cycles per instruction is an estimate"
+            .into(),
+    ]
+}
+
+fn table(folder: &Path, points: &[Point]) -> io::Result<()> {
+    let mut rows = csv::Writer::from_writer(PendingFile::create(folder, "trade.csv")?);
+    rows.write_record(COLUMNS)?;
+    let fronts = [Machine::Host, Machine::Target].map(|machine| front(points, machine));
+    let number = |value: Option<f64>| value.map(|value| format!("{value:?}")).unwrap_or_default();
+    for (row, point) in points.iter().enumerate() {
+        let stepper = &point.stepper;
+        let newton = stepper.newton.map(|n| n.to_string()).unwrap_or_default();
+        rows.write_record([
+            stepper.scheme.as_str(),
+            &newton,
+            stepper.damping.as_deref().unwrap_or_default(),
+            &stepper.precision,
+            &stepper.orientation,
+            &stepper.kernel.to_string(),
+            &format!("{:?}", point.step),
+            &point.steps.to_string(),
+            &point.stable.to_string(),
+            &number(point.error),
+            &number(point.energy_rms),
+            &number(point.energy_peak),
+            &format!("{:?}", point.evaluations),
+            &format!("{:?}", point.host_seconds),
+            &format!("{:?}", point.host_spread),
+            &number(point.target_instructions),
+            &fronts[0].contains(&row).to_string(),
+            &fronts[1].contains(&row).to_string(),
+            &point.lost.to_string(),
+        ])?;
+    }
+    let file = rows.into_inner().map_err(|error| io::Error::other(error.to_string()))?;
+    file.complete()
+}

@@ -1,0 +1,33 @@
+//! Speed against accuracy: every way of stepping a scene at every step.
+//!
+//! `scene => truth over a window => points (error, energy, cost) => fronts, chart, sentences`. The
+//! modules in the order in which they stand on each other:
+//!
+//! - [`point`]: what a point is, and which of them nothing beats.
+//! - [`costs`]: what a step costs on the target, as counted.
+//! - [`grid`]: the times compared, and the steps that reach them.
+//! - [`ways`]: all ways of stepping a scene, and their ladders of steps.
+//! - [`measure`]: how far off a way is at a step, and what a step costs.
+//! - [`cache`]: results, kept as they come.
+//! - [`survey`](mod@survey): all points, in parallel.
+//! - [`need`], [`advice`]: what an accuracy costs, in sentences and tables.
+//! - [`command`]: how to run it.
+//! - [`chart`], [`page`]: what people look at.
+//! - [`files`]: writes it and `trade.csv`.
+
+pub mod advice;
+pub mod cache;
+pub mod chart;
+pub mod command;
+pub mod costs;
+pub mod files;
+pub mod grid;
+pub mod measure;
+pub mod need;
+pub mod page;
+pub mod point;
+pub mod survey;
+pub mod ways;
+
+pub use point::{Machine, Point, Stepper, front};
+pub use survey::{Phase, SurveyError, Trade, TradeOptions, survey};

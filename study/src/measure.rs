@@ -1,0 +1,248 @@
+//! How far off a way of stepping is, and what its step costs a host.
+//!
+//! `(scene, truth, way, steps per interval) => error, energy; (scene, way, step) => seconds per
+//! step`. Accuracy is a pure function of its inputs; time is measured on one thread while nothing
+//! else of this program runs.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use dbd_plant::judge::{Judge, conserves_energy};
+use dbd_plant::{AnyPlant, Method, plant};
+use dbd_reference::implicit::Implicit;
+use dbd_reference::metric::Metric;
+use dbd_reference::naive::Naive;
+use dbd_reference::{Mechanism, State};
+use dbd_scene::Scene;
+
+use crate::grid::Grid;
+use crate::ways::Way;
+
+/// What a run over the window came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accuracy {
+    /// Whether it came to its end without growth beyond all measure.
+    pub stable: bool,
+    /// Whether its error exceeds the way that the truth itself goes.
+    pub lost: bool,
+    /// \[m\] root mean square over bodies and samples of the distance from the truth.
+    pub error: Option<f64>,
+    /// \[J\] root mean square over samples of the energy's error, where energy should stay.
+    pub energy_rms: Option<f64>,
+    /// \[J\] the largest likewise.
+    pub energy_peak: Option<f64>,
+}
+
+/// A run that did not come to its end.
+pub const UNSTABLE: Accuracy =
+    Accuracy { stable: false, lost: false, error: None, energy_rms: None, energy_peak: None };
+
+/// \[m\] A run with an error below this is never lost, however little the scene moves. It is the
+/// coarsest accuracy that is spoken of.
+const LEAST_TRAVEL: f64 = 1e-3;
+
+/// What is compared.
+pub struct Comparison<'c> {
+    /// The scene.
+    pub scene: &'c Scene,
+    /// The times that are compared.
+    pub grid: Grid,
+    /// Its true state at each.
+    pub truth: &'c [State],
+    /// Whether nothing changes its energy.
+    pub conservative: bool,
+    metric: Metric,
+    /// \[m\] the largest distance of the truth from its start.
+    travel: f64,
+}
+
+impl<'c> Comparison<'c> {
+    /// Comparisons of a scene with its truth.
+    #[must_use]
+    pub fn new(scene: &'c Scene, grid: Grid, truth: &'c [State]) -> Self {
+        let metric = Metric::of(&Mechanism::of(scene).0);
+        let ways = truth.iter().map(|state| metric.distance(&truth[0], state));
+        let travel = ways.fold(LEAST_TRAVEL, f64::max);
+        Self { scene, grid, truth, conservative: conserves_energy(scene), metric, travel }
+    }
+
+    /// How far off a way is with so many steps per interval of the truth.
+    #[must_use]
+    pub fn accuracy(&self, way: &Way, steps: u64) -> Accuracy {
+        let step = self.grid.step(steps);
+        match way {
+            Way::Kernel(method) => self.kernel(method, step, steps),
+            Way::NaiveSemiImplicitEuler => {
+                self.naive(step, steps, |naive| naive.semi_implicit_euler())
+            }
+            Way::NaiveLeapfrog => self.naive(step, steps, |naive| naive.leapfrog()),
+            Way::LinearlyImplicitEuler => {
+                let (mechanism, start) = Mechanism::of(self.scene);
+                let mut implicit = Implicit::new(&mechanism, start, step);
+                self.judge(|samples| {
+                    for sample in 0..self.truth.len() {
+                        if sample > 0 && !(0..steps).all(|_| implicit_step(&mut implicit)) {
+                            return;
+                        }
+                        samples.push(implicit.state.clone());
+                    }
+                })
+            }
+        }
+    }
+
+    fn kernel(&self, method: &Method, step: f64, steps: u64) -> Accuracy {
+        let Ok(mut plant) = plant(self.scene, method, step) else { return UNSTABLE };
+        let mut judge = Judge::new(self.scene, plant.as_ref());
+        let (mut samples, mut squares, mut peak, mut initial) = (Vec::new(), 0.0, 0.0_f64, None);
+        for sample in 0..self.truth.len() {
+            if sample > 0 && !plant.advance(steps).is_running() {
+                return UNSTABLE;
+            }
+            let state = plant.state();
+            let Ok(verdict) = judge.judge(&state) else { return UNSTABLE };
+            let total = verdict.energy.total();
+            let error: f64 = total - *initial.get_or_insert(total);
+            squares += error * error;
+            peak = peak.max(error.abs());
+            samples.push(State::of(&state));
+        }
+        self.judged(&samples, Some((squares, peak)))
+    }
+
+    fn naive(&self, step: f64, steps: u64, advance: impl Fn(&mut Naive<'_>)) -> Accuracy {
+        let (mechanism, start) = Mechanism::of(self.scene);
+        let mut naive = Naive::new(&mechanism, start, step);
+        self.judge(|samples| {
+            for sample in 0..self.truth.len() {
+                if sample > 0 {
+                    (0..steps).for_each(|_| advance(&mut naive));
+                }
+                let bodies = &naive.state.bodies;
+                if !bodies.iter().all(|body| body.position.iter().all(|x| x.is_finite())) {
+                    return;
+                }
+                samples.push(naive.state.clone());
+            }
+        })
+    }
+
+    fn judge(&self, run: impl FnOnce(&mut Vec<State>)) -> Accuracy {
+        let mut samples = Vec::with_capacity(self.truth.len());
+        run(&mut samples);
+        self.judged(&samples, None)
+    }
+
+    /// The verdict on samples, with the energy error's square sum and peak where it says anything.
+    fn judged(&self, samples: &[State], energy: Option<(f64, f64)>) -> Accuracy {
+        let error = self.metric.error(self.truth, samples);
+        if !error.is_finite() {
+            return UNSTABLE;
+        }
+        let energy = energy.filter(|_| self.conservative);
+        Accuracy {
+            stable: true,
+            lost: error > self.travel,
+            error: Some(error),
+            energy_rms: energy.map(|(squares, _)| (squares / samples.len() as f64).sqrt()),
+            energy_peak: energy.map(|(_, peak)| peak),
+        }
+    }
+}
+
+fn implicit_step(implicit: &mut Implicit<'_>) -> bool {
+    // Without a finite state there is no factor.
+    let state = &implicit.state;
+    let finite = state.bodies.iter().all(|body| {
+        let vectors = [body.position, body.velocity, body.rate];
+        vectors.iter().all(|v| v.iter().all(|x| x.is_finite()))
+    });
+    if finite {
+        implicit.step();
+    }
+    finite
+}
+
+/// What a step takes on this host.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cost {
+    /// \[s\] the median of the measurements.
+    pub seconds: f64,
+    /// Half the range of the middle half of the measurements over the median.
+    pub spread: f64,
+}
+
+/// Measurements of a step's time, each of as many steps as take [`BATCH`].
+const BATCHES: usize = 15;
+/// \[s\] per measurement.
+const BATCH: f64 = 2e-3;
+
+/// Measures a way's step of the size `step` \[s\] on this thread, from t = 0 of the scene on.
+#[must_use]
+pub fn cost(scene: &Scene, way: &Way, step: f64) -> Cost {
+    match way {
+        Way::Kernel(method) => match plant(scene, method, step) {
+            Ok(mut plant) => timed(|steps| take(plant.as_mut(), steps)),
+            Err(_) => Cost { seconds: f64::INFINITY, spread: 0.0 },
+        },
+        Way::NaiveSemiImplicitEuler | Way::NaiveLeapfrog => {
+            let (mechanism, start) = Mechanism::of(scene);
+            let mut naive = Naive::new(&mechanism, start, step);
+            timed(|steps| {
+                for _ in 0..steps {
+                    match way {
+                        Way::NaiveLeapfrog => naive.leapfrog(),
+                        _ => naive.semi_implicit_euler(),
+                    }
+                    black_box(&naive.state);
+                }
+            })
+        }
+        Way::LinearlyImplicitEuler => {
+            let (mechanism, start) = Mechanism::of(scene);
+            let mut implicit = Implicit::new(&mechanism, start, step);
+            timed(|steps| {
+                for _ in 0..steps {
+                    black_box(implicit_step(&mut implicit));
+                }
+            })
+        }
+    }
+}
+
+/// Takes so many steps in one call into the plant. One that has failed steps no more: it begins
+/// again.
+fn take(plant: &mut dyn AnyPlant, mut steps: u64) {
+    loop {
+        let before = plant.steps();
+        if black_box(plant.advance(steps)).is_running() {
+            return;
+        }
+        steps = steps.saturating_sub(plant.steps() - before);
+        plant.reset();
+    }
+}
+
+/// Times a function that takes so many steps.
+fn timed(mut take: impl FnMut(u64)) -> Cost {
+    let mut batch = |steps: u64| {
+        let start = Instant::now();
+        take(steps);
+        start.elapsed().as_secs_f64() / steps as f64
+    };
+    // Warms caches and finds how many steps a measurement takes.
+    let mut steps = 1;
+    loop {
+        let seconds = batch(steps);
+        if seconds * steps as f64 >= 0.5 * BATCH {
+            steps = (BATCH / seconds).ceil() as u64;
+            break;
+        }
+        steps *= 4;
+    }
+    let mut times: Vec<f64> = (0..BATCHES).map(|_| batch(steps.max(1))).collect();
+    times.sort_by(f64::total_cmp);
+    let seconds = times[BATCHES / 2];
+    let spread = 0.5 * (times[3 * BATCHES / 4] - times[BATCHES / 4]) / seconds;
+    Cost { seconds, spread }
+}

@@ -1,0 +1,369 @@
+//! The survey: all points of a scene.
+//!
+//! `(scene, options, cache) => window, points`. Runs for accuracy are shared among the machine's
+//! threads, the longest first; their results do not depend on who took them. Times are measured
+//! after that, one way after the other.
+
+use std::io;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::channel;
+use std::thread;
+
+use dbd_plant::Frequencies;
+use dbd_plant::time::display;
+use dbd_reference::metric::Metric;
+use dbd_reference::truth::{NoTruth, Opinion, integrate};
+use dbd_reference::window::{GROWTH, before_chaos};
+use dbd_reference::{Mechanism, State};
+use dbd_scene::Scene;
+
+use crate::cache::{Cache, Entry, Head, key};
+use crate::costs::Costs;
+use crate::grid::{Grid, SAMPLES};
+use crate::measure::{Comparison, UNSTABLE, cost};
+use crate::point::{Point, Stepper};
+use crate::ways::{Way, in_space, ways};
+
+/// \[s\] The longest window where none is given: a mechanism has moved, and a scene of a dozen
+/// bodies takes minutes.
+const LONGEST: f64 = 0.5;
+
+/// The shortest window, as a share of the scene's duration.
+const SHORTEST: f64 = 1e-6;
+
+/// \[rad\] A window in which the highest frequency turns further has no truth within an hour.
+const FURTHEST: f64 = 1e7;
+
+/// A step's time is measured at this share of the explicit schemes' limit.
+const TIMED: f64 = 0.1;
+
+/// A step beyond the limit by more than this counts as unstable, though the motion may not excite
+/// the mode that grows: planar motion leaves the modes out of its plane at rest, exactly. The estimate
+/// of the frequency is at most 1 % low.
+const MARGIN: f64 = 1.01;
+
+/// Force evaluations of the kernel that one of the references takes as long as.
+const REFERENCE: u64 = 8;
+
+/// What a survey is asked for.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TradeOptions {
+    /// \[s\] the longest window; 0.5 s or the scene's duration where `None`.
+    pub window: Option<f64>,
+    /// The folder that results are kept in; nothing is kept where `None`.
+    pub cache: Option<PathBuf>,
+    /// Whether the scene is the one that ships under its name, whose steps were counted on the
+    /// target.
+    pub shipped: bool,
+}
+
+/// A survey.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trade {
+    /// The window and the truth's uncertainty.
+    pub head: Head,
+    /// All points, way by way, steps descending.
+    pub points: Vec<Point>,
+}
+
+/// What a survey is at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// How long two truths from nearly one state stay near.
+    Window,
+    /// The truth.
+    Truth,
+    /// Its second opinion.
+    Opinion,
+    /// Runs for accuracy: work done and all work, in force evaluations.
+    Runs(u64, u64),
+    /// Measuring times: ways done and all ways.
+    Times(u64, u64),
+}
+
+/// Why a survey cannot look at a window.
+#[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
+pub enum WindowError {
+    /// Longer than the scene.
+    #[error("a window of {} is beyond the scene's duration of {}", display(*window), display(*duration))]
+    #[diagnostic(help("a window up to that, or a longer `duration` in the scene"))]
+    Long {
+        /// \[s\] as asked for.
+        window: f64,
+        /// \[s\] the scene's.
+        duration: f64,
+    },
+    /// Shorter than anything that can be compared.
+    #[error("a window of {} is too short to compare steps in", display(*window))]
+    #[diagnostic(help("at least {}, a millionth of the scene's duration", display(SHORTEST * duration)))]
+    Short {
+        /// \[s\] as asked for.
+        window: f64,
+        /// \[s\] the scene's duration.
+        duration: f64,
+    },
+    /// No truth in reasonable time.
+    #[error(
+        "the scene vibrates at up to {frequency:.1e} Hz: a truth over {} would take hours",
+        display(*window)
+    )]
+    #[diagnostic(help("--window {} or shorter", display(*possible)))]
+    Stiff {
+        /// \[Hz\] the highest frequency at t = 0.
+        frequency: f64,
+        /// \[s\] the window.
+        window: f64,
+        /// \[s\] one that can be done.
+        possible: f64,
+    },
+}
+
+/// Why a survey could not be made.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+pub enum SurveyError {
+    /// The window cannot be looked at.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Window(#[from] WindowError),
+    /// There is no truth to compare with.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    NoTruth(#[from] NoTruth),
+    /// Another survey of the same keeps its results in the folder.
+    #[error("another survey of this scene writes to {}", folder.display())]
+    #[diagnostic(help("wait until it is done, or name another folder with --out DIR"))]
+    Busy {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// Results cannot be kept.
+    #[error("cannot write the results: {0}")]
+    Write(io::Error),
+}
+
+/// \[s\] the longest window that a survey of a scene looks at.
+///
+/// # Errors
+/// [`WindowError`] where what was asked for exceeds the scene's duration or is too short to compare
+/// steps in, or no truth can be had over it.
+pub fn longest_window(scene: &Scene, asked: Option<f64>) -> Result<f64, WindowError> {
+    let duration = scene.duration;
+    if let Some(window) = asked {
+        if window > duration * (1.0 + 1e-9) {
+            return Err(WindowError::Long { window, duration });
+        }
+        if window < SHORTEST * duration {
+            return Err(WindowError::Short { window, duration });
+        }
+    }
+    let window = asked.unwrap_or(LONGEST).min(duration);
+    let frequencies = Frequencies::of(scene);
+    if frequencies.estimate * window > FURTHEST {
+        let possible = dbd_plant::time::rounded(0.5 * FURTHEST / frequencies.estimate, 1);
+        let frequency = frequencies.estimate_hz();
+        return Err(WindowError::Stiff { frequency, window, possible });
+    }
+    Ok(window)
+}
+
+struct Job {
+    way: Way,
+    label: String,
+    steps: u64,
+    weight: u64,
+    /// Whether the step is beyond what is stable at t = 0.
+    beyond: bool,
+}
+
+/// Surveys a scene. `progress` hears what it is at.
+///
+/// # Errors
+/// [`SurveyError`].
+pub fn survey(
+    scene: &Scene,
+    options: &TradeOptions,
+    progress: &mut dyn FnMut(Phase),
+) -> Result<Trade, SurveyError> {
+    let longest = longest_window(scene, options.window)?;
+    let key = key(scene, longest);
+    let mut cache = match &options.cache {
+        Some(folder) => Cache::open(folder, key).map_err(|error| match error.kind() {
+            io::ErrorKind::WouldBlock => SurveyError::Busy { folder: folder.clone() },
+            _ => SurveyError::Write(error),
+        })?,
+        None => Cache::nowhere(),
+    };
+    let mut truth = None;
+    let head = match cache.head {
+        Some(head) => head,
+        None => {
+            let (head, found) = look(scene, key, longest, progress)?;
+            cache.add(Entry::Head(head)).map_err(SurveyError::Write)?;
+            truth = Some(found);
+            head
+        }
+    };
+    let highest = Frequencies::of(scene).estimate;
+    let grid = head.grid;
+    let ways = ways(scene, head.in_space);
+    let jobs = jobs(&ways, highest, &grid, scene.body_names.len());
+    let missing: Vec<&Job> = jobs
+        .iter()
+        .filter(|job| !cache.accuracies.contains_key(&(job.label.clone(), job.steps)))
+        .collect();
+    if !missing.is_empty() {
+        let truth = match truth {
+            Some(truth) => truth,
+            None => {
+                progress(Phase::Truth);
+                truth_of(Opinion::Dop853, scene, grid)?
+            }
+        };
+        let comparison = Comparison::new(scene, grid, &truth);
+        run(&comparison, missing, &mut cache, progress)?;
+    }
+    let step = if highest > 0.0 { TIMED * 2.0 / highest } else { grid.interval };
+    for (row, way) in ways.iter().enumerate() {
+        let label = way.stepper().label();
+        if !cache.costs.contains_key(&label) {
+            progress(Phase::Times(row as u64, ways.len() as u64));
+            let cost = cost(scene, way, step);
+            let (seconds, spread) = (cost.seconds, cost.spread);
+            let entry = Entry::Cost { way: label, seconds, spread };
+            cache.add(entry).map_err(SurveyError::Write)?;
+        }
+    }
+    let costs = if options.shipped { Costs::shipped() } else { Costs::none() };
+    let points = jobs.iter().filter_map(|job| point(scene, &costs, job, &grid, &cache)).collect();
+    Ok(Trade { head, points })
+}
+
+/// Finds window and truth.
+fn look(
+    scene: &Scene,
+    key: u64,
+    longest: f64,
+    progress: &mut dyn FnMut(Phase),
+) -> Result<(Head, Vec<State>), SurveyError> {
+    progress(Phase::Window);
+    let window = before_chaos(scene, longest, SAMPLES, GROWTH)?;
+    // At least one interval, so that there is something to compare.
+    let last = window.times.iter().rposition(|time| *time <= window.end).unwrap_or(0).max(1);
+    let grid = Grid::new(scene, window.times[last]);
+    progress(Phase::Truth);
+    let truth = truth_of(Opinion::Dop853, scene, grid)?;
+    progress(Phase::Opinion);
+    let second = truth_of(Opinion::Verner98, scene, grid)?;
+    let metric = Metric::of(&Mechanism::of(scene).0);
+    let pairs = truth.iter().zip(&second);
+    let uncertainty = pairs.map(|(a, b)| metric.distance(a, b)).fold(0.0, f64::max);
+    let in_space = in_space(&truth);
+    Ok((Head { key, grid, growth: window.growth[last], uncertainty, in_space }, truth))
+}
+
+/// The states of a scene at a grid's times.
+fn truth_of(opinion: Opinion, scene: &Scene, grid: Grid) -> Result<Vec<State>, NoTruth> {
+    let (mechanism, start) = Mechanism::of(scene);
+    integrate(opinion, &mechanism, &start, &grid.times())
+}
+
+fn jobs(ways: &[Way], highest: f64, grid: &Grid, bodies: usize) -> Vec<Job> {
+    let of_way = |way: &Way| {
+        let (way, label) = (*way, way.stepper().label());
+        let price = match way {
+            Way::Kernel(method) => u64::from(method.evaluations()),
+            _ => REFERENCE,
+        };
+        way.ladder(highest, grid, bodies).into_iter().map(move |steps| Job {
+            way,
+            label: label.clone(),
+            steps,
+            weight: steps * u64::from(grid.samples) * price,
+            beyond: highest * grid.step(steps) > MARGIN * way.stability_limit(),
+        })
+    };
+    ways.iter().flat_map(of_way).collect()
+}
+
+/// Runs all jobs and keeps their results as they come.
+fn run(
+    comparison: &Comparison<'_>,
+    mut jobs: Vec<&Job>,
+    cache: &mut Cache,
+    progress: &mut dyn FnMut(Phase),
+) -> Result<(), SurveyError> {
+    jobs.sort_by_key(|job| std::cmp::Reverse(job.weight));
+    let all = jobs.iter().map(|job| job.weight).sum();
+    let mut done = 0;
+    progress(Phase::Runs(done, all));
+    let next = AtomicUsize::new(0);
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| {
+        let (sender, results) = channel();
+        for _ in 0..threads {
+            let (sender, next, jobs) = (sender.clone(), &next, &jobs);
+            scope.spawn(move || {
+                while let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let accuracy = match job.beyond {
+                        true => UNSTABLE,
+                        false => comparison.accuracy(&job.way, job.steps),
+                    };
+                    if sender.send((*job, accuracy)).is_err() {
+                        break;
+                    }
+                }
+            });
+        }
+        drop(sender);
+        for (job, accuracy) in results {
+            let entry = Entry::Accuracy {
+                way: job.label.clone(),
+                steps: job.steps,
+                stable: accuracy.stable,
+                lost: accuracy.lost,
+                error: accuracy.error,
+                energy_rms: accuracy.energy_rms,
+                energy_peak: accuracy.energy_peak,
+            };
+            cache.add(entry).map_err(SurveyError::Write)?;
+            done += job.weight;
+            progress(Phase::Runs(done, all));
+        }
+        Ok(())
+    })
+}
+
+fn point(scene: &Scene, costs: &Costs, job: &Job, grid: &Grid, cache: &Cache) -> Option<Point> {
+    let entry = cache.accuracies.get(&(job.label.clone(), job.steps))?;
+    let Entry::Accuracy { stable, lost, error, energy_rms, energy_peak, .. } = entry else {
+        return None;
+    };
+    let (seconds, spread) = cache.costs.get(&job.label)?;
+    let step = grid.step(job.steps);
+    let stepper = job.way.stepper();
+    Some(Point {
+        step,
+        steps: job.steps * u64::from(grid.samples),
+        stable: *stable,
+        lost: *lost,
+        error: *error,
+        energy_rms: *energy_rms,
+        energy_peak: *energy_peak,
+        evaluations: f64::from(job.way.evaluations()) / step,
+        host_seconds: seconds / step,
+        host_spread: *spread,
+        target_instructions: instructions(scene, costs, &job.way).map(|count| count / step),
+        stepper,
+    })
+}
+
+/// Instructions per step on Cortex-M4F, where they were counted: of the scenes that ship.
+fn instructions(scene: &Scene, costs: &Costs, way: &Way) -> Option<f64> {
+    let Stepper { scheme, newton, damping, precision, orientation, kernel } = &way.stepper();
+    if !kernel {
+        return None;
+    }
+    let explicit = damping.is_some();
+    costs.instructions_per_step(&scene.name, scheme, *newton, explicit, precision, orientation)
+}
