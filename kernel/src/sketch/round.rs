@@ -175,8 +175,8 @@ macro_rules! model {
         $crate::model!(@ [$(#[$meta])* $visible] $name F32 model_f32 $sketch);
     };
     (@ [$($head:tt)*] $name:ident $precision:ident $function:ident $sketch:path) => {
-        $($head)* static $name: $crate::Model<
-            $crate::$precision,
+        $($head)* static $name: $crate::model::Model<
+            $crate::geometry::$precision,
             { $sketch.counts()[0] },
             { $sketch.counts()[1] },
             { $sketch.counts()[2] },
