@@ -15,7 +15,12 @@ pub fn root() -> &'static Path {
 
 /// The cargo that runs this program.
 pub fn cargo() -> Command {
-    program(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+    let mut cargo = program(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    if std::env::var_os("CI").is_some() {
+        // Everything is built once there: what a second build would be quicker by is only written.
+        cargo.env("CARGO_INCREMENTAL", "0");
+    }
+    cargo
 }
 
 /// A program that will run in the repository's root.

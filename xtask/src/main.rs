@@ -44,6 +44,9 @@ enum Command {
         #[arg(long, conflicts_with = "quick")]
         write_times: bool,
     },
+    /// Runs the tests across the crates and lets them write the tables and pictures of README and
+    /// docs from what they compute; golden bits are only compared.
+    Tables,
     /// Builds a program of the firmware and runs it in QEMU.
     Fw {
         /// The program.
@@ -77,6 +80,7 @@ fn main() -> ExitCode {
         Command::Setup => setup::run(),
         Command::Test { quick: true, .. } => tests::quick(),
         Command::Test { long, write_times, .. } => tests::run(long, write_times),
+        Command::Tables => tests::tables(),
         Command::Fw { name, long, arguments } => firmware::run(&name, long, &arguments),
         Command::Cost { baseline: true, .. } => cost::baseline(),
         Command::Cost { scenes, compare, .. } => cost::run(&scenes, compare),

@@ -20,6 +20,7 @@ use crate::{audit, cost};
 use cases::{Case, Selection};
 
 const KERNEL: &str = "dbd-kernel";
+const GOLDEN: &str = "dbd-golden";
 /// What every build of the host's takes: one set of features, so that nothing is built twice.
 const EVERYTHING: [&str; 2] = ["--workspace", "--all-features"];
 /// Targets that the kernel is checked for beside the firmware's: without an FPU, without
@@ -73,6 +74,17 @@ pub fn quick() -> Result<()> {
         println!("{} took {:.1} s: it may belong to them", case.name, case.seconds);
     }
     steps.finish()
+}
+
+/// Writes the pages' tables and pictures.
+///
+/// # Errors
+/// Where a test failed.
+pub fn tables() -> Result<()> {
+    let mut tests = cargo();
+    tests.args(["test", "--quiet", "--package", "dbd-tests", "--package", GOLDEN]);
+    tests.arg("--all-features");
+    run_command(tests.env("DBD_BLESS", "1"))
 }
 
 fn host_tools() -> Result<()> {
@@ -134,7 +146,7 @@ fn release(steps: &mut Steps, cases: &mut Vec<Case>) -> Option<Host> {
     steps.step("the host's programs are built, optimised as released and not at all", || {
         let built = build(cargo().args(["build", "--release"]).args([
             "--package",
-            "dbd-tests",
+            GOLDEN,
             "--test",
             "golden",
             "--package",

@@ -1,8 +1,8 @@
 //! Golden bits: the state's hash per scene, scheme, precision, step and number of steps.
 //!
-//! The table `golden/hashes.csv` is part of the interface, `golden/orientations.csv` holds those of
-//! Euler angles. `DBD_BLESS=bits cargo test -p dbd-tests
-//! --test golden` writes the present hashes; a changed one needs its reason in the commit.
+//! The table `hashes.csv` is part of the interface, `orientations.csv` holds those of Euler angles.
+//! `DBD_BLESS=bits cargo test -p dbd-golden` writes the present hashes; a changed one needs its
+//! reason in the commit.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -25,7 +25,7 @@ const LONG: (&str, u64) = ("four-bar", 10_000);
 const ALL_SCHEMES: [&str; 5] = ["four-bar", "3rrr", "crank-slider", "3ruu", "double-wishbone"];
 
 fn table(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("golden").join(name)
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(name)
 }
 
 /// Compares what is with the golden table, or blesses it.
