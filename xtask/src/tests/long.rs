@@ -6,8 +6,9 @@ use super::cases::Case;
 const LIMIT: f64 = 3.0;
 
 /// Program and test, each longer than [`LIMIT`].
-pub const LONG: [(&str, &str); 14] = [
+pub const LONG: [(&str, &str); 17] = [
     ("tests::frequency", "the_bound_holds_along_the_run_of_every_scene::test"),
+    ("tests::frequency", "written_in_the_page"),
     ("tests::reference_implicit", "large_steps_are_calm"),
     ("tests::reference_truth", "the_two_opinions_agree_on_every_scene"),
     ("tests::reference_truth", "the_window_ends_where_a_perturbation_has_grown"),
@@ -19,6 +20,11 @@ pub const LONG: [(&str, &str); 14] = [
     ("tests::stability", "three_rrr"),
     ("tests::stability", "crank_slider"),
     ("tests::stability", "sweeps_keep_the_step_that_explicit_damping_loses"),
+    ("tests::stability", "written_in_the_page"),
+    (
+        "tests::trade",
+        "two_surveys_give_the_same_accuracy_to_the_last_bit_however_they_are_interrupted",
+    ),
     ("tests::trade", "every_step_of_a_survey_is_one_that_a_run_accepts"),
     ("tests::trade", "a_survey_holds_every_way_and_says_what_is_unstable"),
 ];
