@@ -103,7 +103,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     /// A force evaluation at the present pose: dampers act at the present velocities with
     /// [`ExplicitDampers`](crate::forces::ExplicitDampers); with
     /// [`DampersLeft`](crate::forces::DampersLeft) they are left to [`Self::sweep_forward`] and
-    /// its reverse. A step has one evaluation [`At::Boundary`].
+    /// its reverse. A step has at least one evaluation [`At::Boundary`].
     ///
     /// # Errors
     /// [`Cause::UndefinedTwist`] names the torsion spring whose twist is undefined.

@@ -68,7 +68,7 @@ impl<R: Real> SinceStart<R> {
         if odd { (-self.turn.w, -self.s) } else { (self.turn.w, self.s) }
     }
 
-    /// The turn count brought to the half winding nearest the pose, which a step does once, at its
+    /// The turn count brought to the half winding nearest the pose, which a step does near its
     /// boundary.
     #[inline(always)]
     #[must_use]

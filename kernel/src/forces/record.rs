@@ -55,7 +55,7 @@ impl Dampers for DampersLeft {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum At {
-    /// Once per step, near its boundary: turn counts are settled.
+    /// Near a step's boundary, at least once per step: turn counts are settled.
     Boundary,
     /// Anywhere else: turn counts are only read.
     Stage,

@@ -1,6 +1,6 @@
 //! Torsion springs, summed after all groups.
 //!
-//! `(springs, orientations, turn counts) => torques; turn counts, settled at a step's boundary`.
+//! `(springs, orientations, turn counts) => torques; turn counts, settled near a step's boundary`.
 
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
