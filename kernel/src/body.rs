@@ -60,6 +60,16 @@ pub struct BodyState<P: Geometry> {
     pub angular_velocity: P::Velocity,
 }
 
+/// A change of velocity \[m/s\] (world) and of angular velocity \[rad/s\] (body axes).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Increment<R> {
+    /// \[m/s\] world axes.
+    pub linear: Vec3<R>,
+    /// \[rad/s\] body axes.
+    pub angular: Vec3<R>,
+}
+
 impl<P: Geometry> BodyState<P> {
     /// A state rounded once from double precision: position \[m\], unit quaternion (scalar first,
     /// body → world), velocity \[m/s\] (world), angular velocity \[rad/s\] (body axes).

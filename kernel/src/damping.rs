@@ -1,4 +1,4 @@
-//! Dampers as pairwise exact impulses: unconditionally stable, energy never added.
+//! Dampers as pairwise exact impulses: unconditionally stable, energy never added but by rounding.
 //!
 //! `(pose, velocities, h) => velocities`. For each damper along a direction u with rate `u·v_rel`
 //! and effective mass μ, `1/μ = Σ_bodies (1/m + (r×u)ᵀ·I⁻¹·(r×u))`, the impulse
@@ -8,12 +8,13 @@
 //! `1/(1 + x + x²/2)`: in (0, 1], second order, plain arithmetic.
 //! A TSDA damps along its line, a torsion spring along its gradient, a point bushing along the
 //! world's axes, a point on a line along the line's two normals, one after the other.
-//! Linear momentum is always kept. Angular momentum is kept by dampers of TSDAs with a free length
+//! Velocities are rounded once per pair where [`Geometry::SUMS_APART`] (single precision), else once
+//! per damper. Linear momentum is always kept. Angular momentum is kept by dampers of TSDAs with a free length
 //! and of torsion springs; a damped bushing or point on a line has the law `c·v_rel`, whose torque
 //! vanishes only with its deflection.
 
 use crate::attitude::Attitude as _;
-use crate::body::{Body, BodyState};
+use crate::body::{Body, BodyState, Increment};
 use crate::elements::clearance;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::geometry::Geometry;
@@ -56,9 +57,69 @@ fn impulse_per_rate<R: Real>(inverse: R, damping: R, h: R) -> R {
     R::ONE / (inverse * (R::ONE + R::ONE / s))
 }
 
+/// A pair's two bodies while its dampers push them. Where a precision sums impulses apart, each
+/// velocity is rounded once per pair, not once per damper: a fast body's velocity in single
+/// precision has no digits for what one damper of its joint takes away.
+struct Pair<P: Geometry> {
+    rows: [usize; 2],
+    states: [BodyState<P>; 2],
+    added: [Increment<P::Real>; 2],
+}
+
+impl<P: Geometry> Pair<P> {
+    #[inline(always)]
+    fn new(rows: [usize; 2], bodies: &[BodyState<P>]) -> Self {
+        let states = rows.map(|row| bodies.get(row).copied().unwrap_or_default());
+        Self { rows, states, added: [Increment::default(); 2] }
+    }
+
+    /// The rate `u·v + n·ω` of the end of a lever.
+    #[inline(always)]
+    fn rate(&self, end: usize, lever: &Lever<P::Real>) -> P::Real {
+        let (Some(state), Some(added)) = (self.states.get(end), self.added.get(end)) else {
+            return P::Real::ZERO;
+        };
+        let mut linear = P::velocity(&state.velocity);
+        let mut angular = P::velocity(&state.angular_velocity);
+        if P::SUMS_APART {
+            linear = linear + added.linear;
+            angular = angular + added.angular;
+        }
+        lever.linear.dot(linear) + lever.moment.dot(angular)
+    }
+
+    #[inline(always)]
+    fn push(&mut self, end: usize, lever: &Lever<P::Real>, impulse: P::Real) {
+        let linear = lever.linear * (impulse * lever.inverse_mass);
+        let angular = lever.moment.scale(lever.inverse_inertia) * impulse;
+        let (Some(state), Some(added)) = (self.states.get_mut(end), self.added.get_mut(end)) else {
+            return;
+        };
+        if P::SUMS_APART {
+            added.linear = added.linear + linear;
+            added.angular = added.angular + angular;
+        } else {
+            P::accelerate(&mut state.velocity, linear);
+            P::accelerate(&mut state.angular_velocity, angular);
+        }
+    }
+
+    #[inline(always)]
+    fn store(self, bodies: &mut [BodyState<P>]) {
+        for ((row, mut moved), added) in self.rows.into_iter().zip(self.states).zip(self.added) {
+            if P::SUMS_APART {
+                P::accelerate(&mut moved.velocity, added.linear);
+                P::accelerate(&mut moved.angular_velocity, added.angular);
+            }
+            if let Some(state) = bodies.get_mut(row) {
+                *state = moved;
+            }
+        }
+    }
+}
+
 /// What a unit impulse does to one body: `u/m` and `I⁻¹·n`, n its moment in body axes.
 struct Lever<R> {
-    row: usize,
     linear: Vec3<R>,
     moment: Vec3<R>,
     inverse_mass: R,
@@ -67,9 +128,8 @@ struct Lever<R> {
 
 impl<R: Real> Lever<R> {
     #[inline(always)]
-    fn new(row: usize, body: Option<&Body<R>>, linear: Vec3<R>, moment: Vec3<R>) -> Option<Self> {
+    fn new(body: Option<&Body<R>>, linear: Vec3<R>, moment: Vec3<R>) -> Option<Self> {
         body.map(|body| Self {
-            row,
             linear,
             moment,
             inverse_mass: body.inverse_mass,
@@ -83,40 +143,18 @@ impl<R: Real> Lever<R> {
         self.linear.dot(self.linear) * self.inverse_mass
             + self.moment.dot(self.moment.scale(self.inverse_inertia))
     }
-
-    /// `u·v + n·ω`.
-    #[inline(always)]
-    fn rate<P: Geometry<Real = R>>(&self, bodies: &[BodyState<P>]) -> R {
-        match bodies.get(self.row) {
-            Some(state) => {
-                self.linear.dot(P::velocity(&state.velocity))
-                    + self.moment.dot(P::velocity(&state.angular_velocity))
-            }
-            None => R::ZERO,
-        }
-    }
-
-    #[inline(always)]
-    fn push<P: Geometry<Real = R>>(&self, bodies: &mut [BodyState<P>], impulse: R) {
-        if let Some(state) = bodies.get_mut(self.row) {
-            let linear = self.linear * (impulse * self.inverse_mass);
-            let angular = self.moment.scale(self.inverse_inertia) * impulse;
-            P::accelerate(&mut state.velocity, linear);
-            P::accelerate(&mut state.angular_velocity, angular);
-        }
-    }
 }
 
 /// The impulse of one damper between two levers over the time `h`.
 #[inline(always)]
 fn damp<P: Geometry>(
-    bodies: &mut [BodyState<P>],
-    a: Option<Lever<P::Real>>,
-    b: Option<Lever<P::Real>>,
+    pair: &mut Pair<P>,
+    levers: [Option<Lever<P::Real>>; 2],
     ground_rate: P::Real,
     damping: P::Real,
     h: P::Real,
 ) {
+    let [a, b] = levers;
     let zero = P::Real::ZERO;
     let inverse = a.as_ref().map_or(zero, Lever::inverse_effective_mass)
         + b.as_ref().map_or(zero, Lever::inverse_effective_mass);
@@ -124,15 +162,15 @@ fn damp<P: Geometry>(
     if inverse == zero {
         return;
     }
-    let rate = b.as_ref().map_or(zero, |b| b.rate(bodies))
-        - a.as_ref().map_or(zero, |a| a.rate(bodies))
+    let rate = b.as_ref().map_or(zero, |b| pair.rate(1, b))
+        - a.as_ref().map_or(zero, |a| pair.rate(0, a))
         + ground_rate;
     let impulse = impulse_per_rate(inverse, damping, h) * rate;
     if let Some(a) = a {
-        a.push(bodies, impulse);
+        pair.push(0, &a, impulse);
     }
     if let Some(b) = b {
-        b.push(bodies, -impulse);
+        pair.push(1, &b, -impulse);
     }
 }
 
@@ -182,6 +220,7 @@ fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
         return sweep_stars::<P, T, REVERSE>(model, group, dampers, h, places, bodies);
     }
     let elements = group.elements();
+    let mut pair = Pair::new([group.a, group.b].map(BodyIndex::row), bodies);
     for i in 0..elements {
         let i = if REVERSE { elements - 1 - i } else { i };
         let (Some(element), Some(&whole)) = (placed(model, places, (0, group), i), dampers.get(i))
@@ -201,12 +240,13 @@ fn sweep_group<P: Geometry, T: Terms, const REVERSE: bool>(
         for u in directions.into_iter().take(count) {
             let lever = |body: BodyIndex, arm: Vec3<P::Real>| {
                 let (frame, row) = (places.frames.get(body.row())?, body.row());
-                Lever::new(row, model.bodies.get(row), u, P::to_body(frame, arm.cross(u)))
+                Lever::new(model.bodies.get(row), u, P::to_body(frame, arm.cross(u)))
             };
-            let (a, b) = (lever(group.a, element.arm_a), lever(group.b, element.arm_b));
-            damp(bodies, a, b, u.dot(element.ground_rate), damping, h);
+            let levers = [lever(group.a, element.arm_a), lever(group.b, element.arm_b)];
+            damp(&mut pair, levers, u.dot(element.ground_rate), damping, h);
         }
     }
+    pair.store(bodies);
 }
 
 /// The stars of a group without clearance: the two bodies' velocities are at hand until the last
@@ -227,7 +267,7 @@ fn sweep_stars<P: Geometry, T: Terms, const REVERSE: bool>(
     let ground_rate = end_b.velocity - end_a.velocity;
     let rows = [group.a, group.b].map(BodyIndex::row);
     let [body_a, body_b] = rows.map(|row| model.bodies.get(row));
-    let mut pair = rows.map(|row| bodies.get(row).copied().unwrap_or_default());
+    let mut pair = Pair::new(rows, bodies);
     let mut tips = [(P::Location::default(), Vec3::ZERO); MOST_ARMS];
     let stars = group.stars as usize;
     for i in 0..stars {
@@ -249,9 +289,9 @@ fn sweep_stars<P: Geometry, T: Terms, const REVERSE: bool>(
         let mut element = |((tip, arm_b), damping): (&Spot<P>, &P::Real)| {
             let d = P::displacement(&centre, tip);
             let u = d * d.dot(d).sqrt().reciprocal_or_zero();
-            let a = Lever::new(0, body_a, u, end_a.to_axes(arm_a.cross(u)));
-            let b = Lever::new(1, body_b, u, end_b.to_axes(arm_b.cross(u)));
-            damp(&mut pair, a, b, u.dot(ground_rate), *damping, h);
+            let a = Lever::new(body_a, u, end_a.to_axes(arm_a.cross(u)));
+            let b = Lever::new(body_b, u, end_b.to_axes(arm_b.cross(u)));
+            damp(&mut pair, [a, b], u.dot(ground_rate), *damping, h);
         };
         let elements = tips.get(..arms).unwrap_or_default().iter().zip(dampers);
         if REVERSE {
@@ -260,11 +300,7 @@ fn sweep_stars<P: Geometry, T: Terms, const REVERSE: bool>(
             elements.for_each(&mut element);
         }
     }
-    for (row, moved) in rows.into_iter().zip(pair) {
-        if let Some(state) = bodies.get_mut(row) {
-            *state = moved;
-        }
-    }
+    pair.store(bodies);
 }
 
 /// What acts of an element's damper beyond its clearance; without one all of it.
@@ -309,10 +345,12 @@ fn torsion<P: Geometry, T: Terms>(
     let (frame_a, frame_b) = (places.frames.get(row_a), places.frames.get(row_b));
     let world = End::new(model, places, spring.a, None).to_world(twist.gradient);
     let lever = |row: usize, frame: Option<&P::Frame>| {
-        frame.and_then(|f| Lever::new(row, model.bodies.get(row), Vec3::ZERO, P::to_body(f, world)))
+        frame.and_then(|f| Lever::new(model.bodies.get(row), Vec3::ZERO, P::to_body(f, world)))
     };
-    let zero = P::Real::ZERO;
-    damp(bodies, lever(row_a, frame_a), lever(row_b, frame_b), zero, damping, h);
+    let mut pair = Pair::new([row_a, row_b], bodies);
+    let levers = [lever(row_a, frame_a), lever(row_b, frame_b)];
+    damp(&mut pair, levers, P::Real::ZERO, damping, h);
+    pair.store(bodies);
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@
 //! spring, adds `½·φ × τ` to the response to a turn φ in body axes (the commutator of turns), which
 //! is taken off again. Both speak for the pose, not for the future.
 
-use crate::body::{Body, BodyState};
+use crate::body::{Body, BodyState, Increment};
 use crate::elements::input::InputKind;
 use crate::elements::load::LoadFrame;
 use crate::elements::point_law::taut;
@@ -25,7 +25,6 @@ use crate::real::Real;
 use crate::rotation;
 use crate::schedule::Signal;
 use crate::state::State;
-use crate::step::Increment;
 use crate::vector::Vec3;
 
 /// A symmetric 6×6 matrix over (linear, angular), in full.

@@ -4,7 +4,7 @@
 //! `(h·D⁻¹)·Q`, a drift changes poses; the diagonal h·D⁻¹ is computed once per (model, step),
 //! D the diagonal of masses and principal inertias (Franco & Degani 2026, eq. 7–8).
 
-use crate::body::{Body, BodyState};
+use crate::body::{Body, BodyState, Increment};
 use crate::damping;
 use crate::forces::{self, At, Dampers, Evaluation, Instant, Turns, Wrench};
 use crate::geometry::Geometry;
@@ -32,16 +32,6 @@ impl<R: Real> Diagonal<R> {
         let i = body.inertia;
         Self { mass: h / body.mass, inertia: Vec3::new(h / i.x, h / i.y, h / i.z) }
     }
-}
-
-/// A change of velocity \[m/s\] (world) and of angular velocity \[rad/s\] (body axes).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Increment<R> {
-    /// \[m/s\] world axes.
-    pub linear: Vec3<R>,
-    /// \[rad/s\] body axes.
-    pub angular: Vec3<R>,
 }
 
 /// What a plant knows of its evaluations. Never part of the state: evaluating anew gives the same

@@ -8,7 +8,7 @@
 //! iteration halves the limit and dissipates `h·ω²·E` per mode. Dampers are explicit forces.
 //! Keeps linear momentum to rounding, angular momentum to first order.
 
-use crate::body::BodyState;
+use crate::body::{BodyState, Increment};
 use crate::damping::Damping;
 use crate::forces::{At, ExplicitDampers};
 use crate::geometry::Geometry;
@@ -17,7 +17,7 @@ use crate::real::Real;
 use crate::rotation;
 use crate::schemes::Scheme;
 use crate::status::Cause;
-use crate::step::{Increment, Stepper};
+use crate::step::Stepper;
 
 /// The paper's step with a fixed number of Newton iterations, 0 by default.
 ///

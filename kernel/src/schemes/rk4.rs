@@ -7,7 +7,7 @@
 //! the step by a damper to about 2.78·m/c. Keeps linear momentum to rounding, angular momentum
 //! and energy to fourth order only: they drift.
 
-use crate::body::BodyState;
+use crate::body::{BodyState, Increment};
 use crate::damping::Damping;
 use crate::forces::{At, ExplicitDampers};
 use crate::geometry::Geometry;
@@ -17,7 +17,7 @@ use crate::rotation;
 use crate::schemes::Scheme;
 use crate::schemes::dbd::accelerate;
 use crate::status::Cause;
-use crate::step::{Increment, Stepper};
+use crate::step::Stepper;
 use crate::vector::Vec3;
 
 /// Four stages at the start, twice the middle and the end.
