@@ -1,10 +1,11 @@
 //! Observed orders of convergence: what each scheme states, in the plane and in space, without
 //! and with dampers. The truth is a fourth-order run at a step far below.
 
+use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::model::ModelOwner;
 use dbd_kernel::{
-    BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F64, Leapfrog, Pefrl, Rk4,
-    Scheme, SemiImplicitEuler,
+    BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F64, Leapfrog, LoadFrame,
+    Pefrl, Rk4, Scheme, SemiImplicitEuler, Vec3,
 };
 use dbd_tests::{Bench, distance, hung_ring, run, turned};
 
@@ -120,6 +121,43 @@ fn in_the_plane_with_dampers() {
 fn in_space_with_dampers() {
     let case = Case::new("space, damped", hung_ring(2.0), true, 0.1);
     case.check_all(|_, damped| damped, [4_000, 500, 320]);
+}
+
+/// Two bars as in [`flat`], pushed by a force and shaken by the ground after tables, held or linear;
+/// every knot is at a multiple of 1/40 of the time.
+fn driven(damping: f64, linear: bool) -> Bench<F64> {
+    let mut model = flat(damping);
+    let bar = BodyIndex(1);
+    let push = InputKind::Force {
+        body: bar,
+        point: Vec3::new(0.2, 0.1, 0.0),
+        direction: Vec3::new(0.6, 0.8, 0.0),
+        frame: LoadFrame::Body,
+    };
+    let table = [[0.0, 1.0], [0.1, 8.0], [0.15, -4.0], [0.3, 2.0]];
+    model.add_table(push, &table, linear).unwrap();
+    // A jump of the ground would be a jump of a length: held, it stands still.
+    let table = [[0.05, 0.0], [0.2, 0.02], [0.35, -0.01]];
+    let shaken = InputKind::Anchor { direction: Vec3::new(0.0, 1.0, 0.0) };
+    let table = if linear { &table[..] } else { &table[..1] };
+    let road = model.add_table(shaken, table, linear).unwrap();
+    let between = [BodyIndex::anchor(road), BodyIndex(0)];
+    model.add_tsda(between, [[0.3, -0.5, 0.0], [0.1, 0.0, 0.0]], 500.0, damping, 0.4).unwrap();
+    model
+}
+
+#[test]
+fn under_tables_every_scheme_keeps_its_order() {
+    for (title, linear) in [("linear tables", true), ("held tables", false)] {
+        let case = Case::new(title, driven(0.0, linear), false, 0.4);
+        case.check_all(|undamped, _| undamped, [4_000, 800, 960]);
+    }
+}
+
+#[test]
+fn under_tables_every_scheme_keeps_its_order_with_dampers() {
+    let case = Case::new("linear tables, damped", driven(3.0, true), true, 0.4);
+    case.check_all(|_, damped| damped, [4_000, 800, 960]);
 }
 
 #[test]

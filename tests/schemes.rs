@@ -1,5 +1,5 @@
 //! What each scheme states of itself: stability limit, dissipation, evaluations, what it
-//! conserves, and that inputs are held for all its stages.
+//! conserves, and how inputs reach its stages.
 
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::energy::energy;
@@ -276,20 +276,45 @@ fn energy_does_not_drift_in_a_long_run_of_leapfrog() {
     assert!(mean < -0.1, "{mean}");
 }
 
+/// A free mass of 2 kg that a force pushes along x.
+fn pushed() -> (Bench<F64>, InputKind<F64>) {
+    let mut model = Bench::<F64>::new();
+    let body = model.add_body(2.0, [0.1; 3], at([0.0; 3])).unwrap();
+    let (direction, frame) = (Vec3::new(1.0, 0.0, 0.0), LoadFrame::World);
+    (model, InputKind::Force { body, point: Vec3::ZERO, direction, frame })
+}
+
 #[test]
-fn inputs_and_loads_are_held_for_all_stages() {
-    // A free mass under a force that a table ramps: h/m times the sum of the forces at the steps'
-    // starts, in every scheme, whatever it does between.
+fn tables_are_sampled_at_the_stages() {
+    // The impulse of a ramp is its integral; a scheme of first order takes one side of each step.
     fn check<S: Scheme>(scheme: S) {
-        let mut model = Bench::<F64>::new();
-        let body = model.add_body(2.0, [0.1; 3], at([0.0; 3])).unwrap();
-        let (direction, frame) = (Vec3::new(1.0, 0.0, 0.0), LoadFrame::World);
-        let kind = InputKind::Force { body, point: Vec3::ZERO, direction, frame };
+        let (mut model, kind) = pushed();
         model.add_table(kind, &[[0.0, 1.0], [0.01, 5.0]], true).unwrap();
         let (h, steps) = (1e-3, 10);
         let mut plant = Plant::new(&model, scheme, h).unwrap();
         plant.advance(steps).ok().unwrap();
-        let sum: f64 = (0..steps).map(|n| 1.0 + 400.0 * h * n as f64).sum();
+        let (impulse, v) = (0.03, plant.state().bodies[0].velocity.x);
+        let bound = if S::ORDER == 1 { 0.5 * h * 4.0 / 2.0 * 1.01 } else { 1e-15 };
+        assert!((v - impulse / 2.0).abs() < bound, "{}: {v}", S::NAME);
+    }
+    for_every_scheme!(check);
+}
+
+#[test]
+fn what_a_caller_sets_is_held_for_all_stages() {
+    // A force that the caller ramps: h/m times the sum of the forces, in every scheme.
+    fn check<S: Scheme>(scheme: S) {
+        let (mut model, kind) = pushed();
+        let push = model.add_input(kind, 0.0).unwrap();
+        let (h, steps) = (1e-3, 10);
+        let mut plant = Plant::new(&model, scheme, h).unwrap();
+        let mut sum = 0.0;
+        for n in 0..steps {
+            let force = 1.0 + 400.0 * h * f64::from(n);
+            plant.set_input(push, force).unwrap();
+            plant.step().ok().unwrap();
+            sum += force;
+        }
         let v = plant.state().bodies[0].velocity.x;
         assert!((v - sum * h / 2.0).abs() < 1e-15, "{}: {v}, {}", S::NAME, sum * h / 2.0);
     }

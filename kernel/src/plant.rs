@@ -13,7 +13,7 @@ use crate::geometry::Geometry;
 use crate::index::{BodyIndex, InputIndex};
 use crate::model::{FrameOf, ModelOwner, RealOf, Terms};
 use crate::real::Real;
-use crate::schedule::{KnotStep, LoadWindow, Signal, sample};
+use crate::schedule::{KnotStep, LoadWindow, Signal, StageTime, sample};
 use crate::schemes::Scheme;
 use crate::state::State;
 use crate::status::{Cause, Failure, Status};
@@ -176,9 +176,11 @@ where
     fn sample(&mut self) {
         if <H::Target as ModelOwner>::Terms::INPUTS {
             let view = self.model.view();
-            let (knots, step) = (self.knots.as_ref(), self.state.step);
+            let knots = self.knots.as_ref();
+            let start =
+                StageTime { step: self.state.step, part: RealOf::<H::Target>::ZERO, h: self.h };
             let signals = self.state.signals.as_mut();
-            if sample(view.inputs, view.knots, knots, step, self.h, signals) {
+            if sample(view.inputs, view.knots, knots, start, signals) {
                 self.ledger.fresh = false;
             }
         }
@@ -198,7 +200,8 @@ where
             h: self.h,
             diagonals: self.diagonals.as_ref(),
             windows: self.windows.as_ref(),
-            signals: self.state.signals.as_ref(),
+            knots: self.knots.as_ref(),
+            signals: self.state.signals.as_mut(),
             bodies: self.state.bodies.as_mut(),
             turns: self.state.turns.as_mut(),
             step,

@@ -1,15 +1,16 @@
 //! What happens when: load windows and tables in whole steps, the inputs' present signals.
 //!
-//! `(times, step) => windows, knots in steps; (table, step n) => signal`. A signal is sampled for the
-//! start of a step, when the one before it ends, and held for all its stages: what is read
-//! between two steps is what the next one begins with. It is set by the caller, or follows a table
-//! that is held or linear between its knots:
-//! `value + slope·((n − first)·h + offset)`, n the step, `first` the knot's first step and
-//! `offset` what lies between the knot's time and that step.
+//! `(times, step) => windows, knots in steps; (table, step n, part θ) => signal`. A signal is set by
+//! the caller and held, or follows a table that is held or linear between its knots, sampled at the
+//! time of each stage, θ of step n:
+//! `value + slope·((n − first + θ)·h + offset)`, `first` the knot's first step and `offset` what lies
+//! between the knot's time and that step. What is read between two steps is what the next begins
+//! with. At θ = 1 a knot that falls on the step's end does not act yet: a jump belongs to the step
+//! it begins.
 
 use crate::elements::input::{Input, Knot};
 use crate::geometry::Geometry;
-use crate::real::Real;
+use crate::real::{Constant, Real};
 use crate::words::{WordSource, WordVisitor, Words};
 
 /// The steps during which a load acts: `first ≤ n < end`.
@@ -110,14 +111,24 @@ impl<R: Real> Words for Signal<R> {
     }
 }
 
-/// Brings the signals of tables to step `n`; whether any changed.
+/// Where a stage lies among a plant's steps of size `h` \[s\].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StageTime<R> {
+    /// The step.
+    pub(crate) step: u64,
+    /// The part of it that has passed, 0 to 1.
+    pub(crate) part: R,
+    /// \[s\] the step size.
+    pub(crate) h: R,
+}
+
+/// Brings the signals of tables to a stage; whether any changed.
 #[inline]
 pub(crate) fn sample<P: Geometry>(
     inputs: &[Input<P>],
     knots: &[Knot<P::Real>],
     steps: &[KnotStep<P::Real>],
-    n: u64,
-    h: P::Real,
+    at: StageTime<P::Real>,
     signals: &mut [Signal<P::Real>],
 ) -> bool {
     let mut changed = false;
@@ -126,22 +137,39 @@ pub(crate) fn sample<P: Geometry>(
         let (Some(knots), Some(steps)) = (knots.get(range.clone()), steps.get(range)) else {
             continue;
         };
-        let Some(now) = table(knots, steps, n, h) else { continue };
+        let Some(now) = table(knots, steps, at) else { continue };
         changed |= now != *signal;
         *signal = now;
     }
     changed
 }
 
-/// The value of a table at step `n`: that of its first knot before it, `None` without knots.
+/// A knot counts as on a step's end within this part of the step: what
+/// [`first_step`] forgives of a time late in a run.
+const ON_THE_END: Constant = Constant::new(0.01);
+
+/// The value of a table at a stage: that of its first knot before it, `None` without knots.
 #[inline]
-fn table<R: Real>(knots: &[Knot<R>], steps: &[KnotStep<R>], n: u64, h: R) -> Option<Signal<R>> {
-    let begun = steps.partition_point(|knot| knot.first <= n);
+fn table<R: Real>(knots: &[Knot<R>], steps: &[KnotStep<R>], at: StageTime<R>) -> Option<Signal<R>> {
+    let StageTime { step: n, part, h } = at;
+    // Since a knot that lies within the step, negative before it.
+    let within = |knot: &KnotStep<R>| (part - R::ONE) * h + knot.offset;
+    let mut begun = steps.partition_point(|knot| knot.first <= n);
+    while part != R::ZERO
+        && steps.get(begun).is_some_and(|knot| {
+            knot.first == n.wrapping_add(1) && within(knot) > R::constant(ON_THE_END) * h
+        })
+    {
+        begun += 1;
+    }
     let Some(row) = begun.checked_sub(1) else {
         return knots.first().map(|knot| Signal { value: knot.value, rate: R::ZERO });
     };
     let (knot, step) = (knots.get(row)?, steps.get(row)?);
-    let since = R::from_u64(n - step.first) * h + step.offset;
+    let since = match n.checked_sub(step.first) {
+        Some(steps) => (R::from_u64(steps) + part) * h + step.offset,
+        None => within(step),
+    };
     Some(Signal { value: knot.value + knot.slope * since, rate: knot.slope })
 }
 
@@ -159,7 +187,7 @@ mod tests {
         let steps = knots.map(|knot| KnotStep::new(knot.time, step));
         [0.0, 0.1, 0.15, 0.25, 0.4, 9.0].map(|time: f64| {
             let n = libm::round(time / step) as u64;
-            table(&knots, &steps, n, step).unwrap().value
+            table(&knots, &steps, StageTime { step: n, part: 0.0, h: step }).unwrap().value
         })
     }
 
@@ -179,9 +207,29 @@ mod tests {
             Knot { time: 0.015, value: 0.0, slope: 2.0 },
         ];
         let steps = knots.map(|knot| KnotStep::new(knot.time, 0.01));
-        let at = |n| table(&knots, &steps, n, 0.01).unwrap();
-        assert_eq!((at(1).value, at(1).rate), (0.0, 0.0));
-        assert!((at(2).value - 0.01).abs() < 1e-15 && at(2).rate == 2.0);
+        let at = |n, part| table(&knots, &steps, StageTime { step: n, part, h: 0.01 }).unwrap();
+        assert_eq!((at(1, 0.0).value, at(1, 0.0).rate), (0.0, 0.0));
+        assert!((at(2, 0.0).value - 0.01).abs() < 1e-15 && at(2, 0.0).rate == 2.0);
+        // A stage within the step sees it from its time on.
+        assert_eq!((at(1, 0.4).value, at(1, 0.4).rate), (0.0, 0.0));
+        assert!((at(1, 0.75).value - 0.005).abs() < 1e-15 && at(1, 0.75).rate == 2.0);
+        assert_eq!(at(1, 1.0).value.to_bits(), at(2, 0.0).value.to_bits());
+    }
+
+    #[test]
+    fn a_jump_belongs_to_the_step_it_begins() {
+        for (time, step) in [(0.1, 0.01), (0.3, 0.1), (1000.0, 1e-3)] {
+            let knots = [
+                Knot { time: 0.0, value: 1.0_f64, slope: 0.0 },
+                Knot { time, value: 5.0, slope: 0.0 },
+            ];
+            let steps = knots.map(|knot| KnotStep::new(knot.time, step));
+            let last = libm::round(time / step) as u64 - 1;
+            let at = |n, part| {
+                table(&knots, &steps, StageTime { step: n, part, h: step }).unwrap().value
+            };
+            assert_eq!([at(last, 0.0), at(last, 1.0), at(last + 1, 0.0)], [1.0, 1.0, 5.0]);
+        }
     }
 
     #[test]

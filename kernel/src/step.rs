@@ -12,7 +12,7 @@ use crate::model::{ModelRef, Terms};
 use crate::pose::{Places, place_bodies};
 use crate::real::Real;
 use crate::rotation;
-use crate::schedule::{LoadWindow, Signal};
+use crate::schedule::{self, KnotStep, LoadWindow, Signal, StageTime};
 use crate::status::Cause;
 use crate::vector::Vec3;
 
@@ -59,8 +59,10 @@ pub struct Stepper<'s, 'm, P: Geometry, T, S> {
     pub(crate) diagonals: &'s [Diagonal<P::Real>],
     /// The loads' windows.
     pub(crate) windows: &'s [LoadWindow],
+    /// The tables' knots among the steps.
+    pub(crate) knots: &'s [KnotStep<P::Real>],
     /// The inputs' signals.
-    pub(crate) signals: &'s [Signal<P::Real>],
+    pub(crate) signals: &'s mut [Signal<P::Real>],
     /// The bodies' states.
     pub(crate) bodies: &'s mut [BodyState<P>],
     /// The torsion springs' turn counts.
@@ -88,6 +90,19 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     #[must_use]
     pub fn bodies(&self) -> &[BodyState<P>] {
         self.bodies
+    }
+
+    /// Brings the tables of inputs to the time of a stage, at `part` of this step, 0 to 1. A step
+    /// begins with part 0; a scheme that never calls this holds its inputs over the step.
+    #[inline(always)]
+    pub fn sample_inputs(&mut self, part: P::Real) {
+        if T::INPUTS {
+            let at = StageTime { step: self.step, part, h: self.h };
+            let ModelRef { inputs, knots, .. } = self.model;
+            if schedule::sample(inputs, knots, self.knots, at, self.signals) {
+                self.ledger.fresh = false;
+            }
+        }
     }
 
     /// A force evaluation at the present pose: dampers act at the present velocities with

@@ -22,13 +22,19 @@ pub(super) fn compose<P: Geometry, T: Terms>(
     stepper.sweep_forward();
     let Composition { drifts, kicks } = composition;
     let mut kicks = kicks.iter();
+    let mut part = P::Real::ZERO;
     for (i, &drift) in drifts.iter().enumerate() {
         stepper.drift_of_order_four(P::Real::constant(drift) * stepper.h);
+        part = part + P::Real::constant(drift);
         if let Some(&kick) = kicks.next() {
+            stepper.sample_inputs(part);
             let at = if i == 0 { At::Boundary } else { At::Stage };
             stepper.evaluate::<DampersLeft>(at)?;
             stepper.kick(P::Real::constant(kick));
         }
+    }
+    if T::DAMPERS {
+        stepper.sample_inputs(P::Real::ONE);
     }
     stepper.place_for_sweep();
     stepper.sweep_reverse();

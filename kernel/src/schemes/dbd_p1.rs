@@ -11,6 +11,7 @@ use crate::damping::Damping;
 use crate::forces::{At, ExplicitDampers};
 use crate::geometry::Geometry;
 use crate::model::Terms;
+use crate::real::Real;
 use crate::schemes::dbd::iterate;
 use crate::schemes::{DbdMemory, Scheme};
 use crate::status::Cause;
@@ -53,6 +54,7 @@ impl Scheme for DbdP1 {
             memory.predict(state, increment);
             memory.reposition(state, h);
         });
+        stepper.sample_inputs(P::Real::ONE);
         stepper.evaluate::<ExplicitDampers>(At::Stage)?;
         stepper.each(|memory, state, last, h| {
             memory.correct(state, memory.mean(last));

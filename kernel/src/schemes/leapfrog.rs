@@ -4,7 +4,7 @@
 //! drift, a tumbling body's included, whose free rotor is a splitting of second order. Linear and,
 //! with quaternions, angular momentum are kept to rounding; with damped bushings and points on
 //! lines, whose law does not keep it, the linear one alone. One force evaluation per step: the
-//! last of a step is the first of the next, unless a load or an input changes.
+//! last of a step is the first of the next, unless a load begins or ends or an input jumps.
 //! Stable for `ω_max·h < 2`. Dampers are exact pairwise sweeps of half a step before and after
 //! (see [`crate::damping`]); they cost no stability and keep second order.
 
@@ -61,6 +61,7 @@ impl Kicked for Leapfrog {
         }
         stepper.kick(P::Real::HALF);
         stepper.drift(stepper.h);
+        stepper.sample_inputs(P::Real::ONE);
         stepper.evaluate::<D>(At::Boundary)?;
         stepper.kick(P::Real::HALF);
         if !D::ACT {

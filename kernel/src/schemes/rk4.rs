@@ -73,6 +73,7 @@ impl Scheme for Rk4 {
                 accelerate(state, scaled(acceleration, part));
                 memory.turned = advance::<P>(state, velocity, part * h);
             });
+            stepper.sample_inputs(part);
         }
         stepper.evaluate::<ExplicitDampers>(At::Stage)?;
         let sixth = P::Real::from_f64(1.0 / 6.0);
