@@ -75,6 +75,7 @@ rows! {
     the_estimate_is_close_and_below_at_loaded_poses: "100 loaded poses of every element", loaded;
     the_bound_holds_at_loaded_poses_of_every_kind_of_element:
         "300 of them, stretched up to several times their lengths", stretched;
+    the_bound_holds_for_preloaded_elements_of_any_size: "4,000 preloaded pairs of any size", preloaded;
 }
 
 #[test]
@@ -194,6 +195,12 @@ impl Scatter {
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
+    /// 10 to a power of the range.
+    fn power(&mut self, [least, most]: [i32; 2]) -> f64 {
+        let middle = 0.5 * f64::from(least + most);
+        10_f64.powf(middle + 0.5 * f64::from(most - least) * self.next())
+    }
+
     fn vector(&mut self, size: f64) -> Vec3<f64> {
         Vec3::from_f64([self.next() * size, self.next() * size, self.next() * size])
     }
@@ -222,6 +229,49 @@ fn stretched() -> Ranges {
         assert!(ratio >= 1.0 - ROUNDING, "pose {i}: {highest} rad/s, bound {ratio}");
         assert!(ratio < 3.0, "pose {i}: {ratio}");
         bounds.see(ratio);
+    }
+    (bounds, None)
+}
+
+/// Bodies of any shape on a few preloaded elements of any stiffness, length and arm: alone, so that
+/// nothing else hides what a tension adds.
+fn preloaded() -> Ranges {
+    let mut scatter = Scatter(2297);
+    let mut bounds = Range::EMPTY;
+    for i in 0..4_000 {
+        let mut model = Bench::<F64>::new();
+        let mut between = [BodyIndex::WORLD; 2];
+        for end in &mut between[usize::from(i % 3 != 0)..] {
+            let state = BodyState::from_f64([0.0; 3], [1.0, 0.0, 0.0, 0.0], [0.0; 3], [0.0; 3]);
+            let i = scatter.power([-4, 2]);
+            let inertia = [i, i * 1.5, i * 0.8];
+            *end = model.add_body(scatter.power([-2, 2]), inertia, state).unwrap();
+        }
+        for _ in 0..1 + i % 4 {
+            let size = scatter.power([-2, 2]);
+            let points = [scatter.vector(size), scatter.vector(size)].map(Vec3::to_f64);
+            let stiffness = if i % 7 == 0 { 0.0 } else { scatter.power([0, 6]) };
+            let free_length = if i % 5 == 0 { 0.0 } else { scatter.power([-2, 2]) };
+            match i % 2 {
+                0 => {
+                    let axis = scatter.vector(1.0).to_f64();
+                    let preload = scatter.power([0, 5]);
+                    model.add_torsion_spring(between, axis, stiffness, 0.0, preload).unwrap();
+                }
+                _ => {
+                    let law = (stiffness.max(1.0), free_length);
+                    model.add_tsda(between, points, law.0, 0.0, law.1).unwrap();
+                }
+            }
+        }
+        let mut state = State::initial(&model);
+        scatter.scatter(&mut state.bodies, 0.5);
+        let [highest, ratio] = bound(&model, &state, 0.0);
+        // A pose that compressed elements push out of has no frequency.
+        if highest > 0.0 {
+            assert!(ratio >= 1.0 - ROUNDING, "{i}: {highest} rad/s, bound {ratio}");
+            bounds.see(ratio);
+        }
     }
     (bounds, None)
 }
