@@ -3,20 +3,22 @@
 //!
 //! The lines run along the axis, `gauge` apart along the reference, with `at` half way between
 //! them; their defining points lie at ±span/2. At each end of each line two points of the second
-//! body stand at the distance `offset`, along the reference and along axis × reference. Order:
-//! the end at −span/2, there the line at −gauge/2, first. Two lines are what stops the turning.
+//! body stand at the distance `offset`, along the reference and along axis × reference; with
+//! outward offsets the line at −gauge/2 has its first point along the reference's opposite, so
+//! that the joint is its own mirror image. Order: the end at −span/2, there the line at −gauge/2,
+//! first. Two lines are what stops the turning.
 
 use crate::assembly::{Assembly, Lines, Points};
 use crate::error::SceneError;
 use crate::hinge::Hinge;
 use crate::joints::triad;
 use crate::joints::{Joint, JointType};
-use crate::text::{Number, Table};
+use crate::text::{Choice, Number, Table};
 
 pub(super) const TYPE: JointType = JointType {
     name: "translational",
     holds: 5,
-    keys: &["axis", "reference", "span", "gauge", "offset"],
+    keys: &["axis", "reference", "span", "gauge", "offset", "offsets"],
     expand,
 };
 
@@ -29,15 +31,18 @@ fn expand(
     let span = table.required("span", Number::positive("m"))?;
     let gauge = table.required("gauge", Number::positive("m"))?;
     let offset = table.required("offset", Number::positive("m"))?;
+    let outward = table.optional("offsets", Choice(&["alike", "outward"]))? == Some(1);
     let ends = [-0.5 * span, 0.5 * span].map(|along| {
         let end = joint.at_w + triad.axis * along;
         [-0.5 * gauge, 0.5 * gauge].map(|across| end + triad.e1 * across)
     });
     let ends = ends.as_flattened();
     let centres: Vec<_> = ends.iter().map(|end| assembly.point_in(joint.pair.a, *end)).collect();
+    let sides = [if outward { -triad.e1 } else { triad.e1 }, triad.e1];
     let tips: Vec<_> = ends
         .iter()
-        .flat_map(|end| [triad.e1, triad.e2].map(|e| *end + e * offset))
+        .zip(sides.into_iter().cycle())
+        .flat_map(|(end, side)| [side, triad.e2].map(|e| *end + e * offset))
         .map(|tip| assembly.point_in(joint.pair.b, tip))
         .collect();
     let points = Points { centres: &centres, tips: &tips, shared: false };
