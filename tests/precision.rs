@@ -1,10 +1,11 @@
 //! What single precision costs beside double: the same steps in both, without the discretisation.
 
 use dbd_kernel::energy::energy;
-use dbd_kernel::{BodyState, F64};
-use dbd_plant::{DampingName, Method, PrecisionName, SchemeName, plant};
+use dbd_kernel::{BodyState, F64, State, frequency};
+use dbd_plant::{DampingName, Method, Named as _, PrecisionName, SchemeName, plant};
 use dbd_scene::Scene;
-use dbd_tests::distance;
+use dbd_tests::page::{block, figure, table};
+use dbd_tests::{distance, scene};
 
 /// Two bars in a row on damped revolutes that a wound torsion spring spins up to some 40 rad/s.
 fn spun_up(preload: f64) -> Scene {
@@ -95,4 +96,48 @@ fn sweeps_of_a_fast_mechanism_lose_no_more_to_rounding_than_explicit_dampers() {
     // Energy comes and goes with rounding; dampers do not add to it.
     let [gained, explicit] = [rms(&gained), rms(&explicit_gained)];
     assert!(gained < 3.0 * explicit, "{gained:e} J, explicit {explicit:e} J");
+}
+
+/// The steps of the page, as ω·h of the bound.
+const STEPS: [f64; 6] = [1.6, 0.8, 0.4, 0.2, 0.1, 0.05];
+
+/// Errors \[m\] in single precision at the steps, against fourth order in double.
+fn errors(name: &str, time: f64, scheme: SchemeName) -> [f64; 6] {
+    let scene = scene(name);
+    let omega = frequency::bound(&scene.model, &State::initial(&scene.model));
+    let end = |scheme, precision, product: f64| {
+        let steps = (time * omega / product).ceil();
+        let method = Method::new(scheme, None, precision).unwrap();
+        let mut plant = plant(&scene, &method, time / steps).unwrap();
+        plant.advance(steps as u64).ok().unwrap();
+        plant.state().bodies.to_vec()
+    };
+    let truth = end(SchemeName::BlanesMoanS6, PrecisionName::F64, 0.1);
+    STEPS.map(|product| distance(&end(scheme, PrecisionName::F32, product), &truth))
+}
+
+#[test]
+fn from_some_step_on_a_smaller_one_is_less_accurate() {
+    let mut rows = Vec::new();
+    for (name, time) in [("six-bar", 0.1), ("3ruu", 0.05), ("hexagon", 0.2)] {
+        for scheme in [SchemeName::Leapfrog, SchemeName::Rk4, SchemeName::Pefrl] {
+            let errors = errors(name, time, scheme);
+            let best = (0..errors.len()).min_by(|a, b| errors[*a].total_cmp(&errors[*b])).unwrap();
+            // Fourth order that rounds every part of a step gains nothing from a shorter one.
+            let products = match scheme {
+                SchemeName::Pefrl => 0.8..2.0,
+                SchemeName::Rk4 => 0.1..1.0,
+                _ => 0.05..0.5,
+            };
+            assert!(products.contains(&STEPS[best]), "{name}, {scheme:?}: {errors:?}");
+            let cells = errors.iter().enumerate().map(|(i, error)| {
+                let text = figure(*error, 2);
+                if i == best { format!("**{text}**") } else { text }
+            });
+            rows.push([format!("`{name}`, {}", scheme.name())].into_iter().chain(cells).collect());
+        }
+    }
+    let head: Vec<_> = STEPS.iter().map(|product| format!("ω·h = {product}")).collect();
+    let head: Vec<_> = [""].into_iter().chain(head.iter().map(String::as_str)).collect();
+    block("docs/schemes.md", "single precision", &table(&head, &rows));
 }
