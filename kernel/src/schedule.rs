@@ -122,8 +122,9 @@ pub(crate) struct StageTime<R> {
     pub(crate) h: R,
 }
 
-/// Brings the signals of tables to a stage; whether any changed.
-#[inline]
+/// Brings the signals of tables to a stage; whether any changed. Kept apart: a step calls it more
+/// than once.
+#[inline(never)]
 pub(crate) fn sample<P: Geometry>(
     inputs: &[Input<P>],
     knots: &[Knot<P::Real>],
