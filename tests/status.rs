@@ -39,6 +39,26 @@ fn a_body_that_is_not_finite_is_named() {
     }
 }
 
+/// A NaN's sign and payload are the machine's: `-0.0/0.0`, `inf − inf` and what a fused or wider
+/// instruction makes of them differ.
+#[test]
+fn the_hash_of_a_state_that_is_not_finite_knows_no_payload() {
+    let mut model = Bench::<F64>::new();
+    model.add_body(1.0, [0.1; 3], at([0.0; 3])).unwrap();
+    let state = dbd_kernel::State::initial(&model);
+    let hash = |bits: u64| {
+        let mut state = state.clone();
+        state.bodies[0].velocity.y = f64::from_bits(bits);
+        state.hash()
+    };
+    let quiet = hash(0x7ff8_0000_0000_0000);
+    for bits in [0xfff8_0000_0000_0000, 0x7ff8_0000_0000_0001, 0x7ff0_dead_beef_0000, u64::MAX] {
+        assert_eq!(hash(bits), quiet, "{bits:x}");
+    }
+    let [infinite, zero] = [f64::INFINITY, 0.0].map(f64::to_bits);
+    assert!(hash(infinite) != quiet && hash(zero) == state.hash());
+}
+
 #[test]
 fn a_spring_whose_twist_is_undefined_is_named() {
     // Two torsion springs; the body turns about x, normal to the second's axis.

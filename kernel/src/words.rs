@@ -18,12 +18,13 @@ pub enum Word {
 }
 
 impl Word {
-    /// The word's bits, zero-extended to 64.
+    /// The word's bits, zero-extended to 64. Every NaN gives those of one: sign and payload of a
+    /// NaN differ between machines, and between builds for one machine.
     #[must_use]
     pub fn bits(self) -> u64 {
         match self {
-            Word::F32(x) => u64::from(x.to_bits()),
-            Word::F64(x) => x.to_bits(),
+            Word::F32(x) => u64::from(canonical_f32(x.to_bits())),
+            Word::F64(x) => canonical_f64(x.to_bits()),
             Word::I32(x) => u64::from(x as u32),
             Word::U64(x) => x,
         }
@@ -37,6 +38,19 @@ impl Word {
             Word::F64(_) | Word::U64(_) => 8,
         }
     }
+}
+
+/// Bits as they are, those of a NaN as the quiet one without a payload. By integers: the target
+/// has no double-precision comparison.
+const fn canonical_f64(bits: u64) -> u64 {
+    const INFINITY: u64 = 0x7ff << 52;
+    if bits & (u64::MAX >> 1) > INFINITY { INFINITY | 1 << 51 } else { bits }
+}
+
+/// Likewise.
+const fn canonical_f32(bits: u32) -> u32 {
+    const INFINITY: u32 = 0xff << 23;
+    if bits & (u32::MAX >> 1) > INFINITY { INFINITY | 1 << 22 } else { bits }
 }
 
 /// Receives words in their fixed order.
@@ -110,6 +124,23 @@ impl WordVisitor for Finite {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn only_a_nan_has_other_bits_than_its_own() {
+        for x in [0.0, -0.0, 1.5, f64::MAX, -f64::MIN_POSITIVE, 5e-324, f64::INFINITY] {
+            for x in [x, -x] {
+                assert_eq!(Word::F64(x).bits(), x.to_bits());
+                assert_eq!(Word::F32(x as f32).bits(), u64::from((x as f32).to_bits()));
+            }
+        }
+        for bits in [0x7ff8_0000_0000_0000, 0xfff8_0000_0000_0000, 0x7ff0_0000_0000_0001, u64::MAX]
+        {
+            assert_eq!(Word::F64(f64::from_bits(bits)).bits(), 0x7ff8_0000_0000_0000);
+        }
+        for bits in [0x7fc0_0000, 0xffc0_0000, 0x7f80_0001, u32::MAX] {
+            assert_eq!(Word::F32(f32::from_bits(bits)).bits(), 0x7fc0_0000);
+        }
+    }
 
     #[test]
     fn hash_is_fnv1a_over_little_endian_bytes() {
