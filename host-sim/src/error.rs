@@ -41,7 +41,10 @@ impl Error {
         match self {
             Self::Load(_) | Self::Method(_) | Self::Plant(_) => Exit::Refused,
             Self::Run(error) => match error {
-                RunError::Plan(_) | RunError::Plant(_) | RunError::Folder(_) => Exit::Refused,
+                RunError::Plan(_)
+                | RunError::Setting(_)
+                | RunError::Plant(_)
+                | RunError::Folder(_) => Exit::Refused,
                 RunError::Write(_) => Exit::Failed,
             },
             Self::Trade(error) => match error {

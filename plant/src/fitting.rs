@@ -3,6 +3,8 @@
 //! `(duration, every) => span; span => steps that divide it`. In + − × ÷ and conversions to
 //! integers only, so that every host finds the same steps.
 
+use std::cmp::Ordering;
+
 /// Relative deviation up to which a quotient counts as whole.
 pub const WHOLE: f64 = 1e-9;
 
@@ -13,8 +15,15 @@ const MOST_INTERVALS: u64 = 1000;
 /// Steps that are looked at for a round one.
 const ROUND_STEPS: usize = 10_000;
 
-/// The whole number ≥ 1 that `quotient` is, within [`WHOLE`].
+/// Beyond this every quotient is a whole number, and an integer may not hold it.
+const LARGEST: f64 = (1_u64 << 53) as f64;
+
+/// The whole number ≥ 1 that `quotient` is, within [`WHOLE`]; none beyond 2⁵³.
 pub fn whole(quotient: f64) -> Option<u64> {
+    // Not a number is no whole number either.
+    if !matches!(quotient.partial_cmp(&LARGEST), Some(Ordering::Less | Ordering::Equal)) {
+        return None;
+    }
     let nearest = (quotient + 0.5) as u64;
     let excess = quotient - nearest as f64;
     let tolerance = WHOLE * quotient;

@@ -116,11 +116,8 @@ pub enum PlanError {
         every: f64,
     },
     /// More than [`MOST_STEPS`].
-    #[error("{steps:.1e} steps of {} are more than {MOST_STEPS:e}", display(*step))]
-    #[diagnostic(help(
-        "a longer step (for example --step {}) or a shorter --duration",
-        display(duration / 1e6)
-    ))]
+    #[error("{} of {} are more than {MOST_STEPS:e}", steps_text(*steps), display(*step))]
+    #[diagnostic(help("{}", fewer_steps(*duration)))]
     Steps {
         /// How many.
         steps: f64,
@@ -130,14 +127,32 @@ pub enum PlanError {
         duration: f64,
     },
     /// More than [`MOST_SAMPLES`].
-    #[error("{samples} samples are more than {MOST_SAMPLES}")]
+    #[error("{} samples are more than {MOST_SAMPLES}", count(*samples))]
     #[diagnostic(help("a longer sampling interval, for example --every {}", display(*every)))]
     Samples {
-        /// How many.
-        samples: u64,
+        /// How many, a whole number.
+        samples: f64,
         /// \[s\] an interval that gives about a thousand.
         every: f64,
     },
+}
+
+/// A whole number; beyond what an f64 tells apart in short.
+fn count(number: f64) -> String {
+    if number < 1e15 { format!("{number}") } else { format!("{number:.1e}") }
+}
+
+fn steps_text(steps: f64) -> String {
+    if steps.is_finite() { format!("{steps:.1e} steps") } else { "countless steps".into() }
+}
+
+fn fewer_steps(duration: f64) -> String {
+    let step = duration / 1e6;
+    if step < f64::MIN_POSITIVE {
+        // Parts of it are 0, or numbers of a few bits.
+        return format!("the duration of {} is too short to be divided", display(duration));
+    }
+    format!("a longer step (for example --step {}) or a shorter --duration", display(step))
 }
 
 fn listed(option: &str, times: &[f64]) -> String {
@@ -162,6 +177,10 @@ pub fn plan(request: &Request) -> Result<Plan, PlanError> {
     let Request { duration, every, .. } = *request;
     if let Some(every) = every.filter(|every| *every > duration * (1.0 + WHOLE)) {
         return Err(PlanError::Every { duration, every });
+    }
+    // No step serves such an interval, and no whole number may count it.
+    if let Some(samples) = every.map(|every| duration / every).filter(|many| *many > MOST_STEPS) {
+        return Err(too_many_samples(samples, duration, request.step));
     }
     let span = Span::new(duration, every);
     let parts_of_ours = |limit| {
@@ -193,10 +212,22 @@ pub fn plan(request: &Request) -> Result<Plan, PlanError> {
     };
     let plan = Plan { step, duration, steps, stride };
     if plan.samples() > MOST_SAMPLES {
-        let every = plan.time((steps / 1000).max(1));
-        return Err(PlanError::Samples { samples: plan.samples(), every });
+        let step = StepRequest::Given(plan.step);
+        return Err(too_many_samples(plan.samples() as f64, duration, step));
     }
     Ok(plan)
+}
+
+/// With an interval of about a thousand samples, of whole steps where the step is given.
+fn too_many_samples(samples: f64, duration: f64, step: StepRequest) -> PlanError {
+    let every = match step {
+        StepRequest::Given(step) if duration / step <= MOST_STEPS => {
+            let stride = (duration / step) as u64 / 1000;
+            rounded(stride.max(1) as f64 * step, 12)
+        }
+        _ => duration / 1000.0,
+    };
+    PlanError::Samples { samples, every }
 }
 
 fn check_steps(duration: f64, step: f64) -> Result<(), PlanError> {
@@ -207,14 +238,14 @@ fn check_steps(duration: f64, step: f64) -> Result<(), PlanError> {
 /// The multiples of `step` on either side of `time`, without the digits of rounding.
 fn multiples(step: f64, time: f64) -> Vec<f64> {
     let below = (time / step) as u64;
-    let counts = [below, below + 1].into_iter().filter(|count| *count > 0);
+    let counts = [below, below.saturating_add(1)].into_iter().filter(|count| *count > 0);
     counts.map(|count| rounded(count as f64 * step, 12)).collect()
 }
 
 fn incommensurate(duration: f64, every: Option<f64>) -> PlanError {
     let every = every.unwrap_or(duration);
     let below = (duration / every) as u64;
-    let intervals = [below + 1, below].into_iter().filter(|n| *n > 0);
+    let intervals = [below.saturating_add(1), below].into_iter().filter(|n| *n > 0);
     let intervals = intervals.map(|n| rounded(duration / n as f64, 12)).collect();
     PlanError::Incommensurate { duration, every, intervals }
 }
@@ -237,168 +268,4 @@ fn stride_for(steps: u64) -> u64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn given(step: f64, duration: f64, every: Option<f64>) -> Result<Plan, PlanError> {
-        plan(&Request { step: StepRequest::Given(step), duration, every })
-    }
-
-    fn ours(limit: f64, duration: f64, every: Option<f64>) -> Result<Plan, PlanError> {
-        plan(&Request { step: StepRequest::AtMost(limit), duration, every })
-    }
-
-    #[test]
-    fn decimal_times_that_are_no_binary_multiples_count_as_whole() {
-        let plan = given(2e-5, 0.5, Some(1e-3)).unwrap();
-        assert_eq!(
-            (plan.step.to_bits(), plan.steps, plan.stride),
-            (2e-5_f64.to_bits(), 25_000, 50)
-        );
-        assert_eq!(plan.samples(), 501);
-        let plan = given(1e-6, 3.0, Some(0.3)).unwrap();
-        assert_eq!((plan.steps, plan.stride), (3_000_000, 300_000));
-        // 0.1 + 0.2 is not 0.3.
-        assert_eq!(given(0.1, 0.1 + 0.2, None).unwrap().steps, 3);
-        assert_eq!(given(0.5, 0.5, None).unwrap().samples(), 2);
-    }
-
-    #[test]
-    fn a_duration_that_is_no_multiple_of_every_ends_with_a_shorter_interval() {
-        let plan = given(0.1, 1.0, Some(0.3)).unwrap();
-        assert_eq!((plan.steps, plan.stride, plan.samples()), (10, 3, 5));
-    }
-
-    #[test]
-    fn a_given_step_that_does_not_fit_is_refused_with_two_that_do() {
-        let cases = [
-            (3e-5, 0.5, None),
-            (3e-5, 0.5, Some(1e-3)),
-            (7.3e-4, 0.5, Some(1e-3)),
-            (2e-4, 0.5, Some(1.1e-3)),
-            (0.4, 1.0, Some(0.3)),
-            (1.0 / 7.1, 1.0, None),
-        ];
-        for (step, duration, every) in cases {
-            let Err(PlanError::Multiple { steps, .. }) = given(step, duration, every) else {
-                panic!("{step} {duration} {every:?}");
-            };
-            assert_eq!(steps.len(), 2, "{step}");
-            for fitting in &steps {
-                let shown: crate::time::Time = display(*fitting).parse().unwrap();
-                let plan = given(shown.seconds(), duration, every).unwrap();
-                assert_eq!(plan.step.to_bits(), fitting.to_bits());
-            }
-        }
-        let Err(PlanError::Multiple { steps, .. }) = given(3e-5, 0.5, Some(1e-3)) else {
-            panic!();
-        };
-        assert_eq!(steps, [1e-3 / 33.0, 1e-3 / 34.0]);
-    }
-
-    #[test]
-    fn where_only_every_does_not_fit_intervals_are_named_too() {
-        let Err(PlanError::Multiple { intervals, .. }) = given(2e-5, 0.5, Some(1.234e-3)) else {
-            panic!();
-        };
-        assert_eq!(intervals, [1.22e-3, 1.24e-3]);
-        for every in intervals {
-            assert!(given(2e-5, 0.5, Some(every)).is_ok());
-        }
-    }
-
-    #[test]
-    fn a_step_longer_than_the_duration_is_refused_with_shorter_ones() {
-        let Err(PlanError::Multiple { steps, .. }) = given(0.7, 0.5, None) else { panic!() };
-        assert_eq!(steps, [0.5, 0.25]);
-        let every = 0.6;
-        assert_eq!(given(0.1, 0.5, Some(every)), Err(PlanError::Every { duration: 0.5, every }));
-    }
-
-    #[test]
-    fn our_step_is_shortened_to_fit() {
-        let plan = ours(2.9e-4, 0.5, Some(1e-3)).unwrap();
-        assert_eq!((plan.step, plan.stride, plan.steps), (1e-3 / 4.0, 4, 2000));
-        // Every third of a millisecond into a duration of 10/3 of it: three parts at least.
-        let plan = ours(1.0, 1.0, Some(0.3)).unwrap();
-        assert_eq!((plan.stride, plan.steps), (3, 10));
-        let plan = ours(0.04, 1.0, Some(0.3)).unwrap();
-        assert_eq!((plan.stride, plan.steps), (9, 30));
-        let plan = ours(3e-4, 0.5, None).unwrap();
-        assert_eq!(plan.steps, 1667);
-        assert!(plan.step <= 3e-4);
-        assert_eq!(ours(f64::INFINITY, 2.0, None).unwrap().steps, 1);
-    }
-
-    #[test]
-    fn a_round_step_is_short_to_write() {
-        let round = |limit, duration, every| {
-            plan(&Request { step: StepRequest::RoundAtMost(limit), duration, every }).unwrap().step
-        };
-        assert_eq!(round(3.91e-5, 0.5, Some(1e-3)), 3.125e-5);
-        assert_eq!(round(3.91e-5, 0.5, None), 3.2e-5);
-        assert_eq!(round(2.3e-5, 0.5, Some(1e-3)), 2e-5);
-        assert_eq!(round(2e-5, 0.5, Some(1e-3)), 2e-5);
-        assert_eq!(round(1.0, 1.0 / 3.0, None), 1.0 / 3.0);
-    }
-
-    #[test]
-    fn awkward_limits_give_fitting_steps() {
-        let mut limit = 1.3e-7;
-        while limit < 1.0 {
-            for every in [None, Some(1e-3), Some(0.011), Some(1.0 / 3.0)] {
-                let plan = ours(limit, 0.7, every).unwrap();
-                assert!(plan.step <= limit * (1.0 + 1e-15), "{limit} {every:?}");
-                let again = given(plan.step, 0.7, every).unwrap();
-                assert_eq!(again, plan);
-                let end = plan.time(plan.steps);
-                assert!((end - 0.7).abs() <= 0.7e-9, "{end}");
-            }
-            limit *= 1.618;
-        }
-    }
-
-    #[test]
-    fn incommensurate_intervals_name_intervals_that_fit() {
-        let every = 1.2347e-3;
-        let Err(PlanError::Incommensurate { intervals, .. }) = ours(1e-4, 0.5, Some(every)) else {
-            panic!();
-        };
-        assert_eq!(intervals.len(), 2);
-        for every in intervals {
-            assert!(ours(1e-4, 0.5, Some(every)).is_ok());
-        }
-    }
-
-    #[test]
-    fn about_five_hundred_samples() {
-        let strides = [
-            (25_000, 50),
-            (500, 1),
-            (1, 1),
-            (249, 1),
-            (750, 2),
-            (1_000, 2),
-            (1_667, 4),
-            (100_003, 201),
-            (1 << 20, 1 << 11),
-        ];
-        for (steps, stride) in strides {
-            assert_eq!(stride_for(steps), stride, "{steps}");
-        }
-        let plan = given(1.0, 100_003.0, None).unwrap();
-        assert_eq!(plan.samples(), 499);
-    }
-
-    #[test]
-    fn absurd_requests_are_refused_with_advice() {
-        assert!(matches!(given(1e-300, 0.5, None), Err(PlanError::Steps { .. })));
-        assert!(matches!(ours(1e-300, 0.5, None), Err(PlanError::Steps { .. })));
-        assert!(matches!(ours(0.0, 0.5, None), Err(PlanError::Steps { .. })));
-        let Err(PlanError::Samples { samples, every }) = given(1e-9, 0.5, Some(1e-9)) else {
-            panic!();
-        };
-        assert_eq!(samples, 500_000_001);
-        assert!(given(1e-9, 0.5, Some(every)).is_ok());
-    }
-}
+mod tests;

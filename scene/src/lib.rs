@@ -20,6 +20,7 @@ mod load;
 mod names;
 mod nearest;
 mod orientation;
+mod origin;
 mod pair;
 mod point_on_line;
 mod readout;
@@ -40,6 +41,7 @@ pub use hinge::Hinge;
 pub use input::InputInfo;
 pub use lint::{Severity, Warning};
 pub use nearest::nearest;
+pub use origin::Setting;
 pub use readout::ReadoutInfo;
 pub use runtime::{SceneModel, widen};
 
@@ -51,6 +53,7 @@ use crate::assembly::Assembly;
 use crate::error::Source;
 use crate::file_lines::FileLines;
 use crate::hinge::Known;
+use crate::origin::Origin;
 use crate::target::Elements;
 use crate::text::{Number, Numbers, Text};
 
@@ -99,6 +102,7 @@ pub struct Scene {
     /// The assembled model in double precision; every other precision is a rounding of it.
     pub model: SceneModel<F64>,
     file_lines: FileLines,
+    origin: Origin,
     /// What messages call raw TSDAs, then points on lines.
     raw_names: Vec<String>,
 }
@@ -211,6 +215,7 @@ impl Scene {
             readouts,
             model,
             file_lines: FileLines::of(&root)?,
+            origin: Origin::of(source, &root),
             raw_names,
         })
     }
@@ -255,6 +260,13 @@ impl Scene {
     ) -> UnknownName {
         let meant = nearest(name, known).map(str::to_owned);
         UnknownName { scene: self.name.clone(), kind, name: name.to_owned(), meant }
+    }
+
+    /// The refusal of a setting of the scene file at its place there: what was asked for elsewhere,
+    /// a duration, a step, does not go with it. `None` where the file does not give it.
+    #[must_use]
+    pub fn refuse(&self, setting: Setting, message: &str, help: &str) -> Option<SceneError> {
+        self.origin.refuse(setting, message, help)
     }
 
     /// Torsion springs of the scene file, without those that only count turns.

@@ -58,6 +58,34 @@ fn a_refused_scene_is_shown_with_file_line_and_column() {
     }
 }
 
+/// A setting of the scene that cannot be planned is shown where it stands; one that was asked for
+/// has no place there.
+#[test]
+fn a_setting_that_cannot_be_planned_is_shown_at_its_line() {
+    let folder = Folder::new();
+    for (given, named) in [
+        ("duration = 0.5\nevery = 1e-20", "scene.toml:6:9"),
+        ("duration = 0.5\nevery = 1e-150", "scene.toml:6:9"),
+        ("duration = 0.5\nevery = 7", "scene.toml:6:9"),
+        ("duration = 0.5\nevery = 1.2347e-3", "scene.toml:6:9"),
+        ("duration = 0.5\nstep = 1e-300", "scene.toml:6:8"),
+        ("duration = 0.5\nstep = 3e-5", "scene.toml:6:8"),
+        ("duration = 1e300", "scene.toml:5:12"),
+        ("duration = 1e-320", "scene.toml:5:12"),
+    ] {
+        let done = folder.run(&folder.scene(&PENDULUM.replace("duration = 0.5", given)), &[]);
+        assert_eq!(done.exit, Exit::Refused, "{given}");
+        assert!(done.err.contains(named) && done.err.contains("help"), "{given}: {}", done.err);
+        assert!(!folder.path("out").exists(), "{given}");
+    }
+    let done = folder.run(&folder.scene(PENDULUM), &["--every", "1e-20s"]);
+    assert_eq!(done.exit, Exit::Refused);
+    let every = times_in(&done.err, "--every");
+    assert!(done.err.contains("samples") && every.len() == 1, "{}", done.err);
+    assert!(!done.err.contains("scene.toml"), "{}", done.err);
+    assert_eq!(folder.summary(&folder.scene(PENDULUM), &["--every", &every[0]])["status"], "ok");
+}
+
 #[test]
 fn a_step_that_does_not_fit_names_two_that_do() {
     let folder = Folder::new();

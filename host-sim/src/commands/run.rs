@@ -13,13 +13,14 @@ use dbd_plant::judge::conserves_energy;
 use dbd_plant::plan::{Request, StepRequest, plan};
 use dbd_plant::plant::{check_inputs, check_step};
 use dbd_plant::{Frequencies, Method, Plan, PlanError, PlantError};
-use dbd_scene::Scene;
+use dbd_scene::{Scene, Setting};
 use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::commands::folder::{FolderError, results};
 use crate::report::{Curves, Report, Statistics, Summary, TraceWriter, html};
 use crate::simulate::{Ending, FailedRun, Observer, Sample, SimulationError, simulate};
+use crate::terminal::LoadError;
 
 /// What a run is asked for. What is `None` is the scene's, or ours.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,10 +61,14 @@ pub struct Outcome {
 /// Why a run could not be carried out, or its results not be written.
 #[derive(Debug, Error, Diagnostic)]
 pub enum RunError {
-    /// The step does not fit.
+    /// A step or an interval that was asked for does not fit.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Plan(#[from] PlanError),
+    Plan(PlanError),
+    /// One of the scene's does not.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Setting(LoadError),
     /// The precision cannot hold the step or an input, or this build does not hold the method.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -103,6 +108,27 @@ pub fn plan_of(
     plan(&Request { step, duration, every: options.every.or(scene.every) })
 }
 
+/// A plan's error, at its place in the scene file where what it is about comes from there.
+fn refused(scene: &Scene, options: &RunOptions, error: PlanError) -> RunError {
+    let step = options.step.is_none().then_some(Setting::Step);
+    let every = options.every.is_none().then_some(Setting::Every);
+    let duration = options.duration.is_none().then_some(Setting::Duration);
+    let settings = match &error {
+        // A step that was asked for is at fault itself.
+        PlanError::Multiple { .. } if options.step.is_some() => [None, None],
+        PlanError::Multiple { .. } => [step, every],
+        PlanError::Steps { .. } => [step, duration],
+        PlanError::Incommensurate { .. } | PlanError::Every { .. } | PlanError::Samples { .. } => {
+            [every, None]
+        }
+    };
+    let help = error.help().map(|help| help.to_string()).unwrap_or_default();
+    let message = error.to_string();
+    let place = |setting: &Setting| scene.refuse(*setting, &message, &help);
+    let placed = settings.iter().flatten().find_map(place);
+    placed.map_or(RunError::Plan(error), |error| RunError::Setting(error.into()))
+}
+
 /// Runs a scene. `progress` hears of steps done and steps to do, now and then.
 ///
 /// # Errors
@@ -114,7 +140,8 @@ pub fn run(
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Outcome, RunError> {
     let frequencies = Frequencies::of(scene);
-    let plan = plan_of(scene, options, &frequencies)?;
+    let plan =
+        plan_of(scene, options, &frequencies).map_err(|error| refused(scene, options, error))?;
     check_step(&options.method, plan.step)?;
     check_inputs(scene, &options.method)?;
     let folder = match &options.out {
