@@ -37,6 +37,16 @@ pub fn scene(name: &str) -> Scene {
     Scene::load(&scenes.join(name).with_extension("toml")).unwrap()
 }
 
+/// The text of a scene that ships.
+///
+/// # Panics
+/// Where there is none of that name.
+#[must_use]
+pub fn scene_text(name: &str) -> String {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+    std::fs::read_to_string(scenes.join(name).with_extension("toml")).unwrap()
+}
+
 /// A builder with room for every test system.
 pub type Bench<P> = ModelBuilder<P, 6, 12, 60, 48, 12, 60, 6, 6, 6, 6, 12>;
 

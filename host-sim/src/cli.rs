@@ -18,6 +18,7 @@ use crate::commands::list::list;
 use crate::commands::run::{Outcome, RunOptions, run};
 use crate::commands::stability::StabilityCheck;
 use crate::commands::trade::{TradeRequest, trade};
+use crate::commands::warnings::of_scene;
 use crate::error::Error;
 use crate::terminal::text::{json, table};
 use crate::terminal::{Catalogue, Console, Exit, Progress};
@@ -272,6 +273,7 @@ fn trade_scene(
 ) -> Result<Exit, Error> {
     let called = &arguments.scene.scene;
     let scene = catalogue.load(called)?;
+    of_scene(&scene).iter().filter(|_| !arguments.quiet).for_each(|w| console.warn(w));
     let request = TradeRequest {
         called,
         window: arguments.window.map(Time::seconds),

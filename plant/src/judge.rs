@@ -5,10 +5,8 @@
 //! that diverges need not reach infinity before its end; it shows in joints that are torn and,
 //! without loads and inputs, in energy that came from nowhere.
 
-use std::ops::Range;
-
-use dbd_kernel::energy::{energy, largest_extension};
-use dbd_kernel::model::Law;
+use dbd_kernel::energy::{each_extension, energy};
+use dbd_kernel::model::{Group, Law};
 use dbd_kernel::status::Cause;
 use dbd_kernel::{BodyState, Energy, F64, State};
 use dbd_scene::{Scene, SceneModel};
@@ -18,6 +16,11 @@ use crate::any::AnyPlant;
 /// A joint's element that is longer than this many times the largest free length of all joints
 /// is torn: a run that diverges slowly passes through here before anything becomes infinite.
 const TORN: f64 = 1000.0;
+
+/// A joint that is open by more than this share of its free length is no longer the joint that was
+/// meant: its elements may point elsewhere by as many radians, and hold other directions as much
+/// more or less. Mounts of rubber that carry a car open by a fifth.
+pub const OPENED: f64 = 0.25;
 
 /// Energy that came from nowhere is a divergence once it exceeds this many times the energies
 /// of the run. Far beyond any error of a run that is merely coarse.
@@ -53,6 +56,30 @@ pub enum Trouble {
     },
 }
 
+/// How far a joint opened in the states that were judged. What happened between two of them is
+/// not known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Opening {
+    /// The row of the joint.
+    pub joint: usize,
+    /// \[m\] largest free length of its elements.
+    pub free_length: f64,
+    /// \[m\] the largest |L − L0| of an element, less the joint's clearance.
+    pub extension: f64,
+    /// \[s\] when.
+    pub time: f64,
+    /// \[s\] when it was first beyond [`OPENED`].
+    pub since: Option<f64>,
+}
+
+impl Opening {
+    /// The extension as a share of the free length.
+    #[must_use]
+    pub fn share(&self) -> f64 {
+        self.extension / self.free_length
+    }
+}
+
 /// What a state holds.
 pub struct Verdict {
     /// \[J\] its energy.
@@ -66,8 +93,14 @@ pub struct Judge {
     model: SceneModel<F64>,
     /// The joints' elements alone.
     joints: SceneModel<F64>,
-    /// The groups of each joint.
-    ranges: Vec<Range<usize>>,
+    /// The joint of each of its groups.
+    owners: Vec<usize>,
+    /// \[m\] the clearance of each of its groups.
+    clearances: Vec<f64>,
+    /// \[m\] the largest extension of each joint in the state that was judged last, and of that
+    /// what is beyond its clearance.
+    present: Vec<[f64; 2]>,
+    openings: Vec<Opening>,
     /// \[m\] the extension of a joint's element at which it counts as torn.
     torn: f64,
     step_size: f64,
@@ -116,20 +149,42 @@ impl Judge {
         let model = plant.model();
         let step_size = plant.step_size();
         let mut joints = model.clone();
-        let ranges: Vec<_> = scene.joints.iter().map(|joint| joint.groups.clone()).collect();
-        joints.groups.truncate(ranges.last().map_or(0, |range| range.end));
-        let elements = joints.groups.iter().filter(|group| group.law == Law::Tsda);
-        let lengths = elements.flat_map(|group| {
-            let first = usize::from(group.element);
-            joints.tsdas[first..first + group.elements()].iter().map(|tsda| tsda.free_length)
-        });
-        let torn = TORN * lengths.fold(0.0, f64::max);
+        joints.groups.truncate(scene.joints.last().map_or(0, |joint| joint.groups.end));
+        let groups = scene.joints.iter().enumerate();
+        let owners = groups.flat_map(|(row, joint)| joint.groups.clone().map(move |_| row));
+        let owners: Vec<usize> = owners.collect();
+        let clearance = |group: &Group| group.clearance.row().map(|row| model.clearances[row]);
+        let clearances =
+            joints.groups.iter().map(|group| clearance(group).unwrap_or(0.0)).collect();
+        let mut lengths = vec![0.0_f64; scene.joints.len()];
+        for (group, joint) in joints.groups.iter().zip(&owners) {
+            lengths[*joint] = lengths[*joint].max(free_length(model, group));
+        }
+        let opening = |(joint, free_length): (usize, &f64)| Opening {
+            joint,
+            free_length: *free_length,
+            extension: 0.0,
+            time: 0.0,
+            since: None,
+        };
+        let openings = lengths.iter().enumerate().map(opening).collect();
+        // Guides have no say: how far their points lie from the lines is not how large they are.
+        let stars = joints.groups.iter().filter(|group| group.law == Law::Tsda);
+        let torn = TORN * stars.map(|group| free_length(model, group)).fold(0.0, f64::max);
         let start = State::initial(model);
         let growth = undriven(model).then(|| {
             let energy = energy(model, &start, step_size);
             Growth::new(model, &energy, size(&start))
         });
-        Self { model: model.clone(), joints, ranges, torn, step_size, growth }
+        let present = vec![[0.0; 2]; scene.joints.len()];
+        let model = model.clone();
+        Self { model, joints, owners, clearances, present, openings, torn, step_size, growth }
+    }
+
+    /// How far each joint opened in the states so far, in scene order.
+    #[must_use]
+    pub fn openings(&self) -> &[Opening] {
+        &self.openings
     }
 
     /// What a state holds.
@@ -141,9 +196,9 @@ impl Judge {
         if !energy.total().is_finite() {
             return Err(Trouble::Energy { body: fastest(state) });
         }
-        let extension = largest_extension(&self.joints, state);
+        let (joint, extension) = self.look(state);
         if self.torn > 0.0 && extension > self.torn {
-            return Err(Trouble::Torn { joint: self.longest(state), extension });
+            return Err(Trouble::Torn { joint, extension });
         }
         if let Some(growth) = self.growth.as_mut().and_then(|growth| growth.beyond(&energy)) {
             return Err(Trouble::Growth { growth, body: fastest(state) });
@@ -151,15 +206,38 @@ impl Judge {
         Ok(Verdict { energy, extension })
     }
 
-    /// The row of the joint with the largest extension.
-    fn longest(&self, state: &State<SceneModel<F64>>) -> usize {
-        let extension = |groups: &Range<usize>| {
-            let mut joint = self.joints.clone();
-            joint.groups = joint.groups[groups.clone()].to_vec();
-            largest_extension(&joint, state)
-        };
-        let extensions = self.ranges.iter().map(extension).enumerate();
-        extensions.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(row, _)| row)
+    /// Takes note of every joint's extension; the joint with the largest, and that.
+    fn look(&mut self, state: &State<SceneModel<F64>>) -> (usize, f64) {
+        self.present.fill([0.0; 2]);
+        let Self { present, owners, clearances, .. } = self;
+        each_extension(&self.joints, state, |group, extension| {
+            let [whole, beyond] = &mut present[owners[group]];
+            let extension = extension.abs();
+            *whole = whole.max(extension);
+            *beyond = beyond.max(extension - clearances[group]);
+        });
+        let time = state.step as f64 * self.step_size;
+        for (opening, [_, beyond]) in self.openings.iter_mut().zip(&self.present) {
+            if *beyond > opening.extension {
+                (opening.extension, opening.time) = (*beyond, time);
+                if *beyond > OPENED * opening.free_length {
+                    opening.since.get_or_insert(time);
+                }
+            }
+        }
+        let rows = self.present.iter().map(|[whole, _]| *whole).enumerate();
+        rows.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
+    }
+}
+
+/// \[m\] the largest free length of a group's elements.
+fn free_length(model: &SceneModel<F64>, group: &Group) -> f64 {
+    let first = usize::from(group.element);
+    let rows = first..first + group.elements();
+    match group.law {
+        Law::Tsda => model.tsdas[rows].iter().map(|tsda| tsda.free_length).fold(0.0, f64::max),
+        Law::PointOnLine => model.lines[rows].iter().map(|on| on.free_length).fold(0.0, f64::max),
+        Law::PointBushing => 0.0,
     }
 }
 

@@ -3,6 +3,7 @@
 mod check;
 mod refusal;
 mod run;
+mod warnings;
 
 use std::fs;
 use std::path::{Path, PathBuf};

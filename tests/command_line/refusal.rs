@@ -137,6 +137,20 @@ fn a_run_that_diverges_says_where_and_which_step_works() {
     assert_eq!(folder.trace("four-bar").times().len(), 501);
 }
 
+/// Where not even the start can be judged there is no state to speak of.
+#[test]
+fn a_run_without_a_sample_has_no_hash() {
+    let folder = Folder::new();
+    let heavy = PENDULUM.replace("mass = 0.5", "mass = 50").replace("-9.81", "-1e308");
+    let scene = folder.scene(&heavy);
+    let done = folder.run(&scene, &["--json", "--step", "1ms"]);
+    assert_eq!(done.exit, Exit::Failed);
+    let summary: Value = serde_json::from_str(&done.out).unwrap();
+    for key in ["state_hash", "energy_initial", "energy_final"] {
+        assert_eq!(summary[key], Value::Null, "{key}");
+    }
+}
+
 #[test]
 fn a_step_is_named_only_after_it_was_tried() {
     let folder = Folder::new();

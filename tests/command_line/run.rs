@@ -53,6 +53,8 @@ fn the_summary_has_its_keys_in_order_and_is_the_file() {
         "advised_step",
         "state_hash",
         "status",
+        "widest_joint",
+        "warnings",
     ];
     let found: Vec<&str> = done
         .out

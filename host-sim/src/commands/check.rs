@@ -4,15 +4,15 @@
 //! frequency, warnings, notes`. Warnings are for things that are probably not meant; they do not
 //! change the exit code.
 
-use dbd_kernel::schemes::{Leapfrog, Scheme};
-use dbd_plant::Frequencies;
-use dbd_plant::digits::{approximate, significant};
+use dbd_plant::digits::significant;
 use dbd_plant::frequencies::advised_text;
 use dbd_plant::time::display;
-use dbd_scene::{InputInfo, JointFacts, JointInfo, ReadoutInfo, Scene, Severity};
+use dbd_plant::{Frequencies, Method};
+use dbd_scene::{InputInfo, JointFacts, JointInfo, ReadoutInfo, Scene};
 use serde::Serialize;
 
 use crate::commands::stability::StabilityCheck;
+use crate::commands::warnings::{notes, of_scene, of_step};
 use crate::terminal::text::{aligned, table};
 
 /// What is known of a scene before it runs.
@@ -172,29 +172,14 @@ pub fn check(scene: &Scene) -> Check {
         warnings: Vec::new(),
         notes: Vec::new(),
     };
-    warn_of_step(scene, &frequencies, &mut check);
+    if let Some(step) = scene.step {
+        let method = Method::default();
+        check.warnings = of_step(scene, &frequencies, &method, step, "the scene's step");
+    }
     note_count(facts.planar_loops, &mut check);
-    for warning in scene.warnings() {
-        match warning.severity {
-            Severity::Warning => check.warnings.push(warning.to_string()),
-            Severity::Note => check.notes.push(warning.to_string()),
-        }
-    }
+    check.warnings.extend(of_scene(scene));
+    check.notes.extend(notes(scene));
     check
-}
-
-fn warn_of_step(scene: &Scene, frequencies: &Frequencies, check: &mut Check) {
-    let limit = Leapfrog.stability_limit();
-    if let Some(step) = scene.step.filter(|step| step * frequencies.bound > limit) {
-        let longest = limit / frequencies.bound;
-        check.warnings.push(format!(
-            "the scene's step of {} is beyond {limit}/ω of the bound, {}: the run may diverge",
-            display(step),
-            approximate(longest),
-        ));
-    }
-    let spin = scene.step.and_then(|step| frequencies.warning(scene, step));
-    check.warnings.extend(spin);
 }
 
 fn note_count(planar_loops: usize, check: &mut Check) {

@@ -1,6 +1,7 @@
 //! The commands, each as a function without a terminal.
 //!
 //! - [`list`]: the scenes that ship.
+//! - [`warnings`]: what is probably not meant, in one place for all.
 //! - [`stability`], [`check`]: what a scene is, without running it.
 //! - [`folder`]: where results go.
 //! - [`run`]: a scene becomes a trace, a summary and a report.
@@ -14,3 +15,4 @@ pub mod list;
 pub mod run;
 pub mod stability;
 pub mod trade;
+pub mod warnings;

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 use dbd_kernel::damping::Damping;
 use dbd_output::file::{self, PendingFile};
-use dbd_plant::judge::conserves_energy;
+use dbd_plant::judge::{Opening, conserves_energy};
 use dbd_plant::plan::{Request, StepRequest, plan};
 use dbd_plant::plant::{check_inputs, check_step};
 use dbd_plant::{Frequencies, Method, Plan, PlanError, PlantError};
@@ -18,7 +18,8 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::commands::folder::{FolderError, results};
-use crate::report::{Curves, Report, Statistics, Summary, TraceWriter, html};
+use crate::commands::warnings::{of_run, of_scene, of_step};
+use crate::report::{Curves, JointOpening, Report, Statistics, Summary, TraceWriter, html};
 use crate::simulate::{Ending, FailedRun, Observer, Sample, SimulationError, simulate};
 use crate::terminal::LoadError;
 
@@ -228,6 +229,9 @@ fn summarise(
         Some(failure) => format!("{failure}; {}", failure.advice()),
         None => "ok".into(),
     };
+    let mut warnings = of_step(scene, frequencies, method, plan.step, "the step");
+    warnings.extend(of_run(scene, &ending.openings));
+    warnings.extend(of_scene(scene));
     Summary {
         scene: scene.name.clone(),
         scheme: method.scheme_name(),
@@ -249,8 +253,21 @@ fn summarise(
         frequency_bound_hz: frequencies.bound_hz(),
         frequency_estimate_hz: frequencies.estimate_hz(),
         advised_step: frequencies.advised_step(),
-        state_hash: format!("{:016x}", statistics.hash()),
+        state_hash: statistics.hash().map(|hash| format!("{hash:016x}")),
         status,
-        warnings: frequencies.warning(scene, plan.step).into_iter().collect(),
+        widest_joint: widest(scene, &ending.openings),
+        warnings,
     }
+}
+
+/// The joint that opened by the largest share of its free length.
+fn widest(scene: &Scene, openings: &[Opening]) -> Option<JointOpening> {
+    let sized = openings.iter().filter(|opening| opening.free_length > 0.0);
+    let widest = sized.max_by(|a, b| a.share().total_cmp(&b.share()))?;
+    Some(JointOpening {
+        name: scene.joints[widest.joint].name.clone(),
+        extension: widest.extension,
+        free_length: widest.free_length,
+        time: widest.time,
+    })
 }

@@ -13,5 +13,5 @@ pub mod trace;
 pub use curves::Curves;
 pub use page::{Report, html};
 pub use statistics::Statistics;
-pub use summary::Summary;
+pub use summary::{JointOpening, Summary};
 pub use trace::TraceWriter;

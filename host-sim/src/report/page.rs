@@ -63,14 +63,15 @@ pub fn html(report: &Report<'_>) -> String {
         figures(&mut page, scene, curves);
     }
 
-    let _ = write!(
-        page,
-        "<h2>Run it again</h2>\n<pre>{}</pre>\n\
-         <p>The same state hash, <code>{}</code>, means the same bits: every position, \
-         orientation and velocity at the end of the run.</p>\n</main>\n</body>\n</html>\n",
-        escape(&command(report)),
-        summary.state_hash,
-    );
+    let _ = writeln!(page, "<h2>Run it again</h2>\n<pre>{}</pre>", escape(&command(report)));
+    if let Some(hash) = &summary.state_hash {
+        let _ = writeln!(
+            page,
+            "<p>The same state hash, <code>{hash}</code>, means the same bits: every position, \
+             orientation and velocity at the end of the run.</p>"
+        );
+    }
+    page.push_str("</main>\n</body>\n</html>\n");
     page
 }
 

@@ -42,7 +42,7 @@ pub struct Statistics {
     line: Line,
     squares: f64,
     extension: f64,
-    hash: u64,
+    hash: Option<u64>,
 }
 
 impl Statistics {
@@ -52,7 +52,7 @@ impl Statistics {
         if sample.extension > self.extension {
             self.extension = sample.extension;
         }
-        self.hash = sample.hash;
+        self.hash = Some(sample.hash);
     }
 
     fn push_energy(&mut self, time: f64, energy: f64) {
@@ -73,7 +73,7 @@ impl Statistics {
     /// \[J\] total energy of the last sample.
     #[must_use]
     pub fn energy_final(&self) -> f64 {
-        self.last
+        if self.first.is_some() { self.last } else { f64::NAN }
     }
 
     /// \[W\] least-squares slope of the total energy.
@@ -100,9 +100,9 @@ impl Statistics {
         self.last_time
     }
 
-    /// The hash of the last sample's state.
+    /// The hash of the last sample's state; `None` without samples.
     #[must_use]
-    pub fn hash(&self) -> u64 {
+    pub fn hash(&self) -> Option<u64> {
         self.hash
     }
 }

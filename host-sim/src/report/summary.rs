@@ -5,7 +5,7 @@
 
 use dbd_plant::digits::significant;
 use dbd_plant::frequencies::advised_text;
-use dbd_plant::time::display;
+use dbd_plant::time::{display, rounded};
 use serde::Serialize;
 
 use crate::terminal::text::json;
@@ -54,13 +54,27 @@ pub struct Summary {
     pub frequency_estimate_hz: f64,
     /// \[s\] 1/ω of the bound, or less where a body spins fast; `None` where nothing does either.
     pub advised_step: Option<f64>,
-    /// FNV-1a 64 over the state's words, 16 hexadecimal digits.
-    pub state_hash: String,
+    /// FNV-1a 64 over the state's words, 16 hexadecimal digits; `None` without a sample.
+    pub state_hash: Option<String>,
     /// `ok`, or a sentence that names the failure.
     pub status: String,
-    /// What is probably not meant; for people, no key.
-    #[serde(skip)]
+    /// The joint that opened by the largest share of its free length; `None` without joints.
+    pub widest_joint: Option<JointOpening>,
+    /// What is probably not meant.
     pub warnings: Vec<String>,
+}
+
+/// How far a joint opened, seen at the samples and about a thousand times over the run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct JointOpening {
+    /// The joint's name.
+    pub name: String,
+    /// \[m\] largest |L − L0| or |e| of its elements, less its clearance.
+    pub extension: f64,
+    /// \[m\] the largest free length of its elements.
+    pub free_length: f64,
+    /// \[s\] when.
+    pub time: f64,
 }
 
 impl Summary {
@@ -97,6 +111,15 @@ impl Summary {
         );
         let span = format!("{} × {} = {}", self.steps, display(self.step), display(self.duration));
         let advised = advised_text(self.advised_step, self.frequency_bound_hz);
+        let widest = match &self.widest_joint {
+            Some(JointOpening { name, extension, free_length, time }) => format!(
+                "`{name}`: {} m, {} % of its free length, at t = {}",
+                significant(*extension, 3),
+                significant(100.0 * extension / free_length, 3),
+                display(rounded(*time, 6)),
+            ),
+            None => "– (no joints)".into(),
+        };
         let mut rows = vec![
             ("scene", self.scene.clone()),
             ("method", method),
@@ -108,9 +131,10 @@ impl Summary {
             ("energy, drift rate", format!("{} W", significant(self.energy_drift_rate, 4))),
             ("energy, RMS error", rms),
             ("joint extension, largest", format!("{} m", significant(self.max_joint_extension, 4))),
+            ("widest joint", widest),
             ("highest frequency", frequency),
             ("advised step", advised),
-            ("state hash", self.state_hash.clone()),
+            ("state hash", self.state_hash.clone().unwrap_or_else(|| "– (no sample)".into())),
             ("status", self.status.clone()),
         ];
         rows.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));

@@ -1,6 +1,8 @@
 //! A run that failed: where, and which step works instead.
 //!
-//! `(trouble, scene, plan) => sentence`. A step is only named after a run with it over the same
+//! `(trouble, scene, plan) => sentence`, the cause before the symptom where it is known: the step is
+//! the cause where it is beyond what the scheme bears at t = 0, or where a shorter one works. A step
+//! is only named after a run with it over the same
 //! duration has come to its end; the candidates are the advised step, shortened to a round one that
 //! fits, and its halves, all shorter than the one that failed.
 
@@ -28,6 +30,8 @@ const MOST_EVALUATIONS: f64 = 4e9;
 /// A run that failed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FailedRun {
+    /// Why, where that is known, e.g. `step too large: ω·h = 3.1 at t = 0`.
+    pub cause: Option<String>,
     /// What went wrong, e.g. ``the velocity of body `crank` is not finite``.
     pub what: String,
     /// The step that failed, counted from 1.
@@ -65,13 +69,15 @@ impl FailedRun {
         ending: &Ending,
         trouble: Trouble,
     ) -> Self {
+        let remedy = find_remedy(scene, method, run, every);
         Self {
+            cause: cause(scene, method, run.step, &remedy),
             what: describe(scene, trouble),
             step: ending.steps,
             steps: run.steps,
             step_size: run.step,
             time: run.time(ending.steps),
-            remedy: find_remedy(scene, method, run, every),
+            remedy,
         }
     }
 
@@ -99,8 +105,12 @@ impl FailedRun {
 
 impl fmt::Display for FailedRun {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { what, step, steps, step_size, time, .. } = self;
+        let Self { cause, what, step, steps, step_size, time, .. } = self;
         let (time, size) = (display(*time), display(*step_size));
+        match cause {
+            Some(cause) => write!(f, "{cause}; then ")?,
+            None => f.write_str("the run failed: ")?,
+        }
         write!(f, "{what} at t = {time}, in step {step} of {steps} with the step size {size}")
     }
 }
@@ -118,7 +128,7 @@ fn describe(scene: &Scene, trouble: Trouble) -> String {
     match trouble {
         Trouble::Step(Cause::NonFinite { body }) => {
             let body = name(&scene.body_names, body.row());
-            format!("the run diverged: the velocity of body `{body}` is not finite")
+            format!("the velocity of body `{body}` is not finite")
         }
         Trouble::Step(Cause::UndefinedTwist { spring }) => {
             let spring = name(&scene.torsion_names, usize::from(spring.0));
@@ -126,18 +136,54 @@ fn describe(scene: &Scene, trouble: Trouble) -> String {
         }
         Trouble::Growth { growth, body } => {
             let (growth, body) = (significant(growth, 2), name(&scene.body_names, body));
-            format!("the run diverged: {growth} J came from nowhere, body `{body}` is the fastest,")
+            format!("{growth} J came from nowhere, body `{body}` is the fastest,")
         }
         Trouble::Torn { joint, extension } => {
             let joint = scene.joints.get(joint).map(|joint| joint.name.clone()).unwrap_or_default();
             let extension = significant(extension, 2);
-            format!("the run diverged: joint `{joint}` is stretched by {extension} m")
+            format!("joint `{joint}` is stretched by {extension} m")
         }
         Trouble::Energy { body } => {
             let body = name(&scene.body_names, body);
-            format!("the run diverged: the energy of body `{body}` is not finite")
+            format!("the energy of body `{body}` is not finite")
         }
     }
+}
+
+/// Why a run failed, as far as its step is to blame.
+fn cause(scene: &Scene, method: &Method, step: f64, remedy: &Remedy) -> Option<String> {
+    let frequencies = Frequencies::of(scene);
+    let limit = method.stability_limit();
+    let [least, most] = [frequencies.estimate * step, frequencies.bound * step];
+    let scheme = method.scheme_name();
+    let shown = |z: f64| significant(z, 3);
+    let beyond = |sign: &str, z: f64| {
+        format!(
+            "step too large: ω·h {sign} {} at t = 0, {scheme} bears {}",
+            shown(z),
+            significant(limit, 4)
+        )
+    };
+    // The estimate is never above the truth: nothing needs to be tried.
+    if least > limit {
+        return Some(beyond("=", least));
+    }
+    let works = matches!(remedy, Remedy::Step(_));
+    if !works {
+        return None;
+    }
+    if most > limit {
+        return Some(beyond("≤", most));
+    }
+    if let Some(turn) = frequencies.warning(scene, step) {
+        return Some(format!("step too large: {turn}"));
+    }
+    Some(format!(
+        "step too large: a shorter one works (ω·h ≤ {} at t = 0, {scheme} bears {}, but frequencies \
+         rise along a motion, and dampers and spins have limits of their own)",
+        shown(most),
+        significant(limit, 4),
+    ))
 }
 
 fn find_remedy(scene: &Scene, method: &Method, run: &Plan, every: Option<f64>) -> Remedy {

@@ -7,7 +7,7 @@ use std::io;
 use std::time::{Duration, Instant};
 
 use dbd_kernel::{Energy, F64, State, Status};
-use dbd_plant::judge::{Judge, Trouble, Verdict};
+use dbd_plant::judge::{Judge, Opening, Trouble, Verdict};
 use dbd_plant::numerals::Numerals;
 use dbd_plant::readings::append;
 use dbd_plant::{AnyPlant, Method, Plan, PlantError, plant};
@@ -15,7 +15,7 @@ use dbd_scene::{Scene, SceneModel};
 use miette::Diagnostic;
 use thiserror::Error;
 
-/// A run is looked at this often at least, whatever its sampling interval.
+/// A run is looked at about this often, whatever its sampling interval.
 const LOOKS: u64 = 1000;
 
 /// Steps between two looks at most, so that progress is seen.
@@ -54,7 +54,7 @@ pub trait Observer {
 }
 
 /// How a run ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Ending {
     /// Steps done, the failed one included.
     pub steps: u64,
@@ -64,6 +64,8 @@ pub struct Ending {
     pub wall: Duration,
     /// Why it ended early.
     pub trouble: Option<Trouble>,
+    /// How far each joint opened, seen at the samples and about a thousand times over the run.
+    pub openings: Vec<Opening>,
 }
 
 /// Why a run could not be carried out.
@@ -119,7 +121,8 @@ pub fn simulate(
         }
     };
     let (steps, evaluations) = (plant.steps(), plant.evaluations());
-    Ok(Ending { steps, evaluations, wall, trouble })
+    let openings = judge.openings().to_vec();
+    Ok(Ending { steps, evaluations, wall, trouble, openings })
 }
 
 /// The scene's read-outs now, one number per column of the trace.

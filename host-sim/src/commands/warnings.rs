@@ -1,0 +1,92 @@
+//! What is probably not meant in a scene, in the step it is given, or in what a run of it did.
+//!
+//! `(scene, method, step, openings) => sentences`. The one place that knows them: `check`, `run` and
+//! `trade` say what of it they can know. No warning changes an exit code.
+
+use dbd_plant::digits::{approximate, significant};
+use dbd_plant::judge::{OPENED, Opening};
+use dbd_plant::time::{display, rounded};
+use dbd_plant::{Frequencies, Method};
+use dbd_scene::{Scene, Severity};
+
+/// Joints that a warning names besides the worst.
+const NAMED: usize = 4;
+
+/// What is probably not meant in the scene itself.
+#[must_use]
+pub fn of_scene(scene: &Scene) -> Vec<String> {
+    said(scene, Severity::Warning)
+}
+
+/// What is good to know of the scene.
+#[must_use]
+pub fn notes(scene: &Scene) -> Vec<String> {
+    said(scene, Severity::Note)
+}
+
+fn said(scene: &Scene, severity: Severity) -> Vec<String> {
+    let all = scene.warnings().into_iter();
+    all.filter(|warning| warning.severity == severity).map(|warning| warning.to_string()).collect()
+}
+
+/// What is wrong with a step at t = 0: vibration beyond what the scheme bears, a spin beyond what a
+/// step may turn. `whose` step it is begins the sentence: `the step`.
+#[must_use]
+pub fn of_step(
+    scene: &Scene,
+    frequencies: &Frequencies,
+    method: &Method,
+    step: f64,
+    whose: &str,
+) -> Vec<String> {
+    let limit = method.stability_limit();
+    let [least, most] = [frequencies.estimate * step, frequencies.bound * step];
+    let mut warnings = Vec::new();
+    if most > limit {
+        // The estimate is never above the truth. A run may yet look well: exact planar motion, for
+        // one, does not excite what vibrates out of the plane.
+        let (z, of, then) = match least > limit {
+            true => (least, "estimate", "what vibrates so grows without bound once it is excited"),
+            false => (most, "bound", "the run may diverge"),
+        };
+        warnings.push(format!(
+            "{whose} of {} is beyond what {} bears: ω·h = {} with the {of} of the highest frequency \
+             at t = 0, the limit is {}: {then}; a step of at most {}",
+            display(step),
+            method.scheme_name(),
+            significant(z, 3),
+            significant(limit, 4),
+            approximate(limit / frequencies.bound),
+        ));
+    }
+    warnings.extend(frequencies.warning(scene, step));
+    warnings
+}
+
+/// What a run did that is probably not meant: joints that opened by more than [`OPENED`] of their
+/// free length.
+#[must_use]
+pub fn of_run(scene: &Scene, openings: &[Opening]) -> Vec<String> {
+    let mut open: Vec<_> = openings.iter().filter_map(|o| Some((o, o.since?))).collect();
+    open.sort_by(|a, b| b.0.share().total_cmp(&a.0.share()));
+    let Some(((worst, since), others)) = open.split_first() else { return Vec::new() };
+    let name = |opening: &Opening| format!("`{}`", scene.joints[opening.joint].name);
+    let mut text = format!(
+        "joint {} opened by {} m at t = {}, {} % of its free length of {} m; beyond {} % from t = {} on",
+        name(worst),
+        significant(worst.extension, 3),
+        display(rounded(worst.time, 6)),
+        significant(100.0 * worst.share(), 3),
+        significant(worst.free_length, 4),
+        100.0 * OPENED,
+        display(rounded(*since, 6)),
+    );
+    if !others.is_empty() {
+        let mut names: Vec<_> = others.iter().take(NAMED).map(|(other, _)| name(other)).collect();
+        if others.len() > NAMED {
+            names.push(format!("{} more", others.len() - NAMED));
+        }
+        text += &format!("; so did {}", names.join(", "));
+    }
+    vec![text + ": stiffness, masses and loads do not go together, or the step is too long"]
+}

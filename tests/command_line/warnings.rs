@@ -1,0 +1,148 @@
+//! What is probably not meant is said wherever it is met: table, report, JSON; exit codes stay.
+
+use std::fs;
+
+use dbd_tests::scene_text;
+use host_sim::terminal::Exit;
+use serde_json::Value;
+
+use crate::{Folder, PENDULUM, call};
+
+fn warnings(summary: &Value) -> Vec<String> {
+    let warnings = summary["warnings"].as_array().unwrap();
+    warnings.iter().map(|warning| warning.as_str().unwrap().to_owned()).collect()
+}
+
+/// The gripper with its masses in grams: light inertias for heavy bodies, which fall out of their
+/// joints.
+#[test]
+fn a_run_says_what_check_says_and_which_joint_opened_when_and_how_far() {
+    let folder = Folder::new();
+    let text = scene_text("gripper");
+    let lines = text.lines().map(|line| match line.strip_prefix("mass = ") {
+        Some(mass) => format!("mass = {}e3", mass.split_whitespace().next().unwrap()),
+        None => line.to_owned(),
+    });
+    let scene = folder.scene(&lines.collect::<Vec<_>>().join("\n"));
+    let checked: Value = serde_json::from_str(&call(&["check", &scene, "--json"]).out).unwrap();
+    let expected = warnings(&checked);
+    assert!(expected.len() >= 7, "{expected:#?}");
+
+    let options = ["--duration", "60ms"];
+    let done = folder.run(&scene, &options);
+    assert_eq!(done.exit, Exit::Done);
+    let summary = folder.summary(&scene, &options);
+    assert_eq!(summary["status"], "ok");
+    let said = warnings(&summary);
+    let [opened] = &said.iter().filter(|text| !expected.contains(text)).collect::<Vec<_>>()[..]
+    else {
+        panic!("{said:#?}")
+    };
+    let widest = &summary["widest_joint"];
+    let joint = widest["name"].as_str().unwrap();
+    let [extension, length, time] =
+        ["extension", "free_length", "time"].map(|key| widest[key].as_f64().unwrap());
+    assert!(extension > 0.5 * length && time > 0.02 && time <= 0.06, "{widest}");
+    for part in [&format!("joint `{joint}` opened by "), "% of its free length", "from t = 2"] {
+        assert!(opened.contains(part), "{part}: {opened}");
+    }
+    let report = fs::read_to_string(folder.path("out/gripper/report.html")).unwrap();
+    for warning in &said {
+        assert!(done.out.contains(warning), "{warning}: {}", done.out);
+        assert!(report.contains(warning), "{warning}");
+    }
+    for warning in &expected {
+        assert!(said.contains(warning), "{warning}");
+    }
+}
+
+#[test]
+fn the_widest_joint_is_that_of_the_trace() {
+    let folder = Folder::new();
+    let summary = folder.summary("four-bar", &["--duration", "20ms", "--every", "20us"]);
+    let widest = &summary["widest_joint"];
+    // Every step is a sample, there is no clearance, and all four are of one size: the widest is the
+    // one that stretches most.
+    assert_eq!(widest["extension"], summary["max_joint_extension"]);
+    assert!((widest["free_length"].as_f64().unwrap() - 0.03_f64.sqrt()).abs() < 1e-12);
+    assert_eq!(warnings(&summary), [""; 0]);
+    let scene = folder.scene(PENDULUM);
+    assert_eq!(folder.summary(&scene, &[])["widest_joint"], Value::Null);
+}
+
+#[test]
+fn a_step_beyond_the_limit_is_warned_of_by_run_and_check() {
+    let folder = Folder::new();
+    // ω² = k/m = 4000 1/s²: leapfrog bears 2/ω = 31.6 ms, rk4 44.7 ms.
+    let run = |options: &[&str]| {
+        let summary = folder.summary(&folder.scene(PENDULUM), options);
+        let mut warnings = warnings(&summary);
+        assert!(warnings.len() < 2, "{warnings:#?}");
+        warnings.pop()
+    };
+    let beyond = ["--step", "50ms", "--duration", "0.1s"];
+    let said = run(&beyond).unwrap();
+    for part in ["the step of 50ms is beyond what leapfrog bears", "ω·h = 3.16", "the limit is 2"]
+    {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    assert!(run(&[&beyond[..], &["--scheme", "rk4"]].concat()).unwrap().contains("2.828"));
+    for within in
+        [&["--step", "31.25ms"][..], &["--scheme", "rk4", "--step", "41.6666666666666667ms"]]
+    {
+        assert_eq!(run(&[within, &["--duration", "0.125s"]].concat()), None, "{within:?}");
+    }
+    let scene = folder.scene(&PENDULUM.replace("duration = 0.5", "duration = 0.5\nstep = 0.05"));
+    let checked = call(&["check", &scene]).out;
+    assert!(
+        checked.contains("the scene's step of 50ms is beyond what leapfrog bears"),
+        "{checked}"
+    );
+}
+
+#[test]
+fn a_failure_begins_with_its_cause_where_that_is_known() {
+    let folder = Folder::new();
+    let status = |scene: &str, options: &[&str]| {
+        let done = folder.run(scene, options);
+        assert_eq!(done.exit, Exit::Failed, "{}", done.out);
+        let title = done.err.lines().next().unwrap().to_owned();
+        let summary = folder.summary(scene, options);
+        let status = summary["status"].as_str().unwrap().to_owned();
+        let title = title.strip_prefix("error: ").unwrap();
+        assert!(status.starts_with(title), "{status}\n{title}");
+        status
+    };
+    let beyond = status("four-bar", &["--step", "200us"]);
+    let start = "step too large: ω·h = 4.18 at t = 0, leapfrog bears 2; then ";
+    assert!(beyond.starts_with(start), "{beyond}");
+    // A damper of c/m = 1000/s that acts explicitly needs a step below 2 ms, and 1/ω is 16 ms.
+    let damped = PENDULUM.replace("free_length = 1.0", "free_length = 1.0\ndamping = 500.0");
+    let within = status(&folder.scene(&damped), &["--scheme", "dbd"]);
+    let start = "step too large: a shorter one works (ω·h ≤ ";
+    assert!(within.starts_with(start) && within.contains("; then "), "{within}");
+    // Half a turn about an axis across the spring's: no step helps, and none is blamed.
+    let turning = PENDULUM
+        .replace("position = [0.6", "angular_velocity = [9, 0, 0]\nposition = [0.6")
+        + "\n[[torsion_spring]]\nbetween = [\"world\", \"bob\"]\naxis = [0, 0, 1]\nstiffness = 1e-9\n";
+    let twisted = status(&folder.scene(&turning), &["--step", "0.1ms"]);
+    assert!(twisted.starts_with("the run failed: the twist of torsion_spring 1"), "{twisted}");
+}
+
+#[test]
+fn a_survey_says_what_check_says_of_the_scene() {
+    let folder = Folder::new();
+    let odd = PENDULUM.replace("inertia = [1e-3, 1e-3, 1e-3]", "inertia = [1e-9, 1e-9, 1e-9]");
+    let scene = folder.scene(
+        &odd.replace("points = [[0, 0, 0], [0, 0, 0]]", "points = [[0, 0, 0], [0.1, 0, 0]]"),
+    );
+    let out = folder.path("out");
+    let survey = ["trade", &scene, "--window", "1ms", "--out", out.to_str().unwrap()];
+    let done = call(&survey);
+    assert_eq!(done.exit, Exit::Done, "{}", done.err);
+    let checked: Value = serde_json::from_str(&call(&["check", &scene, "--json"]).out).unwrap();
+    let expected = warnings(&checked);
+    assert_eq!(expected.len(), 1);
+    assert!(done.err.contains(&format!("warning: {}", expected[0])), "{}", done.err);
+    assert_eq!(call(&[&survey[..], &["--quiet"]].concat()).err, "");
+}
