@@ -30,13 +30,14 @@ mod target;
 mod text;
 mod torsion_spring;
 mod tsda;
+mod written;
 
 use std::ops::Range;
 use std::path::Path;
 
 pub use columns::{BODY_COLUMNS, ENERGY_COLUMNS};
 pub use error::{Refusal, SceneError};
-pub use facts::{Facts, Island, JointFacts};
+pub use facts::{ElementFrequency, Facts, Island, JointElement, JointFacts};
 pub use hinge::Hinge;
 pub use input::InputInfo;
 pub use lint::{Severity, Warning};
@@ -56,6 +57,7 @@ use crate::hinge::Known;
 use crate::origin::Origin;
 use crate::target::Elements;
 use crate::text::{Number, Numbers, Text};
+use crate::written::WrittenAngle;
 
 const KEYS: &[&str] = &[
     "name",
@@ -103,6 +105,7 @@ pub struct Scene {
     pub model: SceneModel<F64>,
     file_lines: FileLines,
     origin: Origin,
+    written_angles: Vec<WrittenAngle>,
     /// What messages call raw TSDAs, then points on lines.
     raw_names: Vec<String>,
 }
@@ -216,6 +219,7 @@ impl Scene {
             model,
             file_lines: FileLines::of(&root)?,
             origin: Origin::of(source, &root),
+            written_angles: written::angles(&root)?,
             raw_names,
         })
     }

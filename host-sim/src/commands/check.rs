@@ -7,6 +7,8 @@
 use dbd_plant::digits::significant;
 use dbd_plant::frequencies::advised_text;
 use dbd_plant::time::display;
+use std::f64::consts::TAU;
+
 use dbd_plant::{Frequencies, Method};
 use dbd_scene::{InputInfo, JointFacts, JointInfo, ReadoutInfo, Scene};
 use serde::Serialize;
@@ -36,6 +38,9 @@ pub struct Check {
     pub joints: Vec<JointCheck>,
     /// 6 per body less what the joints hold; too low where joints hold the same twice.
     pub degrees_of_freedom: i64,
+    /// What the joints leave free at t = 0, by the rank of their constraints; `None` where the bodies
+    /// are too many.
+    pub freedoms_by_rank: Option<usize>,
     /// Equations of motion: 6 per body.
     pub equations: usize,
     /// Equations of a solver with constraints (Franco & Degani 2026, Table 7a).
@@ -48,6 +53,8 @@ pub struct Check {
     pub frequency_bound_hz: f64,
     /// \[Hz\] estimate of the highest frequency at t = 0.
     pub frequency_estimate_hz: f64,
+    /// The element that alone would vibrate fastest; `None` where there is none.
+    pub fastest_element: Option<FastestElement>,
     /// \[s\] 1/ω of the bound, or less where a body spins fast; `None` where nothing does either.
     pub advised_step: Option<f64>,
     /// \[s\] the scene's own step, where it gives one.
@@ -59,6 +66,17 @@ pub struct Check {
     pub warnings: Vec<String>,
     /// What is good to know.
     pub notes: Vec<String>,
+}
+
+/// The element that alone would vibrate fastest.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FastestElement {
+    /// What messages call it.
+    pub name: String,
+    /// \[Hz\] alone between its two bodies.
+    pub frequency_hz: f64,
+    /// That over the median of the joints, or of all elements where there are no joints.
+    pub over_median: Option<f64>,
 }
 
 /// What is known of a joint before the scene runs.
@@ -150,7 +168,13 @@ pub fn check(scene: &Scene) -> Check {
         stretching_rate: facts.stretching_rate,
     };
     let joints: Vec<JointCheck> = scene.joints.iter().zip(&facts.joints).map(joint).collect();
+    let fastest = facts.fastest().filter(|element| element.frequency > 0.0);
     let mut check = Check {
+        fastest_element: fastest.map(|element| FastestElement {
+            name: element.name.clone(),
+            frequency_hz: element.frequency / TAU,
+            over_median: facts.median_frequency().map(|median| element.frequency / median),
+        }),
         scene: scene.name.clone(),
         bodies: model.bodies.len(),
         tsdas: model.tsda_count(),
@@ -159,6 +183,7 @@ pub fn check(scene: &Scene) -> Check {
         inputs: scene.inputs.iter().map(InputCheck::of).collect(),
         readouts: scene.readouts.iter().map(ReadoutCheck::of).collect(),
         degrees_of_freedom: facts.degrees_of_freedom,
+        freedoms_by_rank: facts.freedoms_by_rank,
         equations: facts.equations,
         constraint_equations: facts.constraint_equations,
         islands: facts.islands.len(),
@@ -203,6 +228,21 @@ impl Check {
     pub fn text(&self) -> String {
         let advised = advised_text(self.advised_step, self.frequency_bound_hz);
         let step = self.step.map_or_else(|| "– (the advised one)".into(), display);
+        let fastest = match &self.fastest_element {
+            Some(FastestElement { name, frequency_hz, over_median }) => {
+                let median = over_median
+                    .map(|ratio| format!(", {} times the median", significant(ratio, 3)));
+                format!(
+                    "{name}: {} Hz alone{}",
+                    significant(*frequency_hz, 4),
+                    median.unwrap_or_default()
+                )
+            }
+            None => "– (nothing vibrates)".into(),
+        };
+        let by_rank = self.freedoms_by_rank.map(|rank| format!(", {rank} by rank"));
+        let freedoms =
+            format!("{} by count{}", self.degrees_of_freedom, by_rank.unwrap_or_default());
         let mut rows = vec![
             ("scene", self.scene.clone()),
             ("bodies", self.bodies.to_string()),
@@ -212,7 +252,7 @@ impl Check {
             ("loads", self.loads.to_string()),
             ("inputs", self.inputs.len().to_string()),
             ("read-outs", self.readouts.len().to_string()),
-            ("degrees of freedom", format!("{} by count", self.degrees_of_freedom)),
+            ("degrees of freedom", freedoms),
             (
                 "equations",
                 format!("{}; {} with constraints", self.equations, self.constraint_equations),
@@ -227,6 +267,7 @@ impl Check {
                     significant(self.frequency_estimate_hz, 5)
                 ),
             ),
+            ("fastest element", fastest),
             ("advised step", advised),
             ("step of the scene", step),
         ];

@@ -44,16 +44,38 @@ pub(super) fn groups(scene: &Scene) -> Vec<GroupFacts> {
     scene.model.groups.iter().map(|group| facts_of(scene, &frames, group)).collect()
 }
 
-fn facts_of(scene: &Scene, frames: &[<F64 as Geometry>::Frame], group: &Group) -> GroupFacts {
+/// The points of element `i` of a group in the axes of their bodies.
+pub(super) fn points(scene: &Scene, group: &Group, i: usize) -> [Vec3<f64>; 2] {
     let (stars, arms) = (usize::from(group.stars), usize::from(group.arms));
     let points = &scene.model.points[usize::from(group.point)..];
+    [points[i / arms], points[stars + if group.shared { i % arms } else { i }]]
+}
+
+/// What of the displacement between the points of element `i` it acts along, world axes: of a point
+/// on a line what is normal to the line. `a` is the group's first end.
+pub(super) fn along(
+    scene: &Scene,
+    group: &Group,
+    i: usize,
+    a: &End<'_>,
+    displacement: Vec3<f64>,
+) -> Vec3<f64> {
+    if group.law != Law::PointOnLine {
+        return displacement;
+    }
+    let line = &scene.model.lines[usize::from(group.element) + i];
+    let n = a.to_world(line.direction);
+    displacement - n * displacement.dot(n)
+}
+
+fn facts_of(scene: &Scene, frames: &[<F64 as Geometry>::Frame], group: &Group) -> GroupFacts {
     let element = usize::from(group.element);
     let a = End { scene, frames, body: group.a };
     let b = End { scene, frames, body: group.b };
     let mut all = GroupFacts::NONE;
     for i in 0..group.elements() {
-        let centre = a.place(points[i / arms]);
-        let tip = b.place(points[stars + if group.shared { i % arms } else { i }]);
+        let [centre, tip] = points(scene, group, i);
+        let (centre, tip) = (a.place(centre), b.place(tip));
         let d = tip - centre;
         let (free_length, d, rate) = match group.law {
             Law::Tsda => (
@@ -65,9 +87,9 @@ fn facts_of(scene: &Scene, frames: &[<F64 as Geometry>::Frame], group: &Group) -
             Law::PointOnLine => {
                 let line = &scene.model.lines[element + i];
                 let n = a.to_world(line.direction);
-                let foot = centre + n * d.dot(n);
-                let rate = b.velocity(tip) - a.velocity(foot);
-                (line.free_length, tip - foot, rate - n * rate.dot(n))
+                let deflection = along(scene, group, i, &a, d);
+                let rate = b.velocity(tip) - a.velocity(tip - deflection);
+                (line.free_length, deflection, rate - n * rate.dot(n))
             }
         };
         let length = libm::sqrt(d.dot(d));
@@ -88,21 +110,36 @@ fn facts_of(scene: &Scene, frames: &[<F64 as Geometry>::Frame], group: &Group) -
 }
 
 /// One body of a group, or the world.
-struct End<'s> {
-    scene: &'s Scene,
-    frames: &'s [<F64 as Geometry>::Frame],
-    body: BodyIndex,
+pub(super) struct End<'s> {
+    pub(super) scene: &'s Scene,
+    pub(super) frames: &'s [<F64 as Geometry>::Frame],
+    pub(super) body: BodyIndex,
 }
 
 impl End<'_> {
-    fn place(&self, point: Vec3<f64>) -> Vec3<f64> {
+    pub(super) fn place(&self, point: Vec3<f64>) -> Vec3<f64> {
         match self.frames.get(self.body.row()) {
             Some(frame) => F64::place(frame, &point).0,
             None => F64::ground(&point),
         }
     }
 
-    fn to_world(&self, vector: Vec3<f64>) -> Vec3<f64> {
+    /// A point of the world in the end's axes from its centre of mass.
+    pub(super) fn to_local(&self, point_w: Vec3<f64>) -> Vec3<f64> {
+        match self.scene.model.initial.get(self.body.row()) {
+            Some(state) => self.to_body(point_w - state.position),
+            None => point_w,
+        }
+    }
+
+    pub(super) fn to_body(&self, vector: Vec3<f64>) -> Vec3<f64> {
+        match self.frames.get(self.body.row()) {
+            Some(frame) => F64::to_body(frame, vector),
+            None => vector,
+        }
+    }
+
+    pub(super) fn to_world(&self, vector: Vec3<f64>) -> Vec3<f64> {
         match self.frames.get(self.body.row()) {
             Some(frame) => F64::to_world(frame, vector),
             None => vector,

@@ -6,14 +6,17 @@
 mod equations;
 mod islands;
 mod lengths;
+mod mobility;
 mod parts;
+mod stiffness;
 
 use dbd_kernel::{F64, Geometry, Vec3};
 
-use crate::Scene;
+use crate::{JointInfo, Scene};
 
 pub use islands::Island;
 pub(crate) use lengths::GroupFacts;
+pub use stiffness::{ElementFrequency, JointElement};
 
 /// What is known of a scene without running it.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,10 +30,18 @@ pub struct Facts {
     pub planar_loops: usize,
     /// 6 per body less what the joints hold; too low where joints hold the same twice.
     pub degrees_of_freedom: i64,
+    /// What the joints leave free at the initial pose, by the rank of their constraints: what they
+    /// hold twice counts once. `None` where there are more bodies than that takes a moment for.
+    pub freedoms_by_rank: Option<usize>,
+    /// Rows of the bodies that cannot move, though no joint holds them rigidly to what stands still:
+    /// stiff joints to several others do.
+    pub locked: Vec<usize>,
     /// The joints in scene order.
     pub joints: Vec<JointFacts>,
     /// Bodies that hang together, in the order of their first bodies.
     pub islands: Vec<Island>,
+    /// Joints, raw elements and torsion springs, how fast each alone would vibrate.
+    pub frequencies: Vec<ElementFrequency>,
 }
 
 /// What is known of a joint without running it.
@@ -47,7 +58,56 @@ pub struct JointFacts {
     pub stretching_rate: f64,
 }
 
+impl Facts {
+    /// The element that alone would vibrate fastest; `None` where there are none.
+    #[must_use]
+    pub fn fastest(&self) -> Option<&ElementFrequency> {
+        self.frequencies.iter().max_by(|a, b| a.frequency.total_cmp(&b.frequency))
+    }
+
+    /// \[rad/s\] the median of the joints' frequencies, of all elements where there are no joints.
+    #[must_use]
+    pub fn median_frequency(&self) -> Option<f64> {
+        let count = if self.joints.is_empty() { self.frequencies.len() } else { self.joints.len() };
+        let mut sorted: Vec<f64> =
+            self.frequencies.iter().take(count).map(|element| element.frequency).collect();
+        sorted.sort_by(f64::total_cmp);
+        sorted.get(sorted.len() / 2).copied().filter(|median| *median > 0.0)
+    }
+}
+
 impl Scene {
+    /// The elements of all joints in order, as they lie at the initial pose.
+    #[must_use]
+    pub fn joint_elements(&self) -> Vec<JointElement> {
+        stiffness::joint_elements(self)
+    }
+
+    /// The line of the scene file, from 1, on which a joint begins.
+    #[must_use]
+    pub fn line_of_joint(&self, row: usize) -> Option<usize> {
+        self.file_lines.joints.get(row).copied()
+    }
+
+    /// The line of the scene file, from 1, on which an element begins: rows of
+    /// [`ElementFrequency`]. Springs that only count turns have none.
+    #[must_use]
+    pub fn line_of_element(&self, row: usize) -> Option<usize> {
+        let lines = &self.file_lines;
+        let kinds = [&lines.joints, &lines.tsdas, &lines.points_on_lines, &lines.torsion_springs];
+        kinds.into_iter().flatten().nth(row).copied()
+    }
+
+    /// The line of the scene file, from 1, on which a body begins, or the joint that brings it.
+    #[must_use]
+    pub fn line_of_body(&self, row: usize) -> Option<usize> {
+        self.file_lines.bodies.get(row).copied().or_else(|| {
+            let name = self.body_names.get(row)?;
+            let brings = |joint: &JointInfo| joint.spider.as_ref() == Some(name);
+            self.line_of_joint(self.joints.iter().position(brings)?)
+        })
+    }
+
     /// Counts, lengths and islands.
     #[must_use]
     pub fn facts(&self) -> Facts {
@@ -65,13 +125,17 @@ impl Scene {
                 stretching_rate: all.stretching_rate,
             }
         });
+        let mobility = mobility::mobility(self);
         Facts {
+            freedoms_by_rank: mobility.as_ref().map(|mobility| mobility.freedoms),
+            locked: mobility.unwrap_or_default().locked,
             equations,
             constraint_equations: equations + held.saturating_sub(3 * planar_loops),
             planar_loops,
             degrees_of_freedom: equations as i64 - held as i64,
             joints: joints.collect(),
             islands: islands::islands(self),
+            frequencies: stiffness::frequencies(self),
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use dbd_kernel::Vec3;
 
-use crate::Scene;
 use crate::lint::{Severity, Warning, short};
+use crate::{Facts, Scene};
 
 /// Points may lie this many radii of gyration from the centre of mass. A rod's ends lie 1.7 away;
 /// at 30 the body is a grain on a long bar without mass, or its inertia has the wrong unit.
@@ -19,13 +19,13 @@ const NEEDLE: f64 = 1e-6;
 /// The heaviest body against the lightest: the step is the light one's, the motion the heavy one's.
 const MASS_RATIO: f64 = 1e6;
 
-pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
+pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     let farthest = farthest_points(scene);
     for (row, farthest) in farthest.iter().enumerate() {
         plausibility(scene, row, *farthest, warnings);
     }
     mass_ratio(scene, warnings);
-    for island in scene.facts().islands {
+    for island in &facts.islands {
         let first = island.bodies[0];
         if island.elements == 0 {
             let text = if scene.model.gravity.is_empty() {
@@ -47,7 +47,7 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
             warnings.push(of_body(scene, first, severity, &text));
         }
         if island.elements > 0 {
-            for row in island.bodies.into_iter().filter(|row| farthest[*row].is_none()) {
+            for &row in island.bodies.iter().filter(|row| farthest[**row].is_none()) {
                 let text = "only torsion springs hold it, and they hold no place";
                 warnings.push(of_body(scene, row, Severity::Warning, text));
             }
@@ -57,10 +57,7 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
 
 fn of_body(scene: &Scene, row: usize, severity: Severity, text: &str) -> Warning {
     let name = &scene.body_names[row];
-    let line = scene.file_lines.bodies.get(row).copied().or_else(|| {
-        let joint = scene.joints.iter().position(|joint| joint.spider.as_ref() == Some(name))?;
-        scene.file_lines.joints.get(joint).copied()
-    });
+    let line = scene.line_of_body(row);
     Warning { severity, name: format!("body `{name}`"), line, text: text.into() }
 }
 

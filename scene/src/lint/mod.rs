@@ -1,11 +1,15 @@
 //! What is probably not meant in a scene that is nevertheless right.
 //!
-//! `scene => warnings`, in the order bodies, joints and raw elements, torsion springs. They stop
+//! `scene => warnings`, in the order angles, bodies, joints and raw elements, torsion springs, frequencies. They stop
 //! nothing: what cannot be run is refused when the scene is read. Every threshold is a constant
 //! beside its reason.
 
+mod angles;
 mod bodies;
 mod elements;
+mod frequencies;
+mod locked;
+mod reach;
 mod torsion_springs;
 
 use std::fmt;
@@ -47,10 +51,15 @@ impl Scene {
     /// What is probably not meant.
     #[must_use]
     pub fn warnings(&self) -> Vec<Warning> {
+        let facts = self.facts();
         let mut warnings = Vec::new();
-        bodies::judge(self, &mut warnings);
+        angles::judge(self, &mut warnings);
+        bodies::judge(self, &facts, &mut warnings);
+        locked::judge(self, &facts, &mut warnings);
         elements::judge(self, &mut warnings);
+        reach::judge(self, &mut warnings);
         torsion_springs::judge(self, &mut warnings);
+        frequencies::judge(self, &facts, &mut warnings);
         warnings
     }
 }

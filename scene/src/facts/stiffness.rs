@@ -1,0 +1,158 @@
+//! How fast each element alone would let its two bodies vibrate, and which is the fastest.
+//!
+//! `scene => per element a frequency`. `ω² = k·(1/m_a + 1/m_b)` along the element, m the mass that a
+//! body shows at the point: `1/m = n·n/m + (r × n)·I⁻¹·(r × n)`; about an axis likewise. The fastest
+//! of an element's directions counts. A figure to compare elements by, no bound of anything.
+
+use dbd_kernel::Vec3;
+use dbd_kernel::model::{Group, Law};
+
+use crate::Scene;
+use crate::facts::frames;
+use crate::facts::lengths::{End, along, points};
+
+/// How fast a joint, a raw element or a torsion spring alone would let its bodies vibrate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ElementFrequency {
+    /// What messages call it: ``joint `wrist` ``.
+    pub name: String,
+    /// Its row in the order joints, raw elements, torsion springs.
+    pub row: usize,
+    /// \[rad/s\].
+    pub frequency: f64,
+}
+
+/// An element of a joint as it lies at the initial pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointElement {
+    /// The row of its joint.
+    pub joint: usize,
+    /// Rows of its two bodies, `None` for the world.
+    pub bodies: [Option<usize>; 2],
+    /// \[m\] from the bodies' centres of mass to its points, body axes.
+    pub points: [Vec3<f64>; 2],
+    /// The direction along which it pulls, unit length, in the axes of either body.
+    pub directions: [Vec3<f64>; 2],
+    /// The same in the world.
+    pub direction_w: Vec3<f64>,
+    /// \[N/m\].
+    pub stiffness: f64,
+    /// \[m\].
+    pub free_length: f64,
+}
+
+/// The elements of all joints.
+pub(super) fn joint_elements(scene: &Scene) -> Vec<JointElement> {
+    let frames = frames(scene);
+    let mut elements = Vec::new();
+    let groups = scene.joints.iter().enumerate();
+    for (joint, number) in
+        groups.flat_map(|(row, joint)| joint.groups.clone().map(move |n| (row, n)))
+    {
+        let group = &scene.model.groups[number];
+        let [a, b] = [group.a, group.b].map(|body| End { scene, frames: &frames, body });
+        for i in 0..group.elements() {
+            let [centre, tip] = points(scene, group, i);
+            let tip_w = b.place(tip);
+            let d = along(scene, group, i, &a, tip_w - a.place(centre));
+            let Some(n) = crate::direction::unit(d) else { continue };
+            // On a line the force is at its foot.
+            let foot = if group.law == Law::PointOnLine { a.to_local(tip_w - d) } else { centre };
+            let (stiffness, free_length) = law(scene, group, i);
+            elements.push(JointElement {
+                joint,
+                bodies: [group.a, group.b]
+                    .map(|body| Some(body.row()).filter(|row| *row < scene.model.bodies.len())),
+                points: [foot, tip],
+                directions: [a.to_body(n), b.to_body(n)],
+                direction_w: n,
+                stiffness,
+                free_length,
+            });
+        }
+    }
+    elements
+}
+
+/// \[N/m\] stiffness and \[m\] free length of element `i` of a group.
+pub(super) fn law(scene: &Scene, group: &Group, i: usize) -> (f64, f64) {
+    let element = usize::from(group.element);
+    match group.law {
+        Law::Tsda => {
+            let tsda = &scene.model.tsdas[element + i];
+            (tsda.stiffness, tsda.free_length)
+        }
+        Law::PointBushing => (scene.model.bushings[element].stiffness, 0.0),
+        Law::PointOnLine => {
+            let line = &scene.model.lines[element + i];
+            (line.stiffness, line.free_length)
+        }
+    }
+}
+
+/// Joints, raw elements and torsion springs in scene order.
+pub(super) fn frequencies(scene: &Scene) -> Vec<ElementFrequency> {
+    let frames = frames(scene);
+    let of_group = |number: usize| {
+        let group = &scene.model.groups[number];
+        let [a, b] = [group.a, group.b].map(|body| End { scene, frames: &frames, body });
+        let squares = (0..group.elements()).map(|i| of_element(scene, group, i, &a, &b));
+        squares.fold(0.0, f64::max)
+    };
+    let joints = scene.joints.iter().map(|joint| ElementFrequency {
+        name: format!("joint `{}`", joint.name),
+        row: 0,
+        frequency: libm::sqrt(joint.groups.clone().map(of_group).fold(0.0, f64::max)),
+    });
+    let raw = scene.joints.last().map_or(0, |joint| joint.groups.end);
+    let alone = |name: &String, square: f64| ElementFrequency {
+        name: name.clone(),
+        row: 0,
+        frequency: libm::sqrt(square),
+    };
+    let raws =
+        scene.raw_names.iter().zip(raw..).map(|(name, number)| alone(name, of_group(number)));
+    let springs = scene.model.torsions.iter().zip(&scene.torsion_names);
+    let springs = springs.map(|(spring, name)| {
+        let axis = End { scene, frames: &frames, body: spring.a }.to_world(spring.axis);
+        let ends = [spring.a, spring.b].map(|body| End { scene, frames: &frames, body });
+        alone(name, spring.stiffness * ends.iter().map(|end| turning(end, axis)).sum::<f64>())
+    });
+    let all = joints.chain(raws).chain(springs).enumerate();
+    all.map(|(row, element)| ElementFrequency { row, ..element }).collect()
+}
+
+fn of_element(scene: &Scene, group: &Group, i: usize, a: &End<'_>, b: &End<'_>) -> f64 {
+    let (stiffness, _) = law(scene, group, i);
+    let [centre, tip] = points(scene, group, i);
+    let (centre, tip) = (a.place(centre), b.place(tip));
+    let d = along(scene, group, i, a, tip - centre);
+    let directions = match crate::direction::unit(d) {
+        Some(n) if group.law != Law::PointBushing => vec![n],
+        // No length: every direction counts.
+        _ => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(Vec3::from_f64).to_vec(),
+    };
+    // On a line the force is at its foot.
+    let foot = if group.law == Law::PointOnLine { tip - d } else { centre };
+    let square = |n: &Vec3<f64>| stiffness * (moving(a, foot, *n) + moving(b, tip, *n));
+    directions.iter().map(square).fold(0.0, f64::max)
+}
+
+/// \[1/kg\] how easily a point of a body moves along a direction, world; 0 of the world.
+fn moving(end: &End<'_>, at: Vec3<f64>, n: Vec3<f64>) -> f64 {
+    let row = end.body.row();
+    let (Some(body), Some(state)) =
+        (end.scene.model.bodies.get(row), end.scene.model.initial.get(row))
+    else {
+        return 0.0;
+    };
+    1.0 / body.mass + turning(end, (at - state.position).cross(n))
+}
+
+/// \[1/(kg·m²)\] how easily a body turns about an axis, world: `a·I⁻¹·a`; 0 of the world.
+fn turning(end: &End<'_>, axis: Vec3<f64>) -> f64 {
+    let Some(body) = end.scene.model.bodies.get(end.body.row()) else { return 0.0 };
+    let Vec3 { x, y, z } = end.to_body(axis);
+    let inertia = body.inertia;
+    x * x / inertia.x + y * y / inertia.y + z * z / inertia.z
+}

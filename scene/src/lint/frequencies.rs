@@ -1,0 +1,31 @@
+//! An element that vibrates far faster than the others: it alone decides the step.
+
+use std::f64::consts::TAU;
+
+use crate::lint::{Severity, Warning, short};
+use crate::{Facts, Scene};
+
+/// A stiffness in the wrong unit, N/mm for N/m, or a mass in grams changes a frequency by √1000 = 32.
+/// The joints of the scenes that ship lie within 3 of their median.
+const FAR_ABOVE: f64 = 20.0;
+
+/// A median of fewer says nothing.
+const FEWEST: usize = 3;
+
+pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
+    let (Some(fastest), Some(median)) = (facts.fastest(), facts.median_frequency()) else { return };
+    if facts.joints.len() < FEWEST || fastest.frequency < FAR_ABOVE * median {
+        return;
+    }
+    warnings.push(Warning {
+        severity: Severity::Warning,
+        name: fastest.name.clone(),
+        line: scene.line_of_element(fastest.row),
+        text: format!(
+            "alone vibrates at {} Hz, {} times as fast as the median of the joints: it decides the \
+             step; are its stiffness in N/m, its bodies' masses in kg?",
+            short(fastest.frequency / TAU),
+            short(fastest.frequency / median),
+        ),
+    });
+}

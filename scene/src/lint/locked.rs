@@ -1,0 +1,30 @@
+//! Bodies that cannot move because joints lock each other.
+
+use crate::lint::{Severity, Warning};
+use crate::{Facts, Scene};
+
+/// Bodies that a warning names besides the first.
+const NAMED: usize = 4;
+
+pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
+    let Some((first, others)) = facts.locked.split_first() else { return };
+    let name = |row: &usize| format!("`{}`", scene.body_names[*row]);
+    let mut names: Vec<_> = others.iter().take(NAMED).map(name).collect();
+    if others.len() > NAMED {
+        names.push(format!("{} more", others.len() - NAMED));
+    }
+    let and = if names.is_empty() {
+        String::new()
+    } else {
+        format!(", nor can {} move", names.join(", "))
+    };
+    warnings.push(Warning {
+        severity: Severity::Warning,
+        name: format!("body {}", name(first)),
+        line: scene.line_of_body(*first),
+        text: format!(
+            "is locked: the joints together leave it no freedom at the initial pose{and}; a joint on \
+             the wrong body, or of a wrong type or axis?"
+        ),
+    });
+}

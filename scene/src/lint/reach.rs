@@ -1,0 +1,111 @@
+//! Joints that lie where one of their bodies is not.
+//!
+//! `(mass, inertia, points) => joints beyond a body's reach`. What a body reaches is known from its
+//! principal second moments of mass alone: a uniform convex body lies within √15 root mean square
+//! widths of its centre of mass (Kannan, Lovász & Simonovits 1995, theorem 4.1: √(n(n+2)) in n
+//! dimensions; a rod's ends lie at 1.7, an ellipsoid's at 2.2, a box's corners at 3).
+
+use dbd_kernel::Vec3;
+use dbd_kernel::model::{Group, Law};
+
+use crate::Scene;
+use crate::lint::{Severity, Warning, short};
+
+/// The square of the farthest that a uniform convex body reaches, in root mean square widths.
+const CONVEX: f64 = 15.0;
+
+/// Nearer to the centre of mass than this part of its reach an element says nothing of how large
+/// the body is: a bob hangs by its middle, and by a rod without mass from elsewhere.
+const MIDDLE: f64 = 0.1;
+
+/// How far an element's nearest point lies from a body's centre of mass.
+#[derive(Clone, Copy)]
+struct Place {
+    /// The group.
+    group: usize,
+    /// The body's row.
+    body: usize,
+    /// \[m\].
+    distance: f64,
+    /// In parts of what body and element reach together, in that direction.
+    part: f64,
+}
+
+pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
+    let groups = scene.model.groups.iter().enumerate();
+    let places: Vec<Place> =
+        groups.flat_map(|(number, group)| places(scene, number, group)).collect();
+    // Only of a body that is held where it is can it be said where it is not.
+    let mut placed = vec![0_usize; scene.model.bodies.len()];
+    for place in &places {
+        placed[place.body] += usize::from((MIDDLE..=1.0).contains(&place.part));
+    }
+    for (number, joint) in scene.joints.iter().enumerate() {
+        let own = |place: &&Place| {
+            joint.groups.contains(&place.group)
+                && scene.body_names.get(place.body) != joint.spider.as_ref()
+        };
+        let beyond = places.iter().filter(own).filter(|p| p.part > 1.0 && placed[p.body] > 0);
+        // Of a joint that lies off both its bodies the one that is farther is named.
+        let Some(worst) = beyond.max_by(|a, b| a.part.total_cmp(&b.part)) else { continue };
+        let text = format!(
+            "lies {} m from the centre of mass of `{}`, {} times as far as a body of that mass and \
+             inertia reaches: is it the right body, and `at` the right place?",
+            short(worst.distance),
+            scene.body_names[worst.body],
+            short(worst.part),
+        );
+        let line = scene.file_lines.joints.get(number).copied();
+        let name = format!("joint `{}`", joint.name);
+        warnings.push(Warning { severity: Severity::Warning, name, line, text });
+    }
+}
+
+/// Where a group's points lie on its two bodies.
+fn places(scene: &Scene, number: usize, group: &Group) -> Vec<Place> {
+    let first = usize::from(group.point);
+    let centres = first + usize::from(group.stars);
+    let last = first + group.points();
+    let size = size(scene, group);
+    // A line has no end: its points are anywhere on it.
+    let ends =
+        [(group.a, first..centres, group.law != Law::PointOnLine), (group.b, centres..last, true)];
+    let ends = ends.into_iter().filter(|(.., has_place)| *has_place);
+    let place = |(index, points, _): (dbd_kernel::BodyIndex, std::ops::Range<usize>, bool)| {
+        let body = scene.model.bodies.get(index.row())?;
+        let reach = reach(body.mass, body.inertia);
+        let measure = |p: &Vec3<f64>| {
+            let along = |x: f64, reach: f64| x / (reach + size);
+            let part = Vec3::new(along(p.x, reach.x), along(p.y, reach.y), along(p.z, reach.z));
+            [part, *p].map(|v| libm::sqrt(v.dot(v)))
+        };
+        let nearest =
+            scene.model.points[points].iter().map(measure).min_by(|a, b| a[0].total_cmp(&b[0]))?;
+        Some(Place { group: number, body: index.row(), distance: nearest[1], part: nearest[0] })
+    };
+    ends.filter_map(place).collect()
+}
+
+/// \[m\] how far a uniform convex body reaches along its axes. A flat one counts as thick as it is
+/// wide: a rotor's shaft weighs little.
+fn reach(mass: f64, inertia: Vec3<f64>) -> Vec3<f64> {
+    let Vec3 { x, y, z } = inertia;
+    let width = |square: f64| libm::sqrt((CONVEX * square / (2.0 * mass)).max(0.0));
+    let mut widths = [width(y + z - x), width(z + x - y), width(x + y - z)];
+    let mut sorted = widths;
+    sorted.sort_by(f64::total_cmp);
+    for width in &mut widths {
+        *width = width.max(sorted[1]);
+    }
+    Vec3::from_f64(widths)
+}
+
+/// \[m\] how large a joint is: the length of its elements.
+fn size(scene: &Scene, group: &Group) -> f64 {
+    let element = usize::from(group.element);
+    match group.law {
+        Law::Tsda => scene.model.tsdas[element].free_length,
+        Law::PointOnLine => scene.model.lines[element].free_length,
+        Law::PointBushing => 0.0,
+    }
+}
