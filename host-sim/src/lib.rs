@@ -6,6 +6,7 @@
 //! - [`terminal`]: scenes by name, text out, exit codes.
 //! - [`simulate`]: a planned run, sample by sample; where one failed and which step works.
 //! - [`stability`]: the largest stable step about a pose.
+//! - [`compliance`]: how far joints give way under the forces at t = 0.
 //! - [`report`]: what is left of a run: trace, summary, page.
 //! - [`commands`]: `list`, `check`, `run`, `trade`, `export`.
 //! - [`error`]: what ends a command early.
@@ -13,6 +14,7 @@
 
 pub mod cli;
 pub mod commands;
+pub mod compliance;
 pub mod error;
 pub mod report;
 pub mod simulate;

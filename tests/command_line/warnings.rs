@@ -2,7 +2,9 @@
 
 use std::fs;
 
-use dbd_tests::scene_text;
+use dbd_plant::Method;
+use dbd_tests::{scene, scene_names, scene_text};
+use host_sim::commands::run::{RunOptions, run};
 use host_sim::terminal::Exit;
 use serde_json::Value;
 
@@ -11,6 +13,60 @@ use crate::{Folder, PENDULUM, call};
 fn warnings(summary: &Value) -> Vec<String> {
     let warnings = summary["warnings"].as_array().unwrap();
     warnings.iter().map(|warning| warning.as_str().unwrap().to_owned()).collect()
+}
+
+/// Each scene as it ships: nothing is said of it, before a run or in its first tenth.
+#[test]
+fn nothing_is_said_of_the_scenes_that_ship() {
+    for name in scene_names() {
+        let checked: Value = serde_json::from_str(&call(&["check", &name, "--json"]).out).unwrap();
+        assert_eq!(warnings(&checked), [""; 0], "{name}");
+        let scene = scene(&name);
+        let options = RunOptions {
+            duration: Some(0.1 * scene.duration),
+            ..RunOptions::new(Method::default())
+        };
+        let outcome =
+            run(&scene, &RunOptions { every: options.duration, ..options }, &mut |_, _| ());
+        let summary = outcome.unwrap().summary;
+        assert_eq!((summary.warnings, summary.status.as_str()), (Vec::new(), "ok"), "{name}");
+    }
+}
+
+/// Stiffnesses of joints in N/mm, of one and of all: `check` says so, and a run bears it out.
+#[test]
+fn joints_that_are_too_soft_are_found_before_a_run() {
+    let folder = Folder::new();
+    for (name, joints) in
+        [("four-bar", 1), ("four-bar", 4), ("crank-slider", 4), ("hanging-chain", 20)]
+    {
+        let mut text = String::new();
+        let (mut table, mut changed) = (String::new(), 0);
+        for line in scene_text(name).lines() {
+            if line.starts_with("[[") {
+                table = line.to_owned();
+            }
+            match line.strip_prefix("stiffness = ") {
+                Some(stiffness) if table == "[[joint]]" && changed < joints => {
+                    changed += 1;
+                    text += &format!("stiffness = {stiffness}e-3\n")
+                        .replace("e6e-3", "e3")
+                        .replace("e5e-3", "e2");
+                }
+                _ => text += &format!("{line}\n"),
+            }
+        }
+        let scene = folder.scene(&text);
+        let checked: Value = serde_json::from_str(&call(&["check", &scene, "--json"]).out).unwrap();
+        let said = warnings(&checked);
+        let [soft] = &said[..] else { panic!("{name}: {said:#?}") };
+        for part in ["gives way by ", "(line ", "is the stiffness in N/m"] {
+            assert!(soft.contains(part), "{name}, {part}: {soft}");
+        }
+        let summary =
+            folder.summary(&scene, &["--duration", "0.5s", "--step", "1ms", "--every", "0.25s"]);
+        assert!(warnings(&summary).len() > 1, "{name}: {summary}");
+    }
 }
 
 /// The gripper with its masses in grams: light inertias for heavy bodies, which fall out of their

@@ -9,13 +9,49 @@ use dbd_plant::time::{display, rounded};
 use dbd_plant::{Frequencies, Method};
 use dbd_scene::{Scene, Severity};
 
+use crate::compliance::{Stretch, stretches};
+
 /// Joints that a warning names besides the worst.
 const NAMED: usize = 4;
 
 /// What is probably not meant in the scene itself.
 #[must_use]
 pub fn of_scene(scene: &Scene) -> Vec<String> {
-    said(scene, Severity::Warning)
+    let mut warnings = said(scene, Severity::Warning);
+    warnings.extend(of_stiffness(scene));
+    warnings
+}
+
+/// Joints that the forces at t = 0 alone open by more than [`OPENED`] of their free length.
+fn of_stiffness(scene: &Scene) -> Option<String> {
+    let mut soft = stretches(scene);
+    soft.retain(|stretch| stretch.share() > OPENED);
+    soft.sort_by(|a, b| b.share().total_cmp(&a.share()));
+    let (worst, others) = soft.split_first()?;
+    let name = |stretch: &Stretch| format!("`{}`", scene.joints[stretch.joint].name);
+    let line = scene.line_of_joint(worst.joint).map(|line| format!(" (line {line})"));
+    let mut text = format!(
+        "joint {}{}: gives way by {} m under the forces at t = 0, {} % of its free length of {} m",
+        name(worst),
+        line.unwrap_or_default(),
+        significant(worst.extension, 3),
+        significant(100.0 * worst.share(), 3),
+        significant(worst.free_length, 4),
+    );
+    if let Some(named) = named(others.iter().map(name)) {
+        text += &format!("; so do, by more than {} % of theirs, {named}", 100.0 * OPENED);
+    }
+    Some(text + ": is the stiffness in N/m, are masses in kg, forces in N?")
+}
+
+/// The first of these names, and how many more there are; `None` without any.
+fn named(names: impl ExactSizeIterator<Item = String>) -> Option<String> {
+    let more = names.len().saturating_sub(NAMED);
+    let mut names: Vec<String> = names.take(NAMED).collect();
+    if more > 0 {
+        names.push(format!("{more} more"));
+    }
+    (!names.is_empty()).then(|| names.join(", "))
 }
 
 /// What is good to know of the scene.
@@ -81,12 +117,8 @@ pub fn of_run(scene: &Scene, openings: &[Opening]) -> Vec<String> {
         100.0 * OPENED,
         display(rounded(*since, 6)),
     );
-    if !others.is_empty() {
-        let mut names: Vec<_> = others.iter().take(NAMED).map(|(other, _)| name(other)).collect();
-        if others.len() > NAMED {
-            names.push(format!("{} more", others.len() - NAMED));
-        }
-        text += &format!("; so did {}", names.join(", "));
+    if let Some(named) = named(others.iter().map(|(other, _)| name(other))) {
+        text += &format!("; so did {named}");
     }
     vec![text + ": stiffness, masses and loads do not go together, or the step is too long"]
 }

@@ -18,8 +18,8 @@ use crate::facts::stiffness::law;
 /// way more than that, and axes are written with some digits. It errs to the side of freedom.
 const DEPENDENT: f64 = 1e-3;
 
-/// More bodies are not looked at: the time grows with the third power, and this many take 0.1 s.
-const MOST_BODIES: usize = 120;
+/// More bodies are not looked at: the time grows with the third power.
+const MOST_BODIES: usize = 60;
 
 /// A body's axis along which less than this share of a velocity is free is held.
 const HELD: f64 = 1e-4;

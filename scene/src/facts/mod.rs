@@ -83,6 +83,12 @@ impl Scene {
         stiffness::joint_elements(self)
     }
 
+    /// Joints, raw elements and torsion springs in scene order: how fast each alone would vibrate.
+    #[must_use]
+    pub fn element_frequencies(&self) -> Vec<ElementFrequency> {
+        stiffness::frequencies(self)
+    }
+
     /// The line of the scene file, from 1, on which a joint begins.
     #[must_use]
     pub fn line_of_joint(&self, row: usize) -> Option<usize> {

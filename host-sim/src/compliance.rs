@@ -1,0 +1,152 @@
+//! How far joints give way under the forces at t = 0, before anything has run.
+//!
+//! `scene => per joint the longest stretch`. The pose at t = 0, at rest: M·a = Q − Jᵀ·K·J·u, with J
+//! the directions of the joints' elements, K their stiffnesses and u how far the bodies give way. In
+//! what the joints hold, a is 0: u = M^(−½)·A⁺·M^(−½)·Q with A = M^(−½)·Jᵀ·K·J·M^(−½), by the eigenvectors
+//! of A. What is soft against the joints themselves counts as free. A joint that starts at free length
+//! swings up to twice as far. No statement of what loads, inputs and motion do later.
+
+use dbd_kernel::Vec3;
+use dbd_reference::{Mechanism, State};
+use dbd_scene::{JointElement, Scene};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+
+/// More bodies are not looked at: the time grows with the third power.
+const MOST_BODIES: usize = 60;
+
+/// Modes below this share of the softest joint's frequency are motions that springs, and not joints,
+/// resist, or rubber that is meant to give way.
+const SOFT: f64 = 0.05;
+
+/// How far a joint gives way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// The row of the joint.
+    pub joint: usize,
+    /// \[m\] of its element that is stretched most.
+    pub extension: f64,
+    /// \[m\] that element's free length.
+    pub free_length: f64,
+}
+
+impl Stretch {
+    /// The extension as a share of the free length.
+    #[must_use]
+    pub fn share(&self) -> f64 {
+        self.extension / self.free_length
+    }
+}
+
+/// How far the joints give way, in scene order, without those that have no length; nothing where
+/// the bodies are too many.
+#[must_use]
+pub fn stretches(scene: &Scene) -> Vec<Stretch> {
+    let bodies = scene.model.bodies.len();
+    let elements = scene.joint_elements();
+    let joints = scene.element_frequencies().into_iter().take(scene.joints.len());
+    let frequencies = joints.map(|joint| joint.frequency).filter(|frequency| *frequency > 0.0);
+    let softest = frequencies.fold(f64::INFINITY, f64::min);
+    if bodies > MOST_BODIES {
+        return Vec::new();
+    }
+    if elements.is_empty() {
+        return Vec::new();
+    }
+    let roots = roots(scene);
+    let rows: Vec<Row> = elements.iter().map(|element| row(element, &roots)).collect();
+    let mut stiffness = DMatrix::zeros(6 * bodies, 6 * bodies);
+    for (element, row) in elements.iter().zip(&rows) {
+        for (i, a) in row {
+            for (j, b) in row {
+                stiffness[(*i, *j)] += element.stiffness * a * b;
+            }
+        }
+    }
+    let eigen = SymmetricEigen::new(stiffness);
+    let pull = weighted_accelerations(scene, &roots);
+    let mut way = DVector::zeros(6 * bodies);
+    for (square, mode) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
+        if *square > (SOFT * softest) * (SOFT * softest) {
+            way += mode * (mode.dot(&pull) / square);
+        }
+    }
+    let mut stretches: Vec<Stretch> = Vec::new();
+    for (element, row) in elements.iter().zip(&rows).filter(|(e, _)| e.free_length > 0.0) {
+        let extension = row.iter().map(|(i, a)| way[*i] * a).sum::<f64>().abs();
+        let JointElement { joint, free_length, .. } = *element;
+        match stretches.last_mut().filter(|last| last.joint == joint) {
+            Some(last) if last.extension >= extension => {}
+            Some(last) => (last.extension, last.free_length) = (extension, free_length),
+            None => stretches.push(Stretch { joint, extension, free_length }),
+        }
+    }
+    stretches
+}
+
+/// The entries of an element's row of J·M^(−½).
+type Row = Vec<(usize, f64)>;
+
+fn row(element: &JointElement, roots: &[f64]) -> Row {
+    let mut row = Vec::new();
+    let ends = element.bodies.iter().zip(element.points).zip(element.directions);
+    for (((body, point), direction), sign) in ends.zip([-1.0, 1.0]) {
+        let Some(body) = body else { continue };
+        // n·R(ω × p) = ω·(p × n), in body axes.
+        let parts = [element.direction_w, point.cross(direction)].map(Vec3::to_f64);
+        for (i, part) in parts.as_flattened().iter().enumerate() {
+            row.push((6 * body + i, sign * part / roots[6 * body + i]));
+        }
+    }
+    row
+}
+
+/// √M: of mass and principal inertias, per body.
+fn roots(scene: &Scene) -> Vec<f64> {
+    let of = |body: &dbd_kernel::Body<f64>| {
+        let [x, y, z] = body.inertia.to_f64();
+        [body.mass, body.mass, body.mass, x, y, z].map(f64::sqrt)
+    };
+    scene.model.bodies.iter().flat_map(of).collect()
+}
+
+/// M^(−½)·Q, bodies at rest: what acts on them but for dampers and spins.
+fn weighted_accelerations(scene: &Scene, roots: &[f64]) -> DVector<f64> {
+    let (mechanism, mut state): (Mechanism, State) = Mechanism::of(scene);
+    for body in &mut state.bodies {
+        body.velocity.fill(0.0);
+        body.rate.fill(0.0);
+    }
+    let accelerations = mechanism.accelerations(&state, 0.0);
+    let all = accelerations.iter().flat_map(|a| {
+        let [u, w] = [a.linear, a.angular];
+        [u.x, u.y, u.z, w.x, w.y, w.z]
+    });
+    DVector::from_iterator(roots.len(), all.zip(roots).map(|(a, root)| a * root))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_joint_gives_way_by_the_weight_that_it_carries_over_its_stiffness() {
+        // The springs of a spherical joint are at right angles: 2e4 N/m in every direction.
+        let text = "name = \"plumb\"\nduration = 1\ngravity = [0, 0, -10]\n[[body]]\nname = \"bob\"\n\
+                    mass = 4\ninertia = [0.1, 0.2, 0.3]\nposition = [0, 0, -0.5]\n\
+                    orientation = { axis = [1, 2, 2], angle = 0.8 }\n[[joint]]\nname = \"hook\"\n\
+                    type = \"spherical\"\nbetween = [\"world\", \"bob\"]\nat = [0, 0, 0]\n\
+                    stiffness = 2e4\narm = 0.03\n";
+        let scene = Scene::parse(text, "plumb.toml").unwrap();
+        let steepest =
+            scene.joint_elements().iter().map(|e| e.direction_w.z.abs()).fold(0.0, f64::max);
+        let [hook] = stretches(&scene)[..] else { panic!() };
+        assert!((hook.extension - 4.0 * 10.0 / 2e4 * steepest).abs() < 1e-12, "{hook:?}");
+        assert_eq!((hook.joint, hook.free_length), (0, 0.03));
+        // Levelled it falls at first: the joint holds m·g·I/(I + m·r²) = 1/11 of it.
+        let level = text
+            .replace("position = [0, 0, -0.5]", "position = [-0.5, 0, 0]")
+            .replace("[0.1, 0.2, 0.3]", "[0.1, 0.1, 0.1]");
+        let [hook] = stretches(&Scene::parse(&level, "level.toml").unwrap())[..] else { panic!() };
+        assert!((hook.extension - 40.0 / 11.0 / 2e4 * steepest).abs() < 1e-12, "{hook:?}");
+    }
+}
