@@ -7,21 +7,24 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueHint};
+use clap_complete::Shell;
 use dbd_plant::time::Time;
 use dbd_plant::{DampingName, Method, Named, OrientationName, PrecisionName, SchemeName};
 use dbd_study::{Phase, files};
 
 use crate::commands::check::check;
+use crate::commands::completions::script;
 use crate::commands::export::{ExportPrecision, export};
+use crate::commands::folder::Destination;
 use crate::commands::list::list;
 use crate::commands::run::{Outcome, RunOptions, run};
 use crate::commands::stability::StabilityCheck;
-use crate::commands::trade::{TradeRequest, trade};
+use crate::commands::trade::{TradeRequest, json as survey_json, trade};
 use crate::commands::warnings::of_scene;
 use crate::error::Error;
 use crate::terminal::text::{json, table};
-use crate::terminal::{Catalogue, Console, Exit, Progress};
+use crate::terminal::{Catalogue, Console, Exit, Found, Progress, SceneFile};
 
 /// Discrete Body Dynamics: simulates mechanisms of rigid bodies and springs.
 #[derive(Debug, Parser)]
@@ -33,7 +36,7 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Lists the scenes that ship
+    /// Lists the scenes that have a name: those in scenes/ and those that are built in
     List {
         /// As JSON
         #[arg(long)]
@@ -43,7 +46,7 @@ enum Command {
     Run(RunArguments),
     /// Reads and assembles a scene without running it: counts, joints, frequencies, warnings
     Check(CheckArguments),
-    /// Surveys speed against accuracy: writes OUT/SCENE/trade.{csv,svg,html}, trade-cortex-m4f.svg
+    /// Surveys speed against accuracy: writes OUT/SCENE/trade.{csv,svg,html,json}, trade-cortex-m4f.svg
     /// where steps were counted, and trade-*.cache; prints what to choose
     Trade(TradeArguments),
     /// Prints Rust source of a scene's const model, for a firmware
@@ -53,6 +56,11 @@ enum Command {
         /// The model's precision [default: all]
         #[arg(long, value_enum)]
         precision: Option<ExportPrecision>,
+    },
+    /// Prints a script that completes commands, options and scenes for a shell
+    Completions {
+        /// The shell
+        shell: Shell,
     },
 }
 
@@ -66,8 +74,26 @@ fn names<N: Named + Send + Sync>() -> impl TypedValueParser<Value = N> {
 
 #[derive(Debug, Args)]
 struct SceneArgument {
-    /// A scene in scenes/ by name, or a path to a .toml file
+    /// A scene by name (see list), a path to a .toml file, or - for standard input
+    #[arg(value_hint = ValueHint::FilePath)]
     scene: String,
+}
+
+#[derive(Debug, Args)]
+struct ResultsArguments {
+    /// Folder below which results are written, each scene's in one of its file's name
+    #[arg(long, value_name = "DIR", default_value = "out", value_hint = ValueHint::DirPath)]
+    out: PathBuf,
+    /// Replace the results of another scene whose file has the same name
+    #[arg(long)]
+    overwrite: bool,
+}
+
+impl ResultsArguments {
+    fn destination(&self, file: &SceneFile) -> Destination {
+        let Self { out, overwrite } = self;
+        Destination { out: out.clone(), file: file.clone(), overwrite: *overwrite }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -122,9 +148,8 @@ struct RunArguments {
     /// Sampling interval, e.g. 1ms [default: the scene's, else about 500 samples]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     every: Option<Time>,
-    /// Folder below which results are written
-    #[arg(long, value_name = "DIR", default_value = "out")]
-    out: PathBuf,
+    #[command(flatten)]
+    results: ResultsArguments,
     /// Print nothing but errors
     #[arg(long)]
     quiet: bool,
@@ -141,9 +166,8 @@ struct TradeArguments {
     /// the scene's duration]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     window: Option<Time>,
-    /// Folder below which results are written, and kept for the next call
-    #[arg(long, value_name = "DIR", default_value = "out")]
-    out: PathBuf,
+    #[command(flatten)]
+    results: ResultsArguments,
     /// Print nothing but errors
     #[arg(long)]
     quiet: bool,
@@ -162,16 +186,21 @@ where
         Ok(cli) => cli,
         Err(error) => return usage(&error, console),
     };
-    let catalogue = Catalogue::find();
+    let catalogue = Catalogue::default();
     let done = match cli.command {
-        Command::List { json } => Ok(list(&catalogue, json, console)),
+        Command::List { json } => list(&catalogue, json, console).map_err(Error::from),
         Command::Run(arguments) => run_scene(&catalogue, &arguments, console),
         Command::Check(arguments) => check_scene(&catalogue, &arguments, console),
         Command::Trade(arguments) => trade_scene(&catalogue, &arguments, console),
         Command::Export { scene, precision } => {
             export_scene(&catalogue, &scene.scene, precision, console)
         }
+        Command::Completions { shell } => complete(&catalogue, shell, console),
     };
+    finish(done, console)
+}
+
+fn finish(done: Result<Exit, Error>, console: &mut Console<'_>) -> Exit {
     done.unwrap_or_else(|error| {
         console.report(&error);
         error.exit()
@@ -188,9 +217,14 @@ fn usage(error: &clap::Error, console: &mut Console<'_>) -> Exit {
         let _ = console.err.write_all(text.as_bytes());
         Exit::Refused
     } else {
-        console.print(&text);
-        Exit::Done
+        let printed = console.print(&text).map_err(Error::from);
+        finish(printed.map(|()| Exit::Done), console)
     }
+}
+
+fn complete(catalogue: &Catalogue, shell: Shell, console: &mut Console<'_>) -> Result<Exit, Error> {
+    console.print(&script(Cli::command(), &catalogue.names(), shell))?;
+    Ok(Exit::Done)
 }
 
 fn run_scene(
@@ -201,34 +235,31 @@ fn run_scene(
     let method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
     let method = damped(method, arguments.damping)?.with_orientation(arguments.orientation);
     method.check_built()?;
-    let scene = catalogue.load(&arguments.scene.scene)?;
+    let Found { scene, file } = catalogue.load(&arguments.scene.scene)?;
     let options = RunOptions {
         method,
         step: arguments.step.map(Time::seconds),
         duration: arguments.duration.map(Time::seconds),
         every: arguments.every.map(Time::seconds),
-        out: Some(arguments.out.clone()),
+        out: Some(arguments.results.destination(&file)),
         called: Some(arguments.scene.scene.clone()),
     };
     let mut progress = Progress::new(console.terminal && !arguments.quiet);
     let outcome = run(&scene, &options, &mut |steps, all| progress.update(steps, all));
     progress.finish();
     let outcome = outcome?;
+    if let Some(failure) = &outcome.failure {
+        console.report(failure);
+    }
     if arguments.json {
-        console.print(&outcome.summary.json());
+        console.print(&outcome.summary.json())?;
         for warning in outcome.summary.warnings.iter().filter(|_| !arguments.quiet) {
             console.warn(warning);
         }
     } else if !arguments.quiet {
-        console.print(&summary_table(&outcome));
+        console.print(&summary_table(&outcome))?;
     }
-    Ok(match outcome.failure {
-        Some(failure) => {
-            console.report(&failure);
-            Exit::Failed
-        }
-        None => Exit::Done,
-    })
+    Ok(if outcome.failure.is_some() { Exit::Failed } else { Exit::Done })
 }
 
 fn summary_table(outcome: &Outcome) -> String {
@@ -257,12 +288,12 @@ fn check_scene(
     let method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
     let method = damped(method, arguments.damping)?;
     method.check_built()?;
-    let scene = catalogue.load(&arguments.scene.scene)?;
+    let Found { scene, .. } = catalogue.load(&arguments.scene.scene)?;
     let mut check = check(&scene);
     if arguments.stability {
         check.stability = Some(StabilityCheck::of(&scene, &method)?);
     }
-    console.print(&if arguments.json { json(&check) } else { check.text() });
+    console.print(&if arguments.json { json(&check) } else { check.text() })?;
     Ok(Exit::Done)
 }
 
@@ -272,13 +303,14 @@ fn trade_scene(
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
     let called = &arguments.scene.scene;
-    let scene = catalogue.load(called)?;
+    let Found { scene, file } = catalogue.load(called)?;
     of_scene(&scene).iter().filter(|_| !arguments.quiet).for_each(|w| console.warn(w));
+    let destination = arguments.results.destination(&file);
     let request = TradeRequest {
         called,
         window: arguments.window.map(Time::seconds),
-        out: &arguments.out,
-        shipped: catalogue.ships(&scene),
+        out: &destination,
+        shipped: Catalogue::ships(&scene),
     };
     let mut progress = Progress::of(console.terminal && !arguments.quiet, "evaluations");
     let done = trade(&scene, &request, &mut |phase| match phase {
@@ -293,10 +325,10 @@ fn trade_scene(
     let (trade, folder) = done?;
     let report = files::Report { scene: &scene, called, trade: &trade };
     if arguments.json {
-        console.print(&json(&report.json()));
+        console.print(&survey_json(&report, &file))?;
     } else if !arguments.quiet {
-        let written = format!("{}/trade.{{csv,svg,html}}", folder.display());
-        console.print(&format!("{}\nwritten  {written}\n", report.text()));
+        let written = format!("{}/trade.{{csv,svg,html,json}}", folder.display());
+        console.print(&format!("{}\nwritten  {written}\n", report.text()))?;
     }
     Ok(Exit::Done)
 }
@@ -307,7 +339,7 @@ fn export_scene(
     precision: Option<ExportPrecision>,
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
-    console.print(&export(&catalogue.load(scene)?, precision)?);
+    console.print(&export(&catalogue.load(scene)?.scene, precision)?)?;
     Ok(Exit::Done)
 }
 
@@ -317,7 +349,6 @@ mod tests {
 
     #[test]
     fn the_command_line_is_consistent() {
-        use clap::CommandFactory as _;
         Cli::command().debug_assert();
     }
 

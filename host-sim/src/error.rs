@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use crate::commands::run::RunError;
 use crate::commands::trade::TradeError;
+use crate::terminal::console::OutputError;
 use crate::terminal::{Exit, LoadError};
 
 /// Why a command could not do its work.
@@ -32,6 +33,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Trade(#[from] TradeError),
+    /// Standard output does not take the results.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Output(#[from] OutputError),
 }
 
 impl Error {
@@ -40,6 +45,7 @@ impl Error {
     pub fn exit(&self) -> Exit {
         match self {
             Self::Load(_) | Self::Method(_) | Self::Plant(_) => Exit::Refused,
+            Self::Output(_) => Exit::Failed,
             Self::Run(error) => match error {
                 RunError::Plan(_)
                 | RunError::Setting(_)

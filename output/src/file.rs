@@ -1,11 +1,13 @@
 //! Files that appear complete or not at all.
 //!
 //! Each is written under a temporary name in its folder and renamed when complete, so that a run
-//! that ends early leaves nothing half-written under a final name.
+//! that ends early leaves nothing half-written under a final name. A program that is told to end
+//! calls [`give_up_all`] first: then nothing is left under a temporary name either.
 
 use std::fs;
 use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::NamedTempFile;
 
@@ -13,6 +15,36 @@ use tempfile::NamedTempFile;
 pub struct PendingFile {
     file: BufWriter<NamedTempFile>,
     path: PathBuf,
+    listed: Listed,
+}
+
+/// The temporary names that are in use in this process.
+static IN_USE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn in_use() -> MutexGuard<'static, Vec<PathBuf>> {
+    // A list of paths is whole whatever panicked beside it.
+    IN_USE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A temporary name's place in the list, for as long as this lives.
+struct Listed(PathBuf);
+
+impl Drop for Listed {
+    fn drop(&mut self) {
+        in_use().retain(|path| *path != self.0);
+    }
+}
+
+/// Removes every file that is not complete. Until what it returns is dropped none is begun or
+/// completed: a program that ends holds on to it.
+#[must_use = "files can be begun again once it is dropped"]
+pub fn give_up_all() -> impl Sized {
+    let names = in_use();
+    for path in names.iter() {
+        // One that is gone by now needs no removing.
+        let _ = fs::remove_file(path);
+    }
+    names
 }
 
 impl PendingFile {
@@ -22,6 +54,8 @@ impl PendingFile {
     /// Where the folder cannot be written to.
     pub fn create(folder: &Path, name: &str) -> io::Result<Self> {
         let prefix = format!(".{name}.");
+        // Held until the name is in the list: no file is made unseen.
+        let mut names = in_use();
         let mut builder = tempfile::Builder::new();
         builder.prefix(&prefix);
         #[cfg(unix)]
@@ -31,7 +65,9 @@ impl PendingFile {
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
         let file = builder.tempfile_in(folder)?;
-        Ok(Self { file: BufWriter::new(file), path: folder.join(name) })
+        names.push(file.path().to_owned());
+        let listed = Listed(file.path().to_owned());
+        Ok(Self { file: BufWriter::new(file), path: folder.join(name), listed })
     }
 
     /// Gives the file its final name, in place of an older one.
@@ -39,9 +75,14 @@ impl PendingFile {
     /// # Errors
     /// Where what is buffered cannot be written or the name cannot be taken.
     pub fn complete(self) -> io::Result<()> {
-        let file = self.file.into_inner().map_err(io::IntoInnerError::into_error)?;
-        file.persist(&self.path).map_err(|error| error.error)?;
-        Ok(())
+        let Self { file, path, listed } = self;
+        let file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
+        // The list is held, so that nobody removes the file between its two names.
+        let names = in_use();
+        let persisted = file.persist(&path).map(drop).map_err(|error| error.error);
+        drop(names);
+        drop(listed);
+        persisted
     }
 }
 
@@ -83,7 +124,7 @@ pub fn folder(out: &Path, name: &str) -> io::Result<PathBuf> {
     let folder = out.join(name);
     fs::create_dir_all(&folder)?;
     // A folder that cannot be written to is found out now, not after the run.
-    drop(tempfile::Builder::new().prefix(".").tempfile_in(&folder)?);
+    drop(PendingFile::create(&folder, "writable")?);
     Ok(folder)
 }
 
@@ -116,6 +157,19 @@ mod tests {
         file.write_all(b"half").unwrap();
         drop(file);
         assert!(names(out.path()).is_empty());
+    }
+
+    #[test]
+    fn a_temporary_name_is_listed_for_as_long_as_it_is_in_use() {
+        let out = tempfile::tempdir().unwrap();
+        let listed = || in_use().iter().filter(|path| path.starts_with(out.path())).count();
+        let given_up = PendingFile::create(out.path(), "a.txt").unwrap();
+        let completed = PendingFile::create(out.path(), "b.txt").unwrap();
+        assert_eq!(listed(), 2);
+        drop(given_up);
+        assert_eq!(listed(), 1);
+        completed.complete().unwrap();
+        assert_eq!(listed(), 0);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 mod check;
 mod refusal;
+mod results;
 mod run;
 mod warnings;
 

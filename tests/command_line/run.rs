@@ -53,6 +53,8 @@ fn the_summary_has_its_keys_in_order_and_is_the_file() {
         "advised_step",
         "state_hash",
         "status",
+        "scene_file",
+        "scene_hash",
         "widest_joint",
         "warnings",
     ];
@@ -62,7 +64,7 @@ fn the_summary_has_its_keys_in_order_and_is_the_file() {
         .filter_map(|line| line.trim().strip_prefix('"')?.split_once("\":").map(|(key, _)| key))
         .collect();
     assert_eq!(found, keys);
-    let written = fs::read_to_string(folder.path("out/pendulum/summary.json")).unwrap();
+    let written = fs::read_to_string(folder.path("out/scene/summary.json")).unwrap();
     assert_eq!(written, done.out);
     let summary: Value = serde_json::from_str(&done.out).unwrap();
     assert_eq!(summary["scheme"], "leapfrog");
@@ -72,7 +74,7 @@ fn the_summary_has_its_keys_in_order_and_is_the_file() {
     let omega = 4e3_f64.sqrt() / std::f64::consts::TAU;
     assert!((summary["frequency_estimate_hz"].as_f64().unwrap() / omega - 1.0).abs() < 1e-3);
     assert!(summary["frequency_bound_hz"].as_f64().unwrap() >= omega);
-    let report = fs::read_to_string(folder.path("out/pendulum/report.html")).unwrap();
+    let report = fs::read_to_string(folder.path("out/scene/report.html")).unwrap();
     assert!(report.contains(summary["state_hash"].as_str().unwrap()));
 }
 
@@ -113,7 +115,7 @@ fn rows_are_multiples_of_the_step_from_0_to_the_duration() {
     let scene = folder.scene(PENDULUM);
     let rows = |options: &[&str]| {
         assert_eq!(folder.summary(&scene, options)["status"], "ok");
-        folder.trace("pendulum").times()
+        folder.trace("scene").times()
     };
     let times = rows(&["--step", "0.1ms", "--every", "1ms"]);
     assert_eq!(times.len(), 501);
@@ -165,7 +167,7 @@ fn energies_of_a_trace_are_those_of_the_summary() {
     let folder = Folder::new();
     let scene = folder.scene(PENDULUM);
     let summary = folder.summary(&scene, &["--precision", "f32"]);
-    let trace = folder.trace("pendulum");
+    let trace = folder.trace("scene");
     let energies: Vec<f64> =
         trace.rows.iter().map(|row| row.last().unwrap().parse().unwrap()).collect();
     let number = |key: &str| summary[key].as_f64().unwrap();

@@ -1,42 +1,167 @@
 //! The folder of a scene's results.
 //!
-//! `(--out, scene) => folder`, made where it is not there yet.
+//! `(--out, scene's file) => OUT/STEM`, made where it is not there yet. Results of another scene are
+//! never replaced unasked: `summary.json` and `trade.json` say whose they are.
 
 use std::fmt;
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use dbd_output::file;
-use dbd_scene::Scene;
 use miette::Diagnostic;
+use serde::Deserialize;
 use thiserror::Error;
 
-/// The folder for the results cannot be made.
+use crate::terminal::SceneFile;
+
+/// Where results go.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Destination {
+    /// The folder below which they go.
+    pub out: PathBuf,
+    /// The scene's file, after which their folder is named.
+    pub file: SceneFile,
+    /// Whether results of another scene are replaced.
+    pub overwrite: bool,
+}
+
+/// There is no folder for the results.
 #[derive(Debug, Error)]
-#[error("cannot write to {}: {reason}", folder.display())]
-pub struct FolderError {
-    /// The folder.
-    pub folder: PathBuf,
-    /// Why; part of the message and therefore not a source, which would say it twice.
-    pub reason: io::Error,
+pub enum FolderError {
+    /// It cannot be made or written to.
+    #[error("cannot write to {}: {reason}", folder.display())]
+    Unwritable {
+        /// The folder.
+        folder: PathBuf,
+        /// Why; part of the message and therefore not a source, which would say it twice.
+        reason: io::Error,
+    },
+    /// It holds the results of another scene.
+    #[error("{} holds the results of another scene: {other}", folder.display())]
+    Taken {
+        /// The folder.
+        folder: PathBuf,
+        /// The other scene's file.
+        other: String,
+    },
 }
 
 impl Diagnostic for FolderError {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        Some(Box::new(match self.reason.kind() {
-            io::ErrorKind::InvalidInput => {
-                "results lie in a folder of the scene's name: change its `name`"
+        Some(Box::new(match self {
+            Self::Taken { .. } => {
+                "name another folder with --out DIR, or replace those results with --overwrite"
             }
-            _ => "name another folder with --out DIR",
+            Self::Unwritable { reason, .. } if reason.kind() == io::ErrorKind::InvalidInput => {
+                "results lie in a folder named after the scene's file, or by its `name` where it \
+                 came from standard input: change that"
+            }
+            Self::Unwritable { .. } => "name another folder with --out DIR",
         }))
     }
 }
 
-/// The folder of a scene's results below `out`.
-///
-/// # Errors
-/// Where it cannot be made or written to, or no folder can have the scene's name.
-pub fn results(out: &Path, scene: &Scene) -> Result<PathBuf, FolderError> {
-    let failed = |reason| FolderError { folder: out.join(&scene.name), reason };
-    file::folder(out, &scene.name).map_err(failed)
+/// What a file of results says of its scene. Those of earlier versions hold its name only.
+#[derive(Deserialize)]
+struct Owner {
+    scene: String,
+    scene_file: Option<String>,
+    scene_hash: Option<String>,
+}
+
+/// Files of results that name their scene.
+const NAMING: [&str; 2] = ["summary.json", "trade.json"];
+
+impl Destination {
+    /// The folder of a scene's results, made where it is not there yet. Of another scene's results,
+    /// where they are to be replaced, nothing is left: old and new are never mixed.
+    ///
+    /// # Errors
+    /// Where it cannot be made or written to, no folder can have the file's name, or it holds the
+    /// results of another scene.
+    pub fn folder(&self, scene: &str) -> Result<PathBuf, FolderError> {
+        let wanted = self.out.join(&self.file.stem);
+        let failed = |reason| FolderError::Unwritable { folder: wanted.clone(), reason };
+        let folder = file::folder(&self.out, &self.file.stem).map_err(failed)?;
+        for name in NAMING {
+            let Some(owner) = Owner::of(&folder.join(name)) else { continue };
+            if owner.is_this(scene, &self.file) {
+                continue;
+            }
+            if !self.overwrite {
+                let other = owner.scene_file.unwrap_or_else(|| format!("`{}`", owner.scene));
+                return Err(FolderError::Taken { folder, other });
+            }
+            clear(&folder).map_err(failed)?;
+        }
+        Ok(folder)
+    }
+}
+
+impl Owner {
+    fn of(file: &Path) -> Option<Self> {
+        serde_json::from_str(&fs::read_to_string(file).ok()?).ok()
+    }
+
+    /// Whether it is the scene of this name from this file, changed since or not.
+    fn is_this(&self, scene: &str, file: &SceneFile) -> bool {
+        let Some(place) = &self.scene_file else { return self.scene == scene };
+        // A copy is the same scene.
+        if *place == file.place || self.scene_hash.as_ref() == Some(&file.hash) {
+            return true;
+        }
+        // A file that was moved with its results.
+        let gone = Path::new(place).is_absolute() && !Path::new(place).exists();
+        gone && self.scene == scene
+    }
+}
+
+/// Removes what commands leave in a folder; what else lies there stays.
+fn clear(folder: &Path) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let of_a_run = ["trace.csv", "summary.json", "report.html"].contains(&name.as_str());
+        let of_a_survey = name.starts_with("trade")
+            && [".csv", ".json", ".svg", ".html", ".cache"].iter().any(|end| name.ends_with(end));
+        if of_a_run || of_a_survey {
+            fs::remove_file(entry.path())?;
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn owner(scene: &str, file: Option<&str>, hash: Option<&str>) -> Owner {
+        let text = |text: &str| text.to_owned();
+        Owner { scene: scene.into(), scene_file: file.map(text), scene_hash: hash.map(text) }
+    }
+
+    #[test]
+    fn results_belong_to_a_file_and_its_copies() {
+        let here = tempfile::tempdir().unwrap();
+        let there = here.path().join("there.toml");
+        fs::write(&there, "").unwrap();
+        let there = there.to_str().unwrap();
+        let gone = here.path().join("gone.toml");
+        let ours = SceneFile { stem: "a".into(), place: "/a.toml".into(), hash: "1".into() };
+        let cases = [
+            (owner("arm", Some("/a.toml"), Some("0")), true),
+            (owner("leg", Some("/a.toml"), Some("0")), true),
+            (owner("arm", Some(there), Some("1")), true),
+            (owner("arm", Some(there), Some("0")), false),
+            (owner("arm", Some("built in"), Some("0")), false),
+            (owner("arm", gone.to_str(), Some("0")), true),
+            (owner("leg", gone.to_str(), Some("0")), false),
+            (owner("arm", None, None), true),
+            (owner("leg", None, None), false),
+        ];
+        for (row, (owner, same)) in cases.into_iter().enumerate() {
+            assert_eq!(owner.is_this("arm", &ours), same, "{row}");
+        }
+    }
 }

@@ -1,9 +1,12 @@
-//! `host-sim list`: the scenes that ship, one line each.
+//! `host-sim list`: the scenes that have a name, one line each: those in `scenes/` and those that are
+//! built in.
 
 use serde::Serialize;
 
+use crate::terminal::catalogue::BUILT_IN;
+use crate::terminal::console::OutputError;
 use crate::terminal::text::json;
-use crate::terminal::{Catalogue, Console, Exit};
+use crate::terminal::{Catalogue, Console, Exit, Found};
 
 /// A scene of the list.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -16,19 +19,29 @@ pub struct Entry {
     pub tsdas: usize,
     /// What it shows.
     pub shows: String,
+    /// The whole path of its file, or `built in`.
+    pub from: String,
 }
 
 /// Prints the scenes of a catalogue. A refused scene is reported and decides the exit code.
-pub fn list(catalogue: &Catalogue, as_json: bool, console: &mut Console<'_>) -> Exit {
+///
+/// # Errors
+/// Where the list cannot be written.
+pub fn list(
+    catalogue: &Catalogue,
+    as_json: bool,
+    console: &mut Console<'_>,
+) -> Result<Exit, OutputError> {
     let mut exit = Exit::Done;
     let mut entries = Vec::new();
     for name in catalogue.names() {
         match catalogue.load(&name) {
-            Ok(scene) => entries.push(Entry {
+            Ok(Found { scene, file }) => entries.push(Entry {
                 name,
                 bodies: scene.body_names.len(),
                 tsdas: scene.model.tsda_count(),
                 shows: first_sentence(&scene.description).into(),
+                from: file.place,
             }),
             Err(error) => {
                 console.report(&error);
@@ -36,8 +49,8 @@ pub fn list(catalogue: &Catalogue, as_json: bool, console: &mut Console<'_>) -> 
             }
         }
     }
-    console.print(&if as_json { json(&entries) } else { lines(&entries) });
-    exit
+    console.print(&if as_json { json(&entries) } else { lines(&entries) })?;
+    Ok(exit)
 }
 
 fn lines(entries: &[Entry]) -> String {
@@ -47,16 +60,23 @@ fn lines(entries: &[Entry]) -> String {
     let name = widest(|entry| entry.name.clone());
     let bodies = widest(|entry| counted(entry.bodies, "body", "bodies"));
     let tsdas = widest(|entry| counted(entry.tsdas, "TSDA", "TSDAs"));
+    let from = widest(|entry| origin(&entry.from).into());
     let line = |entry: &Entry| {
         format!(
-            "{:<name$}  {:<bodies$}  {:<tsdas$}  {}\n",
+            "{:<name$}  {:<bodies$}  {:<tsdas$}  {:<from$}  {}\n",
             entry.name,
             counted(entry.bodies, "body", "bodies"),
             counted(entry.tsdas, "TSDA", "TSDAs"),
+            origin(&entry.from),
             entry.shows,
         )
     };
     entries.iter().map(line).collect()
+}
+
+/// What a line has room for: all files lie in one folder.
+fn origin(from: &str) -> &str {
+    if from == BUILT_IN { BUILT_IN } else { "scenes/" }
 }
 
 /// `1 body`, `3 bodies`, right-aligned for up to three digits.
@@ -85,16 +105,19 @@ mod tests {
 
     #[test]
     fn one_aligned_line_per_scene() {
-        let entry = |name: &str, bodies, tsdas| Entry {
+        let entry = |name: &str, bodies, tsdas, from: &str| Entry {
             name: name.into(),
             bodies,
             tsdas,
             shows: "swings".into(),
+            from: from.into(),
         };
-        let text = lines(&[entry("four-bar", 3, 24), entry("top", 1, 0)]);
+        let text =
+            lines(&[entry("four-bar", 3, 24, BUILT_IN), entry("top", 1, 0, "/a/scenes/top.toml")]);
         assert_eq!(
             text,
-            "four-bar    3 bodies   24 TSDAs  swings\ntop         1 body      0 TSDAs  swings\n"
+            "four-bar    3 bodies   24 TSDAs  built in  swings\n\
+             top         1 body      0 TSDAs  scenes/   swings\n"
         );
     }
 }

@@ -7,8 +7,10 @@
 //! - [`run`]: a scene becomes a trace, a summary and a report.
 //! - [`trade`]: speed against accuracy.
 //! - [`export`]: Rust source of a scene's const model.
+//! - [`completions`]: a script for a shell.
 
 pub mod check;
+pub mod completions;
 pub mod export;
 pub mod folder;
 pub mod list;

@@ -17,7 +17,7 @@ use dbd_scene::{Scene, Setting};
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::commands::folder::{FolderError, results};
+use crate::commands::folder::{Destination, FolderError};
 use crate::commands::warnings::{of_run, of_scene, of_step};
 use crate::report::{Curves, JointOpening, Report, Statistics, Summary, TraceWriter, html};
 use crate::simulate::{Ending, FailedRun, Observer, Sample, SimulationError, simulate};
@@ -34,8 +34,8 @@ pub struct RunOptions {
     pub duration: Option<f64>,
     /// \[s\] the sampling interval.
     pub every: Option<f64>,
-    /// The folder below which results go; `None` writes nothing.
-    pub out: Option<PathBuf>,
+    /// Where results go; `None` writes nothing.
+    pub out: Option<Destination>,
     /// What a command line calls the scene; its name where `None`.
     pub called: Option<String>,
 }
@@ -146,7 +146,7 @@ pub fn run(
     check_step(&options.method, plan.step)?;
     check_inputs(scene, &options.method)?;
     let folder = match &options.out {
-        Some(out) => Some(results(out, scene)?),
+        Some(out) => Some(out.folder(&scene.name)?),
         None => None,
     };
     let trace = match &folder {
@@ -174,8 +174,9 @@ pub fn run(
     let failure = ending
         .trouble
         .map(|trouble| FailedRun::new(scene, &options.method, &plan, every, &ending, trouble));
-    let summary =
+    let mut summary =
         summarise(scene, &options.method, &plan, &frequencies, &ending, &statistics, &failure);
+    summary.of_file(options.out.as_ref().map(|out| &out.file));
     if let (Some(folder), Some(mut curves)) = (&folder, curves) {
         curves.close();
         let called = options.called.as_deref().unwrap_or(&scene.name);
@@ -255,6 +256,8 @@ fn summarise(
         advised_step: frequencies.advised_step(),
         state_hash: statistics.hash().map(|hash| format!("{hash:016x}")),
         status,
+        scene_file: None,
+        scene_hash: None,
         widest_joint: widest(scene, &ending.openings),
         warnings,
     }

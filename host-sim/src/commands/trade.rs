@@ -1,18 +1,22 @@
 //! `host-sim trade`: speed against accuracy, every way of stepping a scene at every step.
 //!
-//! `(scene, window) => survey => OUT/SCENE/trade.{csv,svg,html}`, the results kept in the folder for
-//! the next call.
+//! `(scene, window) => survey => OUT/SCENE/trade.{csv,svg,html,json}`, the results kept in the folder
+//! for the next call.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
+use dbd_output::file;
 use dbd_scene::Scene;
 use dbd_study::survey::longest_window;
 use dbd_study::{Phase, SurveyError, Trade, TradeOptions, files, survey};
 use miette::Diagnostic;
+use serde::Serialize;
 use thiserror::Error;
 
-use crate::commands::folder::{FolderError, results};
+use crate::commands::folder::{Destination, FolderError};
+use crate::terminal::SceneFile;
+use crate::terminal::text;
 
 /// What a survey is asked for.
 #[derive(Clone, Copy, Debug)]
@@ -21,8 +25,8 @@ pub struct TradeRequest<'r> {
     pub called: &'r str,
     /// \[s\] the longest window; 0.5 s or the scene's duration where `None`.
     pub window: Option<f64>,
-    /// The folder below which results go.
-    pub out: &'r Path,
+    /// Where results go.
+    pub out: &'r Destination,
     /// Whether the scene is the one that ships under its name.
     pub shipped: bool,
 }
@@ -56,10 +60,26 @@ pub fn trade(
     let TradeRequest { called, window, out, shipped } = *request;
     // Bad input leaves no folder behind.
     longest_window(scene, window).map_err(SurveyError::from)?;
-    let folder = results(out, scene)?;
+    let folder = out.folder(&scene.name)?;
     let options = TradeOptions { window, cache: Some(folder.clone()), shipped };
     let trade = survey(scene, &options, progress)?;
     let report = files::Report { scene, called, trade: &trade };
     report.write(&folder).map_err(TradeError::Write)?;
+    let all = json(&report, &out.file);
+    file::write(&folder, "trade.json", &all).map_err(TradeError::Write)?;
     Ok((trade, folder))
+}
+
+/// What programs read of a survey: window, points, and whose they are.
+#[must_use]
+pub fn json(report: &files::Report<'_>, file: &SceneFile) -> String {
+    #[derive(Serialize)]
+    struct Whole<'w> {
+        #[serde(flatten)]
+        survey: files::Json<'w>,
+        scene_file: &'w str,
+        scene_hash: &'w str,
+    }
+    let SceneFile { place, hash, .. } = file;
+    text::json(&Whole { survey: report.json(), scene_file: place, scene_hash: hash })
 }

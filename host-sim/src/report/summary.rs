@@ -8,6 +8,7 @@ use dbd_plant::frequencies::advised_text;
 use dbd_plant::time::{display, rounded};
 use serde::Serialize;
 
+use crate::terminal::SceneFile;
 use crate::terminal::text::json;
 
 /// The summary of a run.
@@ -58,6 +59,12 @@ pub struct Summary {
     pub state_hash: Option<String>,
     /// `ok`, or a sentence that names the failure.
     pub status: String,
+    /// The whole path of the scene's file, or `built in` or `standard input`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scene_file: Option<String>,
+    /// FNV-1a 64 of the file's text, 16 hexadecimal digits.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scene_hash: Option<String>,
     /// The joint that opened by the largest share of its free length; `None` without joints.
     pub widest_joint: Option<JointOpening>,
     /// What is probably not meant.
@@ -82,6 +89,12 @@ impl Summary {
     #[must_use]
     pub fn json(&self) -> String {
         json(self)
+    }
+
+    /// Says which file the scene comes from.
+    pub fn of_file(&mut self, file: Option<&SceneFile>) {
+        self.scene_file = file.map(|file| file.place.clone());
+        self.scene_hash = file.map(|file| file.hash.clone());
     }
 
     /// What people read: a name and a text with units each.

@@ -1,22 +1,54 @@
-//! The scenes that ship, and the way from what a user names to a scene.
+//! The way from what a user names to a scene.
 //!
-//! `name or path => scene`. Scenes lie in `scenes/` below the current folder, or else in that of
-//! the sources this program was built from.
+//! `name, path or - => scene, and where it comes from`. The scenes that ship are built in, so that the
+//! program needs no folder; files in `scenes/` below the current folder come before them.
 
 use std::fmt;
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use dbd_scene::{Scene, SceneError, nearest};
 use miette::{Diagnostic, LabeledSpan, SourceCode};
 use thiserror::Error;
 
+mod built_in {
+    include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
+}
+
 const FOLDER: &str = "scenes";
 
-/// A folder of scenes.
+/// The place of a scene that is built in.
+pub const BUILT_IN: &str = "built in";
+
+/// What a command line calls the scene that comes from standard input.
+const STANDARD_INPUT: &str = "-";
+
+/// The scenes that have a name: those of a folder, then those that are built in.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Catalogue {
     folder: PathBuf,
+}
+
+/// A scene, and where it comes from.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The scene.
+    pub scene: Scene,
+    /// Its text's origin.
+    pub file: SceneFile,
+}
+
+/// Where a scene's text comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneFile {
+    /// The name of the folder of its results: the file's without its extension, a scene's own where
+    /// it came from standard input.
+    pub stem: String,
+    /// The whole path of the file; else `built in` or `standard input`.
+    pub place: String,
+    /// FNV-1a 64 of the text, 16 hexadecimal digits.
+    pub hash: String,
 }
 
 /// There is no scene of this name.
@@ -67,66 +99,111 @@ impl UnknownScene {
     fn help_text(&self) -> String {
         let nearest = nearest(&self.name, self.known.iter().map(String::as_str));
         let meant = nearest.map(|name| format!("did you mean {name}? ")).unwrap_or_default();
-        let known = if self.known.is_empty() { "none".into() } else { self.known.join(", ") };
-        format!("{meant}the scenes in {FOLDER}/: {known}; or a path to a .toml file")
+        let known = self.known.join(", ");
+        format!("{meant}the scenes: {known}; or a path to a .toml file, or - for standard input")
+    }
+}
+
+impl SceneFile {
+    fn new(stem: String, place: String, text: &str) -> Self {
+        let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+        });
+        Self { stem, place, hash: format!("{hash:016x}") }
+    }
+}
+
+impl Default for Catalogue {
+    /// The scenes in `scenes/`, then those that ship.
+    fn default() -> Self {
+        Self::new(PathBuf::from(FOLDER))
     }
 }
 
 impl Catalogue {
-    /// The scenes of a folder.
+    /// The scenes of a folder, then those that ship.
     #[must_use]
     pub fn new(folder: PathBuf) -> Self {
         Self { folder }
     }
 
-    /// The scenes that ship.
-    #[must_use]
-    pub fn find() -> Self {
-        let here = PathBuf::from(FOLDER);
-        if here.is_dir() {
-            return Self::new(here);
-        }
-        let sources = Path::new(env!("CARGO_MANIFEST_DIR"));
-        Self::new(sources.parent().unwrap_or(sources).join(FOLDER))
-    }
-
     /// Names in alphabetical order.
     #[must_use]
     pub fn names(&self) -> Vec<String> {
+        let mut names = self.file_names();
+        names.extend(built_in::SCENES.iter().map(|(name, _)| (*name).to_owned()));
+        names.sort();
+        names.dedup();
+        names
+    }
+
+    /// Names of the files in the folder.
+    fn file_names(&self) -> Vec<String> {
         let Ok(entries) = fs::read_dir(&self.folder) else { return Vec::new() };
         let scene_name = |path: PathBuf| {
             let is_scene = path.extension().is_some_and(|extension| extension == "toml");
             if is_scene { path.file_stem()?.to_str().map(str::to_owned) } else { None }
         };
-        let mut names: Vec<String> =
-            entries.filter_map(|entry| scene_name(entry.ok()?.path())).collect();
-        names.sort();
-        names
+        entries.filter_map(|entry| scene_name(entry.ok()?.path())).collect()
     }
 
-    /// Whether a scene is the one of its name in the catalogue, wherever it was loaded from.
+    /// Whether a scene is the one that ships under its name, wherever it was loaded from.
     #[must_use]
-    pub fn ships(&self, scene: &Scene) -> bool {
-        // The catalogue's own are named as their files are. What steps is the model.
+    pub fn ships(scene: &Scene) -> bool {
+        // They are named as their files are. What steps is the model.
         let text = |scene: &Scene| format!("{:?}", scene.model);
-        let own = if is_path(&scene.name) { None } else { self.load(&scene.name).ok() };
+        let own = built_in::SCENES.iter().find(|(name, _)| *name == scene.name);
+        let own = own.and_then(|(name, text)| Scene::parse(text, name).ok());
         own.is_some_and(|own| text(&own) == text(scene))
     }
 
-    /// Loads what a user names: a scene of the catalogue, or a path to a `.toml` file.
+    /// Loads what a user names: a scene of the catalogue, a path to a `.toml` file, or `-` for
+    /// standard input.
     ///
     /// # Errors
-    /// Where there is no such scene, or it is refused.
-    pub fn load(&self, scene: &str) -> Result<Scene, LoadError> {
-        if is_path(scene) {
-            return Ok(Scene::load(Path::new(scene))?);
+    /// Where there is no such scene, it cannot be read, or it is refused.
+    pub fn load(&self, called: &str) -> Result<Found, LoadError> {
+        if called == STANDARD_INPUT {
+            return from_standard_input();
         }
-        let known = self.names();
-        if !known.iter().any(|name| name == scene) {
-            return Err(UnknownScene { name: scene.into(), known }.into());
+        if is_path(called) {
+            return from_file(Path::new(called));
         }
-        Ok(Scene::load(&self.folder.join(format!("{scene}.toml")))?)
+        if self.file_names().iter().any(|name| name == called) {
+            return from_file(&self.folder.join(format!("{called}.toml")));
+        }
+        match built_in::SCENES.iter().find(|(name, _)| *name == called) {
+            Some((name, text)) => {
+                let file = SceneFile::new((*name).into(), BUILT_IN.into(), text);
+                Ok(Found { scene: Scene::parse(text, &format!("{name}.toml"))?, file })
+            }
+            None => Err(UnknownScene { name: called.into(), known: self.names() }.into()),
+        }
     }
+}
+
+fn from_file(path: &Path) -> Result<Found, LoadError> {
+    let name = path.display().to_string();
+    let text = match fs::read_to_string(path) {
+        Ok(text) => text,
+        Err(reason) => return Err(SceneError::Unreadable { file: name, reason }.into()),
+    };
+    let scene = Scene::parse(&text, &name)?;
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let whole = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let file = SceneFile::new(stem, whole.display().to_string(), &text);
+    Ok(Found { scene, file })
+}
+
+fn from_standard_input() -> Result<Found, LoadError> {
+    let place = "standard input";
+    let text = match io::read_to_string(io::stdin()) {
+        Ok(text) => text,
+        Err(reason) => return Err(SceneError::Unreadable { file: place.into(), reason }.into()),
+    };
+    let scene = Scene::parse(&text, place)?;
+    let file = SceneFile::new(scene.name.clone(), place.into(), &text);
+    Ok(Found { scene, file })
 }
 
 fn is_path(scene: &str) -> bool {
@@ -137,32 +214,63 @@ fn is_path(scene: &str) -> bool {
 mod tests {
     use super::*;
 
+    fn here(catalogue: &Catalogue, name: &str) -> Found {
+        catalogue.load(name).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
     #[test]
     fn a_scene_ships_by_its_content_and_not_by_its_path() {
-        let body = "[[body]]\nname = \"b\"\nmass = 1.0\nposition = [0.0, 0.0, 0.0]\ninertia = [1.0, 1.0, 1.0]\n";
-        let text = format!("name = \"ball\"\nduration = 1.0\n{body}");
-        let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("ball.toml"), &text).unwrap();
-        let catalogue = Catalogue::new(folder.path().into());
-        assert!(catalogue.ships(&catalogue.load("ball").unwrap()));
-        assert!(catalogue.ships(&Scene::parse(&text, "elsewhere/copy.toml").unwrap()));
-        for changed in [text.replace("mass = 1.0", "mass = 2.0"), text.replace("ball", "other")] {
-            assert!(!catalogue.ships(&Scene::parse(&changed, "ball.toml").unwrap()));
+        let (_, text) = built_in::SCENES.iter().find(|(name, _)| *name == "spring-ball").unwrap();
+        assert!(Catalogue::ships(&Scene::parse(text, "elsewhere/copy.toml").unwrap()));
+        let changes =
+            [("mass = 1.0", "mass = 2.0"), ("name = \"spring-ball\"", "name = \"other\"")];
+        for (from, to) in changes {
+            let changed = text.replace(from, to);
+            assert_ne!(changed, *text);
+            assert!(!Catalogue::ships(&Scene::parse(&changed, "spring-ball.toml").unwrap()));
         }
+    }
+
+    /// Without a folder every scene that ships is there; a file of the same name comes before it.
+    #[test]
+    fn files_come_before_what_is_built_in() {
+        let folder = tempfile::tempdir().unwrap();
+        let catalogue = Catalogue::new(folder.path().join("none"));
+        assert_eq!(catalogue.names().len(), built_in::SCENES.len());
+        for (name, _) in built_in::SCENES {
+            let found = here(&catalogue, name);
+            let place = "built in".to_owned();
+            assert_eq!((found.scene.name.as_str(), found.file.place), (name, place));
+        }
+        let (_, text) = built_in::SCENES.iter().find(|(name, _)| *name == "four-bar").unwrap();
+        let file = folder.path().join("four-bar.toml");
+        fs::write(&file, text.replace("duration = 0.5", "duration = 0.25")).unwrap();
+        let catalogue = Catalogue::new(folder.path().into());
+        assert_eq!(catalogue.names().len(), built_in::SCENES.len());
+        let found = here(&catalogue, "four-bar");
+        assert_eq!(found.scene.duration, 0.25);
+        assert_eq!(found.file.place, file.canonicalize().unwrap().display().to_string());
+        assert_eq!(found.file.stem, "four-bar");
+        assert_eq!(here(&catalogue, "3rrr").file.place, "built in");
+    }
+
+    #[test]
+    fn the_hash_of_a_text_is_fnv_1a() {
+        let file = SceneFile::new("a".into(), "b".into(), "foobar");
+        assert_eq!(file.hash, "85944171f73967e8");
     }
 
     #[test]
     fn an_unknown_name_is_refused_with_those_that_exist() {
         let folder = tempfile::tempdir().unwrap();
-        for name in ["four-bar.toml", "pendulum.toml", "notes.md"] {
+        for name in ["pendulum.toml", "notes.md"] {
             fs::write(folder.path().join(name), "").unwrap();
         }
         let catalogue = Catalogue::new(folder.path().into());
-        assert_eq!(catalogue.names(), ["four-bar", "pendulum"]);
         let Err(error) = catalogue.load("fourbar") else { panic!() };
         let help = error.help().unwrap().to_string();
         assert!(help.contains("did you mean four-bar?"), "{help}");
-        assert!(help.contains("four-bar, pendulum"), "{help}");
+        assert!(help.contains(", pendulum, ") && !help.contains("notes"), "{help}");
         let Err(error) = catalogue.load("rocket") else { panic!() };
         assert!(!error.help().unwrap().to_string().contains("did you mean"));
     }

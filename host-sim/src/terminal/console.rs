@@ -1,13 +1,14 @@
 //! Where a command's text goes, and how errors look there.
 //!
-//! Text that cannot be written, for example because its reader has gone, is dropped: results are
-//! files, and a command never fails for want of an audience.
+//! A reader that has gone, as `head` does, is no failure: what it has not read is dropped. Results that
+//! cannot be written for another reason, as on a full disk, are one. Errors have nowhere else to go.
 
-use std::io::Write;
+use std::io::{self, Write};
 
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use miette::{Diagnostic, LabeledSpan, SourceSpan};
+use thiserror::Error;
 
 /// Standard output and standard error, or what stands for them.
 pub struct Console<'c> {
@@ -19,11 +20,22 @@ pub struct Console<'c> {
     pub terminal: bool,
 }
 
+/// Standard output does not take what is written to it.
+#[derive(Debug, Error, Diagnostic)]
+#[error("cannot write to standard output: {0}")]
+pub struct OutputError(io::Error);
+
 impl Console<'_> {
     /// Writes results.
-    pub fn print(&mut self, text: &str) {
-        let _ = self.out.write_all(text.as_bytes());
-        let _ = self.out.flush();
+    ///
+    /// # Errors
+    /// Where they cannot be written though there is a reader.
+    pub fn print(&mut self, text: &str) -> Result<(), OutputError> {
+        let written = self.out.write_all(text.as_bytes()).and_then(|()| self.out.flush());
+        match written {
+            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(OutputError(error)),
+            _ => Ok(()),
+        }
     }
 
     /// Writes a warning.
@@ -93,6 +105,29 @@ mod tests {
     use dbd_scene::Scene;
 
     use super::*;
+
+    /// A writer that fails in one way.
+    struct Failing(io::ErrorKind);
+
+    impl Write for Failing {
+        fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+            Err(self.0.into())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_full_disk_is_a_failure_and_a_reader_that_has_gone_is_none() {
+        let fails = |kind| {
+            let (mut out, mut err) = (Failing(kind), Vec::new());
+            Console { out: &mut out, err: &mut err, terminal: false }.print("text").is_err()
+        };
+        assert!(fails(io::ErrorKind::StorageFull));
+        assert!(!fails(io::ErrorKind::BrokenPipe));
+    }
 
     #[test]
     fn an_error_shows_file_line_column_message_the_line_and_help() {

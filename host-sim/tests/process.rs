@@ -1,0 +1,157 @@
+//! The program as a shell meets it: exit codes, signals, standard input, an empty folder, a full
+//! disk.
+
+use std::fs;
+use std::io::Write as _;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+/// The program in a folder.
+fn program(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_host-sim"));
+    command.current_dir(folder).args(arguments).stdin(Stdio::null());
+    command
+}
+
+fn call(folder: &Path, arguments: &[&str]) -> Output {
+    program(folder, arguments).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).unwrap()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+/// One ball that flies for so long.
+fn ball(duration: &str) -> String {
+    format!(
+        "name = \"ball\"\nduration = {duration}\nstep = 1e-3\n[[body]]\nname = \"b\"\nmass = 1\n\
+         inertia = [1, 1, 1]\nposition = [0, 0, 0]\n"
+    )
+}
+
+#[test]
+fn an_installed_program_brings_its_scenes() {
+    let here = tempfile::tempdir().unwrap();
+    let listed = call(here.path(), &["list", "--json"]);
+    assert_eq!(listed.status.code(), Some(0));
+    let scenes: Vec<Value> = serde_json::from_slice(&listed.stdout).unwrap();
+    let ships = fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes")).unwrap().count();
+    assert_eq!(scenes.len(), ships);
+    assert!(scenes.iter().all(|scene| scene["from"] == "built in"));
+    let ran = call(here.path(), &["run", "four-bar", "--duration", "1ms"]);
+    assert_eq!(ran.status.code(), Some(0), "{}", text(&ran.stderr));
+    assert_eq!(names(&here.path().join("out")), ["four-bar"]);
+
+    // A file of one's own comes before, and the list says so.
+    fs::create_dir(here.path().join("scenes")).unwrap();
+    fs::write(here.path().join("scenes/four-bar.toml"), ball("1")).unwrap();
+    let listed = call(here.path(), &["list"]);
+    let lines = || text(&listed.stdout).lines();
+    let line = |name: &str| lines().find(|line| line.starts_with(name)).unwrap().to_owned();
+    assert!(line("four-bar ").contains("scenes/") && line("four-bar ").contains(" 1 body "));
+    assert!(line("3rrr ").contains("built in"));
+    assert_eq!(lines().count(), ships);
+}
+
+#[test]
+fn a_scene_comes_from_standard_input() {
+    let here = tempfile::tempdir().unwrap();
+    let calls: [&[&str]; 3] = [&["run", "-"], &["check", "-"], &["export", "-"]];
+    for arguments in calls {
+        let with = |scene: &str| -> Output {
+            let mut command = program(here.path(), arguments);
+            command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+            let mut child = command.spawn().unwrap();
+            child.stdin.take().unwrap().write_all(scene.as_bytes()).unwrap();
+            child.wait_with_output().unwrap()
+        };
+        let done = with(&ball("0.01"));
+        assert_eq!(done.status.code(), Some(0), "{arguments:?}: {}", text(&done.stderr));
+        let refused = with(&ball("-1"));
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(text(&refused.stderr).contains("standard input:2:12"), "{}", text(&refused.stderr));
+    }
+    // It has no file's name, but one of its own.
+    assert_eq!(names(&here.path().join("out")), ["ball"]);
+}
+
+#[test]
+fn a_reader_that_has_gone_is_no_failure() {
+    let here = tempfile::tempdir().unwrap();
+    // More than a pipe holds.
+    for arguments in [&["export", "macpherson"][..], &["list"], &["check", "four-bar"]] {
+        let mut command = program(here.path(), arguments);
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let done = child.wait_with_output().unwrap();
+        assert_eq!((done.status.code(), text(&done.stderr)), (Some(0), ""), "{arguments:?}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn results_that_cannot_be_written_end_with_1() {
+    let here = tempfile::tempdir().unwrap();
+    fs::write(here.path().join("ball.toml"), ball("0.01")).unwrap();
+    let calls: [&[&str]; 8] = [
+        &["export", "four-bar"],
+        &["list"],
+        &["list", "--json"],
+        &["check", "four-bar"],
+        &["run", "ball.toml"],
+        &["run", "ball.toml", "--json"],
+        &["completions", "bash"],
+        &["--help"],
+    ];
+    for arguments in calls {
+        let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let mut command = program(here.path(), arguments);
+        let done = command.stdout(full).stderr(Stdio::piped()).output().unwrap();
+        assert_eq!(done.status.code(), Some(1), "{arguments:?}");
+        let said = text(&done.stderr);
+        assert!(said.contains("cannot write to standard output: No space left"), "{said}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_leaves_nothing_half_written() {
+    use std::os::unix::process::ExitStatusExt as _;
+
+    let here = tempfile::tempdir().unwrap();
+    // A thousand million steps.
+    fs::write(here.path().join("ball.toml"), ball("1e6")).unwrap();
+    let results = here.path().join("out/ball");
+    for (signal, number) in [("INT", 2), ("TERM", 15)] {
+        let mut command = program(here.path(), &["run", "ball.toml", "--every", "1s"]);
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let begun = Instant::now();
+        while !(results.is_dir() && names(&results).iter().any(|n| n.starts_with(".trace.csv."))) {
+            assert!(begun.elapsed() < Duration::from_secs(20), "no trace is begun");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        send(signal, &mut child);
+        let status = child.wait().unwrap();
+        assert_eq!(names(&results), [""; 0], "{signal}");
+        // A shell says 130 or 143 of it.
+        assert_eq!(status.signal(), Some(number));
+    }
+}
+
+#[cfg(unix)]
+fn send(signal: &str, child: &mut Child) {
+    let process = child.id().to_string();
+    let sent = Command::new("kill").args(["-s", signal, &process]).status().unwrap();
+    assert!(sent.success());
+}
