@@ -123,6 +123,26 @@ const CASES: &[Case] = &[
     case("\"arm\"\nmass = 1.5", "\"arm«\nmass = 1.5", "invalid basic string", "expected `\"`"),
     case("duration = 0.5", "duration = 0.5«s", "invalid float", "a unit does not follow it"),
 
+    case("duration = 0.5", "duration = 0«,5", "unexpected key or value", "a decimal point"),
+    case("mass = 1.5", "mass = «heavy", "a text without quotes", "in quotes: \"heavy\""),
+    case("velocity = [0, 0.1, 0]", "velocity = [«0 0.1, 0]", "missing comma between array elements", "separated by commas"),
+    case("at = [1, 0, 0]", "at = [1\n«0, 0]", "missing comma between array elements", "separated by commas"),
+    case("points = [[2, 0, 0], [0.1", "points = [[2, 0, 0] «[0.1", "missing comma between array elements", "separated by commas"),
+    case("{ axis = [0, 0, 1], angle = 0.3 }", "{ axis = [0, 0, 1] «angle = 0.3 }", "missing comma between key-value pairs", "separated by commas"),
+    case("[[torsion_spring]]", "«[torsion_spring]", "opened by [torsion_spring], in one bracket", "opened by [[torsion_spring]], in two brackets"),
+    case("[[joint]] # second", "[«joint]", "`joint` is opened again", "opened by [[joint]], in two brackets"),
+    case("[[torsion_spring]]", "[[torsion_spring]«\n", "unclosed array table", "closed by two"),
+
+    // Times.
+    case("duration = 0.5", "duration = «\"0.5 min\"", "`duration` of the scene is \"0.5 min\"", "s, ms, us, ns"),
+    case("duration = 0.5", "duration = «\"0us\"", "is \"0us\"", "a finite number > 0 in s"),
+    case("from = 0.25", "from = «\"soon\"", "`from` of load 1 is \"soon\"", "\"20us\""),
+    case("from = 0.25", "from = «\"1e999s\"", "`from` of load 1 is \"1e999s\"", "\"20us\""),
+
+    // Types of joints by other names.
+    case("\"spherical\"", "«\"ball\"", "`type` of joint `wrist` is \"ball\"", "did you mean \"spherical\"?"),
+    case("\"revolute\"", "«\"hinge\"", "`type` of joint `shoulder` is \"hinge\"", "did you mean \"revolute\"?"),
+
     // Keys.
     case("gravity =", "«gravitiy =", "the scene has no key `gravitiy`", "did you mean `gravity`?"),
     case("velocity = [0, 0.1, 0]", "«colour = 3", "body `arm` has no key `colour`", "`inertia`"),
@@ -165,7 +185,7 @@ const CASES: &[Case] = &[
 
     // Types and lengths.
     case("\"one of everything\"", "«17", "`description` of the scene is an integer", "a string in quotes"),
-    case("duration = 0.5", "duration = «\"0.5s\"", "`duration` of the scene is a string", "a finite number > 0 in s"),
+    case("duration = 0.5", "duration = «[0.5]", "`duration` of the scene is an array", "a finite number > 0 in s"),
     case("[0, -9.81, 0]", "«-9.81", "`gravity` of the scene is a float", "an array of 3 finite numbers in m/s²"),
     case("[0, -9.81, 0]", "«[0, -9.81]", "`gravity` of the scene has 2 entries", "an array of 3 finite numbers"),
     case("[0, -9.81, 0]", "[0, «true, 0]", "`gravity`[1] of the scene is a boolean", "a finite number in m/s²"),
@@ -179,7 +199,7 @@ const CASES: &[Case] = &[
     case("stiffness = 9e6", "stiffness = «\"stiff\"", "`stiffness` of joint `shoulder` is a string", "{ load = N, deflection = m }"),
     case("[[2, 0, 0], [0.1, 0, 0]]", "[[2, 0, 0], «[0.1, 0]]", "`points`[1] of tsda 1 has 2 entries", "3 finite numbers in m"),
     case("[[2, 0, 0], [0.1, 0, 0]]", "[[2, 0, 0], [0.1, «\"0\", 0]]", "`points`[1][1] of tsda 1 is a string", "a finite number in m"),
-    case("[[load]]", "«[load]", "`load` of the scene is a table", "an array of tables, each opened by [[load]]"),
+    case("[[load]]", "«[load]", "opened by [load], in one bracket", "opened by [[load]]"),
 
     // Numbers that are not finite.
     case("mass = 1.5", "mass = «nan", "`mass` of body `arm` is nan", "a finite number > 0 in kg"),

@@ -13,7 +13,7 @@ use crate::hinge::{self, Known};
 use crate::names::Names;
 use crate::pair::BodyName;
 use crate::target::{ElementName, Kinds, Target};
-use crate::text::{Choice, Direction, Kind, Number, Numbers, Table, Value};
+use crate::text::{Choice, Direction, Kind, Number, Numbers, Seconds, Table, Value};
 
 /// What is said of an input.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -238,7 +238,9 @@ impl Kind for Knots {
     fn read(&self, value: &Value<'_>) -> Result<Vec<[f64; 2]>, SceneError> {
         let mut knots: Vec<[f64; 2]> = Vec::new();
         for entry in value.array(&self.expected())? {
-            let knot = Numbers(Number::any("")).read(&entry)?;
+            let expected = format!("an array of 2: a time in s and a value in {}", self.unit);
+            let pair = entry.entries(2, &expected)?;
+            let knot = [Seconds::any().read(&pair[0])?, Number::any(self.unit).read(&pair[1])?];
             if let Some([last, before]) = knots.last() {
                 if knot[0] <= *last {
                     let problem = format!("is at {:?} s, not after {last:?} s", knot[0]);

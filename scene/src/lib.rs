@@ -28,6 +28,7 @@ mod runtime;
 mod spring;
 mod target;
 mod text;
+pub mod time;
 mod torsion_spring;
 mod tsda;
 mod written;
@@ -56,7 +57,7 @@ use crate::file_lines::FileLines;
 use crate::hinge::Known;
 use crate::origin::Origin;
 use crate::target::Elements;
-use crate::text::{Number, Numbers, Text};
+use crate::text::{Number, Numbers, Seconds, Text};
 use crate::written::WrittenAngle;
 
 const KEYS: &[&str] = &[
@@ -168,7 +169,8 @@ impl Scene {
     ///
     /// # Errors
     /// Where the file cannot be read or the scene is refused.
-    pub fn load(path: &Path) -> Result<Self, SceneError> {
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, SceneError> {
+        let path = path.as_ref();
         let file = path.display().to_string();
         match std::fs::read_to_string(path) {
             Ok(text) => Self::parse(&text, &file),
@@ -187,9 +189,9 @@ impl Scene {
         root.only(&[KEYS])?;
         let name = root.required("name", Text::Name)?;
         let description = root.optional("description", Text::Any)?.unwrap_or_default();
-        let duration = root.required("duration", Number::positive("s"))?;
-        let step = root.optional("step", Number::positive("s"))?;
-        let every = root.optional("every", Number::positive("s"))?;
+        let duration = root.required("duration", Seconds::positive())?;
+        let step = root.optional("step", Seconds::positive())?;
+        let every = root.optional("every", Seconds::positive())?;
         let gravity = root.optional("gravity", Numbers(Number::any("m/s²")))?;
 
         let mut assembly = Assembly::default();

@@ -5,7 +5,7 @@ use dbd_kernel::{Load, LoadFrame, Vec3};
 use crate::assembly::Assembly;
 use crate::error::SceneError;
 use crate::pair::BodyName;
-use crate::text::{Choice, Number, Numbers, Table};
+use crate::text::{Choice, Number, Numbers, Seconds, Table};
 
 const KEYS: &[&str] = &["body", "force", "torque", "frame", "from", "until"];
 
@@ -24,8 +24,8 @@ pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), 
             Some(1) => LoadFrame::Body,
             _ => LoadFrame::World,
         };
-        let from = table.optional("from", Number::any("s"))?.unwrap_or(0.0);
-        let until = table.optional("until", Number::any("s"))?.unwrap_or(f64::INFINITY);
+        let from = table.optional("from", Seconds::any())?.unwrap_or(0.0);
+        let until = table.optional("until", Seconds::any())?.unwrap_or(f64::INFINITY);
         if until <= from {
             let help = "the load acts from `from` until just before `until`; leave `until` out \
                         for a load that never ends";
@@ -62,6 +62,11 @@ mod tests {
         assert_eq!((first.force, first.torque), (Vec3::new(0.0, 3.0, 0.0), Vec3::ZERO));
         assert_eq!((second.body, second.frame), (BodyIndex(0), LoadFrame::Body));
         assert_eq!((second.from, second.until), (0.5, 2.0));
+        let timed = example::with(
+            "[[load]]\nbody = \"arm\"\nforce = [0, 3, 0]\nfrom = \"-1ms\"\nuntil = \"20us\"",
+        );
+        let [load] = &timed.model.loads[..] else { panic!("one load") };
+        assert_eq!((load.from, load.until), (-1e-3, 2e-5));
         assert_eq!((second.force, second.torque), (Vec3::ZERO, Vec3::new(0.0, 0.0, 0.05)));
     }
 }

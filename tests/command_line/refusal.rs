@@ -14,12 +14,13 @@ fn bad_input_ends_with_2_and_writes_nothing() {
     let bad = folder.path("bad.toml");
     fs::write(&bad, PENDULUM.replace("mass = 0.5", "mass = -0.5")).unwrap();
     let bad = bad.to_str().unwrap();
-    let cases: [(&str, &[&str], &str); 18] = [
+    let cases: [(&str, &[&str], &str); 19] = [
         ("fuor-bar", &[], "did you mean four-bar?"),
         ("no-such-thing", &[], "four-bar"),
         ("no/such/file.toml", &[], "no/such/file.toml"),
         (bad, &[], "mass"),
-        (&good, &["--step", "2e-5"], "2e-5us"),
+        (&good, &["--step", "2e-5min"], "20us"),
+        (&good, &["--step", "0"], "positive"),
         (&good, &["--step", "fast"], "20us"),
         (&good, &["--step", "-1ms"], "positive"),
         (&good, &["--duration", "0s"], "positive"),

@@ -20,9 +20,48 @@ fn one_step_has_one_hash_however_it_is_written() {
     // The scene's own step is 2e-5.
     let of_the_scene = hash(&[]);
     assert_eq!(of_the_scene.len(), 16);
-    for step in ["20us", "20µs", "0.02ms", "2e-5s", "20000ns"] {
+    for step in ["20us", "20µs", "0.02ms", "2e-5s", "20000ns", "2e-5", "0.00002"] {
         assert_eq!(hash(&["--step", step]), of_the_scene, "{step}");
     }
+}
+
+/// A number is seconds and a text has a unit, in scenes and on the command line alike.
+#[test]
+fn times_have_two_spellings_everywhere() {
+    let folder = Folder::new();
+    let timed = |step: &str, every: &str, duration: &str| {
+        let drive =
+            "[[input]]\nname = \"gust\"\ntype = \"force\"\nbody = \"bob\"\naxis = [1, 0, 0]\n";
+        let text = PENDULUM.replace(
+            "duration = 0.5",
+            &format!("duration = {duration}\nstep = {step}\nevery = {every}"),
+        );
+        format!(
+            "{text}{drive}table = [[0, 1], [{every}, 2]]\n[[load]]\nbody = \"bob\"\nforce = [1, 0, 0]\nuntil = {every}\n"
+        )
+    };
+    let summary = |text: &str, options: &[&str]| {
+        let mut summary = folder.summary(&folder.scene(text), options);
+        // What differs by the clock and by the text.
+        for key in ["wall_seconds", "srt", "scene_hash"] {
+            summary.as_object_mut().unwrap().remove(key);
+        }
+        summary
+    };
+    let numbers = summary(&timed("8e-5", "0.01", "0.24"), &[]);
+    assert_eq!(numbers["step"].as_f64().map(f64::to_bits), Some(8e-5_f64.to_bits()));
+    assert_eq!(summary(&timed("\"80us\"", "\"10ms\"", "\"0.24s\""), &[]), numbers);
+    let other = timed("1e-3", "0.01", "1");
+    for [step, every, duration] in [["80us", "10ms", "0.24s"], ["8e-5", "1e-2", "0.24"]] {
+        let options = ["--step", step, "--every", every, "--duration", duration];
+        assert_eq!(summary(&other, &options), numbers, "{options:?}");
+    }
+    let checked = crate::call(&["check", &folder.scene(&timed("\"80us\"", "1", "2")), "--json"]);
+    assert!(
+        checked.out.contains("\"step\": 8e-5") || checked.out.contains("0.00008"),
+        "{}",
+        checked.out
+    );
 }
 
 #[test]

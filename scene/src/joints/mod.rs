@@ -20,7 +20,7 @@ use crate::hinge::Hinge;
 use crate::pair::{Between, Pair};
 use crate::spring::{self, Spring};
 use crate::target::{Elements, Target};
-use crate::text::{Choice, Number, Numbers, Table};
+use crate::text::{Choice, Kind as _, Number, Numbers, Table};
 
 /// A type of joint.
 struct JointType {
@@ -54,6 +54,22 @@ static TYPES: [JointType; 6] = [
 ];
 
 const KEYS: &[&str] = &["name", "type", "between", "at"];
+
+/// What other programs and people call the types.
+const OTHER_NAMES: [(&str, &[&str]); 6] = [
+    ("spherical", &["ball", "ball_and_socket", "ball_socket", "socket", "point", "globular"]),
+    (
+        "revolute",
+        &["hinge", "pin", "pivot", "rotary", "rotational", "rotation", "continuous", "bearing"],
+    ),
+    ("universal", &["cardan", "u", "hooke", "hookes", "hardy_spicer", "gimbal", "cross"]),
+    ("cylindrical", &["cylinder", "slide_and_turn"]),
+    (
+        "translational",
+        &["slider", "slide", "prismatic", "sliding", "linear", "translation", "guide"],
+    ),
+    ("fixed", &["weld", "welded", "rigid", "lock", "locked", "clamp", "clamped", "bolted"]),
+];
 
 /// A joint is made at free length. One whose points miss that by more than this share of it lies
 /// so far from its bodies, or is so small, that coordinates cannot tell its points apart.
@@ -117,8 +133,24 @@ fn kind(table: &Table<'_>) -> Result<&'static JointType, SceneError> {
         keys.extend(TYPES.iter().map(|kind| kind.keys));
         table.only(&keys)?;
     }
-    let index = table.required("type", Choice(&TYPES.each_ref().map(|kind| kind.name)))?;
+    let names = TYPES.each_ref().map(|kind| kind.name);
+    let value = table.value("type");
+    if let Some((value, word)) = value.as_ref().and_then(|v| Some((v, v.get().as_str()?)))
+        && let Some(meant) = meant_by(word)
+    {
+        let expected = format!("{}; did you mean \"{meant}\"?", Choice(&names).expected());
+        return Err(value.refuse(&format!("is \"{word}\""), &expected));
+    }
+    let index = table.required("type", Choice(&names))?;
     Ok(&TYPES[index])
+}
+
+/// The type that goes by another name, with or without "joint" behind it.
+fn meant_by(word: &str) -> Option<&'static str> {
+    let word = word.to_lowercase().replace([' ', '-'], "_").replace('\'', "");
+    let word = word.strip_suffix("joint").unwrap_or(&word).trim_end_matches('_');
+    let other = OTHER_NAMES.iter().find(|(_, others)| others.contains(&word));
+    other.map(|(name, _)| *name)
 }
 
 /// Reads a joint of a type and adds its elements.
@@ -134,4 +166,24 @@ fn read(
     let joint = Joint { name, pair, at_w, spring };
     let hinges = (kind.expand)(table, &joint, assembly)?;
     Ok((joint.pair, hinges))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_other_name_is_of_a_type_and_of_one() {
+        let all =
+            || OTHER_NAMES.iter().flat_map(|(name, others)| others.iter().map(move |o| (name, *o)));
+        for (name, other) in all() {
+            assert!(TYPES.iter().any(|kind| kind.name == *name), "{name}");
+            assert!(TYPES.iter().all(|kind| kind.name != other), "{other}");
+            assert_eq!(all().filter(|(_, o)| *o == other).count(), 1, "{other}");
+        }
+        for word in ["U-joint", "u_joint", "Cardan joint", "Hooke's"] {
+            assert_eq!(meant_by(word), Some("universal"), "{word}");
+        }
+        assert_eq!(meant_by("revolut"), None);
+    }
 }

@@ -7,6 +7,7 @@ use crate::direction::unit;
 use crate::error::SceneError;
 use crate::nearest::nearest;
 use crate::text::value::{Kind, Value};
+use crate::time::seconds;
 
 /// A finite number; integers are numbers, too.
 #[derive(Clone, Copy)]
@@ -46,6 +47,16 @@ impl Number {
         }
     }
 
+    fn holds(self, number: f64) -> bool {
+        let right = match self.least {
+            Least::Any => true,
+            Least::Zero => number >= 0.0,
+            // A subnormal number has no finite inverse.
+            Least::AboveZero => number >= f64::MIN_POSITIVE,
+        };
+        right && number.is_finite()
+    }
+
     fn in_unit(self) -> String {
         if self.unit.is_empty() { String::new() } else { format!(" in {}", self.unit) }
     }
@@ -60,16 +71,43 @@ impl Kind for Number {
 
     fn read(&self, value: &Value<'_>) -> Result<f64, SceneError> {
         let number = number(value).ok_or_else(|| value.wrong_type(&self.expected()))?;
-        let right = match self.least {
-            Least::Any => true,
-            Least::Zero => number >= 0.0,
-            // A subnormal number has no finite inverse.
-            Least::AboveZero => number >= f64::MIN_POSITIVE,
-        };
-        if !(right && number.is_finite()) {
+        if !self.holds(number) {
             return Err(value.refuse(&format!("is {}", value.written()), &self.expected()));
         }
         Ok(number)
+    }
+}
+
+/// A time: a number of seconds, or a text with a unit such as `"20us"`.
+#[derive(Clone, Copy)]
+pub(crate) struct Seconds(Number);
+
+impl Seconds {
+    /// Any finite time.
+    pub(crate) const fn any() -> Self {
+        Self(Number::any("s"))
+    }
+
+    /// A time > 0.
+    pub(crate) const fn positive() -> Self {
+        Self(Number::positive("s"))
+    }
+}
+
+impl Kind for Seconds {
+    type Output = f64;
+
+    fn expected(&self) -> String {
+        format!(
+            "{}, or a time in quotes with its unit (s, ms, us, ns): \"20us\"",
+            self.0.expected()
+        )
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<f64, SceneError> {
+        let Some(text) = value.get().as_str() else { return self.0.read(value) };
+        let time = seconds(text).ok().filter(|time| self.0.holds(*time));
+        time.ok_or_else(|| value.refuse(&format!("is {}", value.written()), &self.expected()))
     }
 }
 

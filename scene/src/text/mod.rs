@@ -7,9 +7,11 @@ mod kinds;
 mod table;
 mod value;
 
-pub(crate) use kinds::{Choice, Direction, Number, Numbers, Text};
+pub(crate) use kinds::{Choice, Direction, Number, Numbers, Seconds, Text};
 pub(crate) use table::{Table, root};
 pub(crate) use value::{Kind, Value};
+
+use std::ops::Range;
 
 use toml::de::DeTable;
 
@@ -20,24 +22,73 @@ pub(crate) fn parse(source: Source<'_>) -> Result<DeTable<'_>, SceneError> {
     match DeTable::parse(source.text) {
         Ok(document) => Ok(document.into_inner()),
         Err(error) => {
-            let (message, help) = explain(error.message());
             let end = source.text.len();
-            Err(source.refuse(error.span().unwrap_or(end..end), message, help))
+            let span = error.span().unwrap_or(end..end);
+            let (message, help) = explain(source, &span, error.message());
+            Err(source.refuse(span, message, help))
         }
     }
 }
 
-/// What is wrong and what would be right, from the parser's message.
-fn explain(message: &str) -> (&str, String) {
+/// What is wrong and what would be right, from the parser's message and its place.
+fn explain(source: Source<'_>, span: &Range<usize>, message: &str) -> (String, String) {
     let (problem, expected) = message.split_once(", expected ").unwrap_or((message, ""));
+    let written = source.text.get(span.clone()).unwrap_or_default();
     let help = match (problem, expected) {
         // `0.5s` is a float with something behind it to the parser.
         ("invalid float" | "invalid integer", "" | "nothing") => {
-            "a number is plain and in SI units, e.g. 0.5 or 2e-5; a unit does not follow it".into()
+            "a number is plain and in SI units, e.g. 0.5 or 2e-5; a unit does not follow it, but a \
+             time may stand in quotes: \"20us\""
+                .into()
         }
-        ("duplicate key", _) => "a key stands once in its table".into(),
+        ("duplicate key", _) => match opened_by(source, span) {
+            Some(name) => {
+                let problem = format!("`{name}` is opened again, and somewhere by [{name}] alone");
+                return (problem, format!("each of many is opened by [[{name}]], in two brackets"));
+            }
+            None => "a key stands once in its table".into(),
+        },
+        // `0 1` is a text without quotes to it.
+        ("string values must be quoted", _) if are_numbers(written) => {
+            return ("missing comma between array elements".into(), COMMAS.into());
+        }
+        ("string values must be quoted", _) => {
+            return (
+                "a text without quotes".into(),
+                format!("a text stands in quotes: \"{written}\""),
+            );
+        }
+        ("unexpected key or value", _) if at(source, span).starts_with(',') => {
+            "a number has a decimal point: 0.5; several stand in brackets: [0, 5]".into()
+        }
+        (problem, _) if problem.starts_with("missing comma") => COMMAS.into(),
+        ("unclosed array table" | "unclosed table", _) => {
+            "one of many is opened by two brackets and closed by two: [[body]]".into()
+        }
         (_, "" | "nothing") => "see https://toml.io for what TOML allows".into(),
         (_, expected) => format!("expected {expected}"),
     };
-    (problem, help)
+    (problem.into(), help)
+}
+
+const COMMAS: &str = "entries of an array and keys within braces are separated by commas: \
+                      [0, 0, 1], { axis = [0, 0, 1], angle = 0.5 }";
+
+/// The text from a place on.
+fn at<'t>(source: Source<'t>, span: &Range<usize>) -> &'t str {
+    source.text.get(span.start..).unwrap_or_default()
+}
+
+/// The name in `[NAME]` or `[[NAME]]` where that is what stands at a place.
+fn opened_by<'t>(source: Source<'t>, span: &Range<usize>) -> Option<&'t str> {
+    let before = source.text.get(..span.start)?;
+    let line = before.rsplit('\n').next()?;
+    let is_header = line.trim_start().starts_with('[') && !line.contains(['=', '"']);
+    if is_header { source.text.get(span.clone()) } else { None }
+}
+
+/// Whether a text is two numbers or more, with nothing but space between them.
+fn are_numbers(text: &str) -> bool {
+    let words = || text.split_whitespace();
+    words().count() > 1 && words().all(|word| word.parse::<f64>().is_ok())
 }

@@ -136,6 +136,12 @@ impl<'t> Table<'t> {
     pub(crate) fn list(&self, key: &str) -> Result<Vec<Table<'t>>, SceneError> {
         let Some(value) = self.value(key) else { return Ok(Vec::new()) };
         let expected = format!("an array of tables, each opened by [[{key}]]");
+        if matches!(value.get(), DeValue::Table(_)) && value.written().starts_with('[') {
+            let problem = format!("is opened by [{key}], in one bracket");
+            let help =
+                format!("each {key} is opened by [[{key}]], in two brackets: there may be many");
+            return Err(value.refuse_with(&problem, help));
+        }
         let mut tables = Vec::new();
         for (i, entry) in value.array(&expected)?.iter().enumerate() {
             let DeValue::Table(entries) = entry.get() else {
