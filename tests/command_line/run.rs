@@ -269,6 +269,30 @@ fn every_scheme_counts_its_evaluations() {
     }
 }
 
+/// A reused evaluation is stale where a table changes between two steps: the table says so.
+#[test]
+fn more_evaluations_than_the_schemes_are_explained() {
+    let folder = Folder::new();
+    let drive = "[[input]]\nname = \"gust\"\ntype = \"force\"\nbody = \"bob\"\naxis = [1, 0, 0]\n\
+                 table = [[0, 1], [0.1, 2], [0.2, 3]]\n";
+    let scene = folder.scene(&format!("{PENDULUM}{drive}"));
+    let of = |options: &[&str]| {
+        let count = |key: &str| folder.summary(&scene, options)[key].as_u64().unwrap();
+        let text = folder.run(&scene, options).out;
+        let line = text.lines().find(|line| line.starts_with("force evaluations")).unwrap();
+        (count("force_evaluations"), count("steps"), line.to_owned())
+    };
+    let (evaluations, steps, line) = of(&["--step", "1ms"]);
+    let anew = evaluations - steps - 1;
+    assert!(anew >= 2, "{anew}");
+    let said =
+        format!("{evaluations} (1 per step, {anew} anew where a table or a load had changed)");
+    assert!(line.ends_with(&said), "{line}");
+    let (evaluations, steps, line) = of(&["--step", "1ms", "--scheme", "pefrl"]);
+    assert_eq!(evaluations, 4 * steps);
+    assert!(line.ends_with(&format!("{evaluations} (4 per step)")), "{line}");
+}
+
 #[test]
 fn dampers_are_explicit_on_demand() {
     let folder = Folder::new();

@@ -244,6 +244,7 @@ fn summarise(
         steps: ending.steps,
         duration,
         force_evaluations: ending.evaluations,
+        evaluations_per_step: method.evaluations(),
         wall_seconds,
         srt: wall_seconds / duration,
         energy_initial: statistics.energy_initial(),

@@ -35,6 +35,9 @@ pub struct Summary {
     pub duration: f64,
     /// Force evaluations performed.
     pub force_evaluations: u64,
+    /// Those of a step of the method where nothing changes between steps; no key.
+    #[serde(skip)]
+    pub evaluations_per_step: u32,
     /// \[s\] time on the clock spent stepping.
     pub wall_seconds: f64,
     /// Time on the clock over simulated time.
@@ -97,6 +100,17 @@ impl Summary {
         self.scene_hash = file.map(|file| file.hash.clone());
     }
 
+    /// The count of force evaluations, with its reason where it is higher than the method's.
+    fn evaluations(&self) -> String {
+        let (count, each) = (self.force_evaluations, u64::from(self.evaluations_per_step));
+        // A method that reuses the last one of a step has one more, the first.
+        let anew = count.saturating_sub(self.steps * each + 1);
+        if anew == 0 {
+            return format!("{count} ({each} per step)");
+        }
+        format!("{count} ({each} per step, {anew} anew where a table or a load had changed)")
+    }
+
     /// What people read: a name and a text with units each.
     #[must_use]
     pub fn rows(&self) -> Vec<(&'static str, String)> {
@@ -137,7 +151,7 @@ impl Summary {
             ("scene", self.scene.clone()),
             ("method", method),
             ("steps", span),
-            ("force evaluations", self.force_evaluations.to_string()),
+            ("force evaluations", self.evaluations()),
             ("wall time", wall),
             ("energy, initial", format!("{} J", significant(self.energy_initial, 10))),
             ("energy, final", format!("{} J", significant(self.energy_final, 10))),
