@@ -135,6 +135,33 @@ fn what_is_not_an_input_or_not_finite_is_refused_and_changes_nothing() {
     assert_eq!((plant.hash(), plant.state().signals.clone()), before);
 }
 
+/// A controller in single precision hands over its own numbers; those in double precision are
+/// rounded to the same.
+#[test]
+fn an_input_is_set_in_the_plants_number_or_in_double_precision() {
+    fn driven<P: Geometry>(set: impl Fn(&mut Driven<P>)) -> u64 {
+        let mut model = free_ring::<P>(0.0);
+        let (axis, body) = (Vec3::from_f64([0.0, 0.0, 1.0]), BodyIndex(0));
+        let kind = InputKind::Torque { body, axis, frame: LoadFrame::World };
+        model.add_input(kind, 0.0).unwrap();
+        let mut plant = Plant::new(Box::new(model), Leapfrog, 1e-3).unwrap();
+        set(&mut plant);
+        plant.advance(10).ok().unwrap();
+        plant.hash()
+    }
+    type Driven<P> = Plant<Box<Bench<P>>, Leapfrog>;
+    let free = InputIndex(0);
+    let single = driven::<F32>(|plant| plant.set_input_real(free, 0.1).unwrap());
+    assert_eq!(single, driven::<F32>(|plant| plant.set_input(free, 0.1).unwrap()));
+    assert_ne!(single, driven::<F32>(|plant| plant.set_input_real(free, 0.2).unwrap()));
+    let double = driven::<F64>(|plant| plant.set_input_real(free, 0.1).unwrap());
+    assert_eq!(double, driven::<F64>(|plant| plant.set_input(free, 0.1).unwrap()));
+    driven::<F32>(|plant| {
+        let refused = Err(InputError::NotFinite(free));
+        assert_eq!(plant.set_signal_real(free, 0.0, f32::NAN), refused);
+    });
+}
+
 #[test]
 fn setting_the_same_value_again_costs_no_evaluation() {
     let mut model = free_ring::<F64>(0.0);

@@ -34,7 +34,7 @@ pub fn scene_names() -> Vec<String> {
 #[must_use]
 pub fn scene(name: &str) -> Scene {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
-    Scene::load(&scenes.join(name).with_extension("toml")).unwrap()
+    Scene::load(scenes.join(name).with_extension("toml")).unwrap()
 }
 
 /// The text of a scene that ships.

@@ -14,7 +14,7 @@ const GAINS: [f64; 4] = [-20.0, 88.97, -18.33, 17.54];
 
 /// Balances for so many milliseconds; cart position and angle from upright, furthest in each second.
 pub fn balance(milliseconds: u64) -> Result<Vec<[f64; 2]>, Box<dyn Error>> {
-    let scene = Scene::load(SCENE.as_ref())?;
+    let scene = Scene::load(SCENE)?;
     let drive = scene.input("drive")?;
     let (cart, speed) = (scene.readout("cart_point")?, scene.readout("cart_velocity")?);
     let (angle, rate) = (scene.readout("angle")?, scene.readout("rate")?);

@@ -27,7 +27,7 @@ const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/delta-pick-a
 /// Follows the path for `looks` of 1/4 ms; the largest distance from it [m] after the first second.
 pub fn follow(looks: u32) -> Result<f64, Box<dyn Error>> {
     const H: f64 = 2.5e-4;
-    let mut scene = Scene::load(SCENE.as_ref())?;
+    let mut scene = Scene::load(SCENE)?;
     scene.inputs.iter().for_each(|drive| scene.model.release(drive.index));
     let (tool, mut last, mut furthest) = (scene.readout("tool_point")?, [0.0; 3], 0.0_f64);
     let mut plant = Plant::new(&scene.model, Leapfrog, 5e-5)?;

@@ -4,9 +4,9 @@
 //! data, the only words of a body that hash and snapshot see.
 
 use crate::attitude::Attitude as _;
-use crate::geometry::Geometry;
+use crate::geometry::{F32, F64, Geometry};
 use crate::real::Real;
-use crate::vector::Vec3;
+use crate::vector::{Quaternion, Vec3};
 use crate::words::{WordSource, WordVisitor, Words};
 
 /// A rigid body: mass, principal inertia and what is derived from them, rounded once each.
@@ -111,5 +111,86 @@ impl<P: Geometry> Words for BodyState<P> {
         self.orientation.fill(source);
         self.velocity.fill(source);
         self.angular_velocity.fill(source);
+    }
+}
+
+/// What a constant is made with: a function for any precision is none that a constant may call.
+macro_rules! constants {
+    ($real:ident, $precision:ident) => {
+        impl Body<$real> {
+            /// [`Self::from_f64`] in a constant, with the same bits.
+            #[must_use]
+            pub const fn new(mass: f64, inertia: [f64; 3]) -> Self {
+                let [x, y, z] = inertia;
+                Self {
+                    mass: mass as $real,
+                    inertia: Vec3::new(x as $real, y as $real, z as $real),
+                    inverse_mass: (1.0 / mass) as $real,
+                    inverse_inertia: Vec3::new(
+                        (1.0 / x) as $real,
+                        (1.0 / y) as $real,
+                        (1.0 / z) as $real,
+                    ),
+                    ratio: Vec3::new((z / y) as $real, (x / z) as $real, (y / x) as $real),
+                    inverse_ratio: Vec3::new((y / z) as $real, (z / x) as $real, (x / y) as $real),
+                }
+            }
+        }
+
+        impl BodyState<$precision> {
+            /// [`Self::from_f64`] in a constant, with the same bits.
+            #[must_use]
+            pub const fn new(
+                position: [f64; 3],
+                orientation: [f64; 4],
+                velocity: [f64; 3],
+                angular_velocity: [f64; 3],
+            ) -> Self {
+                let ([x, y, z], [vx, vy, vz]) = (position, velocity);
+                let ([w, i, j, k], [wx, wy, wz]) = (orientation, angular_velocity);
+                Self {
+                    position: Vec3::new(x as $real, y as $real, z as $real),
+                    orientation: Quaternion::new(w as $real, i as $real, j as $real, k as $real),
+                    velocity: Vec3::new(vx as $real, vy as $real, vz as $real),
+                    angular_velocity: Vec3::new(wx as $real, wy as $real, wz as $real),
+                }
+            }
+        }
+    };
+}
+
+constants!(f64, F64);
+constants!(f32, F32);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What one precision's constants are, and what the function for all makes of the same numbers.
+    macro_rules! same_bits {
+        ($real:ident, $precision:ident) => {{
+            const INERTIA: [f64; 3] = [0.08333, 0.00083, 0.1];
+            const BODY: Body<$real> = Body::<$real>::new(0.3, INERTIA);
+            const STATE: BodyState<$precision> = BodyState::<$precision>::new(
+                [0.1, -0.2, 1e-9],
+                [0.8, 0.0, 0.6, 0.0],
+                [1.0 / 3.0, 2.0, -0.7],
+                [0.3, 1e10, -1.1],
+            );
+            assert_eq!(BODY, Body::from_f64(0.3, INERTIA));
+            let state = BodyState::<$precision>::from_f64(
+                [0.1, -0.2, 1e-9],
+                [0.8, 0.0, 0.6, 0.0],
+                [1.0 / 3.0, 2.0, -0.7],
+                [0.3, 1e10, -1.1],
+            );
+            assert_eq!(STATE, state);
+        }};
+    }
+
+    #[test]
+    fn constants_have_the_bits_of_what_is_made_at_run_time() {
+        same_bits!(f64, F64);
+        same_bits!(f32, F32);
     }
 }

@@ -242,6 +242,19 @@ where
         self.set_signal(input, value, 0.0)
     }
 
+    /// [`Self::set_input`] with a value in the plant's own number: what a controller in single
+    /// precision has at hand, without a way through double precision.
+    ///
+    /// # Errors
+    /// [`InputError`]; nothing is changed then.
+    pub fn set_input_real(
+        &mut self,
+        input: InputIndex,
+        value: RealOf<H::Target>,
+    ) -> Result<(), InputError> {
+        self.set_signal_real(input, value, RealOf::<H::Target>::ZERO)
+    }
+
     /// Sets an input with its rate: for an anchor the displacement \[m\] and its velocity \[m/s\],
     /// which its dampers feel; the other kinds do not use the rate. Each number is rounded once to
     /// the precision.
@@ -254,9 +267,21 @@ where
         value: f64,
         rate: f64,
     ) -> Result<(), InputError> {
+        let [value, rate] = [value, rate].map(RealOf::<H::Target>::from_f64);
+        self.set_signal_real(input, value, rate)
+    }
+
+    /// [`Self::set_signal`] in the plant's own number.
+    ///
+    /// # Errors
+    /// [`InputError`]; nothing is changed then.
+    pub fn set_signal_real(
+        &mut self,
+        input: InputIndex,
+        value: RealOf<H::Target>,
+        rate: RealOf<H::Target>,
+    ) -> Result<(), InputError> {
         let row = input.0 as usize;
-        let value = RealOf::<H::Target>::from_f64(value);
-        let rate = RealOf::<H::Target>::from_f64(rate);
         let view = self.model.view();
         let signal = self.state.signals.as_mut().get_mut(row);
         let (Some(known), Some(signal)) = (view.inputs.get(row), signal) else {

@@ -25,7 +25,7 @@
 //!
 //! # let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 //! # std::env::set_current_dir(folder)?;
-//! let scene = Scene::load("scenes/four-bar.toml".as_ref())?;
+//! let scene = Scene::load("scenes/four-bar.toml")?;
 //! let mut plant = plant(&scene, &Method::default(), 2e-5)?;
 //! while plant.time() < scene.duration {
 //!     plant.advance(500).ok()?;

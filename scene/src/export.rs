@@ -24,6 +24,9 @@ use dbd_kernel::{
 
 use crate::{Scene, SceneModel};
 
+/// Stands before what a program need not use.
+const UNUSED: &str = "#[allow(dead_code)]\n";
+
 /// A number that can be written as source, and the precision made of it.
 pub trait SourceNumber: Real + Named {
     /// The precision's type in the kernel.
@@ -99,7 +102,7 @@ pub fn preamble(scene: &Scene, step: f64) -> String {
         .zip(names)
         .map(|(input, constant)| {
             format!(
-                "/// \\[{}\\] the input {}.\npub const {name}_INPUT_{constant}: InputIndex = \
+                "/// \\[{}\\] the input {}.\n{UNUSED}pub const {name}_INPUT_{constant}: InputIndex = \
              InputIndex({});\n",
                 input.unit,
                 quoted(&input.name),
@@ -108,7 +111,7 @@ pub fn preamble(scene: &Scene, step: f64) -> String {
         })
         .collect();
     format!(
-        "// Not every scene has every kind of element.\n\
+        "// Not every scene has every kind of element, and not every program uses all of its constants.\n\
          #[allow(unused_imports)]\n\
          use dbd_kernel::{{\n    \
              Body, BodyIndex, BodyState, F32, F64, Load, LoadFrame, Model, PointBushing, PointOnLine,\n    \
@@ -119,9 +122,9 @@ pub fn preamble(scene: &Scene, step: f64) -> String {
              readouts::Readout,\n\
          }};\n\n\
          /// \\[s\\] the step of the scene {scene_name}.\n\
-         pub const {name}_STEP: f64 = {step};\n\
+         {UNUSED}pub const {name}_STEP: f64 = {step};\n\
          /// The bodies of the scene {scene_name}, in order.\n\
-         pub const {name}_BODIES: [&str; {count}] = {bodies};\n\
+         {UNUSED}pub const {name}_BODIES: [&str; {count}] = {bodies};\n\
          {inputs}",
         scene_name = quoted(&scene.name),
         count = scene.body_names.len(),
@@ -171,9 +174,9 @@ pub fn model<R: SourceNumber>(scene: &Scene) -> String {
         let _ = writeln!(out, "{text}");
     };
     line(&format_args!("/// The shape of the scene {}.", quoted(&scene.name)));
-    line(&format_args!("pub type {ty} = Model<{}, {counts}>;", R::TYPE));
+    line(&format_args!("{UNUSED}pub type {ty} = Model<{}, {counts}>;", R::TYPE));
     line(&format_args!("/// The scene {}.", quoted(&scene.name)));
-    line(&format_args!("pub static {name}: {ty} = Model {{"));
+    line(&format_args!("{UNUSED}pub static {name}: {ty} = Model {{"));
     line(&format_args!("    bodies: {},", list(&model.bodies, body::<R>)));
     line(&format_args!("    initial: {},", list(model.initial(), state::<R>)));
     line(&format_args!("    gravity: {},", list(&model.gravity, vector::<R>)));
@@ -195,7 +198,7 @@ pub fn model<R: SourceNumber>(scene: &Scene) -> String {
         let scene = constant_name(&scene.name);
         line(&format_args!("/// The read-out {}.", quoted(&info.name)));
         line(&format_args!(
-            "pub const {scene}_READOUT_{constant}_{}: Readout<{}> = {};",
+            "{UNUSED}pub const {scene}_READOUT_{constant}_{}: Readout<{}> = {};",
             R::TYPE,
             R::TYPE,
             readout(&info.readout.convert::<Float<R>>())

@@ -6,7 +6,7 @@ use dbd_scene::Scene;
 
 fn scene(name: &str) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
-    Scene::load(&path.join(name).with_extension("toml")).unwrap_or_else(|error| panic!("{error}"))
+    Scene::load(path.join(name).with_extension("toml")).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Franco & Degani 2026, Table 7a: equations of the constraint solver and of DBD, and how many

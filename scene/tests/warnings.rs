@@ -62,7 +62,7 @@ fn the_base_scene_and_all_that_ship_are_not_warned_of() {
     assert_eq!(warnings(BASE), []);
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
     for file in std::fs::read_dir(scenes).unwrap() {
-        let scene = Scene::load(&file.unwrap().path()).unwrap_or_else(|error| panic!("{error}"));
+        let scene = Scene::load(file.unwrap().path()).unwrap_or_else(|error| panic!("{error}"));
         let odd: Vec<_> =
             scene.warnings().into_iter().filter(|w| w.severity == Severity::Warning).collect();
         assert!(odd.is_empty(), "{}: {odd:#?}", scene.name);

@@ -14,7 +14,7 @@ pub fn clean_up_on_signals() {
     // Without it the program works all the same.
     let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
     std::thread::spawn(move || {
-        for signal in signals.forever() {
+        if let Some(signal) = signals.forever().next() {
             let _held = give_up_all();
             // Where the signal does not end the process, its code does.
             let _ = emulate_default_handler(signal);

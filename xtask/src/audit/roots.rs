@@ -16,9 +16,10 @@ pub const SCHEMES: [&str; 10] = [
 /// Models that are stepped with all of them.
 pub const MODELS: [&str; 2] = ["four-bar", "every-kind"];
 /// What is called between steps, with the second of these models.
-pub const CALLS: [&str; 9] = [
+pub const CALLS: [&str; 10] = [
     "advance",
     "set_input",
+    "set_input_real",
     "set_signal",
     "set_state",
     "reset",

@@ -34,6 +34,10 @@ macro_rules! roots {
         root!($keep, "set_input" $precision,
             (plant: &mut Running<$geometry>, input: InputIndex, value: f64)
                 -> Result<(), InputError> { plant.set_input(input, value) });
+        root!($keep, "set_input_real" $precision,
+            (plant: &mut Running<$geometry>, input: InputIndex,
+                value: <$geometry as Geometry>::Real)
+                -> Result<(), InputError> { plant.set_input_real(input, value) });
         root!($keep, "set_signal" $precision,
             (plant: &mut Running<$geometry>, input: InputIndex, value: f64, rate: f64)
                 -> Result<(), InputError> { plant.set_signal(input, value, rate) });
