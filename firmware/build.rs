@@ -1,6 +1,6 @@
 //! Const models of the shipped scenes, and link arguments of the target's programs.
 //!
-//! `scenes/*.toml => models.rs`: one module per scene and the macros `shipped`, `shipped_f32` and
+//! `scenes/*.toml => SCENE.rs`, and `models.rs`: one module per scene and the macros `shipped`, `shipped_f32` and
 //! `charted` that list them.
 //! Link arguments stand here and not in a configuration, so that RUSTFLAGS in the environment
 //! cannot lose them; a host build gets none.
@@ -77,6 +77,7 @@ fn models(root: &Path) {
         if double || counted {
             source += &export::model::<f64>(&scene);
         }
+        write(&format!("{module}.rs"), &source);
         let line = format!("            {single}, {constant}_F64: {model}F64;\n");
         if double {
             both += &line;
@@ -103,8 +104,12 @@ fn models(root: &Path) {
         + &list("shipped", "shipped in both precisions", &both)
         + &list("shipped_f32", "shipped in single precision", &f32)
         + &list("charted", "of those that are counted in both", &charted);
+    write("models.rs", &source);
+}
+
+fn write(name: &str, source: &str) {
     let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
-    std::fs::write(out.join("models.rs"), source).expect("OUT_DIR can be written");
+    std::fs::write(out.join(name), source).expect("OUT_DIR can be written");
 }
 
 /// Where in the scene the error lies, what it is and what would be right.

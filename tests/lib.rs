@@ -4,6 +4,32 @@ pub mod modes;
 pub mod page;
 pub mod results;
 
+/// Pages whose programs compile. The README's stand in the firmware, which has what they include.
+macro_rules! pages {
+    ($($module:ident $page:literal)*) => {
+        $(
+            #[cfg(doctest)]
+            #[doc = include_str!(concat!("../", $page))]
+            pub mod $module {}
+        )*
+        /// Pages whose programs compile.
+        pub const PAGES: &[&str] = &[$($page),*];
+    };
+}
+
+pages! {
+    contributing "CONTRIBUTING.md"
+    architecture "docs/architecture.md"
+    command_line "docs/command-line.md"
+    development "docs/development.md"
+    joints "docs/joints.md"
+    reference_solvers "docs/reference-solvers.md"
+    scene_reference "docs/scene-reference.md"
+    schemes "docs/schemes.md"
+    target "docs/target.md"
+    trade "docs/trade.md"
+}
+
 use std::path::Path;
 
 use dbd_kernel::attitude::Attitude as _;
@@ -194,4 +220,34 @@ pub fn distance(a: &[BodyState<F64>], b: &[BodyState<F64>]) -> f64 {
             d.dot(d).sqrt()
         })
         .fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    /// Every page is compiled, and none of its programs is left out of that.
+    #[test]
+    fn every_program_of_the_pages_is_compiled() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let mut pages: Vec<String> = vec!["CONTRIBUTING.md".into()];
+        for file in fs::read_dir(root.join("docs")).unwrap() {
+            let name = file.unwrap().file_name().into_string().unwrap();
+            pages.extend(name.ends_with(".md").then(|| format!("docs/{name}")));
+        }
+        pages.sort();
+        assert_eq!(pages, PAGES);
+        let fences = |page: &str| {
+            let text = fs::read_to_string(root.join(page)).unwrap();
+            let fences = text.lines().filter(|line| line.starts_with("```"));
+            fences.map(str::to_owned).collect::<Vec<_>>()
+        };
+        for page in pages.iter().map(String::as_str).chain(["README.md"]) {
+            for opening in fences(page).iter().step_by(2) {
+                let known = ["```rust", "```rust,no_run", "```sh", "```toml", "```text"];
+                assert!(known.contains(&opening.as_str()), "{page}: {opening}");
+            }
+        }
+    }
 }

@@ -18,3 +18,8 @@ pub mod sample;
 
 #[cfg(target_os = "none")]
 pub mod cost;
+
+/// The README's programs compile: the model that they include is one of [`models`].
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+pub mod readme {}

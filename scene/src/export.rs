@@ -2,12 +2,19 @@
 //!
 //! `scene => source text`. Every number is written as its bit pattern, so the model that the
 //! compiler evaluates has the bits of the run-time-sized one; the compiler checks every index
-//! ([`dbd_kernel::Model::checked`]). Put it into a module of its own:
+//! ([`dbd_kernel::Model::checked`]). In a build script:
 //!
-//! ```ignore
-//! include!(concat!(env!("OUT_DIR"), "/four_bar.rs"));
-//! let plant = Plant::new(&FOUR_BAR_F32, Leapfrog, FOUR_BAR_STEP)?;
+//! ```no_run
+//! use dbd_scene::{Scene, export};
+//!
+//! let scene = Scene::load("scenes/four-bar.toml")?;
+//! let source = export::preamble(&scene, 2e-5) + &export::model::<f32>(&scene);
+//! let out = std::env::var("OUT_DIR")?;
+//! std::fs::write(std::path::Path::new(&out).join("four_bar.rs"), source)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! The program includes it into a module of its own: `Plant::new(&FOUR_BAR_F32, …)`.
 
 use std::fmt::{Display, Write};
 
