@@ -3,6 +3,7 @@
 //! `sources => steps => verdict`. Host parts go through the cargo that runs this program, target
 //! parts through the compiler that [`toolchain`] finds.
 
+mod attended;
 mod audit;
 mod bits;
 mod built;
@@ -76,7 +77,8 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let outcome = match Cli::parse().command {
+    let command = Cli::parse().command;
+    let outcome = attended::attended("still at work", || match command {
         Command::Setup => setup::run(),
         Command::Test { quick: true, .. } => tests::quick(),
         Command::Test { long, write_times, .. } => tests::run(long, write_times),
@@ -85,7 +87,7 @@ fn main() -> ExitCode {
         Command::Cost { baseline: true, .. } => cost::baseline(),
         Command::Cost { scenes, compare, .. } => cost::run(&scenes, compare),
         Command::Audit => audit::run(),
-    };
+    });
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

@@ -1,15 +1,12 @@
 //! A list of steps: each is run, timed and counted; a failure does not stop the others.
 //!
-//! `(title, action)* => numbered lines, verdict`. The last line is `N passed, N failed`. A step that
-//! prints nothing for long is told to be still at work.
+//! `(title, action)* => numbered lines, verdict`. The last line is `N passed, N failed`.
 
-use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
 
-/// How often a step is told to be still at work.
-const STILL: Duration = Duration::from_secs(30);
+use crate::attended::attended;
 
 /// The steps done so far.
 #[derive(Default)]
@@ -32,7 +29,7 @@ impl Steps {
         let number = self.done.len() + 1;
         println!("\n== {number}. {title}");
         let start = Instant::now();
-        let failure = attended(start, action).err().map(|error| format!("{error:#}"));
+        let failure = attended(title, action).err().map(|error| format!("{error:#}"));
         let step = Step { title: title.to_owned(), time: start.elapsed(), failure };
         if let Some(failure) = &step.failure {
             eprintln!("error: {failure}");
@@ -78,21 +75,6 @@ impl Step {
         let verdict = if self.passed() { "ok" } else { "FAILED" };
         format!("{number:>3}  {verdict:<6} {:>7.1} s  {}", self.time.as_secs_f64(), self.title)
     }
-}
-
-/// Runs an action and prints the time now and then.
-fn attended(start: Instant, action: impl FnOnce() -> Result<()>) -> Result<()> {
-    std::thread::scope(|scope| {
-        let (end, ended) = channel::<()>();
-        scope.spawn(move || {
-            while ended.recv_timeout(STILL) == Err(RecvTimeoutError::Timeout) {
-                println!("    … {} s", start.elapsed().as_secs());
-            }
-        });
-        let outcome = action();
-        drop(end);
-        outcome
-    })
 }
 
 #[cfg(test)]

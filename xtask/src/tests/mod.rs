@@ -81,10 +81,15 @@ pub fn quick() -> Result<()> {
 /// # Errors
 /// Where a test failed.
 pub fn tables() -> Result<()> {
-    let mut tests = cargo();
-    tests.args(["test", "--quiet", "--package", "dbd-tests", "--package", GOLDEN]);
-    tests.arg("--all-features");
-    run_command(tests.env("DBD_BLESS", "1"))
+    let command = |options: &[&str]| {
+        let mut tests = cargo();
+        tests.arg("test").args(options).args(["--package", "dbd-tests", "--package", GOLDEN]);
+        tests.arg("--all-features");
+        tests
+    };
+    // What compiles is shown as it comes; of the tests only what fails.
+    run_command(&mut command(&["--no-run"]))?;
+    run_command(command(&["--quiet"]).env("DBD_BLESS", "1"))
 }
 
 fn host_tools() -> Result<()> {
