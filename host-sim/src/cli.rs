@@ -248,17 +248,22 @@ fn run_scene(
     let outcome = run(&scene, &options, &mut |steps, all| progress.update(steps, all));
     progress.finish();
     let outcome = outcome?;
-    if let Some(failure) = &outcome.failure {
-        console.report(failure);
-    }
+    let printed = if arguments.json {
+        console.print(&outcome.summary.json())
+    } else if !arguments.quiet {
+        console.print(&summary_table(&outcome))
+    } else {
+        Ok(())
+    };
     if arguments.json {
-        console.print(&outcome.summary.json())?;
         for warning in outcome.summary.warnings.iter().filter(|_| !arguments.quiet) {
             console.warn(warning);
         }
-    } else if !arguments.quiet {
-        console.print(&summary_table(&outcome))?;
     }
+    if let Some(failure) = &outcome.failure {
+        console.report(failure);
+    }
+    printed?;
     Ok(if outcome.failure.is_some() { Exit::Failed } else { Exit::Done })
 }
 

@@ -8,7 +8,7 @@
 //! - [`stability`]: the largest stable step about a pose.
 //! - [`compliance`]: how far joints give way under the forces at t = 0.
 //! - [`report`]: what is left of a run: trace, summary, page.
-//! - [`commands`]: `list`, `check`, `run`, `trade`, `export`.
+//! - [`commands`]: `list`, `check`, `run`, `trade`, `export`, `completions`.
 //! - [`error`]: what ends a command early.
 //! - [`cli`]: arguments in, exit code out.
 
