@@ -124,6 +124,37 @@ fn results_that_cannot_be_written_end_with_1() {
     }
 }
 
+/// What Bash itself makes of the script.
+#[cfg(target_os = "linux")]
+#[test]
+fn bash_completes_commands_options_and_scenes() {
+    let here = tempfile::tempdir().unwrap();
+    let script = call(here.path(), &["completions", "bash"]);
+    assert_eq!(script.status.code(), Some(0));
+    fs::write(here.path().join("script"), &script.stdout).unwrap();
+    let complete = r#"
+        source ./script
+        set -- $(complete -p host-sim)
+        while [ "$1" != -F ]; do shift; done
+        function=$2 COMP_WORDS=(host-sim $WORDS) COMP_CWORD=$(wc -w <<< "$WORDS")
+        "$function" host-sim "${COMP_WORDS[COMP_CWORD]}" "${COMP_WORDS[COMP_CWORD-1]}"
+        echo "${COMPREPLY[*]}""#;
+    for (words, offered) in [
+        ("r", "run"),
+        ("run four", "four-bar"),
+        ("trade five", "five-bar-a five-bar-b"),
+        ("run four-bar --overw", "--overwrite"),
+        ("run four-bar --scheme leap", "leapfrog"),
+        // Files, which Bash offers where there is nothing else.
+        ("run ./scr", ""),
+    ] {
+        let mut bash = Command::new("bash");
+        bash.current_dir(here.path()).env("WORDS", words).args(["-c", complete]);
+        let done = bash.output().unwrap();
+        assert_eq!(text(&done.stdout).trim(), offered, "{words}: {}", text(&done.stderr));
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn a_signal_leaves_nothing_half_written() {

@@ -35,6 +35,11 @@ pub fn script(mut command: Command, names: &[String], shell: Shell) -> String {
     let script = String::from_utf8_lossy(&script).into_owned();
     let names = names.iter().map(|name| name.as_str()).collect::<Vec<_>>().join(" ");
     match shell {
+        // The generator calls a function by one name and its states by another where the program's
+        // name holds a hyphen.
+        Shell::Bash => {
+            script.replace(&program.replace('-', "__subcmd__"), &program.replace('-', "__"))
+        }
         Shell::Zsh => names_or_files(&script, &names),
         Shell::Fish => {
             let takers = takers.join(" ");
