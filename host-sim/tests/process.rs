@@ -183,6 +183,6 @@ fn a_signal_leaves_nothing_half_written() {
 #[cfg(unix)]
 fn send(signal: &str, child: &mut Child) {
     let process = child.id().to_string();
-    let sent = Command::new("kill").args(["-s", signal, &process]).status().unwrap();
+    let sent = Command::new("sh").args(["-c", "kill -s $0 $1", signal, &process]).status().unwrap();
     assert!(sent.success());
 }
