@@ -28,7 +28,7 @@ pub struct Body<R> {
 }
 
 impl<R: Real> Body<R> {
-    /// A body of mass \[kg\] and principal inertia \[kg·m²\].
+    /// A body of mass \[kg\] and principal inertia \[kg·m²\]. In a constant: `Body::<f64>::new`.
     pub fn from_f64(mass: f64, inertia: [f64; 3]) -> Self {
         let [x, y, z] = inertia;
         Self {
@@ -72,7 +72,8 @@ pub struct Increment<R> {
 
 impl<P: Geometry> BodyState<P> {
     /// A state rounded once from double precision: position \[m\], unit quaternion (scalar first,
-    /// body → world), velocity \[m/s\] (world), angular velocity \[rad/s\] (body axes).
+    /// body → world), velocity \[m/s\] (world), angular velocity \[rad/s\] (body axes). In a
+    /// constant: `BodyState::<F64>::new`.
     pub fn from_f64(
         position: [f64; 3],
         orientation: [f64; 4],
