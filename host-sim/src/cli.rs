@@ -322,6 +322,7 @@ fn trade_scene(
         Phase::Window => progress.begin("how long before chaos"),
         Phase::Truth => progress.begin("the truth"),
         Phase::Opinion => progress.begin("the truth, a second opinion"),
+        Phase::Limits => progress.begin("the largest stable steps"),
         Phase::Runs(done, all) => progress.update(done, all),
         Phase::Times(0, _) => progress.begin("measuring times"),
         Phase::Times(..) => {}

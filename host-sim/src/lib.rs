@@ -5,7 +5,6 @@
 //!
 //! - [`terminal`]: scenes by name, text out, exit codes.
 //! - [`simulate`]: a planned run, sample by sample; where one failed and which step works.
-//! - [`stability`]: the largest stable step about a pose.
 //! - [`compliance`]: how far joints give way under the forces at t = 0.
 //! - [`report`]: what is left of a run: trace, summary, page.
 //! - [`commands`]: `list`, `check`, `run`, `trade`, `export`, `completions`.
@@ -18,5 +17,4 @@ pub mod compliance;
 pub mod error;
 pub mod report;
 pub mod simulate;
-pub mod stability;
 pub mod terminal;

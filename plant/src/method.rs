@@ -171,6 +171,12 @@ impl Method {
         Self { orientation, ..self }
     }
 
+    /// The same method in another precision.
+    #[must_use]
+    pub fn with_precision(self, precision: PrecisionName) -> Self {
+        Self { precision, ..self }
+    }
+
     /// Its precision.
     #[must_use]
     pub fn precision(&self) -> PrecisionName {
@@ -278,6 +284,12 @@ impl Method {
         }
     }
 
+    /// The order of its error, without dampers and with them.
+    #[must_use]
+    pub fn orders(&self) -> [u32; 2] {
+        self.traits().orders
+    }
+
     /// Force evaluations per step.
     #[must_use]
     pub fn evaluations(&self) -> u32 {
@@ -298,6 +310,7 @@ impl Default for Method {
 struct Traits {
     name: &'static str,
     damping: Damping,
+    orders: [u32; 2],
     stability_limit: f64,
     evaluations: u32,
 }
@@ -307,6 +320,7 @@ impl Traits {
         Self {
             name: S::NAME,
             damping: S::DAMPING,
+            orders: [S::ORDER, S::ORDER_DAMPED],
             stability_limit: scheme.stability_limit(),
             evaluations: scheme.evaluations(),
         }

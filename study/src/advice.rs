@@ -101,6 +101,8 @@ pub fn remark(points: &[Point], machine: Machine) -> Option<&'static str> {
         Some("no step is stable")
     } else if drawn().all(|(_, error)| error == 0.0) {
         Some("every error is zero")
+    } else if points.iter().all(|point| point.kept(machine).is_none()) {
+        Some("no step that was tried may be advised")
     } else {
         None
     }
@@ -138,6 +140,12 @@ fn named(stepper: &Stepper) -> String {
 #[must_use]
 pub fn times(ratio: f64) -> String {
     significant(rounded(ratio, 2), 2)
+}
+
+/// A share as people say it.
+#[must_use]
+pub fn percent(share: f64) -> String {
+    format!("{} %", significant(100.0 * share, 2))
 }
 
 /// A cost with its unit.

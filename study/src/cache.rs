@@ -61,6 +61,13 @@ pub enum Entry {
         /// \[J\].
         energy_peak: Option<f64>,
     },
+    /// How long a step of a method may be.
+    Limit {
+        /// Its label.
+        way: String,
+        /// \[s\] the largest stable step.
+        step: f64,
+    },
     /// What a step of a way takes.
     Cost {
         /// Its label.
@@ -79,6 +86,8 @@ pub struct Cache {
     pub head: Option<Head>,
     /// Accuracies by label and steps per interval.
     pub accuracies: BTreeMap<(String, u64), Entry>,
+    /// \[s\] largest stable steps by label.
+    pub limits: BTreeMap<String, f64>,
     /// Costs by label.
     pub costs: BTreeMap<String, (f64, f64)>,
     file: Option<File>,
@@ -142,6 +151,9 @@ impl Cache {
             Entry::Head(head) => self.head = Some(*head),
             Entry::Accuracy { way, steps, .. } => {
                 self.accuracies.insert((way.clone(), *steps), entry.clone());
+            }
+            Entry::Limit { way, step } => {
+                self.limits.insert(way.clone(), *step);
             }
             Entry::Cost { way, seconds, spread } => {
                 self.costs.insert(way.clone(), (*seconds, *spread));

@@ -7,20 +7,22 @@ use std::path::Path;
 
 use dbd_output::file::{self, PendingFile};
 use dbd_plant::digits::significant;
+use dbd_plant::frequencies::LARGEST_TURN;
 use dbd_plant::time::{display, rounded};
 use dbd_scene::Scene;
 use serde::Serialize;
 
-use crate::advice::{advice, remark, table as table_of};
+use crate::advice::{advice, percent, remark, table as table_of};
 use crate::cache::Head;
 use crate::chart::{Chart, svg};
 use crate::command::Command;
 use crate::page::html;
 use crate::point::{Machine, Point, front};
+use crate::stability::MARGIN;
 use crate::survey::Trade;
 
 /// Columns of `trade.csv`.
-pub const COLUMNS: [&str; 19] = [
+pub const COLUMNS: [&str; 20] = [
     "scheme",
     "newton",
     "damping",
@@ -40,6 +42,7 @@ pub const COLUMNS: [&str; 19] = [
     "host_front",
     "target_front",
     "lost",
+    "advisable",
 ];
 
 /// \[1/s\] instructions of a Cortex-M4F at 168 MHz, 1.5 cycles each: an estimate, see docs/target.md.
@@ -153,9 +156,16 @@ fn conditions(trade: &Trade) -> Vec<String> {
              times the root mean square distance of its mass from its centre",
             grid.samples,
         ),
-        "a step counts as unstable beyond the linear limit at t = 0, or where the run fails; as lost \
-         where it is further off than the truth goes at all: its error is shown, it is not advised"
+        "a step counts as unstable beyond the largest that is stable about the pose at t = 0, dampers \
+         included and out of the plane of the motion, too (check --stability), or where the run fails; \
+         as lost where it is further off than the truth goes at all: its error is shown, it is not \
+         advised"
             .into(),
+        format!(
+            "advised steps keep {} below the largest stable one, for frequencies change along a motion, \
+             and turn no body by more than {LARGEST_TURN} rad",
+            percent(MARGIN),
+        ),
         format!(
             "times: median of 15 measurements on one thread, {}, {}, {build}; one step size of each \
              method is timed and counts for all its steps",
@@ -196,6 +206,7 @@ fn table(folder: &Path, points: &[Point]) -> io::Result<()> {
             &fronts[0].contains(&row).to_string(),
             &fronts[1].contains(&row).to_string(),
             &point.lost.to_string(),
+            &point.advisable.to_string(),
         ])?;
     }
     let file = rows.into_inner().map_err(|error| io::Error::other(error.to_string()))?;

@@ -3,10 +3,12 @@
 //! `scene => truth over a window => points (error, energy, cost) => fronts, chart, sentences`. The
 //! modules in the order in which they stand on each other:
 //!
+//! - [`stability`](mod@stability): the largest stable step of a method about a pose.
 //! - [`point`]: what a point is, and which of them nothing beats.
 //! - [`costs`]: what a step costs on the target, as counted.
 //! - [`grid`]: the times compared, and the steps that reach them.
 //! - [`ways`]: all ways of stepping a scene, and their ladders of steps.
+//! - [`limits`]: how long a step of each may be.
 //! - [`measure`]: how far off a way is at a step, and what a step costs.
 //! - [`cache`]: results, kept as they come.
 //! - [`survey`](mod@survey): all points, in parallel.
@@ -22,10 +24,12 @@ pub mod command;
 pub mod costs;
 pub mod files;
 pub mod grid;
+pub mod limits;
 pub mod measure;
 pub mod need;
 pub mod page;
 pub mod point;
+pub mod stability;
 pub mod survey;
 pub mod ways;
 

@@ -8,9 +8,10 @@ use std::fmt::Write as _;
 use dbd_output::markup::{PAGE_STYLE, escape};
 use dbd_plant::digits::significant;
 
-use crate::advice::{advice, headings, remark, rows, shown};
+use crate::advice::{advice, headings, percent, remark, rows, shown};
 use crate::chart::{Chart, steppers, svg};
 use crate::point::{Machine, Point};
+use crate::stability::MARGIN;
 
 const STYLE: &str = include_str!("trade.css");
 const SCRIPT: &str = include_str!("trade.js");
@@ -104,6 +105,7 @@ fn capital(sentence: &str) -> String {
 fn reading(page: &mut String, chart: &Chart<'_>) {
     let window = significant(chart.window, 3);
     let uncertainty = significant(chart.uncertainty, 2);
+    let margin = percent(MARGIN);
     let _ = write!(
         page,
         "<h2>How to read it</h2>\n<ul>\n\
@@ -117,8 +119,9 @@ fn reading(page: &mut String, chart: &Chart<'_>) {
          m: the grey floor, below which figures say nothing.</li>\n\
          <li>The thick black line is the paper's scheme: explicit, no Newton iteration, double \
          precision; on a Cortex-M4F the dashed one is the same in single.</li>\n\
-         <li>Hollow marks at the top ran unstable at their step; hollow marks elsewhere have lost \
-         their way: they are further off than the truth goes at all. Point at a mark for its numbers, \
+         <li>Hollow marks at the top ran unstable at their step; hollow marks elsewhere are \
+         not advised: they have lost their way, further off than the truth goes at all, or their step is \
+         within {margin} of the largest stable one, or turns a body too far. Point at a mark for its numbers, \
          at a line to see it alone.</li>\n</ul>\n"
     );
 }
@@ -154,6 +157,7 @@ fn all(page: &mut String, chart: &Chart<'_>) {
         let _ = write!(page, "<td>{}{reference}</td>", escape(&point.stepper.label()));
         let error = match point.error.filter(|_| point.stable) {
             Some(error) if point.lost => format!("{error:.2e}, lost"),
+            Some(error) if !point.advisable => format!("{error:.2e}, too near the limit"),
             Some(error) => format!("{error:.2e}"),
             None => "unstable".into(),
         };

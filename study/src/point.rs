@@ -36,6 +36,9 @@ pub struct Point {
     pub stable: bool,
     /// Whether it is further off than the truth itself goes: no trajectory any more.
     pub lost: bool,
+    /// Whether it may be advised: its step keeps [`MARGIN`](crate::stability::MARGIN) below the largest
+    /// stable one, and a run takes it without a warning.
+    pub advisable: bool,
     /// \[m\] root mean square over bodies and samples of the distance from the truth, see
     /// [`Metric`](dbd_reference::metric::Metric).
     pub error: Option<f64>,
@@ -120,13 +123,13 @@ impl Point {
         }
     }
 
-    /// Its cost and its error \[m\], where it has both and is not lost.
+    /// Its cost and its error \[m\], where it has both, is not lost and may be advised.
     #[must_use]
     pub fn kept(&self, machine: Machine) -> Option<(f64, f64)> {
-        if self.lost { None } else { self.drawn(machine) }
+        if self.lost || !self.advisable { None } else { self.drawn(machine) }
     }
 
-    /// Likewise, whether or not it is lost.
+    /// Likewise, whether or not it is lost or may be advised.
     #[must_use]
     pub fn drawn(&self, machine: Machine) -> Option<(f64, f64)> {
         let cost = self.cost(machine).filter(|cost| cost.is_finite() && *cost > 0.0)?;
@@ -195,6 +198,7 @@ pub(crate) mod tests {
             steps: (1.0 / step) as u64,
             stable: error.is_some(),
             lost: false,
+            advisable: true,
             error,
             energy_rms: None,
             energy_peak: None,

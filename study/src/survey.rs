@@ -4,14 +4,15 @@
 //! threads, the longest first; their results do not depend on who took them. Times are measured
 //! after that, one way after the other.
 
+use std::collections::BTreeMap;
 use std::io;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 use std::thread;
 
-use dbd_plant::Frequencies;
 use dbd_plant::time::display;
+use dbd_plant::{Frequencies, Method};
 use dbd_reference::metric::Metric;
 use dbd_reference::truth::{NoTruth, Opinion, integrate};
 use dbd_reference::window::{GROWTH, before_chaos};
@@ -21,6 +22,7 @@ use dbd_scene::Scene;
 use crate::cache::{Cache, Entry, Head, key};
 use crate::costs::Costs;
 use crate::grid::{Grid, SAMPLES};
+use crate::limits::{Limit, Limits};
 use crate::measure::{Comparison, UNSTABLE, cost};
 use crate::point::{Point, Stepper};
 use crate::ways::{Way, in_space, ways};
@@ -37,11 +39,6 @@ const FURTHEST: f64 = 1e7;
 
 /// A step's time is measured at this share of the explicit schemes' limit.
 const TIMED: f64 = 0.1;
-
-/// A step beyond the limit by more than this counts as unstable, though the motion may not excite
-/// the mode that grows: planar motion leaves the modes out of its plane at rest, exactly. The estimate
-/// of the frequency is at most 1 % low.
-const MARGIN: f64 = 1.01;
 
 /// Force evaluations of the kernel that one of the references takes as long as.
 const REFERENCE: u64 = 8;
@@ -76,6 +73,8 @@ pub enum Phase {
     Truth,
     /// Its second opinion.
     Opinion,
+    /// The largest stable steps.
+    Limits,
     /// Runs for accuracy: work done and all work, in force evaluations.
     Runs(u64, u64),
     /// Measuring times: ways done and all ways.
@@ -172,8 +171,7 @@ struct Job {
     label: String,
     steps: u64,
     weight: u64,
-    /// Whether the step is beyond what is stable at t = 0.
-    beyond: bool,
+    limit: Limit,
 }
 
 /// Surveys a scene. `progress` hears what it is at.
@@ -204,10 +202,12 @@ pub fn survey(
             head
         }
     };
-    let highest = Frequencies::of(scene).estimate;
     let grid = head.grid;
     let ways = ways(scene, head.in_space);
-    let jobs = jobs(&ways, highest, &grid, scene.body_names.len());
+    let limits = Limits::of(scene);
+    find(&limits, &ways, &mut cache, progress)?;
+    let highest = limits.highest();
+    let jobs = jobs(&ways, &limits, &cache, &grid, scene.body_names.len());
     let missing: Vec<&Job> = jobs
         .iter()
         .filter(|job| !cache.accuracies.contains_key(&(job.label.clone(), job.steps)))
@@ -268,22 +268,85 @@ fn truth_of(opinion: Opinion, scene: &Scene, grid: Grid) -> Result<Vec<State>, N
     integrate(opinion, &mechanism, &start, &grid.times())
 }
 
-fn jobs(ways: &[Way], highest: f64, grid: &Grid, bodies: usize) -> Vec<Job> {
+/// Finds the largest stable steps that are not known yet, on all the machine's threads.
+fn find(
+    limits: &Limits,
+    ways: &[Way],
+    cache: &mut Cache,
+    progress: &mut dyn FnMut(Phase),
+) -> Result<(), SurveyError> {
+    let mut missing: BTreeMap<String, Method> = BTreeMap::new();
+    for method in ways.iter().filter_map(|way| limits.decisive(way)) {
+        let label = label(&method);
+        if !cache.limits.contains_key(&label) {
+            missing.insert(label, method);
+        }
+    }
+    if missing.is_empty() {
+        return Ok(());
+    }
+    progress(Phase::Limits);
+    let missing: Vec<(String, Method)> = missing.into_iter().collect();
+    in_parallel(
+        &missing,
+        |(_, method)| limits.found(method),
+        |(label, _), step| {
+            let entry = Entry::Limit { way: label.clone(), step };
+            cache.add(entry).map_err(SurveyError::Write)
+        },
+    )
+}
+
+/// What a method's limit is kept under.
+fn label(method: &Method) -> String {
+    Way::Kernel(*method).stepper().label()
+}
+
+fn jobs(ways: &[Way], limits: &Limits, cache: &Cache, grid: &Grid, bodies: usize) -> Vec<Job> {
     let of_way = |way: &Way| {
-        let (way, label) = (*way, way.stepper().label());
+        let (way, own_label) = (*way, way.stepper().label());
         let price = match way {
             Way::Kernel(method) => u64::from(method.evaluations()),
             _ => REFERENCE,
         };
-        way.ladder(highest, grid, bodies).into_iter().map(move |steps| Job {
+        let decisive = limits.decisive(&way);
+        let found = decisive.and_then(|method| cache.limits.get(&label(&method)).copied());
+        let limit = limits.limit(&way, found);
+        let ladder = way.ladder(limits.highest(), limit.ladder_top(), grid, bodies);
+        ladder.into_iter().map(move |steps| Job {
             way,
-            label: label.clone(),
+            label: own_label.clone(),
             steps,
             weight: steps * u64::from(grid.samples) * price,
-            beyond: highest * grid.step(steps) > MARGIN * way.stability_limit(),
+            limit,
         })
     };
     ways.iter().flat_map(of_way).collect()
+}
+
+/// Does jobs on all the machine's threads, in their order; `done` hears of each as it is done.
+fn in_parallel<J: Sync, R: Send>(
+    jobs: &[J],
+    work: impl Fn(&J) -> R + Sync,
+    mut done: impl FnMut(&J, R) -> Result<(), SurveyError>,
+) -> Result<(), SurveyError> {
+    let next = AtomicUsize::new(0);
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| {
+        let (sender, results) = channel();
+        for _ in 0..threads {
+            let (sender, next, work) = (sender.clone(), &next, &work);
+            scope.spawn(move || {
+                while let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    if sender.send((job, work(job))).is_err() {
+                        break;
+                    }
+                }
+            });
+        }
+        drop(sender);
+        results.into_iter().try_for_each(|(job, result)| done(job, result))
+    })
 }
 
 /// Runs all jobs and keeps their results as they come.
@@ -297,39 +360,23 @@ fn run(
     let all = jobs.iter().map(|job| job.weight).sum();
     let mut done = 0;
     progress(Phase::Runs(done, all));
-    let next = AtomicUsize::new(0);
-    let threads = thread::available_parallelism().map_or(1, usize::from);
-    thread::scope(|scope| {
-        let (sender, results) = channel();
-        for _ in 0..threads {
-            let (sender, next, jobs) = (sender.clone(), &next, &jobs);
-            scope.spawn(move || {
-                while let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let accuracy = match job.beyond {
-                        true => UNSTABLE,
-                        false => comparison.accuracy(&job.way, job.steps),
-                    };
-                    if sender.send((*job, accuracy)).is_err() {
-                        break;
-                    }
-                }
-            });
-        }
-        drop(sender);
-        for (job, accuracy) in results {
-            let entry = Entry::Accuracy {
-                way: job.label.clone(),
-                steps: job.steps,
-                stable: accuracy.stable,
-                lost: accuracy.lost,
-                error: accuracy.error,
-                energy_rms: accuracy.energy_rms,
-                energy_peak: accuracy.energy_peak,
-            };
-            cache.add(entry).map_err(SurveyError::Write)?;
-            done += job.weight;
-            progress(Phase::Runs(done, all));
-        }
+    let accuracy = |job: &&Job| match job.limit.is_beyond(comparison.grid.step(job.steps)) {
+        true => UNSTABLE,
+        false => comparison.accuracy(&job.way, job.steps),
+    };
+    in_parallel(&jobs, accuracy, |job, accuracy| {
+        let entry = Entry::Accuracy {
+            way: job.label.clone(),
+            steps: job.steps,
+            stable: accuracy.stable,
+            lost: accuracy.lost,
+            error: accuracy.error,
+            energy_rms: accuracy.energy_rms,
+            energy_peak: accuracy.energy_peak,
+        };
+        cache.add(entry).map_err(SurveyError::Write)?;
+        done += job.weight;
+        progress(Phase::Runs(done, all));
         Ok(())
     })
 }
@@ -347,6 +394,7 @@ fn point(scene: &Scene, costs: &Costs, job: &Job, grid: &Grid, cache: &Cache) ->
         steps: job.steps * u64::from(grid.samples),
         stable: *stable,
         lost: *lost,
+        advisable: job.limit.advises(step),
         error: *error,
         energy_rms: *energy_rms,
         energy_peak: *energy_peak,

@@ -23,8 +23,8 @@ pub enum Way {
     LinearlyImplicitEuler,
 }
 
-/// Steps as shares of the largest that an undamped oscillator of the highest frequency bears: the
-/// first is beyond.
+/// Steps as shares of the largest stable one: the first is beyond, the second within what is left
+/// as a margin, the third is the largest to advise.
 const SHARES: [f64; 12] = [1.3, 0.98, 0.8, 0.6, 0.4, 0.28, 0.2, 0.14, 0.1, 0.05, 0.025, 0.0125];
 
 /// The paper's scheme is carried on to these, for all others are compared with it.
@@ -89,17 +89,17 @@ impl Way {
     }
 
     /// Steps per interval to try, ascending, no two alike, for so many bodies whose highest
-    /// frequency is `highest` \[rad/s\].
+    /// frequency is `highest` \[rad/s\]; `largest` \[s\] is where an explicit way's ladder begins.
     #[must_use]
-    pub fn ladder(&self, highest: f64, grid: &Grid, bodies: usize) -> Vec<u64> {
+    pub fn ladder(&self, highest: f64, largest: f64, grid: &Grid, bodies: usize) -> Vec<u64> {
         let shares =
             if matches!(self, Self::Kernel(_)) { &SHARES[..] } else { &REFERENCE_SHARES[..] };
-        let limit = match self.stability_limit() {
-            limit if limit.is_finite() => limit,
-            _ => 2.0 * IMPLICIT,
+        let largest = match largest {
+            largest if largest > 0.0 && largest.is_finite() => largest,
+            _ if highest > 0.0 => self.stability_limit().min(2.0 * IMPLICIT) / highest,
+            // Where nothing vibrates, an interval is taken in a few steps and more.
+            _ => grid.interval,
         };
-        // Where nothing vibrates, an interval is taken in a few steps and more.
-        let largest = if highest > 0.0 { limit / highest } else { grid.interval };
         let mut ladder: Vec<u64> = shares.iter().map(|share| grid.steps(share * largest)).collect();
         if is_paper(&self.stepper(), Machine::Host) {
             let work = f64::from(self.evaluations() * grid.samples) * bodies as f64;
@@ -179,23 +179,25 @@ mod tests {
     #[test]
     fn ladders_ascend_and_begin_beyond_the_bounds_limit() {
         let method = Method::new(SchemeName::Leapfrog, None, PrecisionName::F64).unwrap();
-        let ladder = Way::Kernel(method).ladder(1e4, &grid(), 3);
+        let ladder = Way::Kernel(method).ladder(1e4, 2e-4, &grid(), 3);
         // 2/1e4 s is the limit of leapfrog: five steps per millisecond.
         assert_eq!((ladder[0], ladder[1], *ladder.last().unwrap()), (4, 6, 400));
         assert!(ladder.windows(2).all(|pair| pair[0] < pair[1]));
-        let still = Way::Kernel(method).ladder(0.0, &grid(), 3);
+        let still = Way::Kernel(method).ladder(0.0, f64::INFINITY, &grid(), 3);
         assert_eq!((still[0], *still.last().unwrap()), (1, 80));
-        assert_eq!(Way::LinearlyImplicitEuler.ladder(1e4, &grid(), 3)[0], 1);
+        assert_eq!(Way::LinearlyImplicitEuler.ladder(1e4, f64::INFINITY, &grid(), 3)[0], 1);
+        // Where no step was found stable, the steps of the linear limit are tried.
+        assert_eq!(Way::Kernel(method).ladder(1e4, 0.0, &grid(), 3), ladder);
     }
 
     #[test]
     fn the_papers_ladder_goes_on_while_it_can_be_paid() {
         let paper = Way::Kernel(Method::new(SchemeName::Dbd, None, PrecisionName::F64).unwrap());
         let single = Way::Kernel(Method::new(SchemeName::Dbd, None, PrecisionName::F32).unwrap());
-        let usual = single.ladder(1e4, &grid(), 3);
-        let further = paper.ladder(1e4, &grid(), 3);
+        let usual = single.ladder(1e4, 2e-4, &grid(), 3);
+        let further = paper.ladder(1e4, 2e-4, &grid(), 3);
         assert_eq!(further[..usual.len()], usual);
         assert_eq!(further.len(), usual.len() + PAPER_SHARES.len());
-        assert_eq!(paper.ladder(1e4, &grid(), 100_000), usual);
+        assert_eq!(paper.ladder(1e4, 2e-4, &grid(), 100_000), usual);
     }
 }

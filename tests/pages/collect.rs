@@ -72,6 +72,7 @@ fn points(text: &str) -> Vec<Point> {
             steps: row.number("steps") as u64,
             stable: row.text("stable") == "true",
             lost: row.text("lost") == "true",
+            advisable: row.text("advisable") == "true",
             error: number("error"),
             energy_rms: number("energy_rms"),
             energy_peak: number("energy_peak"),

@@ -8,9 +8,8 @@ use dbd_kernel::State;
 use dbd_plant::digits::{approximate, significant};
 use dbd_plant::{Method, MethodError};
 use dbd_scene::Scene;
+use dbd_study::stability::{LARGEST, stability};
 use serde::Serialize;
-
-use crate::stability::{LARGEST, stability};
 
 /// The stability of a method on a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]

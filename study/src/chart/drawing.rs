@@ -95,6 +95,9 @@ pub fn hover(point: &Point, machine: Machine, real_time: f64) -> String {
     let mut text = format!("{}\nstep {}", point.stepper.label(), display(point.step));
     text += &match point.drawn(machine) {
         Some((_, error)) if point.lost => format!("\nlost: error {error:.2e} m"),
+        Some((_, error)) if !point.advisable => {
+            format!("\nerror {error:.2e} m, but too near the limit to be advised")
+        }
         Some((_, error)) => format!("\nerror {error:.2e} m"),
         None => "\nunstable".into(),
     };
@@ -130,7 +133,7 @@ pub(super) struct Line<'d> {
     /// A variant that buys nothing: drawn lightly, so that what does stays in sight.
     pub(super) quiet: bool,
     pub(super) stable: Vec<usize>,
-    pub(super) lost: Vec<usize>,
+    pub(super) hollow: Vec<usize>,
     pub(super) unstable: Vec<usize>,
 }
 
@@ -175,11 +178,12 @@ impl<'d> Drawing<'d> {
                 rows.sort_by(|a, b| cost(a).unwrap_or(0.0).total_cmp(&cost(b).unwrap_or(0.0)));
                 let (drawn, unstable): (Vec<_>, Vec<_>) =
                     rows.into_iter().partition(|row| points[*row].drawn(machine).is_some());
-                let (lost, stable) = drawn.into_iter().partition(|row| points[*row].lost);
+                let (stable, hollow) =
+                    drawn.into_iter().partition(|row| points[*row].kept(machine).is_some());
                 let usual = stepper.precision == "f64" && stepper.orientation == "quaternion";
                 let quiet =
                     !usual && !paper && !front.iter().any(|row| points[*row].stepper == *stepper);
-                Line { stepper, number, style, paper, quiet, stable, lost, unstable }
+                Line { stepper, number, style, paper, quiet, stable, hollow, unstable }
             })
             .collect();
         Some(Self { chart, machine, real_time, x, y, lines, front })
@@ -275,7 +279,7 @@ impl<'d> Drawing<'d> {
             text.push_str(&line.style.mark(self.at(*row), size, false, &title(*row)));
         }
         // Those beyond the axis lie at its end.
-        for row in &line.lost {
+        for row in &line.hollow {
             text.push_str(&line.style.mark(self.at(*row), 0.75 * MARK, true, &title(*row)));
         }
         // A row of its own in the strip for each stepper.

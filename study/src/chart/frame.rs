@@ -153,8 +153,8 @@ impl Drawing<'_> {
             Machine::Target => "Thick: the paper's scheme, dbd in f64 and (dashed) in f32.",
         };
         let beneath = [
-            "Each mark is a step; hollow at the top: unstable, hollow elsewhere: lost its way. Lines: \
-             solid f64, dashed f32, dash-dotted or dotted other orientations."
+            "Each mark is a step; hollow at the top: unstable, hollow elsewhere: lost, or too near \
+             the limit. Lines: solid f64, dashed f32, dash-dotted or dotted other orientations."
                 .to_owned(),
             format!(
                 "{paper} Grey: references in plain Rust. Faint: variants without a point on the \
@@ -183,7 +183,7 @@ impl Drawing<'_> {
                 name += &format!(" ({damping})");
             }
             let used =
-                !line.stable.is_empty() || !line.unstable.is_empty() || !line.lost.is_empty();
+                !line.stable.is_empty() || !line.unstable.is_empty() || !line.hollow.is_empty();
             if used && !known.iter().any(|(other, _)| *other == name) {
                 known.push((name, line));
             }

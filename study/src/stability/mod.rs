@@ -7,4 +7,4 @@ pub mod frozen;
 pub mod limit;
 
 pub use frozen::frozen;
-pub use limit::{LARGEST, Stability, stability};
+pub use limit::{LARGEST, MARGIN, Stability, Vibration, stability};

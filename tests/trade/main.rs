@@ -1,14 +1,19 @@
 //! Speed against accuracy: what a survey of a small scene comes to, kept, interrupted, repeated; and
 //! the command as users and their scripts meet it.
 
+mod limits;
+mod linkage;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use dbd_plant::plan::{Request, StepRequest, plan};
 use dbd_plant::time::Time;
+use dbd_plant::{Frequencies, Method, Named as _, PrecisionName, SchemeName};
 use dbd_scene::Scene;
 use dbd_study::advice::{advice, choice, remark};
 use dbd_study::command::Command;
+use dbd_study::stability::MARGIN;
 use dbd_study::{Machine, Point, Trade, TradeOptions, front, survey};
 use dbd_tests::scene;
 use host_sim::cli::main_with;
@@ -84,6 +89,20 @@ fn a_survey_holds_every_way_and_says_what_is_unstable() {
         let parts = 1e-3 / point.step;
         (parts - parts.round()).abs() < 1e-9 * parts
     }));
+    // What is advised keeps its distance from what is stable, and so does the front.
+    let scene = scene("four-bar");
+    let highest = Frequencies::of(&scene).estimate;
+    for point in trade.points.iter().filter(|point| point.stepper.kernel && point.advisable) {
+        let method = SchemeName::of_name(&point.stepper.scheme).unwrap();
+        let method = Method::new(method, point.stepper.newton, PrecisionName::F64).unwrap();
+        let z = highest * point.step;
+        assert!(z <= (1.0 - MARGIN) * method.stability_limit(), "{}: {z}", point.stepper.label());
+    }
+    let near = |point: &&Point| point.stable && !point.advisable;
+    assert!(trade.points.iter().filter(near).count() > 10);
+    for machine in [Machine::Host, Machine::Target] {
+        assert!(front(&trade.points, machine).iter().all(|row| trade.points[*row].advisable));
+    }
     let unstable: Vec<_> = trade.points.iter().filter(|point| !point.stable).collect();
     assert!(!unstable.is_empty());
     assert!(unstable.iter().all(|point| point.error.is_none() && point.energy_rms.is_none()));
@@ -196,7 +215,7 @@ fn the_command_leaves_its_files_and_says_how_to_run_what_it_chose() {
     let table = fs::read_to_string(results.join("trade.csv")).unwrap();
     let columns: Vec<&str> = table.lines().next().unwrap().split(',').collect();
     assert_eq!(columns, dbd_study::files::COLUMNS);
-    assert_eq!((columns.len(), *columns.last().unwrap()), (19, "lost"));
+    assert_eq!((columns.len(), *columns.last().unwrap()), (20, "advisable"));
     for file in ["trade.svg", "trade-cortex-m4f.svg", "trade.html"] {
         assert!(results.join(file).is_file(), "{file}");
     }

@@ -1,0 +1,105 @@
+//! How long a step of a way of stepping may be: what is stable, and what is advised.
+//!
+//! `(scene, ways) => per way the largest stable step and the largest advised one`. Stable is what the
+//! linear limit bears at the highest frequency of the pose at t = 0, preloads included, and what
+//! [`crate::stability`] finds by running, dampers included and out of the plane of a planar motion,
+//! too. Advised is what keeps [`MARGIN`] below that, and turns no body further than a run accepts
+//! without a warning. References are judged by their linear limit alone: nobody is advised to take
+//! them.
+
+use dbd_kernel::State;
+use dbd_plant::{Frequencies, Method, OrientationName, PrecisionName};
+use dbd_scene::Scene;
+
+use crate::stability::{MARGIN, Vibration};
+use crate::ways::Way;
+
+/// A step beyond the limit by more than this share counts as unstable: limits are found to less, and
+/// the estimate of the frequency is at most as much low.
+const SLACK: f64 = 0.01;
+
+/// What bounds the steps of a scene, whatever steps it.
+#[derive(Clone, Debug)]
+pub struct Limits {
+    frequencies: Frequencies,
+    vibration: Option<Vibration>,
+}
+
+/// How long a step of a way may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limit {
+    /// \[s\] the largest stable step; 0 where none is, infinite where all are.
+    pub stable: f64,
+    /// \[s\] the largest that is advised: below it by [`MARGIN`], or shorter where a body spins fast.
+    pub advised: f64,
+}
+
+impl Limit {
+    /// Whether a step is beyond what is stable.
+    #[must_use]
+    pub fn is_beyond(&self, step: f64) -> bool {
+        step > self.stable * (1.0 + SLACK)
+    }
+
+    /// \[s\] where a ladder of steps begins: the margin above the largest advised one.
+    #[must_use]
+    pub fn ladder_top(&self) -> f64 {
+        self.advised / (1.0 - MARGIN)
+    }
+
+    /// Whether a step may be advised.
+    #[must_use]
+    pub fn advises(&self, step: f64) -> bool {
+        step <= self.advised
+    }
+}
+
+impl Limits {
+    /// The limits of a scene.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        let state = State::initial(&scene.model);
+        let vibration = Vibration::about(&scene.model, &state);
+        Self { frequencies: Frequencies::of(scene), vibration }
+    }
+
+    /// \[rad/s\] the highest frequency; 0 where nothing vibrates.
+    #[must_use]
+    pub fn highest(&self) -> f64 {
+        let found = self.vibration.as_ref().map_or(0.0, |vibration| vibration.frequency);
+        self.frequencies.estimate.max(found)
+    }
+
+    /// The method whose stability decides for a way's: precision and orientation leave it as it is.
+    /// `None` where only the linear limit does.
+    #[must_use]
+    pub fn decisive(&self, way: &Way) -> Option<Method> {
+        let Way::Kernel(method) = way else { return None };
+        self.vibration.as_ref()?;
+        let method = method.with_precision(PrecisionName::F64);
+        Some(method.with_orientation(OrientationName::Quaternion))
+    }
+
+    /// \[s\] the largest stable step of a decisive method, found by running it: as
+    /// `check --stability` finds it.
+    #[must_use]
+    pub fn found(&self, method: &Method) -> f64 {
+        let vibration = self.vibration.as_ref();
+        let found = vibration.map(|vibration| vibration.first_range(method));
+        // A method that cannot be run has no stable step.
+        found.map_or(f64::INFINITY, |found| found.map_or(0.0, |found| found.largest_step))
+    }
+
+    /// The limit of a way, given what was [`found`](Self::found) for its decisive method.
+    #[must_use]
+    pub fn limit(&self, way: &Way, found: Option<f64>) -> Limit {
+        let highest = self.highest();
+        let linear = if highest > 0.0 { way.stability_limit() / highest } else { f64::INFINITY };
+        let stable = linear.min(found.unwrap_or(f64::INFINITY));
+        let turn = match way {
+            Way::Kernel(_) => self.frequencies.longest_turn(),
+            _ => f64::INFINITY,
+        };
+        Limit { stable, advised: ((1.0 - MARGIN) * stable).min(turn) }
+    }
+}
