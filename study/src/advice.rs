@@ -11,6 +11,7 @@ use dbd_plant::time::{display, rounded};
 
 use crate::need::{Need, PaperNeed, paper_need};
 use crate::point::{Machine, Point, Stepper, counted, front, is_paper};
+use crate::timing::CALM;
 
 /// Decimal exponents of the accuracies spoken of, in metres.
 const DECADES: std::ops::RangeInclusive<i32> = -9..=-3;
@@ -51,6 +52,8 @@ pub fn advice(points: &[Point], machine: Machine, uncertainty: f64) -> Vec<Advic
             many => format!(", of the {many} methods counted,"),
         },
     };
+    let paper = points.iter().filter(|point| is_paper(&point.stepper, machine));
+    let paper_spread = paper.map(|point| point.host_spread).fold(0.0, f64::max);
     DECADES
         .rev()
         .map(|decade| (decade, power_of_ten(decade)))
@@ -84,6 +87,11 @@ pub fn advice(points: &[Point], machine: Machine, uncertainty: f64) -> Vec<Advic
                 let ratio = times(ratio);
                 sentence +=
                     &format!("; the reference {who}, step {step}, needs {ratio} times as much");
+            }
+            let widest = chosen.host_spread.max(paper_spread);
+            if machine == Machine::Host && widest > CALM {
+                let spread = percent(widest);
+                sentence += &format!("; timed on a busy machine, times spread by {spread}");
             }
             Some(Advice { decade, row, sentence })
         })
@@ -322,7 +330,7 @@ pub(crate) mod tests {
         points.truncate(3);
         let mut loose = points[0].clone();
         loose.stepper.precision = "f32-micromath".into();
-        (loose.error, loose.host_seconds) = (Some(0.0), 1e-9);
+        (loose.error, loose.host_seconds_least) = (Some(0.0), 1e-9);
         points.push(loose);
         assert!(sentences(&points, Machine::Host, 0.0).iter().all(|s| !s.contains("micromath")));
         assert_eq!(remark(&points, Machine::Host), None);
@@ -363,6 +371,42 @@ pub(crate) mod tests {
         assert!(said[3].starts_with("for 1e-6 m choose pefrl"), "{}", said[3]);
         assert!(said[3].ends_with("; the reference naive, f64, step 1ms, needs 0.5 times as much"));
         assert!(!said[4].contains("reference"));
+    }
+
+    #[test]
+    fn times_that_scatter_are_said_to() {
+        let mut points = ladder();
+        points
+            .iter_mut()
+            .filter(|p| p.stepper.scheme == "pefrl")
+            .for_each(|p| p.host_spread = 0.35);
+        let said = sentences(&points, Machine::Host, 1e-5);
+        assert!(!said[0].contains("busy"), "{}", said[0]);
+        assert!(
+            said[1].ends_with("; timed on a busy machine, times spread by 35 %"),
+            "{}",
+            said[1]
+        );
+        let said = sentences(&points, Machine::Target, 1e-5);
+        assert!(said.iter().all(|said| !said.contains("busy")));
+        // A ratio is no better known than the paper's time in it.
+        let mut points = ladder();
+        points[0].host_spread = 8.0;
+        assert!(sentences(&points, Machine::Host, 1e-5)[1].ends_with("times spread by 800 %"));
+    }
+
+    #[test]
+    fn the_least_time_decides() {
+        // Three quarters of one method's measurements met other work.
+        let mut points = ladder();
+        points
+            .iter_mut()
+            .filter(|p| p.stepper.scheme == "pefrl")
+            .for_each(|p| p.host_seconds *= 35.0);
+        assert_eq!(
+            points[choice(&points, Machine::Host, 1e-4, true).unwrap()].stepper.scheme,
+            "pefrl"
+        );
     }
 
     #[test]

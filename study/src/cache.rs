@@ -15,6 +15,7 @@ use dbd_scene::Scene;
 use serde::{Deserialize, Serialize};
 
 use crate::grid::Grid;
+use crate::timing::Cost;
 
 /// The window of a survey.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -72,10 +73,9 @@ pub enum Entry {
     Cost {
         /// Its label.
         way: String,
-        /// \[s\].
-        seconds: f64,
-        /// A share.
-        spread: f64,
+        /// Its time.
+        #[serde(flatten)]
+        cost: Cost,
     },
 }
 
@@ -89,7 +89,7 @@ pub struct Cache {
     /// \[s\] largest stable steps by label.
     pub limits: BTreeMap<String, f64>,
     /// Costs by label.
-    pub costs: BTreeMap<String, (f64, f64)>,
+    pub costs: BTreeMap<String, Cost>,
     file: Option<File>,
 }
 
@@ -155,8 +155,8 @@ impl Cache {
             Entry::Limit { way, step } => {
                 self.limits.insert(way.clone(), *step);
             }
-            Entry::Cost { way, seconds, spread } => {
-                self.costs.insert(way.clone(), (*seconds, *spread));
+            Entry::Cost { way, cost } => {
+                self.costs.insert(way.clone(), *cost);
             }
         }
     }
@@ -222,11 +222,12 @@ mod tests {
         let mut cache = Cache::open(folder, 7).unwrap();
         cache.add(Entry::Head(head(7))).unwrap();
         cache.add(accuracy(3)).unwrap();
-        cache.add(Entry::Cost { way: "x".into(), seconds: 1e-7 / 3.0, spread: 0.1 }).unwrap();
+        let cost = Cost { least: 1e-7 / 3.0, median: 1e-7, spread: 0.1 };
+        cache.add(Entry::Cost { way: "x".into(), cost }).unwrap();
         // What JSON cannot say is known to this survey and not kept.
-        let (seconds, spread) = (f64::INFINITY, 0.0);
-        cache.add(Entry::Cost { way: "y".into(), seconds, spread }).unwrap();
-        assert!(cache.costs["y"].0.is_infinite());
+        let endless = Cost { least: f64::INFINITY, ..cost };
+        cache.add(Entry::Cost { way: "y".into(), cost: endless }).unwrap();
+        assert!(cache.costs["y"].least.is_infinite());
         drop(cache);
         let whole = std::fs::read(path(folder, 7)).unwrap();
         // The last line was not finished.
@@ -237,7 +238,7 @@ mod tests {
         assert_eq!(std::fs::read(path(folder, 7)).unwrap(), whole);
         assert_eq!(cache.head, Some(head(7)));
         assert_eq!(cache.accuracies.values().collect::<Vec<_>>(), [&accuracy(3)]);
-        assert_eq!(cache.costs, BTreeMap::from([("x".into(), (1e-7 / 3.0, 0.1))]));
+        assert_eq!(cache.costs, BTreeMap::from([("x".into(), cost)]));
         cache.add(accuracy(5)).unwrap();
         drop(cache);
         assert_eq!(Cache::open(folder, 7).unwrap().accuracies.len(), 2);

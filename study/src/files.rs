@@ -20,9 +20,10 @@ use crate::page::html;
 use crate::point::{Machine, Point, front};
 use crate::stability::MARGIN;
 use crate::survey::Trade;
+use crate::timing::{CALM, ROUNDS};
 
 /// Columns of `trade.csv`.
-pub const COLUMNS: [&str; 20] = [
+pub const COLUMNS: [&str; 21] = [
     "scheme",
     "newton",
     "damping",
@@ -43,6 +44,7 @@ pub const COLUMNS: [&str; 20] = [
     "target_front",
     "lost",
     "advisable",
+    "host_seconds_least_per_second",
 ];
 
 /// \[1/s\] instructions of a Cortex-M4F at 168 MHz, 1.5 cycles each: an estimate, see docs/target.md.
@@ -142,6 +144,11 @@ impl<'r> Report<'r> {
 /// What the figures depend on.
 fn conditions(trade: &Trade) -> Vec<String> {
     let Head { grid, growth, uncertainty, .. } = trade.head;
+    let widest = trade.points.iter().map(|point| point.host_spread).fold(0.0, f64::max);
+    let spread = match widest > CALM {
+        true => format!("this machine was busy: times spread by up to {}", percent(widest)),
+        false => format!("they spread by {} at most", percent(widest)),
+    };
     let build = if cfg!(debug_assertions) { "a debug build: times mean little" } else { "release" };
     vec![
         format!(
@@ -167,8 +174,8 @@ fn conditions(trade: &Trade) -> Vec<String> {
             percent(MARGIN),
         ),
         format!(
-            "times: median of 15 measurements on one thread, {}, {}, {build}; one step size of each \
-             method is timed and counts for all its steps",
+            "times: least of {ROUNDS} rounds or more in which the methods take turns on one thread, {}, \
+             {}, {build}; {spread}; one step size of each method is timed and counts for all its steps",
             std::env::consts::ARCH,
             std::env::consts::OS,
         ),
@@ -207,6 +214,7 @@ fn table(folder: &Path, points: &[Point]) -> io::Result<()> {
             &fronts[1].contains(&row).to_string(),
             &point.lost.to_string(),
             &point.advisable.to_string(),
+            &format!("{:?}", point.host_seconds_least),
         ])?;
     }
     let file = rows.into_inner().map_err(|error| io::Error::other(error.to_string()))?;

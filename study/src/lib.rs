@@ -9,7 +9,8 @@
 //! - [`grid`]: the times compared, and the steps that reach them.
 //! - [`ways`]: all ways of stepping a scene, and their ladders of steps.
 //! - [`limits`]: how long a step of each may be.
-//! - [`measure`]: how far off a way is at a step, and what a step costs.
+//! - [`measure`]: how far off a way is at a step.
+//! - [`timing`]: what a step costs a host.
 //! - [`cache`]: results, kept as they come.
 //! - [`survey`](mod@survey): all points, in parallel.
 //! - [`need`], [`advice`]: what an accuracy costs, in sentences and tables.
@@ -31,6 +32,7 @@ pub mod page;
 pub mod point;
 pub mod stability;
 pub mod survey;
+pub mod timing;
 pub mod ways;
 
 pub use point::{Machine, Point, Stepper, front};

@@ -1,14 +1,10 @@
-//! How far off a way of stepping is, and what its step costs a host.
+//! How far off a way of stepping is.
 //!
-//! `(scene, truth, way, steps per interval) => error, energy; (scene, way, step) => seconds per
-//! step`. Accuracy is a pure function of its inputs; time is measured on one thread while nothing
-//! else of this program runs.
-
-use std::hint::black_box;
-use std::time::Instant;
+//! `(scene, truth, way, steps per interval) => error, energy`, a pure function of its inputs. All start
+//! from the truth, so t = 0 is no sample: it would dilute the means.
 
 use dbd_plant::judge::{Judge, conserves_energy};
-use dbd_plant::{AnyPlant, Method, plant};
+use dbd_plant::{Method, plant};
 use dbd_reference::implicit::Implicit;
 use dbd_reference::metric::Metric;
 use dbd_reference::naive::Naive;
@@ -47,7 +43,7 @@ pub struct Comparison<'c> {
     pub scene: &'c Scene,
     /// The times that are compared.
     pub grid: Grid,
-    /// Its true state at each.
+    /// Its true state at each, t = 0 first.
     pub truth: &'c [State],
     /// Whether nothing changes its energy.
     pub conservative: bool,
@@ -133,9 +129,11 @@ impl<'c> Comparison<'c> {
         self.judged(&samples, None)
     }
 
-    /// The verdict on samples, with the energy error's square sum and peak where it says anything.
+    /// The verdict on a run's samples, t = 0 first, with the energy error's square sum and peak where it
+    /// says anything.
     fn judged(&self, samples: &[State], energy: Option<(f64, f64)>) -> Accuracy {
-        let error = self.metric.error(self.truth, samples);
+        let after = samples.get(1..).unwrap_or_default();
+        let error = self.metric.error(&self.truth[1..], after);
         if !error.is_finite() {
             return UNSTABLE;
         }
@@ -144,13 +142,14 @@ impl<'c> Comparison<'c> {
             stable: true,
             lost: error > self.travel,
             error: Some(error),
-            energy_rms: energy.map(|(squares, _)| (squares / samples.len() as f64).sqrt()),
+            energy_rms: energy.map(|(squares, _)| (squares / after.len() as f64).sqrt()),
             energy_peak: energy.map(|(_, peak)| peak),
         }
     }
 }
 
-fn implicit_step(implicit: &mut Implicit<'_>) -> bool {
+/// A step of the implicit reference, while its state is finite; whether it is.
+pub fn implicit_step(implicit: &mut Implicit<'_>) -> bool {
     // Without a finite state there is no factor.
     let state = &implicit.state;
     let finite = state.bodies.iter().all(|body| {
@@ -163,86 +162,26 @@ fn implicit_step(implicit: &mut Implicit<'_>) -> bool {
     finite
 }
 
-/// What a step takes on this host.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cost {
-    /// \[s\] the median of the measurements.
-    pub seconds: f64,
-    /// Half the range of the middle half of the measurements over the median.
-    pub spread: f64,
-}
+#[cfg(test)]
+mod tests {
+    use dbd_plant::Method;
 
-/// Measurements of a step's time, each of as many steps as take [`BATCH`].
-const BATCHES: usize = 15;
-/// \[s\] per measurement.
-const BATCH: f64 = 2e-3;
+    use super::*;
 
-/// Measures a way's step of the size `step` \[s\] on this thread, from t = 0 of the scene on.
-#[must_use]
-pub fn cost(scene: &Scene, way: &Way, step: f64) -> Cost {
-    match way {
-        Way::Kernel(method) => match plant(scene, method, step) {
-            Ok(mut plant) => timed(|steps| take(plant.as_mut(), steps)),
-            Err(_) => Cost { seconds: f64::INFINITY, spread: 0.0 },
-        },
-        Way::NaiveSemiImplicitEuler | Way::NaiveLeapfrog => {
-            let (mechanism, start) = Mechanism::of(scene);
-            let mut naive = Naive::new(&mechanism, start, step);
-            timed(|steps| {
-                for _ in 0..steps {
-                    match way {
-                        Way::NaiveLeapfrog => naive.leapfrog(),
-                        _ => naive.semi_implicit_euler(),
-                    }
-                    black_box(&naive.state);
-                }
-            })
-        }
-        Way::LinearlyImplicitEuler => {
-            let (mechanism, start) = Mechanism::of(scene);
-            let mut implicit = Implicit::new(&mechanism, start, step);
-            timed(|steps| {
-                for _ in 0..steps {
-                    black_box(implicit_step(&mut implicit));
-                }
-            })
+    #[test]
+    fn the_start_is_no_sample() {
+        let text = "name = \"a\"\nduration = 0.05\nevery = 1e-3\n[[body]]\nname = \"b\"\n\
+                    mass = 1.0\nposition = [0.0, 0.0, 0.0]\ninertia = [1.0, 1.0, 1.0]\n";
+        let scene = Scene::parse(text, "a.toml").unwrap();
+        let grid = Grid::new(&scene, 0.05);
+        // The body rests; the truth has it a millimetre off from the first sample on.
+        let start = Mechanism::of(&scene).1;
+        let mut truth = vec![start; grid.times().len()];
+        truth[1..].iter_mut().for_each(|state| state.bodies[0].position.x = 1e-3);
+        let comparison = Comparison::new(&scene, grid, &truth);
+        for way in [Way::Kernel(Method::default()), Way::NaiveLeapfrog] {
+            let accuracy = comparison.accuracy(&way, 2);
+            assert!((accuracy.error.unwrap() / 1e-3 - 1.0).abs() < 1e-12, "{accuracy:?}");
         }
     }
-}
-
-/// Takes so many steps in one call into the plant. One that has failed steps no more: it begins
-/// again.
-fn take(plant: &mut dyn AnyPlant, mut steps: u64) {
-    loop {
-        let before = plant.steps();
-        if black_box(plant.advance(steps)).is_running() {
-            return;
-        }
-        steps = steps.saturating_sub(plant.steps() - before);
-        plant.reset();
-    }
-}
-
-/// Times a function that takes so many steps.
-fn timed(mut take: impl FnMut(u64)) -> Cost {
-    let mut batch = |steps: u64| {
-        let start = Instant::now();
-        take(steps);
-        start.elapsed().as_secs_f64() / steps as f64
-    };
-    // Warms caches and finds how many steps a measurement takes.
-    let mut steps = 1;
-    loop {
-        let seconds = batch(steps);
-        if seconds * steps as f64 >= 0.5 * BATCH {
-            steps = (BATCH / seconds).ceil() as u64;
-            break;
-        }
-        steps *= 4;
-    }
-    let mut times: Vec<f64> = (0..BATCHES).map(|_| batch(steps.max(1))).collect();
-    times.sort_by(f64::total_cmp);
-    let seconds = times[BATCHES / 2];
-    let spread = 0.5 * (times[3 * BATCHES / 4] - times[BATCHES / 4]) / seconds;
-    Cost { seconds, spread }
 }

@@ -2,7 +2,7 @@
 //!
 //! `(scene, options, cache) => window, points`. Runs for accuracy are shared among the machine's
 //! threads, the longest first; their results do not depend on who took them. Times are measured
-//! after that, one way after the other.
+//! after that, the ways in turn.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -23,8 +23,9 @@ use crate::cache::{Cache, Entry, Head, key};
 use crate::costs::Costs;
 use crate::grid::{Grid, SAMPLES};
 use crate::limits::{Limit, Limits};
-use crate::measure::{Comparison, UNSTABLE, cost};
+use crate::measure::{Comparison, UNSTABLE};
 use crate::point::{Point, Stepper};
+use crate::timing::{Cost, costs};
 use crate::ways::{Way, in_space, ways};
 
 /// \[s\] The longest window where none is given: a mechanism has moved, and a scene of a dozen
@@ -77,7 +78,7 @@ pub enum Phase {
     Limits,
     /// Runs for accuracy: work done and all work, in force evaluations.
     Runs(u64, u64),
-    /// Measuring times: ways done and all ways.
+    /// Measuring times: rounds done and all that are foreseen.
     Times(u64, u64),
 }
 
@@ -224,13 +225,14 @@ pub fn survey(
         run(&comparison, missing, &mut cache, progress)?;
     }
     let step = if highest > 0.0 { TIMED * 2.0 / highest } else { grid.interval };
-    for (row, way) in ways.iter().enumerate() {
-        let label = way.stepper().label();
-        if !cache.costs.contains_key(&label) {
-            progress(Phase::Times(row as u64, ways.len() as u64));
-            let cost = cost(scene, way, step);
-            let (seconds, spread) = (cost.seconds, cost.spread);
-            let entry = Entry::Cost { way: label, seconds, spread };
+    let untimed = |way: &&Way| !cache.costs.contains_key(&way.stepper().label());
+    let untimed: Vec<Way> = ways.iter().filter(untimed).copied().collect();
+    if !untimed.is_empty() {
+        let costs = costs(scene, &untimed, step, &mut |done, all| {
+            progress(Phase::Times(done, all));
+        });
+        for (way, cost) in untimed.iter().zip(costs) {
+            let entry = Entry::Cost { way: way.stepper().label(), cost };
             cache.add(entry).map_err(SurveyError::Write)?;
         }
     }
@@ -386,7 +388,7 @@ fn point(scene: &Scene, costs: &Costs, job: &Job, grid: &Grid, cache: &Cache) ->
     let Entry::Accuracy { stable, lost, error, energy_rms, energy_peak, .. } = entry else {
         return None;
     };
-    let (seconds, spread) = cache.costs.get(&job.label)?;
+    let Cost { least, median, spread } = *cache.costs.get(&job.label)?;
     let step = grid.step(job.steps);
     let stepper = job.way.stepper();
     Some(Point {
@@ -399,8 +401,9 @@ fn point(scene: &Scene, costs: &Costs, job: &Job, grid: &Grid, cache: &Cache) ->
         energy_rms: *energy_rms,
         energy_peak: *energy_peak,
         evaluations: f64::from(job.way.evaluations()) / step,
-        host_seconds: seconds / step,
-        host_spread: *spread,
+        host_seconds_least: least / step,
+        host_seconds: median / step,
+        host_spread: spread,
         target_instructions: instructions(scene, costs, &job.way).map(|count| count / step),
         stepper,
     })

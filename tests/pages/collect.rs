@@ -77,6 +77,7 @@ fn points(text: &str) -> Vec<Point> {
             energy_rms: number("energy_rms"),
             energy_peak: number("energy_peak"),
             evaluations: row.number("evaluations_per_second"),
+            host_seconds_least: row.number("host_seconds_least_per_second"),
             host_seconds: row.number("host_seconds_per_second"),
             host_spread: row.number("host_spread"),
             target_instructions: number("target_instructions_per_second"),

@@ -215,7 +215,7 @@ fn the_command_leaves_its_files_and_says_how_to_run_what_it_chose() {
     let table = fs::read_to_string(results.join("trade.csv")).unwrap();
     let columns: Vec<&str> = table.lines().next().unwrap().split(',').collect();
     assert_eq!(columns, dbd_study::files::COLUMNS);
-    assert_eq!((columns.len(), *columns.last().unwrap()), (20, "advisable"));
+    assert_eq!((columns.len(), *columns.last().unwrap()), (21, "host_seconds_least_per_second"));
     for file in ["trade.svg", "trade-cortex-m4f.svg", "trade.html"] {
         assert!(results.join(file).is_file(), "{file}");
     }

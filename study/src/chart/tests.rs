@@ -171,7 +171,7 @@ fn odd_points_make_no_odd_drawing() {
     ];
     let drawing = svg(&chart(&points), Machine::Host);
     assert!(!drawing.contains("NaN") && !drawing.contains("inf"), "{drawing}");
-    points.iter_mut().for_each(|point| (point.error, point.host_seconds) = (Some(0.0), 1.0));
+    points.iter_mut().for_each(|point| (point.error, point.host_seconds_least) = (Some(0.0), 1.0));
     assert!(svg(&chart(&points), Machine::Host).contains("Nothing to draw: every error is zero."));
     points.clear();
     assert!(svg(&chart(&points), Machine::Host).contains("no point has a cost"));
