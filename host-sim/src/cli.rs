@@ -4,6 +4,7 @@
 //! further commands need no binary.
 
 use std::ffi::OsString;
+use std::io::Write;
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -166,6 +167,10 @@ struct TradeArguments {
     /// the scene's duration]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     window: Option<Time>,
+    /// Time that every step divides, e.g. a controller's 1ms [default: the scene's sampling interval,
+    /// else a power of ten of ten steps or more]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    period: Option<Time>,
     #[command(flatten)]
     results: ResultsArguments,
     /// Print nothing but errors
@@ -314,10 +319,14 @@ fn trade_scene(
     let request = TradeRequest {
         called,
         window: arguments.window.map(Time::seconds),
+        period: arguments.period.map(Time::seconds),
         out: &destination,
         shipped: Catalogue::ships(&scene),
     };
-    let mut progress = Progress::of(console.terminal && !arguments.quiet, "evaluations");
+    let mut silence = std::io::sink();
+    let lines = if arguments.quiet { &mut silence as &mut dyn Write } else { &mut *console.err };
+    let bars = console.terminal && !arguments.quiet;
+    let mut progress = Progress::of(bars, "evaluations", lines);
     let done = trade(&scene, &request, &mut |phase| match phase {
         Phase::Window => progress.begin("how long before chaos"),
         Phase::Truth => progress.begin("the truth"),

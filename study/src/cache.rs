@@ -179,11 +179,11 @@ pub fn path(folder: &Path, key: u64) -> PathBuf {
     folder.join(format!("trade-{key:016x}.cache"))
 }
 
-/// The key of a scene in this build with a longest window \[s\].
+/// The key of a scene in this build with a longest window \[s\] and steps that divide `unit` \[s\].
 #[must_use]
-pub fn key(scene: &Scene, longest: f64) -> u64 {
+pub fn key(scene: &Scene, longest: f64, unit: f64) -> u64 {
     let mut hash = DefaultHasher::new();
-    format!("{scene:?} {longest:?} {}", build()).hash(&mut hash);
+    format!("{scene:?} {longest:?} {unit:?} {}", build()).hash(&mut hash);
     hash.finish()
 }
 
@@ -202,9 +202,7 @@ mod tests {
     use super::*;
 
     fn head(key: u64) -> Head {
-        let text = "name = \"a\"\nduration = 1.0\n[[body]]\nname = \"b\"\nmass = 1.0\nposition = [0.0, 0.0, 0.0]\n\
-                    inertia = [1.0, 1.0, 1.0]\n";
-        let grid = Grid::new(&Scene::parse(text, "a.toml").unwrap(), 0.1);
+        let grid = Grid::new(1e-3, 0.1);
         Head { key, grid, growth: 3.0, uncertainty: 1e-12, in_space: true }
     }
 

@@ -68,6 +68,8 @@ pub struct Json<'r> {
     /// \[s\].
     window: f64,
     samples: u32,
+    /// \[s\] that every step divides, where it was asked for.
+    period: Option<f64>,
     /// Of a perturbation at the window's end.
     growth: f64,
     /// \[m\] what the truth is known to.
@@ -137,7 +139,8 @@ impl<'r> Report<'r> {
     pub fn json(&self) -> Json<'r> {
         let Head { grid, growth, uncertainty, .. } = self.trade.head;
         let (scene, points) = (self.scene.name.as_str(), self.trade.points.as_slice());
-        Json { scene, window: grid.window(), samples: grid.samples, growth, uncertainty, points }
+        let (window, samples, period) = (grid.window(), grid.samples, self.trade.period);
+        Json { scene, window, samples, period, growth, uncertainty, points }
     }
 }
 
@@ -150,7 +153,7 @@ fn conditions(trade: &Trade) -> Vec<String> {
         false => format!("they spread by {} at most", percent(widest)),
     };
     let build = if cfg!(debug_assertions) { "a debug build: times mean little" } else { "release" };
-    vec![
+    let mut lines = vec![
         format!(
             "compared over {}, where a perturbation has grown {} times; the truth is known to {:.0e} m",
             display(rounded(grid.window(), 12)),
@@ -182,7 +185,9 @@ fn conditions(trade: &Trade) -> Vec<String> {
         "Cortex-M4F: instructions per step counted in QEMU (docs/costs.csv); real time at 168 MHz \
          with 1.5 cycles per instruction is an estimate"
             .into(),
-    ]
+    ];
+    lines.extend(trade.period.map(|period| format!("every step divides {}", display(period))));
+    lines
 }
 
 fn table(folder: &Path, points: &[Point]) -> io::Result<()> {

@@ -1,10 +1,11 @@
 //! The times that are compared, and the steps that reach them and that a run accepts.
 //!
-//! `(scene, window) => interval, samples; steps per interval => step`. A run wants steps of which
-//! duration and sampling interval are whole multiples. So the interval of the comparison is a whole
-//! multiple or part of the longest such step, and every step of a survey is a whole part of both.
+//! `(scene, window, period) => interval, samples; steps per interval => step`. A run wants steps of
+//! which duration and sampling interval are whole multiples, a controller some of which its period is
+//! one. So the interval of the comparison is a whole multiple or part of the longest such step, and
+//! every step of a survey is a whole part of both.
 
-use dbd_plant::fitting::Span;
+use dbd_plant::fitting::{self, Span};
 use dbd_plant::time::{display, rounded};
 use dbd_scene::Scene;
 use serde::{Deserialize, Serialize};
@@ -17,6 +18,9 @@ const SAME: f64 = 1e-9;
 
 /// A step up to this share shorter is taken where that makes it a round number.
 const ROUNDER: f64 = 0.05;
+
+/// \[rad\] ten of the largest stable steps, at the highest frequency.
+const TENFOLD: f64 = 10.0 * std::f64::consts::PI;
 
 /// Digits of a step: so many that rounding moves no sample beyond the rounding of its time.
 const DIGITS: usize = 15;
@@ -32,11 +36,32 @@ pub struct Grid {
     stride: u64,
 }
 
+/// \[s\] the longest step that a run of the scene accepts and that divides a period \[s\], where one is
+/// asked for. `None` where no step does.
+///
+/// Without a period and where the scene gives no sampling interval, the steps divide a power of ten
+/// that holds ten of the steps that vibrations of `highest` \[rad/s\] bear, if the duration is a multiple
+/// of it: round numbers, at the price of a tenth of the largest step.
+#[must_use]
+pub fn unit(scene: &Scene, period: Option<f64>, highest: f64) -> Option<f64> {
+    let accepted =
+        Span::new(scene.duration, scene.every).map_or(scene.duration, |span| span.longest());
+    let round = || {
+        let exponent = (TENFOLD / highest).log10().ceil();
+        let power = format!("1e{exponent}").parse().unwrap_or(accepted);
+        let fits = scene.every.is_none() && fitting::whole(accepted / power).is_some();
+        if fits { power } else { accepted }
+    };
+    match period {
+        Some(period) => Some(Span::new(accepted, Some(period))?.longest()),
+        None => Some(if highest > 0.0 { round() } else { accepted }),
+    }
+}
+
 impl Grid {
-    /// The grid of a scene in a window of at most `longest` \[s\].
+    /// The grid of steps that divide `unit` \[s\] in a window of at most `longest` \[s\].
     #[must_use]
-    pub fn new(scene: &Scene, longest: f64) -> Self {
-        let unit = unit(scene);
+    pub fn new(unit: f64, longest: f64) -> Self {
         let wanted = longest / f64::from(SAMPLES);
         let (interval, stride) = if wanted < unit {
             (unit / (unit / wanted * (1.0 + SAME)).floor(), 1)
@@ -78,11 +103,6 @@ impl Grid {
     }
 }
 
-/// \[s\] the longest step that a run of the scene accepts.
-fn unit(scene: &Scene) -> f64 {
-    Span::new(scene.duration, scene.every).map_or(scene.duration, |span| span.longest())
-}
-
 /// The option of a run that lets a scene's steps fit where no step divides both its duration and its
 /// sampling interval.
 #[must_use]
@@ -104,6 +124,46 @@ mod tests {
         Scene::parse(&text, "a.toml").unwrap()
     }
 
+    fn grid(scene: &Scene, window: f64) -> Grid {
+        Grid::new(unit(scene, None, 0.0).unwrap(), window)
+    }
+
+    #[test]
+    fn every_step_divides_the_period_that_is_asked_for() {
+        for (duration, every) in [(0.5, "every = 1e-3"), (10.0, "every = 0.02"), (2.0, "")] {
+            let scene = scene(duration, every);
+            for period in [1e-3, 8e-5, 1.5e-3, 0.5, 3e-4] {
+                let unit = unit(&scene, Some(period), 1e4).unwrap();
+                for window in [duration, 0.0123, 1e-4] {
+                    let grid = Grid::new(unit, window);
+                    for limit in [1.0, 3.3e-4, 8.547e-5, 1.234e-6] {
+                        let step = grid.step(grid.steps(limit));
+                        for time in [period, duration, scene.every.unwrap_or(duration)] {
+                            assert!(
+                                fitting::whole(time / step).is_some(),
+                                "{time} {step}: {every} {period} {window}"
+                            );
+                        }
+                    }
+                }
+            }
+            assert_eq!(unit(&scene, Some(std::f64::consts::PI), 1e4), None);
+        }
+    }
+
+    #[test]
+    fn without_a_sampling_interval_steps_divide_a_power_of_ten() {
+        // 190 us and shorter: ten of the largest fit into 10 ms.
+        let highest = 3.0 / 190e-6;
+        let plain = scene(5.0, "");
+        assert_eq!(unit(&plain, None, highest), Some(1e-2));
+        let step = Grid::new(1e-2, 0.5).step(Grid::new(1e-2, 0.5).steps(190e-6));
+        assert!(fitting::whole(1e-2 / step).is_some() && step > 0.95 * 190e-6, "{step}");
+        assert_eq!(unit(&scene(0.123, ""), None, highest), Some(0.123));
+        assert_eq!(unit(&scene(5.0, "every = 0.02"), None, highest), Some(0.02));
+        assert_eq!(unit(&plain, None, 0.0), Some(5.0));
+    }
+
     #[test]
     fn every_step_is_one_that_a_run_accepts() {
         for (duration, every) in
@@ -111,7 +171,7 @@ mod tests {
         {
             let scene = scene(duration, every);
             for window in [duration, 0.37 * duration, 0.0123, 1e-4] {
-                let grid = Grid::new(&scene, window);
+                let grid = grid(&scene, window);
                 assert!((25..=50).contains(&grid.samples), "{grid:?}");
                 assert!(grid.window() <= window * (1.0 + 1e-9));
                 assert!(grid.window() > 0.9 * window, "{window} {grid:?}");
@@ -128,7 +188,7 @@ mod tests {
             }
         }
         // A rounder number is taken where one is near.
-        let grid = Grid::new(&scene(0.5, "every = 1e-3"), 0.5);
+        let grid = grid(&scene(0.5, "every = 1e-3"), 0.5);
         assert_eq!(display(grid.step(grid.steps(8.3e-6))), "8us");
     }
 
@@ -137,7 +197,7 @@ mod tests {
         let scene = scene(1.0, "every = 0.314159265358979");
         let option = every(&scene).unwrap();
         assert_eq!(option, "--every 1s");
-        let step = StepRequest::Given(Grid::new(&scene, 1.0).step(1234));
+        let step = StepRequest::Given(grid(&scene, 1.0).step(1234));
         assert!(plan(&Request { step, duration: 1.0, every: Some(1.0) }).is_ok());
         assert_eq!(every(&self::scene(1.0, "")), None);
     }

@@ -173,7 +173,7 @@ mod tests {
         let text = "name = \"a\"\nduration = 0.05\nevery = 1e-3\n[[body]]\nname = \"b\"\n\
                     mass = 1.0\nposition = [0.0, 0.0, 0.0]\ninertia = [1.0, 1.0, 1.0]\n";
         let scene = Scene::parse(text, "a.toml").unwrap();
-        let grid = Grid::new(&scene, 0.05);
+        let grid = Grid::new(1e-3, 0.05);
         // The body rests; the truth has it a millimetre off from the first sample on.
         let start = Mechanism::of(&scene).1;
         let mut truth = vec![start; grid.times().len()];

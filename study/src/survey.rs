@@ -21,7 +21,7 @@ use dbd_scene::Scene;
 
 use crate::cache::{Cache, Entry, Head, key};
 use crate::costs::Costs;
-use crate::grid::{Grid, SAMPLES};
+use crate::grid::{Grid, SAMPLES, unit};
 use crate::limits::{Limit, Limits};
 use crate::measure::{Comparison, UNSTABLE};
 use crate::point::{Point, Stepper};
@@ -49,6 +49,8 @@ const REFERENCE: u64 = 8;
 pub struct TradeOptions {
     /// \[s\] the longest window; 0.5 s or the scene's duration where `None`.
     pub window: Option<f64>,
+    /// \[s\] every step divides it: the period of a controller; see [`unit`] where `None`.
+    pub period: Option<f64>,
     /// The folder that results are kept in; nothing is kept where `None`.
     pub cache: Option<PathBuf>,
     /// Whether the scene is the one that ships under its name, whose steps were counted on the
@@ -61,6 +63,8 @@ pub struct TradeOptions {
 pub struct Trade {
     /// The window and the truth's uncertainty.
     pub head: Head,
+    /// \[s\] the period that every step divides, where one was asked for.
+    pub period: Option<f64>,
     /// All points, way by way, steps descending.
     pub points: Vec<Point>,
 }
@@ -103,6 +107,20 @@ pub enum WindowError {
         /// \[s\] the scene's duration.
         duration: f64,
     },
+    /// No step divides what it has to.
+    #[error(
+        "no step divides both a period of {} and what a run of the scene divides, {}",
+        display(*period), display(*accepted)
+    )]
+    #[diagnostic(help(
+        "a period of which the scene's `every`, or its duration, is a simple multiple or part"
+    ))]
+    Period {
+        /// \[s\] as asked for.
+        period: f64,
+        /// \[s\] the longest step that a run accepts.
+        accepted: f64,
+    },
     /// No truth in reasonable time.
     #[error(
         "the scene vibrates at up to {frequency:.1e} Hz: a truth over {} would take hours",
@@ -142,13 +160,22 @@ pub enum SurveyError {
     Write(io::Error),
 }
 
-/// \[s\] the longest window that a survey of a scene looks at.
+/// What a survey looks at: the longest window, and what its steps divide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// \[s\] the longest window.
+    pub longest: f64,
+    /// \[s\] the time of which every step is a whole part.
+    pub unit: f64,
+}
+
+/// What a survey of a scene looks at.
 ///
 /// # Errors
 /// [`WindowError`] where what was asked for exceeds the scene's duration or is too short to compare
-/// steps in, or no truth can be had over it.
-pub fn longest_window(scene: &Scene, asked: Option<f64>) -> Result<f64, WindowError> {
-    let duration = scene.duration;
+/// steps in, no truth can be had over it, or no step divides the period.
+pub fn frame(scene: &Scene, options: &TradeOptions) -> Result<Frame, WindowError> {
+    let (asked, duration) = (options.window, scene.duration);
     if let Some(window) = asked {
         if window > duration * (1.0 + 1e-9) {
             return Err(WindowError::Long { window, duration });
@@ -159,12 +186,19 @@ pub fn longest_window(scene: &Scene, asked: Option<f64>) -> Result<f64, WindowEr
     }
     let window = asked.unwrap_or(LONGEST).min(duration);
     let frequencies = Frequencies::of(scene);
-    if frequencies.estimate * window > FURTHEST {
-        let possible = dbd_plant::time::rounded(0.5 * FURTHEST / frequencies.estimate, 1);
+    let highest = frequencies.estimate;
+    if highest * window > FURTHEST {
+        let possible = dbd_plant::time::rounded(0.5 * FURTHEST / highest, 1);
         let frequency = frequencies.estimate_hz();
         return Err(WindowError::Stiff { frequency, window, possible });
     }
-    Ok(window)
+    match unit(scene, options.period, highest) {
+        Some(unit) => Ok(Frame { longest: window, unit }),
+        None => Err(WindowError::Period {
+            period: options.period.unwrap_or(duration),
+            accepted: unit(scene, None, 0.0).unwrap_or(duration),
+        }),
+    }
 }
 
 struct Job {
@@ -184,8 +218,8 @@ pub fn survey(
     options: &TradeOptions,
     progress: &mut dyn FnMut(Phase),
 ) -> Result<Trade, SurveyError> {
-    let longest = longest_window(scene, options.window)?;
-    let key = key(scene, longest);
+    let frame = frame(scene, options)?;
+    let key = key(scene, frame.longest, frame.unit);
     let mut cache = match &options.cache {
         Some(folder) => Cache::open(folder, key).map_err(|error| match error.kind() {
             io::ErrorKind::WouldBlock => SurveyError::Busy { folder: folder.clone() },
@@ -197,7 +231,7 @@ pub fn survey(
     let head = match cache.head {
         Some(head) => head,
         None => {
-            let (head, found) = look(scene, key, longest, progress)?;
+            let (head, found) = look(scene, key, frame, progress)?;
             cache.add(Entry::Head(head)).map_err(SurveyError::Write)?;
             truth = Some(found);
             head
@@ -238,21 +272,21 @@ pub fn survey(
     }
     let costs = if options.shipped { Costs::shipped() } else { Costs::none() };
     let points = jobs.iter().filter_map(|job| point(scene, &costs, job, &grid, &cache)).collect();
-    Ok(Trade { head, points })
+    Ok(Trade { head, period: options.period, points })
 }
 
 /// Finds window and truth.
 fn look(
     scene: &Scene,
     key: u64,
-    longest: f64,
+    frame: Frame,
     progress: &mut dyn FnMut(Phase),
 ) -> Result<(Head, Vec<State>), SurveyError> {
     progress(Phase::Window);
-    let window = before_chaos(scene, longest, SAMPLES, GROWTH)?;
+    let window = before_chaos(scene, frame.longest, SAMPLES, GROWTH)?;
     // At least one interval, so that there is something to compare.
     let last = window.times.iter().rposition(|time| *time <= window.end).unwrap_or(0).max(1);
-    let grid = Grid::new(scene, window.times[last]);
+    let grid = Grid::new(frame.unit, window.times[last]);
     progress(Phase::Truth);
     let truth = truth_of(Opinion::Dop853, scene, grid)?;
     progress(Phase::Opinion);

@@ -171,9 +171,7 @@ mod tests {
 
     /// A millisecond per interval, fifty of them.
     fn grid() -> Grid {
-        let text = "name = \"a\"\nduration = 0.05\nevery = 1e-3\n[[body]]\nname = \"b\"\n\
-                    mass = 1.0\nposition = [0.0, 0.0, 0.0]\ninertia = [1.0, 1.0, 1.0]\n";
-        Grid::new(&Scene::parse(text, "a.toml").unwrap(), 0.05)
+        Grid::new(1e-3, 0.05)
     }
 
     #[test]

@@ -160,7 +160,7 @@ fn a_survey_becomes_rows() {
     use dbd_study::survey::{TradeOptions, survey};
     use dbd_tests::scene;
 
-    let options = TradeOptions { window: Some(1e-3), cache: None, shipped: true };
+    let options = TradeOptions { window: Some(1e-3), period: None, cache: None, shipped: true };
     let scene = scene("spring-ball");
     let trade = survey(&scene, &options, &mut |_| ()).unwrap();
     let folder = tempfile::tempdir().unwrap();

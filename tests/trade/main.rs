@@ -22,8 +22,8 @@ use host_sim::terminal::Exit;
 
 /// A survey of a scene's first moments; `cache` where results are kept.
 fn trade(name: &str, window: f64, cache: Option<&Path>) -> Trade {
-    let options =
-        TradeOptions { window: Some(window), cache: cache.map(Path::to_owned), shipped: true };
+    let cache = cache.map(Path::to_owned);
+    let options = TradeOptions { window: Some(window), period: None, cache, shipped: true };
     survey(&scene(name), &options, &mut |_| ()).unwrap()
 }
 
@@ -210,7 +210,13 @@ fn the_command_leaves_its_files_and_says_how_to_run_what_it_chose() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().to_str().unwrap();
     let (exit, said, errors) = call(&["trade", "spring-ball", "--window", "0.1s", "--out", out]);
-    assert_eq!((exit, errors.as_str()), (Exit::Done, ""));
+    assert_eq!(exit, Exit::Done);
+    // Not a terminal: a line for each part of the work.
+    let parts = ["chaos", "the truth", "opinion", "stable steps", "0 % of", "measuring times"];
+    assert_eq!(errors.lines().count(), parts.len(), "{errors}");
+    for (line, part) in errors.lines().zip(parts) {
+        assert!(line.contains(part), "{errors}");
+    }
     let results = folder.path().join("spring-ball");
     let table = fs::read_to_string(results.join("trade.csv")).unwrap();
     let columns: Vec<&str> = table.lines().next().unwrap().split(',').collect();
@@ -287,6 +293,46 @@ fn a_window_that_is_none_is_refused_and_leaves_nothing() {
         assert!(errors.contains(message), "{window}: {errors}");
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn every_step_divides_the_period_that_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let ask = |period: &str| {
+        call(&[
+            "trade",
+            "spring-ball",
+            "--window",
+            "0.1s",
+            "--period",
+            period,
+            "--out",
+            out,
+            "--json",
+        ])
+    };
+    // However it is written: the second call reads what the first has kept.
+    for period in ["3000us", "3ms"] {
+        let (exit, said, errors) = ask(period);
+        assert_eq!(exit, Exit::Done, "{errors}");
+        let json: serde_json::Value = serde_json::from_str(&said).unwrap();
+        assert_eq!(json["period"].as_f64(), Some(3e-3));
+        let points = json["points"].as_array().unwrap();
+        for point in points {
+            let step = point["step"].as_f64().unwrap();
+            for time in [3e-3, 5.0] {
+                let parts: f64 = time / step;
+                assert!((parts - parts.round()).abs() < 1e-9 * parts, "{step} {time}");
+            }
+        }
+        let advisable = |point: &&serde_json::Value| point["advisable"] == true;
+        assert!(points.iter().filter(advisable).count() > 20);
+    }
+    assert_eq!(caches(&folder.path().join("spring-ball")).len(), 1);
+    let (exit, said, errors) = ask("3.14159265ms");
+    assert_eq!((exit, said.as_str()), (Exit::Refused, ""));
+    assert!(errors.contains("no step divides both a period of 3.14159265ms"), "{errors}");
 }
 
 /// A scene file with one change.

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use dbd_output::file;
 use dbd_scene::Scene;
-use dbd_study::survey::longest_window;
+use dbd_study::survey::frame;
 use dbd_study::{Phase, SurveyError, Trade, TradeOptions, files, survey};
 use miette::Diagnostic;
 use serde::Serialize;
@@ -25,6 +25,8 @@ pub struct TradeRequest<'r> {
     pub called: &'r str,
     /// \[s\] the longest window; 0.5 s or the scene's duration where `None`.
     pub window: Option<f64>,
+    /// \[s\] every step divides it; the scene's sampling interval or a round time where `None`.
+    pub period: Option<f64>,
     /// Where results go.
     pub out: &'r Destination,
     /// Whether the scene is the one that ships under its name.
@@ -57,11 +59,12 @@ pub fn trade(
     request: &TradeRequest<'_>,
     progress: &mut dyn FnMut(Phase),
 ) -> Result<(Trade, PathBuf), TradeError> {
-    let TradeRequest { called, window, out, shipped } = *request;
+    let TradeRequest { called, window, period, out, shipped } = *request;
+    let options = TradeOptions { window, period, cache: None, shipped };
     // Bad input leaves no folder behind.
-    longest_window(scene, window).map_err(SurveyError::from)?;
+    frame(scene, &options).map_err(SurveyError::from)?;
     let folder = out.folder(&scene.name)?;
-    let options = TradeOptions { window, cache: Some(folder.clone()), shipped };
+    let options = TradeOptions { cache: Some(folder.clone()), ..options };
     let trade = survey(scene, &options, progress)?;
     let report = files::Report { scene, called, trade: &trade };
     report.write(&folder).map_err(TradeError::Write)?;

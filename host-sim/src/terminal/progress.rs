@@ -1,5 +1,6 @@
-//! A progress bar for runs that take their time.
+//! What a run that takes its time says meanwhile: a bar on a terminal, lines elsewhere.
 
+use std::io::Write;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -7,26 +8,41 @@ use indicatif::{ProgressBar, ProgressStyle};
 /// Runs that are shorter show nothing.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// A bar on standard error that appears once a run takes longer than half a second.
-pub struct Progress {
+/// Where no bar can be shown, a line says how far counted work has come as often as this.
+const SILENCE: Duration = Duration::from_secs(20);
+
+/// A bar on standard error that appears once a run takes longer than half a second; or, where standard
+/// error is a file or a pipe, a line for each part of the work, and for counted work now and then.
+pub struct Progress<'p> {
     start: Instant,
     shown: bool,
     unit: &'static str,
     bar: Option<ProgressBar>,
     waiting: Option<ProgressBar>,
+    lines: Option<Lines<'p>>,
 }
 
-impl Progress {
+/// Lines in place of a bar.
+struct Lines<'p> {
+    to: &'p mut dyn Write,
+    /// When counted work was last spoken of; `None` before its first line.
+    last: Option<Instant>,
+}
+
+impl<'p> Progress<'p> {
     /// A run begins; `shown` where there is a terminal to show it on.
     #[must_use]
     pub fn new(shown: bool) -> Self {
-        Self::of(shown, "steps")
+        let start = Instant::now();
+        Self { start, shown, unit: "steps", bar: None, waiting: None, lines: None }
     }
 
-    /// Likewise for work that is counted in another unit.
+    /// Work in several parts begins, one of which is counted in a unit: with bars where there is a
+    /// terminal, else with lines.
     #[must_use]
-    pub fn of(shown: bool, unit: &'static str) -> Self {
-        Self { start: Instant::now(), shown, unit, bar: None, waiting: None }
+    pub fn of(terminal: bool, unit: &'static str, lines: &'p mut dyn Write) -> Self {
+        let lines = (!terminal).then_some(Lines { to: lines, last: None });
+        Self { unit, lines, ..Self::new(terminal) }
     }
 
     /// Something begins of which nobody knows how long it takes: its name and the time so far.
@@ -38,10 +54,27 @@ impl Progress {
             bar.enable_steady_tick(PATIENCE);
             self.waiting = Some(bar);
         }
+        self.say(what);
+    }
+
+    /// A line, after the time so far. Whoever has stopped reading misses it.
+    fn say(&mut self, what: &str) {
+        let seconds = self.start.elapsed().as_secs_f64();
+        if let Some(lines) = &mut self.lines {
+            let _ = writeln!(lines.to, "{seconds:6.1} s  {what}").and_then(|()| lines.to.flush());
+        }
     }
 
     /// So many steps of all are done.
     pub fn update(&mut self, steps: u64, all: u64) {
+        if let Some(lines) = &mut self.lines {
+            if lines.last.is_none_or(|last| last.elapsed() >= SILENCE) {
+                lines.last = Some(Instant::now());
+                let percent = (100 * u128::from(steps)) / u128::from(all.max(1));
+                self.say(&format!("{percent} % of {all} {}", self.unit));
+            }
+            return;
+        }
         if !self.shown || (self.bar.is_none() && self.start.elapsed() < PATIENCE) {
             return;
         }
@@ -67,5 +100,23 @@ impl Progress {
         for bar in [self.bar.take(), self.waiting.take()].into_iter().flatten() {
             bar.finish_and_clear();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_a_terminal_each_part_is_a_line() {
+        let mut said = Vec::new();
+        let mut progress = Progress::of(false, "evaluations", &mut said);
+        progress.begin("the truth");
+        (0..1000).for_each(|done| progress.update(done, 1000));
+        progress.begin("measuring times");
+        progress.finish();
+        let said = String::from_utf8(said).unwrap();
+        let lines: Vec<&str> = said.lines().filter_map(|line| line.split(" s  ").nth(1)).collect();
+        assert_eq!(lines, ["the truth", "0 % of 1000 evaluations", "measuring times"]);
     }
 }
