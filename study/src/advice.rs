@@ -10,7 +10,7 @@ use dbd_plant::digits::{approximate, significant};
 use dbd_plant::time::{display, rounded};
 
 use crate::need::{Need, PaperNeed, paper_need};
-use crate::point::{Machine, Point, Stepper, counted, front, is_paper};
+use crate::point::{Cause, Fall, Machine, Point, Stepper, counted, front, is_paper};
 use crate::timing::CALM;
 
 /// Decimal exponents of the accuracies spoken of, in metres.
@@ -88,6 +88,7 @@ pub fn advice(points: &[Point], machine: Machine, uncertainty: f64) -> Vec<Advic
                 sentence +=
                     &format!("; the reference {who}, step {step}, needs {ratio} times as much");
             }
+            sentence += &limits(points, row);
             let widest = chosen.host_spread.max(paper_spread);
             if machine == Machine::Host && widest > CALM {
                 let spread = percent(widest);
@@ -96,6 +97,33 @@ pub fn advice(points: &[Point], machine: Machine, uncertainty: f64) -> Vec<Advic
             Some(Advice { decade, row, sentence })
         })
         .collect()
+}
+
+/// What keeps the error of a choice from falling with a smaller step, as far as it was measured.
+fn limits(points: &[Point], row: usize) -> String {
+    let chosen = &points[row];
+    let mut text = String::new();
+    if let Fall { order: Some(order), stated: Some(stated), cause: Some(cause), .. } = chosen.fall {
+        let why = match cause {
+            Cause::SweptDampers => "dampers are swept around its steps",
+            Cause::ExplicitDampers => "its dampers are explicit",
+            Cause::LoadsAndTables => "loads or tables change within its steps",
+        };
+        let order = significant(rounded(order, 2), 2);
+        text += &format!("; its error falls with order {order} here, not {stated}: {why}");
+    }
+    if let Some(finest) = chosen.fall.finest {
+        let usable = |point: &&Point| point.stepper == chosen.stepper && point.advisable;
+        let largest = points.iter().filter(usable).map(|point| point.step).fold(0.0, f64::max);
+        let precision = &chosen.stepper.precision;
+        text += &match finest >= largest {
+            true => format!("; in {precision} its largest usable step is its most accurate"),
+            false => {
+                format!("; in {precision} it is no more accurate below a step of {}", shown(finest))
+            }
+        };
+    }
+    text
 }
 
 /// Why no advice can be given; `None` where it can.
@@ -371,6 +399,33 @@ pub(crate) mod tests {
         assert!(said[3].starts_with("for 1e-6 m choose pefrl"), "{}", said[3]);
         assert!(said[3].ends_with("; the reference naive, f64, step 1ms, needs 0.5 times as much"));
         assert!(!said[4].contains("reference"));
+    }
+
+    #[test]
+    fn what_limits_a_choice_is_said_with_it() {
+        let mut points = ladder();
+        let said = |points: &[Point]| sentences(points, Machine::Host, 1e-5).pop().unwrap();
+        assert!(!said(&points).contains("order"));
+        let (order, stated, finest) = (Some(1.04), Some(4), None);
+        for point in points.iter_mut().filter(|point| point.stepper.scheme == "pefrl") {
+            point.fall = Fall { order, stated, cause: Some(Cause::LoadsAndTables), finest };
+        }
+        let text = said(&points);
+        assert!(
+            text.ends_with(
+                "; its error falls with order 1 here, not 4: loads or tables change within its steps"
+            ),
+            "{text}"
+        );
+        for point in points.iter_mut().filter(|point| point.stepper.scheme == "pefrl") {
+            point.stepper.precision = "f32".into();
+            point.fall = Fall { order, stated, cause: None, finest: Some(1e-4) };
+        }
+        let text = said(&points);
+        assert!(text.ends_with("; in f32 it is no more accurate below a step of 100us"), "{text}");
+        points.iter_mut().for_each(|point| point.fall.finest = Some(1e-3));
+        let text = sentences(&points, Machine::Host, 1e-4).pop().unwrap();
+        assert!(text.ends_with("; in f32 its largest usable step is its most accurate"), "{text}");
     }
 
     #[test]

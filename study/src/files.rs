@@ -23,7 +23,7 @@ use crate::survey::Trade;
 use crate::timing::{CALM, ROUNDS};
 
 /// Columns of `trade.csv`.
-pub const COLUMNS: [&str; 21] = [
+pub const COLUMNS: [&str; 23] = [
     "scheme",
     "newton",
     "damping",
@@ -45,6 +45,8 @@ pub const COLUMNS: [&str; 21] = [
     "lost",
     "advisable",
     "host_seconds_least_per_second",
+    "order",
+    "finest_step",
 ];
 
 /// \[1/s\] instructions of a Cortex-M4F at 168 MHz, 1.5 cycles each: an estimate, see docs/target.md.
@@ -220,6 +222,8 @@ fn table(folder: &Path, points: &[Point]) -> io::Result<()> {
             &point.lost.to_string(),
             &point.advisable.to_string(),
             &format!("{:?}", point.host_seconds_least),
+            &number(point.fall.order),
+            &number(point.fall.finest),
         ])?;
     }
     let file = rows.into_inner().map_err(|error| io::Error::other(error.to_string()))?;

@@ -12,6 +12,7 @@
 //! - [`measure`]: how far off a way is at a step.
 //! - [`timing`]: what a step costs a host.
 //! - [`cache`]: results, kept as they come.
+//! - [`order`]: how errors fall with the step, and what keeps them from it.
 //! - [`survey`](mod@survey): all points, in parallel.
 //! - [`need`], [`advice`]: what an accuracy costs, in sentences and tables.
 //! - [`command`]: how to run it.
@@ -28,6 +29,7 @@ pub mod grid;
 pub mod limits;
 pub mod measure;
 pub mod need;
+pub mod order;
 pub mod page;
 pub mod point;
 pub mod stability;

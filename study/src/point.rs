@@ -57,6 +57,34 @@ pub struct Point {
     pub host_spread: f64,
     /// Instructions per simulated second on Cortex-M4F, where they were counted.
     pub target_instructions: Option<f64>,
+    /// How the error falls with the step here.
+    pub fall: Fall,
+}
+
+/// What keeps an error from falling as the scheme would have it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Cause {
+    /// Dampers swept around a step: order 2.
+    SweptDampers,
+    /// Dampers at the velocities of an evaluation.
+    ExplicitDampers,
+    /// Loads that begin or end, tables that bend or jump, within steps.
+    LoadsAndTables,
+}
+
+/// How the error of a stepper falls at a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Fall {
+    /// By which power of the step the error falls from here on; `None` where that was not measured.
+    pub order: Option<f64>,
+    /// The order that the scheme states without dampers.
+    pub stated: Option<u32>,
+    /// What the order falls short by.
+    pub cause: Option<Cause>,
+    /// \[s\] the step of the ladder below which no step is more accurate, in other precisions than
+    /// double: what rounding leaves.
+    pub finest: Option<f64>,
 }
 
 /// The precision whose square root is approximate: shown for comparison, never advised.
@@ -210,6 +238,7 @@ pub(crate) mod tests {
             host_seconds: 1.02 * cost,
             host_spread: 0.05,
             target_instructions: Some(cost * 1e9),
+            fall: Fall::default(),
         }
     }
 

@@ -24,7 +24,8 @@ use crate::costs::Costs;
 use crate::grid::{Grid, SAMPLES, unit};
 use crate::limits::{Limit, Limits};
 use crate::measure::{Comparison, UNSTABLE};
-use crate::point::{Point, Stepper};
+use crate::order::{Influences, describe};
+use crate::point::{Fall, Point, Stepper};
 use crate::timing::{Cost, costs};
 use crate::ways::{Way, in_space, ways};
 
@@ -271,7 +272,11 @@ pub fn survey(
         }
     }
     let costs = if options.shipped { Costs::shipped() } else { Costs::none() };
-    let points = jobs.iter().filter_map(|job| point(scene, &costs, job, &grid, &cache)).collect();
+    let with_point =
+        |job: &Job| Some((point(scene, &costs, job, &grid, &cache)?, job.way.method()));
+    let (mut points, methods): (Vec<Point>, Vec<_>) = jobs.iter().filter_map(with_point).unzip();
+    let influences = Influences::of(scene, grid.window());
+    describe(&mut points, &methods, influences, head.uncertainty);
     Ok(Trade { head, period: options.period, points })
 }
 
@@ -439,6 +444,7 @@ fn point(scene: &Scene, costs: &Costs, job: &Job, grid: &Grid, cache: &Cache) ->
         host_seconds: median / step,
         host_spread: spread,
         target_instructions: instructions(scene, costs, &job.way).map(|count| count / step),
+        fall: Fall::default(),
         stepper,
     })
 }

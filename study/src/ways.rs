@@ -69,6 +69,12 @@ impl Way {
         }
     }
 
+    /// The kernel's method; `None` for a reference.
+    #[must_use]
+    pub fn method(&self) -> Option<Method> {
+        if let Self::Kernel(method) = self { Some(*method) } else { None }
+    }
+
     /// Force evaluations per step.
     #[must_use]
     pub fn evaluations(&self) -> u32 {

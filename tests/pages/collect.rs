@@ -8,7 +8,7 @@ use std::sync::Once;
 
 use dbd_study::advice::choice;
 use dbd_study::need::{Need, paper_need};
-use dbd_study::point::{Machine, Point, Stepper, is_paper};
+use dbd_study::point::{Fall, Machine, Point, Stepper, is_paper};
 use dbd_tests::results::{Row, path, rows, rows_of};
 
 use crate::ACCURACIES;
@@ -81,6 +81,7 @@ fn points(text: &str) -> Vec<Point> {
             host_seconds: row.number("host_seconds_per_second"),
             host_spread: row.number("host_spread"),
             target_instructions: number("target_instructions_per_second"),
+            fall: Fall::default(),
         }
     };
     rows_of(text).iter().map(point).collect()

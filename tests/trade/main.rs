@@ -13,6 +13,7 @@ use dbd_plant::{Frequencies, Method, Named as _, PrecisionName, SchemeName};
 use dbd_scene::Scene;
 use dbd_study::advice::{advice, choice, remark};
 use dbd_study::command::Command;
+use dbd_study::point::Cause;
 use dbd_study::stability::MARGIN;
 use dbd_study::{Machine, Point, Trade, TradeOptions, front, survey};
 use dbd_tests::scene;
@@ -182,6 +183,34 @@ fn a_free_rotors_error_is_that_of_its_attitude() {
     }
 }
 
+/// A load that begins and ends within steps leaves any scheme first order, and the choice says so; single
+/// precision says from which step on a smaller one buys nothing.
+#[test]
+fn what_limits_an_order_is_said_with_the_choice() {
+    let spring = "[[tsda]]\nbetween = [\"world\", \"b\"]\npoints = [[0, 0, 0], [0.3, 0, 0]]\n\
+                  stiffness = 1e3\nfree_length = 0.25\n";
+    let load = "[[load]]\nbody = \"b\"\nforce = [0.0, 5.0, 0.0]\nfrom = 0.01234567\n\
+                until = 0.1111111\n";
+    let orders = |more: &str| {
+        let trade = survey_of(&body("loaded", &format!("{spring}{more}")));
+        let fall = |label: &str| {
+            let of = trade.points.iter().filter(|point| point.stepper.label() == label);
+            of.filter(|point| point.advisable).map(|point| point.fall).nth(3).unwrap()
+        };
+        let said: Vec<String> = advice(&trade.points, Machine::Host, trade.head.uncertainty)
+            .into_iter()
+            .map(|advice| advice.sentence)
+            .collect();
+        (fall("pefrl f64"), fall("pefrl f32"), said.join("\n"))
+    };
+    let why = "loads or tables change within its steps";
+    let (calm, single, said) = orders("");
+    assert!((calm.order.unwrap() - 4.0).abs() < 0.5 && calm.cause.is_none(), "{calm:?}");
+    assert!(single.finest.is_some() && !said.contains(why), "{single:?}\n{said}");
+    let (driven, ..) = orders(load);
+    assert_eq!(driven.cause, Some(Cause::LoadsAndTables), "{driven:?}");
+}
+
 #[test]
 fn a_body_at_rest_has_no_unstable_step_and_no_error() {
     let trade = survey_of(&body("rest", ""));
@@ -221,7 +250,7 @@ fn the_command_leaves_its_files_and_says_how_to_run_what_it_chose() {
     let table = fs::read_to_string(results.join("trade.csv")).unwrap();
     let columns: Vec<&str> = table.lines().next().unwrap().split(',').collect();
     assert_eq!(columns, dbd_study::files::COLUMNS);
-    assert_eq!((columns.len(), *columns.last().unwrap()), (21, "host_seconds_least_per_second"));
+    assert_eq!((columns.len(), *columns.last().unwrap()), (23, "finest_step"));
     for file in ["trade.svg", "trade-cortex-m4f.svg", "trade.html"] {
         assert!(results.join(file).is_file(), "{file}");
     }
