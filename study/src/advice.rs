@@ -1,17 +1,17 @@
-//! What the points say in words: which way of stepping to take for an accuracy, and the front as a
-//! table.
+//! What the points say in words: which way of stepping to take for an accuracy.
 //!
-//! `points => advice, text`. A choice is a measured point; what the paper's scheme would
+//! `points => advice`. A choice is a measured point; what the paper's scheme would
 //! need for the same is read between its own points and said to be so.
 
 use std::fmt;
 
-use dbd_plant::digits::{approximate, significant};
+use dbd_plant::digits::significant;
 use dbd_plant::time::{display, rounded};
 
 use crate::need::{Need, PaperNeed, paper_need};
-use crate::point::{Cause, Fall, Machine, Point, Stepper, counted, front, is_paper};
+use crate::point::{Cause, Fall, Machine, Point, counted, is_paper};
 use crate::timing::CALM;
+use crate::words::{Cost, named, percent, shown, times};
 
 /// Decimal exponents of the accuracies spoken of, in metres.
 const DECADES: std::ops::RangeInclusive<i32> = -9..=-3;
@@ -144,62 +144,9 @@ pub fn remark(points: &[Point], machine: Machine) -> Option<&'static str> {
     }
 }
 
-/// A step, after ≈ where it is not the exact number.
-#[must_use]
-pub fn shown(step: f64) -> String {
-    let (exact, short) = (display(step), approximate(step));
-    if exact == short { exact } else { format!("≈{short}") }
-}
-
 /// The nearest f64 to a power of ten, which `powi` need not be.
 fn power_of_ten(exponent: i32) -> f64 {
     format!("1e{exponent}").parse().unwrap_or(f64::NAN)
-}
-
-/// `leapfrog, f32`, as on the command line.
-fn named(stepper: &Stepper) -> String {
-    let mut text = stepper.scheme.clone();
-    if let Some(newton) = stepper.newton.filter(|newton| *newton > 0) {
-        text += &format!(" with {newton} Newton iteration{}", if newton > 1 { "s" } else { "" });
-    }
-    if let Some(damping) = &stepper.damping {
-        text += &format!(" with {damping} damping");
-    }
-    text += &format!(", {}", stepper.precision);
-    if stepper.orientation != "quaternion" {
-        text += &format!(", {}", stepper.orientation);
-    }
-    text
-}
-
-/// A ratio as people say it: two digits.
-#[must_use]
-pub fn times(ratio: f64) -> String {
-    significant(rounded(ratio, 2), 2)
-}
-
-/// A share as people say it.
-#[must_use]
-pub fn percent(share: f64) -> String {
-    format!("{} %", significant(100.0 * share, 2))
-}
-
-/// A cost with its unit.
-pub struct Cost(pub f64, pub Machine);
-
-impl fmt::Display for Cost {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.1 {
-            Machine::Host => {
-                let seconds = significant(rounded(self.0, 2), 2);
-                write!(f, "{seconds} s of a core per simulated second")
-            }
-            Machine::Target => {
-                let millions = significant(rounded(self.0 * 1e-6, 3), 3);
-                write!(f, "{millions} million instructions per simulated second")
-            }
-        }
-    }
 }
 
 /// What the paper's scheme needs against a cost.
@@ -229,90 +176,10 @@ impl fmt::Display for Against {
     }
 }
 
-/// Headings of the front's table, their units beneath.
-#[must_use]
-pub fn headings(machine: Machine) -> [[&'static str; 2]; 6] {
-    let cost = match machine {
-        Machine::Host => ["cost", "core s/s"],
-        Machine::Target => ["cost", "10⁶ instr/s"],
-    };
-    [
-        ["error", "m"],
-        ["stepper", ""],
-        ["step", ""],
-        cost,
-        ["paper's scheme", "times this"],
-        ["energy rms", "J"],
-    ]
-}
-
-/// The front's rows: cells beneath [`headings`], the cheapest first.
-#[must_use]
-pub fn rows(points: &[Point], machine: Machine) -> Vec<(usize, [String; 6])> {
-    front(points, machine)
-        .into_iter()
-        .filter_map(|row| {
-            let point = &points[row];
-            let (cost, error) = point.kept(machine)?;
-            let unit = if machine == Machine::Host { 1.0 } else { 1e-6 };
-            let paper = match paper_need(points, machine, error).map(|paper| paper.need) {
-                _ if is_paper(&point.stepper, machine) => "itself".into(),
-                None | Some(Need::Uncounted | Need::Unstable) => "–".into(),
-                Some(Need::MoreThan { cost: needed }) => format!("> {} *", times(needed / cost)),
-                Some(Need::Never) => "never".into(),
-                Some(Need::Largest { cost: needed, .. }) => format!("≤ {}", times(needed / cost)),
-                Some(Need::Between { cost: needed }) => times(needed / cost),
-                Some(Need::Beyond { cost: needed, .. }) => format!("{} *", times(needed / cost)),
-            };
-            let cells = [
-                format!("{error:.1e}"),
-                point.stepper.label(),
-                shown(point.step),
-                significant(rounded(cost * unit, 3), 3),
-                paper,
-                point.energy_rms.map_or("–".into(), |energy| format!("{energy:.1e}")),
-            ];
-            Some((row, cells))
-        })
-        .collect()
-}
-
-/// The front for the terminal.
-#[must_use]
-pub fn table(points: &[Point], machine: Machine) -> String {
-    let rows = rows(points, machine);
-    if rows.is_empty() {
-        return String::new();
-    }
-    let headings = headings(machine);
-    let cells = |line: usize| headings.map(|heading| heading[line].to_owned());
-    let lines: Vec<[String; 6]> =
-        [cells(0), cells(1)].into_iter().chain(rows.into_iter().map(|(_, cells)| cells)).collect();
-    let width = |column: usize| lines.iter().map(|row| row[column].chars().count()).max();
-    let widths: [usize; 6] = std::array::from_fn(|column| width(column).unwrap_or(0));
-    let mut text = String::new();
-    for row in &lines {
-        let padded: Vec<String> = row
-            .iter()
-            .zip(widths)
-            .enumerate()
-            .map(|(column, (cell, width))| match column {
-                1 => format!("{cell:<width$}"),
-                _ => format!("{cell:>width$}"),
-            })
-            .collect();
-        text += padded.join("  ").trim_end();
-        text.push('\n');
-    }
-    if lines.iter().any(|row| row[4].ends_with('*')) {
-        text += "* by extrapolation along its last two steps\n";
-    }
-    text
-}
-
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::point::Stepper;
     use crate::point::tests::point;
 
     /// The paper's scheme at order 1, and a better one at order 4.
@@ -322,7 +189,7 @@ pub(crate) mod tests {
         paper.into_iter().chain(better).chain([point("rk4", 1e-2, 1e-9, None)]).collect()
     }
 
-    fn sentences(points: &[Point], machine: Machine, uncertainty: f64) -> Vec<String> {
+    pub(crate) fn sentences(points: &[Point], machine: Machine, uncertainty: f64) -> Vec<String> {
         advice(points, machine, uncertainty).into_iter().map(|advice| advice.sentence).collect()
     }
 
@@ -364,7 +231,6 @@ pub(crate) mod tests {
         assert_eq!(remark(&points, Machine::Host), None);
         points.iter_mut().for_each(|point| point.error = Some(0.0));
         assert_eq!(remark(&points, Machine::Host), Some("every error is zero"));
-        assert!(table(&points, Machine::Host).contains("dbd f64"));
     }
 
     #[test]
@@ -462,22 +328,6 @@ pub(crate) mod tests {
             points[choice(&points, Machine::Host, 1e-4, true).unwrap()].stepper.scheme,
             "pefrl"
         );
-    }
-
-    #[test]
-    fn the_table_is_the_front() {
-        let mut points = ladder();
-        let text = table(&points, Machine::Target);
-        let steppers: Vec<&str> = text.lines().filter(|line| line.contains("f64")).collect();
-        assert_eq!(steppers.len(), front(&points, Machine::Target).len());
-        assert!(steppers[0].contains("dbd f64") && steppers[0].contains("itself"), "{text}");
-        assert!(text.contains('*') && text.ends_with("last two steps\n"), "{text}");
-        for point in &mut points {
-            point.target_instructions = None;
-        }
-        assert_eq!(table(&points, Machine::Target), "");
-        assert!(sentences(&points, Machine::Target, 0.0).is_empty());
-        assert_eq!(remark(&points, Machine::Target), Some("no point has a cost"));
     }
 
     #[test]

@@ -12,15 +12,17 @@ use dbd_plant::time::{display, rounded};
 use dbd_scene::Scene;
 use serde::Serialize;
 
-use crate::advice::{advice, percent, remark, table as table_of};
+use crate::advice::{advice, remark};
 use crate::cache::Head;
 use crate::chart::{Chart, svg};
 use crate::command::Command;
+use crate::front_table::table as table_of;
 use crate::page::html;
 use crate::point::{Machine, Point, front};
 use crate::stability::MARGIN;
 use crate::survey::Trade;
 use crate::timing::{CALM, ROUNDS};
+use crate::words::percent;
 
 /// Columns of `trade.csv`.
 pub const COLUMNS: [&str; 23] = [

@@ -7,6 +7,7 @@
 //! - [`point`]: what a point is, and which of them nothing beats.
 //! - [`costs`]: what a step costs on the target, as counted.
 //! - [`grid`]: the times compared, and the steps that reach them.
+//! - [`frame`](mod@frame): what a survey is asked for.
 //! - [`ways`]: all ways of stepping a scene, and their ladders of steps.
 //! - [`limits`]: how long a step of each may be.
 //! - [`measure`]: how far off a way is at a step.
@@ -14,7 +15,10 @@
 //! - [`cache`]: results, kept as they come.
 //! - [`order`]: how errors fall with the step, and what keeps them from it.
 //! - [`survey`](mod@survey): all points, in parallel.
-//! - [`need`], [`advice`]: what an accuracy costs, in sentences and tables.
+//! - [`need`]: what the paper's scheme costs at an accuracy.
+//! - [`words`]: steps, costs and steppers as people read them.
+//! - [`advice`]: what to choose, in sentences.
+//! - [`front_table`]: what nothing beats, as a table.
 //! - [`command`]: how to run it.
 //! - [`chart`], [`page`]: what people look at.
 //! - [`files`]: writes it and `trade.csv`.
@@ -25,6 +29,8 @@ pub mod chart;
 pub mod command;
 pub mod costs;
 pub mod files;
+pub mod frame;
+pub mod front_table;
 pub mod grid;
 pub mod limits;
 pub mod measure;
@@ -36,6 +42,8 @@ pub mod stability;
 pub mod survey;
 pub mod timing;
 pub mod ways;
+pub mod words;
 
+pub use frame::TradeOptions;
 pub use point::{Machine, Point, Stepper, front};
-pub use survey::{Phase, SurveyError, Trade, TradeOptions, survey};
+pub use survey::{Phase, SurveyError, Trade, survey};

@@ -8,10 +8,12 @@ use std::fmt::Write as _;
 use dbd_output::markup::{PAGE_STYLE, escape};
 use dbd_plant::digits::significant;
 
-use crate::advice::{advice, headings, percent, remark, rows, shown};
+use crate::advice::{advice, remark};
 use crate::chart::{Chart, steppers, svg};
+use crate::front_table::{headings, rows};
 use crate::point::{Machine, Point};
 use crate::stability::MARGIN;
+use crate::words::{percent, shown};
 
 const STYLE: &str = include_str!("trade.css");
 const SCRIPT: &str = include_str!("trade.js");

@@ -158,7 +158,7 @@ fn times(name: &str, points: &[Point]) -> String {
 #[test]
 fn a_survey_becomes_rows() {
     use dbd_study::files::Report;
-    use dbd_study::survey::{TradeOptions, survey};
+    use dbd_study::{TradeOptions, survey};
     use dbd_tests::scene;
 
     let options = TradeOptions { window: Some(1e-3), period: None, cache: None, shipped: true };

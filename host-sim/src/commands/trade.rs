@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use dbd_output::file;
 use dbd_scene::Scene;
-use dbd_study::survey::frame;
+use dbd_study::frame::frame;
 use dbd_study::{Phase, SurveyError, Trade, TradeOptions, files, survey};
 use miette::Diagnostic;
 use serde::Serialize;

@@ -5,10 +5,11 @@ use std::fmt::Write as _;
 use dbd_output::markup::escape;
 use dbd_output::svg::label;
 
-use crate::advice::{choice, shown};
+use crate::advice::choice;
 use crate::chart::drawing::{Drawing, LABEL, RIGHT, STRIP, WIDTH};
 use crate::chart::label_spots::LabelSpots;
 use crate::chart::style::{FAINT, INK};
+use crate::words::shown;
 
 /// The cheapest point for an accuracy.
 pub(super) struct Choice {

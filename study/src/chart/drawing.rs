@@ -10,11 +10,12 @@ use dbd_output::markup::escape;
 use dbd_output::svg::{joined, label};
 use dbd_plant::time::display;
 
-use crate::advice::{Cost, remark, times};
+use crate::advice::remark;
 use crate::chart::axis::Axis;
 use crate::chart::style::{FRONT, INK, Style};
 use crate::command::Command;
 use crate::point::{Machine, Point, Stepper, front, is_paper};
+use crate::words::{Cost, times};
 
 /// What a chart is made from.
 pub struct Chart<'c> {

@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 
 use dbd_output::markup::escape;
 
-use crate::advice::shown;
 use crate::chart::choices::Choice;
 use crate::chart::drawing::{BOTTOM, Drawing, LABEL, LEFT, Line, RIGHT, TOP};
 use crate::chart::label_spots::{LabelSpots, Rectangle};
+use crate::words::shown;
 
 impl Drawing<'_> {
     /// Numbers of the choices, then names: of the front's other points, of the lines where they end.

@@ -3,11 +3,12 @@
 
 use dbd_output::markup::escape;
 
-use crate::advice::{choice, shown};
+use crate::advice::choice;
 use crate::chart::drawing::*;
 use crate::command::Command;
 use crate::point::tests::point;
 use crate::point::{Machine, Point};
+use crate::words::shown;
 
 /// Order, error at 1 ms \[m\], evaluations per step, largest stable step \[s\] of a scheme.
 const SCHEMES: [(&str, i32, f64, f64, f64); 8] = [
