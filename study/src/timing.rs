@@ -39,7 +39,7 @@ const SETS: usize = 4;
 pub const CALM: f64 = 0.2;
 
 /// \[s\] per measurement.
-const BATCH: f64 = 1e-3;
+const BATCH: f64 = 5e-4;
 
 /// Takes so many steps of a way.
 type Take<'t> = Box<dyn FnMut(u64) + 't>;
