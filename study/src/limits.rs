@@ -4,11 +4,10 @@
 //! linear limit bears at the highest frequency of the pose at t = 0, preloads included, and what
 //! [`crate::stability`] finds by running, dampers included and out of the plane of a planar motion,
 //! too. Advised is what keeps [`MARGIN`] below that, and turns no body further than a run accepts
-//! without a warning. References are judged by their linear limit alone: nobody is advised to take
-//! them.
+//! without a warning. Explicit references with dampers are judged by the kernel's explicit step.
 
 use dbd_kernel::State;
-use dbd_plant::{Frequencies, Method, OrientationName, PrecisionName};
+use dbd_plant::{DampingName, Frequencies, Method, OrientationName, PrecisionName, SchemeName};
 use dbd_scene::Scene;
 
 use crate::stability::{MARGIN, Vibration};
@@ -23,6 +22,7 @@ const SLACK: f64 = 0.01;
 pub struct Limits {
     frequencies: Frequencies,
     vibration: Option<Vibration>,
+    damped: bool,
 }
 
 /// How long a step of a way may be.
@@ -60,7 +60,8 @@ impl Limits {
     pub fn of(scene: &Scene) -> Self {
         let state = State::initial(&scene.model);
         let vibration = Vibration::about(&scene.model, &state);
-        Self { frequencies: Frequencies::of(scene), vibration }
+        let damped = !scene.model.dampers.is_empty();
+        Self { frequencies: Frequencies::of(scene), vibration, damped }
     }
 
     /// \[rad/s\] the highest frequency; 0 where nothing vibrates.
@@ -74,8 +75,17 @@ impl Limits {
     /// `None` where only the linear limit does.
     #[must_use]
     pub fn decisive(&self, way: &Way) -> Option<Method> {
-        let Way::Kernel(method) = way else { return None };
         self.vibration.as_ref()?;
+        let method = match way {
+            Way::Kernel(method) => *method,
+            Way::LinearlyImplicitEuler => return None,
+            // One evaluation with explicit dampers per step: at most as stable as the kernel's.
+            _ if self.damped => {
+                let method = Method::new(SchemeName::SemiImplicitEuler, None, PrecisionName::F64);
+                method.and_then(|method| method.with_damping(DampingName::Explicit)).ok()?
+            }
+            _ => return None,
+        };
         let method = method.with_precision(PrecisionName::F64);
         Some(method.with_orientation(OrientationName::Quaternion))
     }

@@ -159,7 +159,7 @@ proptest! {
         let limits = Limits::of(&scene);
         let state = State::initial(&scene.model);
         let all = ways(&scene, true);
-        let kernel: Vec<&Way> = all.iter().filter(|way| limits.decisive(way).is_some()).collect();
+        let kernel: Vec<&Way> = all.iter().filter(|way| way.method().is_some()).collect();
         let way = kernel[which % kernel.len()];
         let Way::Kernel(method) = way else { unreachable!() };
         let limit = limits.limit(way, limits.decisive(way).map(|method| limits.found(&method)));
