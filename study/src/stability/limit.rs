@@ -86,6 +86,8 @@ pub fn stability(
     state: &State<SceneModel<F64>>,
     method: &Method,
 ) -> Result<Option<Stability>, MethodError> {
+    // A method that has no stability is refused where nothing vibrates, too.
+    judged(method)?;
     Vibration::about(model, state).map(|vibration| vibration.stability(method)).transpose()
 }
 
