@@ -23,9 +23,6 @@ const STEPS_WITHOUT_SPRINGS: f64 = 1000.0;
 /// and accuracy.
 pub const LARGEST_TURN: f64 = 0.1;
 
-/// The estimate is at most so much low, as a share: a step beyond a limit by less is not spoken of.
-const SLACK: f64 = 0.01;
-
 /// The highest angular frequency and the fastest spin of a scene at t = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frequencies {
@@ -98,30 +95,6 @@ impl Frequencies {
         let longest = duration / STEPS_WITHOUT_SPRINGS;
         let vibration = self.vibration_step().unwrap_or(longest);
         self.spin_step().map_or(vibration, |spin| vibration.min(spin))
-    }
-
-    /// All that there is to say of a step of a scheme whose largest stable `ω·h` is `limit`.
-    #[must_use]
-    pub fn warnings(&self, scene: &Scene, limit: f64, step: f64) -> Vec<String> {
-        let vibration = self.vibration_warning(limit, step);
-        vibration.into_iter().chain(self.warning(scene, step)).collect()
-    }
-
-    /// What to say of a step beyond the limit of the fastest vibration: by the estimate, for the
-    /// bound may lie a third above what vibrates.
-    #[must_use]
-    pub fn vibration_warning(&self, limit: f64, step: f64) -> Option<String> {
-        let longest = limit / self.estimate;
-        (step > longest * (1.0 + SLACK)).then(|| {
-            format!(
-                "a step of {} is beyond {} of the highest frequency at t = 0, {} Hz: the run may \
-                 diverge; the largest stable step is {}",
-                display(step),
-                format_args!("{}/ω", significant(limit, 4)),
-                significant(self.estimate_hz(), 4),
-                approximate(longest),
-            )
-        })
     }
 
     /// \[s\] the longest step in which no body turns too far; infinite where none spins.

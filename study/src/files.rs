@@ -177,7 +177,7 @@ fn conditions(trade: &Trade) -> Vec<String> {
             .into(),
         format!(
             "advised steps keep {} below the largest stable one, for frequencies change along a motion, \
-             and turn no body by more than {LARGEST_TURN} rad",
+             turn no body by more than {LARGEST_TURN} rad, and are what the bound of the frequency allows",
             percent(MARGIN),
         ),
         format!(

@@ -77,20 +77,19 @@ fn the_margin_is_that_of_the_pages() {
     assert_eq!(page.matches(&margin).count(), 2, "{margin}");
 }
 
-/// What a run says of a step, and that no advised step is spoken of.
+/// A run warns of a step beyond what the bound of the frequency allows, and of one that turns a body too
+/// far: no advised step does either.
 #[test]
 fn an_advised_step_is_taken_without_a_warning() {
-    for name in ["four-bar", "gyroscope", "spring-ball", "five-bar-a"] {
+    for name in ["four-bar", "gyroscope", "spring-ball", "3rrr"] {
         let scene = scene(name);
         let (frequencies, limits) = (Frequencies::of(&scene), Limits::of(&scene));
         for way in ways(&scene, false) {
             let Way::Kernel(method) = way else { continue };
-            let linear = method.stability_limit();
-            let warnings = |step| frequencies.warnings(&scene, linear, step);
-            let limit = limits.limit(&way, None);
-            assert_eq!(warnings(limit.advised), Vec::<String>::new(), "{name}, {method:?}");
-            let said = warnings(1.1 * limit.stable).join("\n");
-            assert!(said.contains("the run may diverge"), "{name}, {method:?}: {said}");
+            let advised = limits.limit(&way, None).advised;
+            let z = frequencies.bound * advised;
+            assert!(z <= method.stability_limit() * (1.0 + 1e-12), "{name}, {method:?}: {z}");
+            assert_eq!(frequencies.warning(&scene, advised), None, "{name}, {method:?}");
         }
     }
     // Where a spin allows less than a vibration, the spin decides.
@@ -100,8 +99,8 @@ fn an_advised_step_is_taken_without_a_warning() {
     let way = Way::Kernel(Method::default());
     let limit = Limits::of(&top).limit(&way, None);
     assert!(limit.stable.is_infinite() && (limit.advised - 0.1 / 400.0).abs() < 1e-12);
-    let said = Frequencies::of(&top).warnings(&top, 2.0, 1.1 * limit.advised);
-    assert!(said.len() == 1 && said[0].contains("turns by"), "{said:?}");
+    let said = Frequencies::of(&top).warning(&top, 1.1 * limit.advised).unwrap();
+    assert!(said.contains("turns by"), "{said}");
 }
 
 /// Each way's advised step, on all scenes that ship: stable when it is run, in space, dampers
@@ -170,7 +169,8 @@ proptest! {
         };
         let most = (1.0 - MARGIN) * checked;
         prop_assert!(limit.advised <= most, "{:?}: {:?}, checked {:e}", method, limit, checked);
-        prop_assert!(limit.advised > 0.93 * most, "{:?}: {:?}, checked {:e}", method, limit, checked);
+        let sure = method.stability_limit() / Frequencies::of(&scene).bound;
+        prop_assert!(limit.advised > 0.93 * most.min(sure), "{:?}: {:?}, checked {:e}", method, limit, checked);
         prop_assert!(!limit.advises(checked) && limit.is_beyond(1.02 * checked));
     }
 }
