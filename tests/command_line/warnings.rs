@@ -102,7 +102,7 @@ fn a_run_says_what_check_says_and_which_joint_opened_when_and_how_far() {
     for part in [&format!("joint `{joint}` opened by "), "% of its free length", "from t = 2"] {
         assert!(opened.contains(part), "{part}: {opened}");
     }
-    let report = fs::read_to_string(folder.path("out/gripper/report.html")).unwrap();
+    let report = fs::read_to_string(folder.path("out/scene/report.html")).unwrap();
     for warning in &said {
         assert!(done.out.contains(warning), "{warning}: {}", done.out);
         assert!(report.contains(warning), "{warning}");
@@ -154,6 +154,29 @@ fn a_step_beyond_the_limit_is_warned_of_by_run_and_check() {
         checked.contains("the scene's step of 50ms is beyond what leapfrog bears"),
         "{checked}"
     );
+}
+
+#[test]
+fn a_step_too_short_for_single_precision_is_warned_of() {
+    let folder = Folder::new();
+    let said = |scheme: &str, precision: &str, step: &str| {
+        let options = ["--scheme", scheme, "--precision", precision, "--step", step];
+        let summary = folder.summary("hexagon", &[&options[..], &["--duration", "1ms"]].concat());
+        warnings(&summary)
+    };
+    for (scheme, precision, step, warned) in [
+        ("pefrl", "f32", "10us", true),
+        ("pefrl", "f32", "20us", false),
+        ("pefrl", "f64", "10us", false),
+        ("leapfrog", "f32", "10us", false),
+        ("leapfrog", "f32", "1us", true),
+        ("rk4", "f32", "1us", true),
+        ("semi-implicit-euler", "f32", "1us", false),
+    ] {
+        let said = said(scheme, precision, step);
+        assert_eq!(said.len(), usize::from(warned), "{scheme}, {precision}, {step}: {said:#?}");
+        assert!(said.iter().all(|text| text.contains("is short for")), "{said:#?}");
+    }
 }
 
 #[test]

@@ -6,13 +6,20 @@
 use dbd_plant::digits::{approximate, significant};
 use dbd_plant::judge::{OPENED, Opening};
 use dbd_plant::time::{display, rounded};
-use dbd_plant::{Frequencies, Method};
+use dbd_plant::{Frequencies, Method, PrecisionName};
 use dbd_scene::{Scene, Severity};
 
 use crate::compliance::{Stretch, stretches};
 
 /// Joints that a warning names besides the worst.
 const NAMED: usize = 4;
+
+/// ω·h with the bound below which the error in single precision has grown to several times its
+/// least on every mechanism that was measured: docs/schemes.md.
+const SHORTEST: f64 = 0.0125;
+
+/// The same of compositions, which round every part of a step.
+const SHORTEST_COMPOSED: f64 = 0.1;
 
 /// What is probably not meant in the scene itself.
 #[must_use]
@@ -95,8 +102,35 @@ pub fn of_step(
             approximate(limit / frequencies.bound),
         ));
     }
+    warnings.extend(of_rounding(frequencies, method, step, whose));
     warnings.extend(frequencies.warning(scene, step));
     warnings
+}
+
+/// A step so short that single precision loses more by rounding, step after step, than a shorter
+/// step gains.
+fn of_rounding(
+    frequencies: &Frequencies,
+    method: &Method,
+    step: f64,
+    whose: &str,
+) -> Option<String> {
+    let product = frequencies.bound * step;
+    let [order, _] = method.orders();
+    let shortest = match method.scheme_name() {
+        _ if method.precision() == PrecisionName::F64 || order < 2 => return None,
+        "pefrl" | "blanes-moan-s6" => SHORTEST_COMPOSED,
+        _ => SHORTEST,
+    };
+    (0.0 < product && product < shortest).then(|| {
+        format!(
+            "{whose} of {} is short for {} in single precision: ω·h = {}, and below {shortest} rounding \
+             has cost more than a shorter step gains; a longer step is more accurate, or f64",
+            display(step),
+            method.scheme_name(),
+            significant(product, 3),
+        )
+    })
 }
 
 /// What a run did that is probably not meant: joints that opened by more than [`OPENED`] of their
