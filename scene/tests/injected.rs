@@ -106,7 +106,7 @@ fn freedoms_by_rank_are_those_of_the_mechanisms() {
         ("spring-ball", 6, 6),
     ] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name);
-        let facts = Scene::load(&path.with_extension("toml")).unwrap().facts();
+        let facts = Scene::load(path.with_extension("toml")).unwrap().facts();
         assert_eq!(
             (facts.degrees_of_freedom, facts.freedoms_by_rank),
             (count, Some(rank)),

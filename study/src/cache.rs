@@ -74,7 +74,6 @@ pub enum Entry {
         /// Its label.
         way: String,
         /// Its time.
-        #[serde(flatten)]
         cost: Cost,
     },
 }

@@ -25,7 +25,7 @@ const FURTHEST: f64 = 1e7;
 pub struct TradeOptions {
     /// \[s\] the longest window; 0.5 s or the scene's duration where `None`.
     pub window: Option<f64>,
-    /// \[s\] every step divides it: the period of a controller; see [`unit`] where `None`.
+    /// \[s\] every step divides it: the period of a controller; see [`unit()`] where `None`.
     pub period: Option<f64>,
     /// The folder that results are kept in; nothing is kept where `None`.
     pub cache: Option<PathBuf>,

@@ -165,9 +165,9 @@ fn a_step_too_short_for_single_precision_is_warned_of() {
         warnings(&summary)
     };
     for (scheme, precision, step, warned) in [
-        ("pefrl", "f32", "10us", true),
-        ("pefrl", "f32", "20us", false),
-        ("pefrl", "f64", "10us", false),
+        ("pefrl", "f32", "4us", true),
+        ("pefrl", "f32", "10us", false),
+        ("pefrl", "f64", "4us", false),
         ("leapfrog", "f32", "10us", false),
         ("leapfrog", "f32", "1us", true),
         ("rk4", "f32", "1us", true),

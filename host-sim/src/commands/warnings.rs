@@ -19,7 +19,7 @@ const NAMED: usize = 4;
 const SHORTEST: f64 = 0.0125;
 
 /// The same of compositions, which round every part of a step.
-const SHORTEST_COMPOSED: f64 = 0.1;
+const SHORTEST_COMPOSED: f64 = 0.03;
 
 /// What is probably not meant in the scene itself.
 #[must_use]
