@@ -47,6 +47,16 @@ impl<R: Real> Body<R> {
     }
 }
 
+/// A change of velocity \[m/s\] (world) and of angular velocity \[rad/s\] (body axes).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Increment<R> {
+    /// \[m/s\] world axes.
+    pub linear: Vec3<R>,
+    /// \[rad/s\] body axes.
+    pub angular: Vec3<R>,
+}
+
 /// The state of one body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodyState<P: Geometry> {
@@ -58,16 +68,6 @@ pub struct BodyState<P: Geometry> {
     pub velocity: P::Velocity,
     /// \[rad/s\] angular velocity, body axes.
     pub angular_velocity: P::Velocity,
-}
-
-/// A change of velocity \[m/s\] (world) and of angular velocity \[rad/s\] (body axes).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Increment<R> {
-    /// \[m/s\] world axes.
-    pub linear: Vec3<R>,
-    /// \[rad/s\] body axes.
-    pub angular: Vec3<R>,
 }
 
 impl<P: Geometry> BodyState<P> {

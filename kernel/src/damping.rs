@@ -9,9 +9,9 @@
 //! A TSDA damps along its line, a torsion spring along its gradient, a point bushing along the
 //! world's axes, a point on a line along the line's two normals, one after the other.
 //! Velocities are rounded once per pair where [`Geometry::SUMS_APART`] (single precision), else once
-//! per damper. Linear momentum is always kept. Angular momentum is kept by dampers of TSDAs with a free length
-//! and of torsion springs; a damped bushing or point on a line has the law `c·v_rel`, whose torque
-//! vanishes only with its deflection.
+//! per damper. Linear momentum is always kept. Angular momentum is kept by dampers of TSDAs with a
+//! free length and of torsion springs; a damped bushing or point on a line has the law `c·v_rel`,
+//! whose torque vanishes only with its deflection.
 
 use crate::attitude::Attitude as _;
 use crate::body::{Body, BodyState, Increment};

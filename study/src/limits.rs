@@ -4,7 +4,8 @@
 //! linear limit bears at the highest frequency of the pose at t = 0, preloads included, and what
 //! [`crate::stability`] finds by running, dampers included and out of the plane of a planar motion,
 //! too. Advised is what keeps [`MARGIN`] below that and what a run accepts without a warning: no
-//! body turns too far, and the bound of the frequency allows it. Explicit references with dampers are judged by the kernel's explicit step.
+//! body turns too far, and the bound of the frequency allows it. Explicit references with dampers
+//! are judged by the kernel's explicit step.
 
 use dbd_kernel::State;
 use dbd_plant::{DampingName, Frequencies, Method, OrientationName, PrecisionName, SchemeName};

@@ -15,7 +15,7 @@ use crate::compliance::{Stretch, stretches};
 const NAMED: usize = 4;
 
 /// ω·h with the bound below which the error in single precision has grown to several times its
-/// least on every mechanism that was measured: docs/schemes.md.
+/// least on every mechanism of the table in docs/schemes.md.
 const SHORTEST: f64 = 0.0125;
 
 /// The same of compositions, which round every part of a step.
