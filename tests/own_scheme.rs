@@ -35,12 +35,10 @@ impl Scheme for Verlet {
         if !stepper.is_fresh() {
             stepper.evaluate::<DampersLeft>(At::Boundary)?;
         }
-        stepper.sweep_forward();
-        stepper.kick(P::Real::HALF);
+        stepper.damped_kick_forward();
         stepper.drift(stepper.step_size());
         stepper.evaluate::<DampersLeft>(At::Boundary)?;
-        stepper.kick(P::Real::HALF);
-        stepper.sweep_reverse();
+        stepper.damped_kick_reverse();
         Ok(())
     }
 }

@@ -50,6 +50,7 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
     type PerTorsion = M::PerTorsion;
     type PerLoad = M::PerLoad;
     type PerInput = M::PerInput;
+    type PerDamper = M::PerDamper;
     type PerKnot = M::PerKnot;
 
     #[inline(always)]
@@ -95,6 +96,11 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
     #[inline]
     fn per_input(&self) -> M::PerInput {
         self.model.per_input()
+    }
+
+    #[inline]
+    fn per_damper(&self) -> M::PerDamper {
+        self.model.per_damper()
     }
 
     #[inline]

@@ -57,6 +57,33 @@ pub struct Increment<R> {
     pub angular: Vec3<R>,
 }
 
+/// h·D⁻¹ of one body: the step over its mass and its principal inertias.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Diagonal<R> {
+    /// \[s/kg\].
+    pub mass: R,
+    /// \[s/(kg·m²)\].
+    pub inertia: Vec3<R>,
+}
+
+impl<R: Real> Diagonal<R> {
+    /// The diagonal of a body for the step `h` \[s\]: one division each.
+    pub fn new(body: &Body<R>, h: R) -> Self {
+        let i = body.inertia;
+        Self { mass: h / body.mass, inertia: Vec3::new(h / i.x, h / i.y, h / i.z) }
+    }
+
+    /// `scale·(h·D⁻¹)·Q` of a force (world) and a torque (body axes), without the gyroscopic term.
+    #[inline(always)]
+    pub(crate) fn increment(&self, force: Vec3<R>, torque: Vec3<R>, scale: R) -> Increment<R> {
+        Increment {
+            linear: force * (scale * self.mass),
+            angular: torque.scale(self.inertia * scale),
+        }
+    }
+}
+
 /// The state of one body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodyState<P: Geometry> {

@@ -32,9 +32,6 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + 'static {
 
     /// The name users give: `f64`, `f32`.
     const NAME: &'static str;
-    /// Whether the impulses of a joint's dampers are summed apart from a velocity and added at once:
-    /// where the velocity's digits are too few to take them one by one.
-    const SUMS_APART: bool;
     /// How orientations are stored, in users' words.
     const ORIENTATION: &'static str = <Self::Orientation as Attitude>::NAME;
 
@@ -97,18 +94,14 @@ pub struct Pose<R> {
 pub trait Named {
     /// The name users give: `f64`, `f32`.
     const NAME: &'static str;
-    /// See [`Geometry::SUMS_APART`].
-    const SUMS_APART: bool;
 }
 
 impl Named for f64 {
     const NAME: &'static str = "f64";
-    const SUMS_APART: bool = false;
 }
 
 impl Named for f32 {
     const NAME: &'static str = "f32";
-    const SUMS_APART: bool = true;
 }
 
 impl<R: Real + Named, A: Attitude<Real = R>> Geometry for Float<R, A> {
@@ -121,7 +114,6 @@ impl<R: Real + Named, A: Attitude<Real = R>> Geometry for Float<R, A> {
     type Frame = Pose<R>;
 
     const NAME: &'static str = R::NAME;
-    const SUMS_APART: bool = R::SUMS_APART;
 
     #[inline(always)]
     fn frame(position: &Vec3<R>, orientation: &A) -> Pose<R> {

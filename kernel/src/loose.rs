@@ -55,7 +55,6 @@ impl Neg for Loose {
 
 impl Named for Loose {
     const NAME: &'static str = "f32-micromath";
-    const SUMS_APART: bool = true;
 }
 
 /// The coefficients of single precision.

@@ -8,10 +8,12 @@ use core::ops::Deref;
 
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
+use crate::damping::{Damping, share};
 use crate::forces::Wrench;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, InputIndex};
 use crate::model::{FrameOf, ModelOwner, RealOf, Terms};
+use crate::pose::{Places, place_bodies};
 use crate::real::Real;
 use crate::schedule::{KnotStep, LoadWindow, Signal, StageTime, sample};
 use crate::schemes::Scheme;
@@ -32,6 +34,7 @@ where
     step_size: f64,
     h: RealOf<H::Target>,
     diagonals: PerBody<H, Diagonal<RealOf<H::Target>>>,
+    shares: <H::Target as ModelOwner>::PerDamper,
     windows: <H::Target as ModelOwner>::PerLoad,
     knots: <H::Target as ModelOwner>::PerKnot,
     state: State<H::Target>,
@@ -149,7 +152,14 @@ where
             *step = KnotStep::new(knot.time, step_size);
         }
         let state = State::initial(owner);
-        let frames = owner.per_body(FrameOf::<H::Target>::default());
+        let mut frames = owner.per_body(FrameOf::<H::Target>::default());
+        let mut shares = owner.per_damper();
+        if <H::Target as ModelOwner>::Terms::DAMPERS && S::DAMPING == Damping::Sweeps {
+            let (bodies, signals) = (state.bodies.as_ref(), state.signals.as_ref());
+            place_bodies(bodies, frames.as_mut());
+            let places = Places { frames: frames.as_ref(), signals };
+            share(&view, places, bodies, state.turns.as_ref(), shares.as_mut());
+        }
         let wrenches = owner.per_body(Wrench::default());
         let memory = owner.per_body(S::Memory::default());
         let mut plant = Self {
@@ -158,6 +168,7 @@ where
             step_size,
             h,
             diagonals,
+            shares,
             windows,
             knots,
             state,
@@ -199,6 +210,7 @@ where
             model,
             h: self.h,
             diagonals: self.diagonals.as_ref(),
+            shares: self.shares.as_ref(),
             windows: self.windows.as_ref(),
             knots: self.knots.as_ref(),
             signals: self.state.signals.as_mut(),

@@ -138,8 +138,6 @@ pub(crate) struct Placed<'m, R> {
     pub(crate) arm_a: Vec3<R>,
     /// The arm of the second point.
     pub(crate) arm_b: Vec3<R>,
-    /// The rate of the displacement that moved ground gives it, world axes.
-    pub(crate) ground_rate: Vec3<R>,
 }
 
 /// Element `i` of a group with its index, `None` where the model lacks it or its points.
@@ -165,9 +163,8 @@ pub(crate) fn placed<'m, P: Geometry, T: Terms>(
         displacement = projection.deflection;
         arm_a = end_a.arm_at(arm_a, direction * projection.slide);
     }
-    let ground_rate = end_b.velocity - end_a.velocity;
     let stretch = Stretch { displacement, direction };
-    Some(Placed { group, number, index, stretch, arm_a, arm_b, ground_rate })
+    Some(Placed { group, number, index, stretch, arm_a, arm_b })
 }
 
 /// The most points of the second body that one of the first is joined to.

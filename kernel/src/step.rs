@@ -4,8 +4,9 @@
 //! `(h·D⁻¹)·Q`, a drift changes poses; the diagonal h·D⁻¹ is computed once per (model, step),
 //! D the diagonal of masses and principal inertias (Franco & Degani 2026, eq. 7–8).
 
-use crate::body::{Body, BodyState, Increment};
-use crate::damping;
+pub use crate::body::Diagonal;
+use crate::body::{BodyState, Increment};
+use crate::damping::{self, HalfKick, NoKick, Share, Sweep};
 use crate::forces::{self, At, Dampers, Evaluation, Instant, Turns, Wrench};
 use crate::geometry::Geometry;
 use crate::model::{ModelRef, Terms};
@@ -14,25 +15,6 @@ use crate::real::Real;
 use crate::rotation;
 use crate::schedule::{self, KnotStep, LoadWindow, Signal, StageTime};
 use crate::status::Cause;
-use crate::vector::Vec3;
-
-/// h·D⁻¹ of one body: the step over its mass and its principal inertias.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Diagonal<R> {
-    /// \[s/kg\].
-    pub mass: R,
-    /// \[s/(kg·m²)\].
-    pub inertia: Vec3<R>,
-}
-
-impl<R: Real> Diagonal<R> {
-    /// The diagonal of a body for the step `h` \[s\]: one division each.
-    pub fn new(body: &Body<R>, h: R) -> Self {
-        let i = body.inertia;
-        Self { mass: h / body.mass, inertia: Vec3::new(h / i.x, h / i.y, h / i.z) }
-    }
-}
 
 /// What a plant knows of its evaluations. Never part of the state: evaluating anew gives the same
 /// bits.
@@ -57,6 +39,8 @@ pub struct Stepper<'s, 'm, P: Geometry, T, S> {
     pub(crate) h: P::Real,
     /// h·D⁻¹ per body.
     pub(crate) diagonals: &'s [Diagonal<P::Real>],
+    /// The dampers' shares.
+    pub(crate) shares: &'s [Share<P::Real>],
     /// The loads' windows.
     pub(crate) windows: &'s [LoadWindow],
     /// The tables' knots among the steps.
@@ -90,6 +74,13 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     #[must_use]
     pub fn bodies(&self) -> &[BodyState<P>] {
         self.bodies
+    }
+
+    /// Whether the model has any damper.
+    #[inline]
+    #[must_use]
+    pub fn has_dampers(&self) -> bool {
+        T::DAMPERS && !self.model.dampers.is_empty()
     }
 
     /// Brings the tables of inputs to the time of a stage, at `part` of this step, 0 to 1. A step
@@ -145,10 +136,9 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     pub fn kick(&mut self, scale: P::Real) {
         let rows = self.bodies.iter_mut().zip(self.wrenches.iter()).zip(self.diagonals);
         for ((state, wrench), diagonal) in rows {
-            let linear = wrench.force * (scale * diagonal.mass);
-            let angular = wrench.torque.scale(diagonal.inertia * scale);
-            P::accelerate(&mut state.velocity, linear);
-            P::accelerate(&mut state.angular_velocity, angular);
+            let increment = diagonal.increment(wrench.force, wrench.torque, scale);
+            P::accelerate(&mut state.velocity, increment.linear);
+            P::accelerate(&mut state.angular_velocity, increment.angular);
         }
     }
 
@@ -190,31 +180,62 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
         }
     }
 
-    /// Half a step of the dampers in ascending order; frames are those of the present pose.
+    /// Kick and dampers of half a step as one: a kick by half, then the dampers in ascending
+    /// order, which know of it. A strong damper leaves the rate at which it bears the force.
+    /// Frames and wrenches are those of the present pose, without dampers.
     #[inline]
-    pub fn sweep_forward(&mut self) {
+    pub fn damped_kick_forward(&mut self) {
+        self.kick(P::Real::HALF);
+        self.sweep_after_kick::<false>();
+    }
+
+    /// [`Self::damped_kick_forward`] with the dampers in descending order.
+    #[inline]
+    pub fn damped_kick_reverse(&mut self) {
+        self.kick(P::Real::HALF);
+        self.sweep_after_kick::<true>();
+    }
+
+    #[inline(always)]
+    fn sweep_after_kick<const REVERSE: bool>(&mut self) {
+        let (wrenches, diagonals) = (&*self.wrenches, self.diagonals);
         if T::DAMPERS {
-            damping::sweep::<P, T, false>(
-                &self.model,
-                P::Real::HALF * self.h,
-                Places { frames: self.frames, signals: self.signals },
-                self.bodies,
-                self.turns,
-            );
+            let sweep = Sweep {
+                h: P::Real::HALF * self.h,
+                places: Places { frames: self.frames, signals: self.signals },
+                turns: self.turns,
+                shares: self.shares,
+                kick: HalfKick { wrenches, diagonals },
+            };
+            damping::sweep::<P, T, _, REVERSE>(&self.model, &sweep, self.bodies);
         }
     }
 
-    /// Half a step of the dampers in descending order; frames are those of the present pose.
+    /// Half a step of the dampers by themselves in ascending order; frames are those of the
+    /// present pose. Where forces act within the same step, [`Self::damped_kick_forward`] follows
+    /// a strong damper truly; this stops its motion and lets the forces start it anew.
+    #[inline]
+    pub fn sweep_forward(&mut self) {
+        self.sweep_alone::<false>();
+    }
+
+    /// [`Self::sweep_forward`] in descending order.
     #[inline]
     pub fn sweep_reverse(&mut self) {
+        self.sweep_alone::<true>();
+    }
+
+    #[inline(always)]
+    fn sweep_alone<const REVERSE: bool>(&mut self) {
         if T::DAMPERS {
-            damping::sweep::<P, T, true>(
-                &self.model,
-                P::Real::HALF * self.h,
-                Places { frames: self.frames, signals: self.signals },
-                self.bodies,
-                self.turns,
-            );
+            let sweep = Sweep {
+                h: P::Real::HALF * self.h,
+                places: Places { frames: self.frames, signals: self.signals },
+                turns: self.turns,
+                shares: self.shares,
+                kick: NoKick,
+            };
+            damping::sweep::<P, T, _, REVERSE>(&self.model, &sweep, self.bodies);
         }
     }
 

@@ -38,7 +38,7 @@ use std::path::Path;
 
 pub use columns::{BODY_COLUMNS, ENERGY_COLUMNS};
 pub use error::{Refusal, SceneError};
-pub use facts::{ElementFrequency, Facts, Island, JointElement, JointFacts};
+pub use facts::{ElementDamping, ElementFrequency, Facts, Island, JointElement, JointFacts};
 pub use hinge::Hinge;
 pub use input::InputInfo;
 pub use lint::{Severity, Warning};

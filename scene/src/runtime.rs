@@ -5,6 +5,7 @@
 use std::marker::PhantomData;
 
 use dbd_kernel::body::Body;
+use dbd_kernel::damping::Share;
 use dbd_kernel::elements::input::{Input, Knot};
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::model::{AllTerms, Group, ModelOwner, ModelRef};
@@ -112,6 +113,7 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
     type PerTorsion = Vec<i32>;
     type PerLoad = Vec<LoadWindow>;
     type PerInput = Vec<Signal<P::Real>>;
+    type PerDamper = Vec<Share<P::Real>>;
     type PerKnot = Vec<KnotStep<P::Real>>;
 
     fn view(&self) -> ModelRef<'_, P, AllTerms> {
@@ -151,6 +153,10 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
 
     fn per_input(&self) -> Self::PerInput {
         vec![Signal::default(); self.inputs.len()]
+    }
+
+    fn per_damper(&self) -> Self::PerDamper {
+        vec![Share::ALONE; self.dampers.len()]
     }
 
     fn per_knot(&self) -> Self::PerKnot {

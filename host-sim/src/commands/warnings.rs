@@ -3,11 +3,12 @@
 //! `(scene, method, step, openings) => sentences`. The one place that knows them: `check`, `run` and
 //! `trade` say what of it they can know. No warning changes an exit code.
 
+use dbd_kernel::damping::Damping;
 use dbd_plant::digits::{approximate, significant};
 use dbd_plant::judge::{OPENED, Opening};
 use dbd_plant::time::{display, rounded};
 use dbd_plant::{Frequencies, Method, PrecisionName};
-use dbd_scene::{Scene, Severity};
+use dbd_scene::{ElementDamping, Scene, Severity};
 
 use crate::compliance::{Stretch, stretches};
 
@@ -20,6 +21,14 @@ const SHORTEST: f64 = 0.0125;
 
 /// The same of compositions, which round every part of a step.
 const SHORTEST_COMPOSED: f64 = 0.03;
+
+/// Schemes composed of several kicks.
+const COMPOSED: [&str; 2] = ["pefrl", "blanes-moan-s6"];
+
+/// h·c/μ up to which the slow motion of the table in docs/schemes.md is within 1 %: of dampers that
+/// cross, and of all under compositions.
+const STRONGEST_CROSSED: f64 = 2.0;
+const STRONGEST_COMPOSED: f64 = 0.3;
 
 /// What is probably not meant in the scene itself.
 #[must_use]
@@ -102,9 +111,45 @@ pub fn of_step(
             approximate(limit / frequencies.bound),
         ));
     }
+    warnings.extend(of_damping(scene, method, step, whose));
     warnings.extend(of_rounding(frequencies, method, step, whose));
     warnings.extend(frequencies.warning(scene, step));
     warnings
+}
+
+/// Dampers so strong that what they slow down moves too fast: of all for a composition, whose sweeps
+/// lie around the step, of those that cross for the others.
+fn of_damping(scene: &Scene, method: &Method, step: f64, whose: &str) -> Option<String> {
+    if method.damping() != Damping::Sweeps {
+        return None;
+    }
+    let composed = COMPOSED.contains(&method.scheme_name());
+    let most = if composed { STRONGEST_COMPOSED } else { STRONGEST_CROSSED };
+    let rate = |element: &ElementDamping| if composed { element.rate } else { element.crossed };
+    let mut strong = scene.element_dampings();
+    strong.retain(|element| rate(element) * step > most);
+    strong.sort_by(|a, b| rate(b).total_cmp(&rate(a)));
+    let (worst, others) = strong.split_first()?;
+    let line = scene.line_of_element(worst.row).map(|line| format!(" (line {line})"));
+    let mut text = format!(
+        "{whose} of {} is long for the dampers of {}{}: h·c/μ = {}",
+        display(step),
+        worst.name,
+        line.unwrap_or_default(),
+        significant(rate(worst) * step, 3),
+    );
+    if let Some(named) = named(others.iter().map(|element| element.name.clone())) {
+        text += &format!(", and of {named}");
+    }
+    let shorter = approximate(most / rate(worst));
+    text += &format!("; beyond {most} what they slow down may move too fast by more than 1 %");
+    text += &match composed {
+        true => {
+            format!(" under {}: leapfrog, or a step of at most {shorter}", method.scheme_name())
+        }
+        false => format!(", where dampers cross: a step of at most {shorter}"),
+    };
+    Some(text)
 }
 
 /// A step so short that single precision loses more by rounding, step after step, than a shorter
@@ -119,7 +164,7 @@ fn of_rounding(
     let [order, _] = method.orders();
     let shortest = match method.scheme_name() {
         _ if method.precision() == PrecisionName::F64 || order < 2 => return None,
-        "pefrl" | "blanes-moan-s6" => SHORTEST_COMPOSED,
+        name if COMPOSED.contains(&name) => SHORTEST_COMPOSED,
         _ => SHORTEST,
     };
     (0.0 < product && product < shortest).then(|| {

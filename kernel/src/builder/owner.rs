@@ -6,6 +6,7 @@ use heapless::Vec;
 
 use crate::body::BodyState;
 use crate::builder::ModelBuilder;
+use crate::damping::Share;
 use crate::geometry::Geometry;
 use crate::model::{AllTerms, ModelOwner, ModelRef};
 use crate::schedule::{KnotStep, LoadWindow, Signal};
@@ -45,6 +46,7 @@ impl<
     type PerTorsion = Vec<i32, TORSIONS>;
     type PerLoad = Vec<LoadWindow, LOADS>;
     type PerInput = Vec<Signal<P::Real>, INPUTS>;
+    type PerDamper = Vec<Share<P::Real>, DAMPERS>;
     type PerKnot = Vec<KnotStep<P::Real>, KNOTS>;
 
     fn view(&self) -> ModelRef<'_, P, AllTerms> {
@@ -84,6 +86,10 @@ impl<
 
     fn per_input(&self) -> Self::PerInput {
         self.inputs.iter().map(|_| Signal::default()).collect()
+    }
+
+    fn per_damper(&self) -> Self::PerDamper {
+        self.dampers.iter().map(|_| Share::ALONE).collect()
     }
 
     fn per_knot(&self) -> Self::PerKnot {

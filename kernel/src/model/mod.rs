@@ -19,6 +19,7 @@ use core::marker::PhantomData;
 
 use crate::body::Body;
 use crate::body::BodyState;
+use crate::damping::Share;
 use crate::elements::element::Element;
 pub use crate::elements::element::Law;
 use crate::elements::input::{Input, Knot};
@@ -181,6 +182,8 @@ pub trait ModelOwner {
     type PerLoad: Clone + AsRef<[LoadWindow]> + AsMut<[LoadWindow]>;
     /// Memory of one signal per input.
     type PerInput: Clone + AsRef<[Signal<RealOf<Self>>]> + AsMut<[Signal<RealOf<Self>>]>;
+    /// Memory of one share per damper.
+    type PerDamper: Clone + AsRef<[Share<RealOf<Self>>]> + AsMut<[Share<RealOf<Self>>]>;
     /// Memory of one knot in steps per knot.
     type PerKnot: Clone + AsRef<[KnotStep<RealOf<Self>>]> + AsMut<[KnotStep<RealOf<Self>>]>;
 
@@ -196,6 +199,8 @@ pub trait ModelOwner {
     fn per_load(&self) -> Self::PerLoad;
     /// One zero signal per input.
     fn per_input(&self) -> Self::PerInput;
+    /// One share per damper.
+    fn per_damper(&self) -> Self::PerDamper;
     /// One knot in steps per knot.
     fn per_knot(&self) -> Self::PerKnot;
 }

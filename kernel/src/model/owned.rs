@@ -3,6 +3,7 @@
 use core::marker::PhantomData;
 
 use crate::body::{Body, BodyState};
+use crate::damping::Share;
 use crate::elements::input::{Input, InputKind, Knot};
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
@@ -233,6 +234,7 @@ impl<
     type PerTorsion = [i32; TORSIONS];
     type PerLoad = [LoadWindow; LOADS];
     type PerInput = [Signal<P::Real>; INPUTS];
+    type PerDamper = [Share<P::Real>; DAMPERS];
     type PerKnot = [KnotStep<P::Real>; KNOTS];
 
     #[inline(always)]
@@ -277,6 +279,11 @@ impl<
     #[inline]
     fn per_input(&self) -> [Signal<P::Real>; INPUTS] {
         [Signal { value: P::Real::ZERO, rate: P::Real::ZERO }; INPUTS]
+    }
+
+    #[inline]
+    fn per_damper(&self) -> [Share<P::Real>; DAMPERS] {
+        [Share::ALONE; DAMPERS]
     }
 
     #[inline]

@@ -56,16 +56,18 @@ impl Kicked for Leapfrog {
         if D::ACT || !stepper.is_fresh() {
             stepper.evaluate::<D>(At::Boundary)?;
         }
-        if !D::ACT {
-            stepper.sweep_forward();
+        if D::ACT {
+            stepper.kick(P::Real::HALF);
+        } else {
+            stepper.damped_kick_forward();
         }
-        stepper.kick(P::Real::HALF);
         stepper.drift(stepper.h);
         stepper.sample_inputs(P::Real::ONE);
         stepper.evaluate::<D>(At::Boundary)?;
-        stepper.kick(P::Real::HALF);
-        if !D::ACT {
-            stepper.sweep_reverse();
+        if D::ACT {
+            stepper.kick(P::Real::HALF);
+        } else {
+            stepper.damped_kick_reverse();
         }
         Ok(())
     }

@@ -54,12 +54,11 @@ impl Kicked for SemiImplicitEuler {
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {
         stepper.evaluate::<D>(At::Boundary)?;
-        if !D::ACT {
-            stepper.sweep_forward();
-        }
-        stepper.kick(P::Real::ONE);
-        if !D::ACT {
-            stepper.sweep_reverse();
+        if D::ACT || !stepper.has_dampers() {
+            stepper.kick(P::Real::ONE);
+        } else {
+            stepper.damped_kick_forward();
+            stepper.damped_kick_reverse();
         }
         stepper.drift(stepper.h);
         Ok(())

@@ -3,6 +3,7 @@
 //! `scene => counts of freedoms and equations, per joint its lengths and how its velocities pull
 //! at it, islands`. Facts only; what is probably not meant is said by [`Scene::warnings`].
 
+mod damping;
 mod equations;
 mod islands;
 mod lengths;
@@ -14,6 +15,7 @@ use dbd_kernel::{F64, Geometry, Vec3};
 
 use crate::{JointInfo, Scene};
 
+pub use damping::ElementDamping;
 pub use islands::Island;
 pub(crate) use lengths::GroupFacts;
 pub use stiffness::{ElementFrequency, JointElement};
@@ -87,6 +89,13 @@ impl Scene {
     #[must_use]
     pub fn element_frequencies(&self) -> Vec<ElementFrequency> {
         stiffness::frequencies(self)
+    }
+
+    /// Joints, raw elements and torsion springs that have dampers, in scene order: how strong these
+    /// are at the initial pose.
+    #[must_use]
+    pub fn element_dampings(&self) -> Vec<ElementDamping> {
+        damping::dampings(self)
     }
 
     /// The line of the scene file, from 1, on which a joint begins.

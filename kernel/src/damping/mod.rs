@@ -1,0 +1,305 @@
+//! Dampers as pairwise impulses: stable at any coefficient.
+//!
+//! `(pose, velocities, kick, h) => velocities`. For each damper along a direction u with rate
+//! `r = u·v_rel` and effective mass μ, `1/μ = Σ_bodies (1/m + (r×u)ᵀ·I⁻¹·(r×u))`, an impulse takes
+//! the share `1 − exp(−x)` of the rate, `x = h·c/μ` (compare Shardlow 2003). One sweep goes through
+//! all dampers in ascending order in the first half of a step, one in descending order in the
+//! second: second order. `exp(−x)` is replaced by `1/(1 + x + x²/2)`: in (0, 1], second order, plain
+//! arithmetic.
+//!
+//! A sweep that follows a kick is told of it: a force that lasts while the damper acts does not come
+//! before it. The rate then follows the flow of `ṙ = a − (c/μ)·r`, `a` the kick's acceleration along
+//! u, and a strong damper leaves `a·μ/c`, at which it bears the force, where a sweep by itself would
+//! leave next to nothing (see [`pair`], and [`Share`] for dampers that bear a force together). At
+//! rest under any forces it does nothing.
+//!
+//! A TSDA damps along its line, a torsion spring along its gradient, a point bushing along the
+//! world's axes, a point on a line along the line's two normals, one after the other.
+//! Velocities are rounded once per pair, not once per damper. Linear momentum is always kept.
+//! Angular momentum is kept by dampers of TSDAs with a free length and of torsion springs; a damped
+//! bushing or point on a line has the law `c·v_rel`, whose torque vanishes only with its deflection.
+
+mod motion;
+mod pair;
+mod shares;
+mod strength;
+
+pub(crate) use pair::{HalfKick, Kick, NoKick};
+pub use shares::Share;
+pub(crate) use shares::share;
+pub use strength::{DampersOf, Strength, strengths};
+
+use crate::body::BodyState;
+use crate::damping::pair::{Damper, Direction, Pair};
+use crate::elements::clearance;
+use crate::elements::torsion_spring::TorsionSpring;
+use crate::geometry::Geometry;
+use crate::index::BodyIndex;
+use crate::model::{Group, Law, ModelRef, Terms};
+use crate::pose::{End, MOST_ARMS, Placed, Places, Spot, placed, twist_of};
+use crate::real::Real;
+use crate::vector::Vec3;
+
+/// How a scheme treats dampers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Damping {
+    /// A sweep of half a step after each half kick, or around a composition: of this module.
+    Sweeps,
+    /// Forces at the velocities of each evaluation: limits the step to about 2·m/c.
+    Explicit,
+}
+
+impl Damping {
+    /// The name users give: `sweeps`, `explicit`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Damping::Sweeps => "sweeps",
+            Damping::Explicit => "explicit",
+        }
+    }
+}
+
+/// One pass over all dampers.
+pub(crate) struct Sweep<'s, P: Geometry, K> {
+    /// \[s\] for how long they act.
+    pub(crate) h: P::Real,
+    /// The present pose.
+    pub(crate) places: Places<'s, P>,
+    /// The torsion springs' turn counts.
+    pub(crate) turns: &'s [i32],
+    /// What each bears of what it bears together with others.
+    pub(crate) shares: &'s [Share<P::Real>],
+    /// The kick just before.
+    pub(crate) kick: K,
+}
+
+impl<P: Geometry, K> Sweep<'_, P, K> {
+    /// A damper of this coefficient, with its share; in descending order those before it follow.
+    #[inline(always)]
+    fn damper<const REVERSE: bool>(
+        &self,
+        coefficient: P::Real,
+        share: &Share<P::Real>,
+    ) -> Damper<P::Real> {
+        let Share { own, later } = *share;
+        let later = if REVERSE { P::Real::ONE - (own + later) } else { later };
+        Damper { coefficient, own, later, h: self.h }
+    }
+}
+
+/// One pass over all dampers, ascending, or descending with `REVERSE`; groups come before torsion
+/// springs in ascending order.
+#[inline]
+pub(crate) fn sweep<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    bodies: &mut [BodyState<P>],
+) {
+    let torsions = model.torsions.iter().zip(sweep.turns);
+    if REVERSE {
+        if T::TORSIONS {
+            for (spring, &turns) in torsions.rev() {
+                torsion::<P, T, K, REVERSE>(model, sweep, spring, turns, bodies);
+            }
+        }
+        for group in model.groups.iter().rev() {
+            sweep_group::<P, T, K, true>(model, sweep, group, bodies);
+        }
+    } else {
+        for group in model.groups {
+            sweep_group::<P, T, K, false>(model, sweep, group, bodies);
+        }
+        if T::TORSIONS {
+            for (spring, &turns) in torsions {
+                torsion::<P, T, K, REVERSE>(model, sweep, spring, turns, bodies);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn sweep_group<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    group: &Group,
+    bodies: &mut [BodyState<P>],
+) {
+    let Some(first) = group.damper.row() else { return };
+    if T::TSDAS && group.law == Law::Tsda && group.clearance.row().is_none() {
+        return sweep_stars::<P, T, K, REVERSE>(model, sweep, group, first, bodies);
+    }
+    let places = sweep.places;
+    let elements = group.elements();
+    let mut pair = new_pair(model, sweep, [group.a, group.b], bodies);
+    for i in 0..elements {
+        let i = if REVERSE { elements - 1 - i } else { i };
+        let row = first + i;
+        let (Some(element), Some(&whole), Some(share)) =
+            (placed(model, places, (0, group), i), model.dampers.get(row), sweep.shares.get(row))
+        else {
+            continue;
+        };
+        let coefficient = engaged(model, &element, whole);
+        if T::CLEARANCES && coefficient == P::Real::ZERO {
+            continue;
+        }
+        let damper = sweep.damper::<REVERSE>(coefficient, share);
+        each_direction::<P, T, REVERSE>(model, places, &element, |direction| {
+            pair.damp::<P, K>(&direction, damper);
+        });
+    }
+    pair.store::<P>(bodies);
+}
+
+/// The pair of two ends; moved ground has its rate.
+#[inline(always)]
+fn new_pair<P: Geometry, T: Terms, K: Kick<P>>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    ends: [BodyIndex; 2],
+    bodies: &[BodyState<P>],
+) -> Pair<P::Real> {
+    let [a, b] = ends.map(|end| End::new(model, sweep.places, end, None));
+    let rate = b.velocity - a.velocity;
+    Pair::new(model, ends.map(BodyIndex::row), bodies, rate, &sweep.kick)
+}
+
+/// The directions in which an element's damper acts, one after the other.
+#[inline(always)]
+fn each_direction<P: Geometry, T: Terms, const REVERSE: bool>(
+    model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    element: &Placed<'_, P::Real>,
+    mut visit: impl FnMut(Direction<P::Real>),
+) {
+    let group = element.group;
+    let Some((mut directions, count)) = model.damped(group.law, &element.stretch) else { return };
+    if REVERSE && count > 1 {
+        directions.swap(0, count - 1);
+    }
+    for along in directions.into_iter().take(count) {
+        let moment = |body: BodyIndex, arm: Vec3<P::Real>| match places.frames.get(body.row()) {
+            Some(frame) => P::to_body(frame, arm.cross(along)),
+            None => Vec3::ZERO,
+        };
+        let moments = [moment(group.a, element.arm_a), moment(group.b, element.arm_b)];
+        visit(Direction { along, moments });
+    }
+}
+
+/// A point of a star's second end, with its damper's coefficient and share.
+type Damped<'s, P, R> = (&'s Spot<P>, (&'s R, &'s Share<R>));
+
+/// The stars of a group without clearance: the two bodies' velocities are at hand until the last
+/// element.
+#[inline(always)]
+fn sweep_stars<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    group: &Group,
+    damper: usize,
+    bodies: &mut [BodyState<P>],
+) {
+    let places = sweep.places;
+    // A number at run time, and one body of the loop: unrolled it takes more flash and is no faster.
+    let arms = (group.arms as usize).clamp(1, MOST_ARMS);
+    let end_a = End::new(model, places, group.a, None);
+    let end_b = End::new(model, places, group.b, None);
+    let mut pair = new_pair(model, sweep, [group.a, group.b], bodies);
+    let mut tips = [(P::Location::default(), Vec3::ZERO); MOST_ARMS];
+    let stars = group.stars as usize;
+    for i in 0..stars {
+        let star = if REVERSE { stars - 1 - i } else { i };
+        let (first, damper) = (group.tips(star), damper + star * arms);
+        let (Some(centre), Some(points), Some(dampers), Some(shares)) = (
+            model.points.get(group.centre(star)),
+            model.points.get(first..first + arms),
+            model.dampers.get(damper..damper + arms),
+            sweep.shares.get(damper..damper + arms),
+        ) else {
+            break;
+        };
+        if i == 0 || !group.shared {
+            for (tip, point) in tips.iter_mut().zip(points) {
+                *tip = end_b.place(point);
+            }
+        }
+        let (centre, arm_a) = end_a.place(centre);
+        let mut element = |((tip, arm_b), (&coefficient, share)): Damped<'_, P, P::Real>| {
+            let d = P::displacement(&centre, tip);
+            let u = d * d.dot(d).sqrt().reciprocal_or_zero();
+            let mut moments = [Vec3::ZERO; 2];
+            if pair.has(0) {
+                moments[0] = end_a.to_axes(arm_a.cross(u));
+            }
+            if pair.has(1) {
+                moments[1] = end_b.to_axes(arm_b.cross(u));
+            }
+            let damper = sweep.damper::<REVERSE>(coefficient, share);
+            pair.damp::<P, K>(&Direction { along: u, moments }, damper);
+        };
+        let dampers = dampers.iter().zip(shares);
+        let elements = tips.get(..arms).unwrap_or_default().iter().zip(dampers);
+        if REVERSE {
+            elements.rev().for_each(&mut element);
+        } else {
+            elements.for_each(&mut element);
+        }
+    }
+    pair.store::<P>(bodies);
+}
+
+/// What acts of an element's damper beyond its clearance; without one all of it.
+#[inline(always)]
+fn engaged<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    element: &Placed<'_, P::Real>,
+    damping: P::Real,
+) -> P::Real {
+    let clearance = model.clearance(element.group);
+    if clearance.is_none() {
+        return damping;
+    }
+    let Some(law) = model.element(element.group.law, element.index) else { return damping };
+    let extension = law.extension(element.stretch.displacement);
+    clearance::engaged(damping, extension, clearance)
+}
+
+/// A torsion spring's damper, along the gradient of its twist.
+#[inline(always)]
+fn torsion<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    spring: &TorsionSpring<P::Real>,
+    turns: i32,
+    bodies: &mut [BodyState<P>],
+) {
+    let Some(row) = spring.damper.row() else { return };
+    let direction = torsion_direction(model, sweep.places, spring, turns, bodies);
+    let known = (direction, model.dampers.get(row), sweep.shares.get(row));
+    let (Some(direction), Some(&coefficient), Some(share)) = known else { return };
+    let mut pair = new_pair(model, sweep, [spring.a, spring.b], bodies);
+    pair.damp::<P, K>(&direction, sweep.damper::<REVERSE>(coefficient, share));
+    pair.store::<P>(bodies);
+}
+
+/// The direction of a torsion spring's damper: moments alone. An undefined twist has none; it is
+/// left to the next evaluation, which reports it.
+#[inline(always)]
+fn torsion_direction<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    spring: &TorsionSpring<P::Real>,
+    turns: i32,
+    bodies: &[BodyState<P>],
+) -> Option<Direction<P::Real>> {
+    let twist = twist_of::<P>(spring, bodies, turns)?;
+    let world = End::new(model, places, spring.a, None).to_world(twist.gradient);
+    let moments = [spring.a, spring.b].map(|body| match places.frames.get(body.row()) {
+        Some(frame) => P::to_body(frame, world),
+        None => Vec3::ZERO,
+    });
+    Some(Direction { along: Vec3::ZERO, moments })
+}

@@ -1,0 +1,154 @@
+//! Dampers at a pose, and how an impulse along one moves the others.
+//!
+//! `(model, pose) => directions of dampers, motion per impulse, rates`. For what looks at dampers
+//! before a run or beside it; the sweeps of a step have a way of their own.
+
+use crate::body::{BodyState, Increment};
+use crate::damping::pair::Direction;
+use crate::damping::{each_direction, torsion_direction};
+use crate::geometry::Geometry;
+use crate::index::BodyIndex;
+use crate::model::{ModelRef, Terms};
+use crate::pose::{Places, placed};
+use crate::real::Real;
+
+/// What an impulse of 1 along a damper does to its two bodies.
+#[derive(Clone, Copy)]
+pub(super) struct Motion<R> {
+    bodies: [BodyIndex; 2],
+    increments: [Increment<R>; 2],
+    /// `K_ii`, 1/μ.
+    pub(super) rate: R,
+    coefficient: R,
+}
+
+/// Where dampers stand: groups in order, then torsion springs.
+#[derive(Clone, Copy)]
+pub(super) enum Mount {
+    Group(usize),
+    Torsion(usize),
+}
+
+/// Whether two pairs have a body in common.
+pub(super) fn meet(a: [BodyIndex; 2], b: [BodyIndex; 2]) -> bool {
+    a.iter().any(|body| !body.is_world() && b.contains(body))
+}
+
+/// A model at a pose.
+#[derive(Clone, Copy)]
+pub(super) struct Pose<'s, 'm, P: Geometry, T> {
+    pub(super) model: &'s ModelRef<'m, P, T>,
+    pub(super) places: Places<'s, P>,
+    pub(super) bodies: &'s [BodyState<P>],
+    pub(super) turns: &'s [i32],
+}
+
+impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
+    pub(super) fn mounts(&self) -> impl Iterator<Item = Mount> + use<P, T> {
+        let (groups, torsions) = (self.model.groups.len(), self.model.torsions.len());
+        (0..groups).map(Mount::Group).chain((0..torsions).map(Mount::Torsion))
+    }
+
+    /// The bodies of a mount that has dampers.
+    pub(super) fn ends(&self, mount: Mount) -> Option<[BodyIndex; 2]> {
+        let (damper, ends) = match mount {
+            Mount::Group(row) => {
+                let group = self.model.groups.get(row)?;
+                (group.damper, [group.a, group.b])
+            }
+            Mount::Torsion(row) => {
+                let spring = self.model.torsions.get(row)?;
+                (spring.damper, [spring.a, spring.b])
+            }
+        };
+        damper.row().map(|_| ends)
+    }
+
+    /// Visits the dampers of a mount direction by direction: row, part of the direction in its
+    /// damper, coefficient, direction.
+    pub(super) fn each_damper(
+        &self,
+        mount: Mount,
+        mut visit: impl FnMut(usize, P::Real, P::Real, &Direction<P::Real>),
+    ) {
+        let Self { model, places, bodies, turns } = *self;
+        let one = P::Real::ONE;
+        match mount {
+            Mount::Group(group) => {
+                let Some(group) = model.groups.get(group) else { return };
+                let Some(first) = group.damper.row() else { return };
+                for i in 0..group.elements() {
+                    let Some(&coefficient) = model.dampers.get(first + i) else { return };
+                    let Some(element) = placed(model, places, (0, group), i) else { return };
+                    let directions = model.damped(group.law, &element.stretch);
+                    let count = directions.map_or(1, |(_, count)| count);
+                    let part = one / P::Real::from_i32(count as i32);
+                    each_direction::<P, T, false>(model, places, &element, |direction| {
+                        visit(first + i, part, coefficient, &direction);
+                    });
+                }
+            }
+            Mount::Torsion(row) => {
+                let Some((spring, &turns)) = model.torsions.iter().zip(turns).nth(row) else {
+                    return;
+                };
+                let direction = torsion_direction(model, places, spring, turns, bodies);
+                if let (Some(row), Some(direction)) = (spring.damper.row(), direction)
+                    && let Some(&coefficient) = model.dampers.get(row)
+                {
+                    visit(row, one, coefficient, &direction);
+                }
+            }
+        }
+    }
+}
+
+impl<R: Real> Motion<R> {
+    /// `None` for a damper that moves nothing.
+    pub(super) fn new<P: Geometry<Real = R>, T: Terms>(
+        model: &ModelRef<'_, P, T>,
+        bodies: [BodyIndex; 2],
+        coefficient: R,
+        direction: &Direction<R>,
+    ) -> Option<Self> {
+        let mut motion =
+            Self { bodies, increments: [Increment::default(); 2], rate: R::ZERO, coefficient };
+        let ends = bodies.into_iter().zip(direction.moments).zip([-R::ONE, R::ONE]);
+        for (((body, moment), sign), increment) in ends.zip(&mut motion.increments) {
+            if let Some(body) = model.bodies.get(body.row()) {
+                *increment = Increment {
+                    linear: direction.along * (sign * body.inverse_mass),
+                    angular: moment.scale(body.inverse_inertia) * sign,
+                };
+            }
+        }
+        motion.rate = motion.rate(bodies, direction);
+        (motion.rate > R::ZERO && coefficient > R::ZERO).then_some(motion)
+    }
+
+    /// The rate along a direction between two bodies.
+    pub(super) fn rate(&self, ends: [BodyIndex; 2], direction: &Direction<R>) -> R {
+        let mut rate = R::ZERO;
+        for (moved, increment) in self.bodies.iter().zip(&self.increments) {
+            for ((end, moment), sign) in ends.iter().zip(direction.moments).zip([-R::ONE, R::ONE]) {
+                if end == moved && !end.is_world() {
+                    let here =
+                        direction.along.dot(increment.linear) + moment.dot(increment.angular);
+                    rate = rate + sign * here;
+                }
+            }
+        }
+        rate
+    }
+
+    /// The power that a damper takes from this motion, over what the motion's own damper takes.
+    pub(super) fn power(
+        &self,
+        ends: [BodyIndex; 2],
+        coefficient: R,
+        direction: &Direction<R>,
+    ) -> R {
+        let share = self.rate(ends, direction) / self.rate;
+        coefficient / self.coefficient * (share * share)
+    }
+}

@@ -1,0 +1,291 @@
+//! The two bodies of a damper while it pushes them.
+//!
+//! `(direction and moments, rate, kick's rate, coefficient, time) => impulse on both`.
+
+use crate::body::{BodyState, Diagonal, Increment};
+use crate::forces::Wrench;
+use crate::geometry::Geometry;
+use crate::model::{ModelRef, Terms};
+use crate::real::Real;
+use crate::vector::Vec3;
+
+/// What a damper knows of itself besides its levers.
+#[derive(Clone, Copy)]
+pub(super) struct Damper<R> {
+    /// \[N·s/m\] or \[N·m·s/rad\] coefficient.
+    pub(super) coefficient: R,
+    /// Its share in what it bears together with others.
+    pub(super) own: R,
+    /// The share of those that act after it.
+    pub(super) later: R,
+    /// \[s\] for how long it acts.
+    pub(super) h: R,
+}
+
+impl<R: Real> Damper<R> {
+    /// `(h·c/μ, impulse per relative velocity μ·s/(1 + s))`, `s = x + x²/2` and `x = h·c/μ`, from
+    /// `1/μ > 0`: a share of μ in \[0, 1\].
+    ///
+    /// Written as `1/((1/μ)·(1 + 1/s))`, which neither cancels where x is small nor fails where s
+    /// overflows; a damper without a coefficient gives 0.
+    #[inline(always)]
+    fn impulse_per_rate(&self, inverse: R) -> (R, R) {
+        let x = self.h * self.coefficient * inverse;
+        let s = x + R::HALF * (x * x);
+        (x, R::ONE / (inverse * (R::ONE + R::ONE / s)))
+    }
+
+    /// The part of what the kick just gave that this damper has not met with yet: all that is for
+    /// those that come after it, and of its own share what came later than it acted on,
+    /// `1/(2 + x)`. So dampers that act on one rate one after the other leave
+    /// `rate/D + kick·(1 − 1/D)/X`, `D = Π(1 + s)`, `X = Σx`: the flow of `ṙ = a − (c/μ)·r`.
+    #[inline(always)]
+    fn unmet(&self, x: R) -> R {
+        self.later + self.own / (R::TWO + x)
+    }
+}
+
+/// The kick that a sweep follows.
+pub(crate) trait Kick<P: Geometry> {
+    /// Whether there is one.
+    const KNOWN: bool;
+    /// What it gave to the body in this row.
+    fn of(&self, row: usize) -> Increment<P::Real>;
+}
+
+/// A sweep by itself: no kick came before.
+pub(crate) struct NoKick;
+
+impl<P: Geometry> Kick<P> for NoKick {
+    const KNOWN: bool = false;
+
+    #[inline(always)]
+    fn of(&self, _: usize) -> Increment<P::Real> {
+        Increment::default()
+    }
+}
+
+/// The kick of half a step.
+pub(crate) struct HalfKick<'s, R> {
+    pub(crate) wrenches: &'s [Wrench<R>],
+    pub(crate) diagonals: &'s [Diagonal<R>],
+}
+
+impl<P: Geometry> Kick<P> for HalfKick<'_, P::Real> {
+    const KNOWN: bool = true;
+
+    #[inline(always)]
+    fn of(&self, row: usize) -> Increment<P::Real> {
+        let rows = self.wrenches.get(row).zip(self.diagonals.get(row));
+        rows.map_or_else(Increment::default, |(wrench, diagonal)| {
+            diagonal.increment(wrench.force, wrench.torque, P::Real::HALF)
+        })
+    }
+}
+
+/// A damper's direction u in world axes, and the moments `r × u` of a unit force along it on the
+/// two bodies, body axes. The ground has none.
+#[derive(Clone, Copy)]
+pub(super) struct Direction<R> {
+    pub(super) along: Vec3<R>,
+    pub(super) moments: [Vec3<R>; 2],
+}
+
+/// One of a pair's bodies while its dampers turn it.
+#[derive(Clone, Copy)]
+struct Side<R> {
+    inverse_inertia: Vec3<R>,
+    /// \[rad/s\] body axes, before.
+    spin: Vec3<R>,
+    /// \[rad/s\] what the kick gave to it.
+    kick: Vec3<R>,
+    /// \[rad/s\] what the dampers gave to it so far.
+    turn: Vec3<R>,
+}
+
+impl<R: Real> Side<R> {
+    #[inline(always)]
+    fn rate(&self, moment: Vec3<R>) -> R {
+        moment.dot(self.spin + self.turn)
+    }
+
+    /// An impulsive moment; what it does per unit is at hand.
+    #[inline(always)]
+    fn turn(&mut self, response: Vec3<R>, impulse: R) {
+        self.turn = self.turn + response * impulse;
+    }
+}
+
+/// A pair's two bodies while its dampers push them. Impulses are summed apart from the velocities,
+/// which are rounded once per pair, not once per damper: a fast body's velocity in single precision
+/// has no digits for what one damper of its joint takes away.
+pub(super) struct Pair<R> {
+    rows: [usize; 2],
+    sides: [Option<Side<R>>; 2],
+    inverse_masses: [R; 2],
+    /// \[m/s\] of the second body less that of the first, moved ground included, before.
+    velocity: Vec3<R>,
+    /// \[m/s\] what the kick gave to it.
+    kick: Vec3<R>,
+    /// \[N·s\] on the first body so far, the second's reversed.
+    impulse: Vec3<R>,
+    /// \[1/kg\] of both bodies together.
+    inverse_mass: R,
+}
+
+impl<R: Real> Pair<R> {
+    /// The bodies in two rows; the ground has none.
+    #[inline(always)]
+    pub(super) fn new<P: Geometry<Real = R>, T: Terms, K: Kick<P>>(
+        model: &ModelRef<'_, P, T>,
+        rows: [usize; 2],
+        bodies: &[BodyState<P>],
+        ground_rate: Vec3<R>,
+        kick: &K,
+    ) -> Self {
+        let [a, b] = rows.map(|row| {
+            let (body, state) = (model.bodies.get(row)?, bodies.get(row)?);
+            let kick = kick.of(row);
+            let side = Side {
+                inverse_inertia: body.inverse_inertia,
+                spin: P::velocity(&state.angular_velocity),
+                kick: kick.angular,
+                turn: Vec3::ZERO,
+            };
+            Some((side, body.inverse_mass, P::velocity(&state.velocity), kick.linear))
+        });
+        let mut velocity = ground_rate;
+        let mut pushed = Vec3::ZERO;
+        let mut inverse_masses = [R::ZERO; 2];
+        if let Some((_, inverse_mass, linear, kick)) = b {
+            velocity = velocity + linear;
+            pushed = kick;
+            inverse_masses[1] = inverse_mass;
+        }
+        if let Some((_, inverse_mass, linear, kick)) = a {
+            velocity = velocity - linear;
+            pushed = pushed - kick;
+            inverse_masses[0] = inverse_mass;
+        }
+        Self {
+            rows,
+            sides: [a.map(|a| a.0), b.map(|b| b.0)],
+            inverse_masses,
+            velocity,
+            kick: pushed,
+            impulse: Vec3::ZERO,
+            inverse_mass: inverse_masses[0] + inverse_masses[1],
+        }
+    }
+
+    /// Whether the first, the second end is a body.
+    #[inline(always)]
+    pub(super) fn has(&self, end: usize) -> bool {
+        matches!(self.sides.get(end), Some(Some(_)))
+    }
+
+    /// One damper acts.
+    #[inline(always)]
+    pub(super) fn damp<P: Geometry<Real = R>, K: Kick<P>>(
+        &mut self,
+        direction: &Direction<R>,
+        damper: Damper<R>,
+    ) {
+        let Direction { along: u, moments: [moment_a, moment_b] } = *direction;
+        let [a, b] = &mut self.sides;
+        let mut inverse = u.dot(u) * self.inverse_mass;
+        let mut rate = u.dot(self.velocity - self.impulse * self.inverse_mass);
+        let mut kick = if K::KNOWN { u.dot(self.kick) } else { R::ZERO };
+        let (mut response_a, mut response_b) = (Vec3::ZERO, Vec3::ZERO);
+        if let Some(b) = b {
+            response_b = moment_b.scale(b.inverse_inertia);
+            inverse = inverse + moment_b.dot(response_b);
+            rate = rate + b.rate(moment_b);
+            if K::KNOWN {
+                kick = kick + moment_b.dot(b.kick);
+            }
+        }
+        if let Some(a) = a {
+            response_a = moment_a.scale(a.inverse_inertia);
+            inverse = inverse + moment_a.dot(response_a);
+            rate = rate - a.rate(moment_a);
+            if K::KNOWN {
+                kick = kick - moment_a.dot(a.kick);
+            }
+        }
+        // Without a direction (coincident points) nothing can be pushed.
+        if inverse == R::ZERO {
+            return;
+        }
+        let (x, impulse_per_rate) = damper.impulse_per_rate(inverse);
+        if K::KNOWN {
+            rate = rate - kick * damper.unmet(x);
+        }
+        let impulse = impulse_per_rate * rate;
+        self.impulse = self.impulse + u * impulse;
+        if let Some(a) = a {
+            a.turn(response_a, impulse);
+        }
+        if let Some(b) = b {
+            b.turn(response_b, -impulse);
+        }
+    }
+
+    /// Adds what the dampers did to the bodies' velocities.
+    #[inline(always)]
+    pub(super) fn store<P: Geometry<Real = R>>(self, bodies: &mut [BodyState<P>]) {
+        let [row_a, row_b] = self.rows;
+        let [a, b] = self.sides;
+        let [inverse_a, inverse_b] = self.inverse_masses;
+        let sides = [(row_a, a, inverse_a), (row_b, b, -inverse_b)];
+        for (row, side, inverse_mass) in sides {
+            if let (Some(side), Some(state)) = (side, bodies.get_mut(row)) {
+                P::accelerate(&mut state.velocity, self.impulse * inverse_mass);
+                P::accelerate(&mut state.angular_velocity, side.turn);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A damper with h·c/μ = x for 1/μ = `inverse`.
+    fn damper<R: Real>(x: f64, inverse: f64) -> Damper<R> {
+        let coefficient = R::from_f64(x) / R::from_f64(inverse);
+        Damper { coefficient, own: R::ONE, later: R::ZERO, h: R::ONE }
+    }
+
+    /// The share of a relative velocity that a damper takes away.
+    fn removed<R: Real>(x: f64, inverse: f64) -> f64 {
+        let inverse_real = R::from_f64(inverse);
+        (damper::<R>(x, inverse).impulse_per_rate(inverse_real).1 * inverse_real).to_f64()
+    }
+
+    #[test]
+    fn light_and_strong_dampers_lose_no_digits() {
+        for exponent in -12..=12 {
+            let x = 10_f64.powi(exponent);
+            let exact = (x + 0.5 * x * x) / (1.0 + x + 0.5 * x * x);
+            for inverse in [1e-6, 0.7, 1e6] {
+                let (double, single) = (removed::<f64>(x, inverse), removed::<f32>(x, inverse));
+                assert!((double / exact - 1.0).abs() < 1e-15, "{x}: {double} of {exact}");
+                assert!((single / exact - 1.0).abs() < 5e-7, "{x}: {single} of {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_coefficient_takes_nothing_and_none_more_than_all() {
+        assert_eq!(removed::<f32>(0.0, 0.7), 0.0);
+        assert_eq!(removed::<f64>(0.0, 0.7), 0.0);
+        // Beyond 1e19 the square overflows in single precision, beyond 1e154 in double.
+        for x in [1e15, 1e19, 1e25, 1e30, 3e38] {
+            assert!((removed::<f32>(x, 1.0) - 1.0).abs() < 1e-6, "{x}");
+        }
+        for x in [1e100, 1e160, 1e300] {
+            assert_eq!(removed::<f64>(x, 1.0), 1.0);
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! Which share of a force that dampers bear together each of them bears.
+//!
+//! `(model, pose) => share per damper`. An impulse along damper i moves its bodies; its share is the
+//! power that it takes from this motion over what all dampers take:
+//! `w_i = c_i·K_ii² / Σ_j c_j·K_ij²`, `K_ij` the rate along j per impulse along i. It is 1 for a
+//! damper alone or at right angles to all others, ½ for each of two alike side by side. A damper of
+//! several directions has their mean. Taken once, at the initial pose: it weighs how dampers
+//! divide a force, not how much they resist.
+
+use crate::body::BodyState;
+use crate::damping::motion::{Motion, Pose, meet};
+use crate::geometry::Geometry;
+use crate::model::{ModelRef, Terms};
+use crate::pose::Places;
+use crate::real::Real;
+
+/// The share of one damper in what it bears together with others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Share<R> {
+    /// Its own, above 0, 1 at most.
+    pub own: R,
+    /// Of all dampers that come after it in ascending order.
+    pub later: R,
+}
+
+impl<R: Real> Share<R> {
+    /// Of a damper that no other touches.
+    pub const ALONE: Self = Self { own: R::ONE, later: R::ZERO };
+}
+
+/// Writes the share of every damper; `shares` is as long as the dampers.
+pub(crate) fn share<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    bodies: &[BodyState<P>],
+    turns: &[i32],
+    shares: &mut [Share<P::Real>],
+) {
+    let zero = P::Real::ZERO;
+    let pose = Pose { model, places, bodies, turns };
+    shares.fill(Share { own: zero, later: zero });
+    // First the powers of all dampers and of those that come later, over the damper's own.
+    for (place, mount) in pose.mounts().enumerate() {
+        let Some(ends) = pose.ends(mount) else { continue };
+        for (other_place, other) in pose.mounts().enumerate() {
+            let Some(others) = pose.ends(other) else { continue };
+            if !meet(ends, others) {
+                continue;
+            }
+            pose.each_damper(mount, |row, part, coefficient, direction| {
+                let Some(motion) = Motion::new(model, ends, coefficient, direction) else { return };
+                let [mut all, mut later] = [zero; 2];
+                pose.each_damper(other, |other_row, _, coefficient, direction| {
+                    let power = motion.power(others, coefficient, direction);
+                    all = all + power;
+                    if (other_place, other_row) > (place, row) {
+                        later = later + power;
+                    }
+                });
+                if let Some(share) = shares.get_mut(row) {
+                    share.own = share.own + part * all;
+                    share.later = share.later + part * later;
+                }
+            });
+        }
+    }
+    for share in shares {
+        let Share { own: all, later } = *share;
+        // A damper without a direction or a coefficient has no motion of its own.
+        let known = all > zero && all.is_finite();
+        *share = if known {
+            Share { own: P::Real::ONE / all, later: later / all }
+        } else {
+            Share::ALONE
+        };
+    }
+}

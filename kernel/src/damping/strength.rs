@@ -1,0 +1,82 @@
+//! How strong dampers are beside the masses they act on.
+//!
+//! `(model, state) => c/μ per group and torsion spring` \[1/s\], the rate at which a damper alone
+//! would stop its two bodies. For those who choose a step: nothing of a step needs it.
+
+use crate::damping::motion::{Motion, Mount, Pose, meet};
+use crate::model::{FrameOf, ModelOwner, RealOf};
+use crate::pose::{Places, place_bodies};
+use crate::real::Real;
+use crate::state::State;
+
+/// Whose dampers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DampersOf {
+    /// The group in this row.
+    Group(usize),
+    /// The torsion spring in this row.
+    Torsion(usize),
+}
+
+/// How strong the dampers of a group or of a torsion spring are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strength {
+    /// Whose.
+    pub of: DampersOf,
+    /// \[1/s\] c/μ of the strongest.
+    pub rate: f64,
+    /// \[1/s\] c/μ of the strongest that crosses another as strong, of its own group or of one
+    /// that shares a body; of the two the smaller; 0 without such a pair. Dampers on one line and at
+    /// right angles do not cross.
+    pub crossed: f64,
+}
+
+/// Dampers cross where `4·k²·(1 − k²)` is larger, `k² = K_ij²/(K_ii·K_jj)`: 0 on one line and at
+/// right angles, 1 halfway.
+const CROSSING: f64 = 0.02;
+
+/// Visits all that has dampers at the pose of `state`, groups first.
+pub fn strengths<M: ModelOwner>(model: &M, state: &State<M>, mut visit: impl FnMut(Strength)) {
+    let view = model.view();
+    let bodies = state.bodies.as_ref();
+    let mut frames = model.per_body(FrameOf::<M>::default());
+    place_bodies::<M::Precision>(bodies, frames.as_mut());
+    let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
+    let pose = Pose { model: &view, places, bodies, turns: state.turns.as_ref() };
+    let one = RealOf::<M>::ONE;
+    let crossing = RealOf::<M>::from_f64(0.25 * CROSSING);
+    for mount in pose.mounts() {
+        let Some(ends) = pose.ends(mount) else { continue };
+        let [mut strongest, mut crossed] = [RealOf::<M>::ZERO; 2];
+        for other in pose.mounts() {
+            let Some(others) = pose.ends(other).filter(|others| meet(ends, *others)) else {
+                continue;
+            };
+            pose.each_damper(mount, |_, _, coefficient, direction| {
+                let Some(motion) = Motion::new(&view, ends, coefficient, direction) else { return };
+                let rate = coefficient * motion.rate;
+                strongest = larger(strongest, rate);
+                pose.each_damper(other, |_, _, coefficient, direction| {
+                    let its = Motion::new(&view, others, coefficient, direction);
+                    let Some(its) = its else { return };
+                    let here = motion.rate(others, direction);
+                    let square = here / motion.rate * (here / its.rate);
+                    if square * (one - square) > crossing {
+                        let its_rate = coefficient * its.rate;
+                        crossed = larger(crossed, if its_rate < rate { its_rate } else { rate });
+                    }
+                });
+            });
+        }
+        let of = match mount {
+            Mount::Group(row) => DampersOf::Group(row),
+            Mount::Torsion(row) => DampersOf::Torsion(row),
+        };
+        let [rate, crossed] = [strongest, crossed].map(Real::to_f64);
+        visit(Strength { of, rate, crossed });
+    }
+}
+
+fn larger<R: Real>(a: R, b: R) -> R {
+    if b > a { b } else { a }
+}

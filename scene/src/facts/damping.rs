@@ -1,0 +1,51 @@
+//! How strong the dampers of each element are beside the masses they act on.
+
+use dbd_kernel::State;
+use dbd_kernel::damping::{DampersOf, strengths};
+
+use crate::Scene;
+
+/// How strong the dampers of a joint, of a raw element or of a torsion spring are at t = 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ElementDamping {
+    /// What messages call it: ``joint `wrist` ``.
+    pub name: String,
+    /// Its row in the order joints, raw elements, torsion springs.
+    pub row: usize,
+    /// \[1/s\] c/μ of its strongest damper, at which this alone would stop its bodies.
+    pub rate: f64,
+    /// \[1/s\] the same of its strongest damper that crosses another as strong, at angles that are
+    /// neither none nor right; 0 without one.
+    pub crossed: f64,
+}
+
+/// Joints, raw elements and torsion springs that have dampers, in scene order.
+pub(super) fn dampings(scene: &Scene) -> Vec<ElementDamping> {
+    let raw = scene.joints.last().map_or(0, |joint| joint.groups.end);
+    let springs = scene.joints.len() + scene.raw_names.len();
+    let mut found: Vec<ElementDamping> = Vec::new();
+    strengths(&scene.model, &State::initial(&scene.model), |strength| {
+        let (row, name) = match strength.of {
+            DampersOf::Group(group) if group < raw => {
+                let owns = |joint: &crate::JointInfo| joint.groups.contains(&group);
+                let Some(row) = scene.joints.iter().position(owns) else { return };
+                (row, format!("joint `{}`", scene.joints[row].name))
+            }
+            DampersOf::Group(group) => {
+                (scene.joints.len() + group - raw, scene.raw_names[group - raw].clone())
+            }
+            DampersOf::Torsion(spring) => (springs + spring, scene.torsion_names[spring].clone()),
+        };
+        match found.last_mut().filter(|last| last.row == row) {
+            Some(last) => {
+                last.rate = last.rate.max(strength.rate);
+                last.crossed = last.crossed.max(strength.crossed);
+            }
+            None => {
+                let (rate, crossed) = (strength.rate, strength.crossed);
+                found.push(ElementDamping { name, row, rate, crossed });
+            }
+        }
+    });
+    found
+}
