@@ -111,14 +111,19 @@ pub fn write(folder: &Path, name: &str, content: &str) -> io::Result<()> {
 /// # Errors
 /// Where it cannot be made, or no folder can have the name.
 pub fn folder(out: &Path, name: &str) -> io::Result<PathBuf> {
+    /// What file systems allow.
+    const LONGEST: usize = 255;
     let forbidden = |c: char| c.is_control() || "/\\:*?\"<>|".contains(c);
-    if name.is_empty() || name.starts_with('.') || name.contains(forbidden) {
+    if name.is_empty() || name.len() > LONGEST || name.starts_with('.') || name.contains(forbidden)
+    {
         let why = match name.chars().find(|c| forbidden(*c)) {
             Some(character) => format!("it contains {character:?}"),
             None if name.is_empty() => "it is empty".into(),
+            None if name.len() > LONGEST => format!("it has {} bytes", name.len()),
             None => "it begins with a point".into(),
         };
-        let reason = format!("`{name}` cannot be the name of a folder: {why}");
+        let shown: String = name.chars().take(80).collect();
+        let reason = format!("`{shown}` cannot be the name of a folder: {why}");
         return Err(io::Error::new(io::ErrorKind::InvalidInput, reason));
     }
     let folder = out.join(name);
@@ -175,7 +180,7 @@ mod tests {
     #[test]
     fn a_name_cannot_lead_out_of_the_folder() {
         let out = tempfile::tempdir().unwrap();
-        for name in ["../up", "a/b", "", ".", "..", "a\\b", "nul\0"] {
+        for name in ["../up", "a/b", "", ".", "..", "a\\b", "nul\0", &"n".repeat(256)] {
             assert!(folder(out.path(), name).is_err(), "{name}");
         }
         assert!(names(out.path()).is_empty());

@@ -25,6 +25,7 @@ mod pair;
 mod point_on_line;
 mod readout;
 mod runtime;
+mod shortened;
 mod spring;
 mod target;
 mod text;
@@ -46,6 +47,7 @@ pub use nearest::nearest;
 pub use origin::Setting;
 pub use readout::ReadoutInfo;
 pub use runtime::{SceneModel, widen};
+pub use shortened::shortened;
 
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::readouts::Readout;

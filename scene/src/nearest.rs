@@ -1,14 +1,24 @@
 //! The name that was probably meant.
 
+/// Letters of a word that was meant to be a name or a key.
+const LONGEST: usize = 300;
+
 /// The candidate nearest to a misspelled word, `None` where all are far from it. Of equally near
 /// ones the first.
 #[must_use]
 pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     let mut best = None;
+    let letters = word.chars().count();
     for candidate in candidates {
-        let distance = distance(word, candidate);
+        let candidate_letters = candidate.chars().count();
         // A third of the letters: a typing error or two, not another word.
-        let limit = (word.chars().count().max(candidate.chars().count()) / 3).max(1);
+        let limit = (letters.max(candidate_letters) / 3).max(1);
+        // What is too long or too short by more needs no look: a distance takes the time and the
+        // memory of the product of both.
+        if letters.max(candidate_letters) > LONGEST || letters.abs_diff(candidate_letters) > limit {
+            continue;
+        }
+        let distance = distance(word, candidate);
         if distance <= limit && best.is_none_or(|(least, _)| distance < least) {
             best = Some((distance, candidate));
         }
@@ -51,5 +61,8 @@ mod tests {
         assert_eq!(nearest("msas", ["mass"]), Some("mass"));
         assert_eq!(nearest("colour", keys), None);
         assert_eq!(nearest("", keys), None);
+        // 400,000 letters squared are more than any machine holds.
+        let endless = "m".repeat(400_000);
+        assert_eq!(nearest(&endless, [endless.as_str(), "mass"]), None);
     }
 }

@@ -5,6 +5,7 @@ use dbd_kernel::BodyIndex;
 use crate::assembly::{Assembly, WORLD};
 use crate::error::SceneError;
 use crate::nearest::nearest;
+use crate::shortened::shortened;
 use crate::text::{Kind, Table, Value};
 
 /// Two different bodies, one of which may be the world.
@@ -73,7 +74,8 @@ impl Kind for BodyName<'_> {
         match self.assembly.body(name) {
             Some(body) if self.world || !body.is_world() => Ok((name.to_owned(), body)),
             Some(_) => Err(value.refuse("is the world, which nothing moves", &self.expected())),
-            None => Err(value.refuse_with(&format!("names no body: \"{name}\""), self.help(name))),
+            None => Err(value
+                .refuse_with(&format!("names no body: \"{}\"", shortened(name)), self.help(name))),
         }
     }
 }

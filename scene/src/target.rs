@@ -3,6 +3,7 @@
 use crate::error::SceneError;
 use crate::names::Names;
 use crate::nearest::nearest;
+use crate::shortened::shortened;
 use crate::text::{Kind, Value};
 
 /// The names of joints, raw TSDAs, points on lines and torsion springs: no two are alike.
@@ -73,13 +74,16 @@ impl Kind for ElementName<'_> {
                 let problem = format!("names the {kind} \"{name}\"");
                 Err(value.refuse(&problem, &self.expected()))
             }
-            None => Err(value.refuse_with(&format!("names nothing: \"{name}\""), self.help(name))),
+            None => Err(value
+                .refuse_with(&format!("names nothing: \"{}\"", shortened(name)), self.help(name))),
         }
     }
 }
 
 impl ElementName<'_> {
     fn help(&self, name: &str) -> String {
+        /// More names than this say less.
+        const SHOWN: usize = 12;
         let suits = |(_, target): &(&str, &Target)| (self.kinds.suits)(target);
         let known: Vec<_> = self.elements.iter().filter(suits).map(|(name, _)| name).collect();
         let expected = self.expected();
@@ -88,7 +92,12 @@ impl ElementName<'_> {
             None if known.is_empty() => {
                 format!("it must be {expected}; the scene has none with a name")
             }
-            None => format!("it must be {expected}: \"{}\"", known.join("\", \"")),
+            None => {
+                let rest = known.len().saturating_sub(SHOWN);
+                let shown = known[..known.len() - rest].join("\", \"");
+                let more = if rest > 0 { format!(" and {rest} more") } else { String::new() };
+                format!("it must be {expected}: \"{shown}\"{more}")
+            }
         }
     }
 }

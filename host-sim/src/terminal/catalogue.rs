@@ -8,7 +8,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use dbd_scene::{Scene, SceneError, nearest};
+use dbd_scene::{Scene, SceneError, nearest, shortened};
 use miette::{Diagnostic, LabeledSpan, SourceCode};
 use thiserror::Error;
 
@@ -53,7 +53,7 @@ pub struct SceneFile {
 
 /// There is no scene of this name.
 #[derive(Clone, Debug, PartialEq, Eq, Error, Diagnostic)]
-#[error("there is no scene named \"{name}\"")]
+#[error("there is no scene named \"{}\"", shortened(name))]
 #[diagnostic(help("{}", self.help_text()))]
 pub struct UnknownScene {
     name: String,

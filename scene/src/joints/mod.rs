@@ -18,6 +18,7 @@ use crate::assembly::Assembly;
 use crate::error::SceneError;
 use crate::hinge::Hinge;
 use crate::pair::{Between, Pair};
+use crate::shortened::shortened;
 use crate::spring::{self, Spring};
 use crate::target::{Elements, Target};
 use crate::text::{Choice, Kind as _, Number, Numbers, Table};
@@ -139,7 +140,7 @@ fn kind(table: &Table<'_>) -> Result<&'static JointType, SceneError> {
         && let Some(meant) = meant_by(word)
     {
         let expected = format!("{}; did you mean \"{meant}\"?", Choice(&names).expected());
-        return Err(value.refuse(&format!("is \"{word}\""), &expected));
+        return Err(value.refuse(&format!("is \"{}\"", shortened(word)), &expected));
     }
     let index = table.required("type", Choice(&names))?;
     Ok(&TYPES[index])

@@ -6,6 +6,7 @@ use toml::de::DeValue;
 use crate::direction::unit;
 use crate::error::SceneError;
 use crate::nearest::nearest;
+use crate::shortened::shortened;
 use crate::text::value::{Kind, Value};
 use crate::time::seconds;
 
@@ -72,7 +73,9 @@ impl Kind for Number {
     fn read(&self, value: &Value<'_>) -> Result<f64, SceneError> {
         let number = number(value).ok_or_else(|| value.wrong_type(&self.expected()))?;
         if !self.holds(number) {
-            return Err(value.refuse(&format!("is {}", value.written()), &self.expected()));
+            return Err(
+                value.refuse(&format!("is {}", shortened(value.written())), &self.expected())
+            );
         }
         Ok(number)
     }
@@ -107,7 +110,9 @@ impl Kind for Seconds {
     fn read(&self, value: &Value<'_>) -> Result<f64, SceneError> {
         let Some(text) = value.get().as_str() else { return self.0.read(value) };
         let time = seconds(text).ok().filter(|time| self.0.holds(*time));
-        time.ok_or_else(|| value.refuse(&format!("is {}", value.written()), &self.expected()))
+        time.ok_or_else(|| {
+            value.refuse(&format!("is {}", shortened(value.written())), &self.expected())
+        })
     }
 }
 
@@ -161,6 +166,9 @@ impl Kind for Direction {
     }
 }
 
+/// Bytes of a name in UTF-8: a folder may have it, with room for what systems add; 255 is the end.
+const LONGEST_NAME: usize = 200;
+
 /// A string; with something in it where it is a name.
 #[derive(Clone, Copy)]
 pub(crate) enum Text {
@@ -191,6 +199,14 @@ impl Kind for Text {
                         exported source";
             return Err(value.refuse_with(problem, help));
         }
+        if matches!(self, Self::Name) && text.len() > LONGEST_NAME {
+            let problem = format!("is a name of {} bytes", text.len());
+            let help = format!(
+                "a name has at most {LONGEST_NAME} bytes: as many letters of English, half as many \
+                 of most other alphabets"
+            );
+            return Err(value.refuse_with(&problem, help));
+        }
         Ok(text.to_owned())
     }
 }
@@ -220,7 +236,7 @@ impl Kind for Choice<'_> {
     fn read(&self, value: &Value<'_>) -> Result<usize, SceneError> {
         let word = value.get().as_str().ok_or_else(|| value.wrong_type(&self.expected()))?;
         self.0.iter().position(|choice| *choice == word).ok_or_else(|| {
-            let problem = format!("is \"{word}\"");
+            let problem = format!("is \"{}\"", shortened(word));
             match nearest(word, self.0.iter().copied()) {
                 Some(meant) => {
                     let expected = format!("{}; did you mean \"{meant}\"?", self.expected());

@@ -16,6 +16,7 @@ use std::ops::Range;
 use toml::de::DeTable;
 
 use crate::error::{SceneError, Source};
+use crate::shortened::shortened;
 
 /// Parses the text.
 pub(crate) fn parse(source: Source<'_>) -> Result<DeTable<'_>, SceneError> {
@@ -43,6 +44,7 @@ fn explain(source: Source<'_>, span: &Range<usize>, message: &str) -> (String, S
         }
         ("duplicate key", _) => match opened_by(source, span) {
             Some(name) => {
+                let name = shortened(name);
                 let problem = format!("`{name}` is opened again, and somewhere by [{name}] alone");
                 return (problem, format!("each of many is opened by [[{name}]], in two brackets"));
             }
@@ -55,7 +57,7 @@ fn explain(source: Source<'_>, span: &Range<usize>, message: &str) -> (String, S
         ("string values must be quoted", _) => {
             return (
                 "a text without quotes".into(),
-                format!("a text stands in quotes: \"{written}\""),
+                format!("a text stands in quotes: \"{}\"", shortened(written)),
             );
         }
         ("unexpected key or value", _) if at(source, span).starts_with(',') => {

@@ -9,6 +9,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::error::{SceneError, Source};
 use crate::nearest::nearest;
+use crate::shortened::shortened;
 use crate::text::kinds::is_invisible;
 use crate::text::value::{Kind, Value};
 
@@ -91,7 +92,7 @@ impl<'t> Table<'t> {
         }
         let quoted: Vec<_> = allowed.iter().map(|key| format!("`{key}`")).collect();
         help += &format!("{} may have {}", self.label, quoted.join(", "));
-        let message = format!("{} has no key `{}`", self.label, unknown.get_ref());
+        let message = format!("{} has no key `{}`", self.label, shortened(unknown.get_ref()));
         Err(self.source.refuse(unknown.span(), message, help))
     }
 
@@ -149,7 +150,7 @@ impl<'t> Table<'t> {
             };
             let label = match entries.get("name").and_then(|name| name.get_ref().as_str()) {
                 Some(name) if !name.trim().is_empty() && !name.contains(is_invisible) => {
-                    format!("{key} `{name}`")
+                    format!("{key} `{}`", shortened(name))
                 }
                 _ => format!("{key} {}", i + 1),
             };
