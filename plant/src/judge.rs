@@ -2,8 +2,8 @@
 //!
 //! `(model in the precision that runs, state) => energy, largest joint extension | trouble`, in
 //! double precision: the stored words are taken as exact, whatever precision stepped them. A run
-//! that diverges need not reach infinity before its end; it shows in joints that are torn and,
-//! without loads and inputs, in energy that came from nowhere.
+//! that diverges need not reach infinity before its end; it shows in energy that came from nowhere:
+//! neither the start nor gravity, loads and inputs can have given it, see `budget`.
 
 use dbd_kernel::energy::{each_extension, energy};
 use dbd_kernel::model::{Group, Law};
@@ -12,23 +12,17 @@ use dbd_kernel::{BodyState, Energy, F64, State};
 use dbd_scene::{Scene, SceneModel};
 
 use crate::any::AnyPlant;
+use crate::budget::{Budget, free_length};
+use crate::numerals::{Digits, Numerals};
 
-/// A joint's element that is longer than this many times the largest free length of all joints
-/// is torn: a run that diverges slowly passes through here before anything becomes infinite.
+/// Where energy came from nowhere, a joint's element that is longer than this many times the largest
+/// free length of all joints is torn by it. A soft one may well be as long under its load.
 const TORN: f64 = 1000.0;
 
 /// A joint that is open by more than this share of its free length is no longer the joint that was
 /// meant: its elements may point elsewhere by as many radians, and hold other directions as much
 /// more or less. Mounts of rubber that carry a car open by a fifth.
 pub const OPENED: f64 = 0.25;
-
-/// Energy that came from nowhere is a divergence once it exceeds this many times the energies
-/// of the run. Far beyond any error of a run that is merely coarse.
-const GROWN: f64 = 100.0;
-
-/// Extension of all springs, as a share of the scene's size, whose energy counts as an energy of
-/// the run: far above what rounding does in any precision.
-const SHARE: f64 = 1e-4;
 
 /// Why a run ended early.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,14 +34,14 @@ pub enum Trouble {
         /// The row of the fastest body.
         body: usize,
     },
-    /// The energy grew beyond all measure, though nothing drives the scene.
+    /// The energy grew beyond all measure, by far more than anything in the scene can have given.
     Growth {
         /// \[J\] by so much.
         growth: f64,
         /// The row of the fastest body.
         body: usize,
     },
-    /// A joint is stretched beyond all that can be meant, though everything is finite.
+    /// The energy grew likewise, and a joint is stretched beyond all that can be meant.
     Torn {
         /// The row of the joint.
         joint: usize,
@@ -104,42 +98,7 @@ pub struct Judge {
     /// \[m\] the extension of a joint's element at which it counts as torn.
     torn: f64,
     step_size: f64,
-    /// Without loads and inputs.
-    growth: Option<Growth>,
-}
-
-/// What the total energy of a run without loads and inputs is held against.
-struct Growth {
-    /// \[J\] energies at t = 0, and of springs stretched by [`SHARE`].
-    scale: f64,
-    /// \[J\] potential and total energy at t = 0.
-    initial: [f64; 2],
-    /// \[J\] the most potential energy that was released so far.
-    released: f64,
-}
-
-impl Growth {
-    fn new(model: &SceneModel<F64>, start: &Energy<f64>, size: f64) -> Self {
-        // Without `..`, so that a further kind of energy is not forgotten.
-        let Energy { kinetic, gravity, tsda, bushing, line, torsion, load } = *start;
-        let parts = [gravity, tsda, bushing, line, torsion, load];
-        let stiffness: f64 = model.tsdas.iter().map(|tsda| tsda.stiffness).sum::<f64>()
-            + model.bushings.iter().map(|bushing| bushing.stiffness).sum::<f64>()
-            + model.lines.iter().map(|line| line.stiffness).sum::<f64>();
-        let stretch = SHARE * size;
-        let scale = kinetic
-            + parts.iter().map(|part| part.abs()).sum::<f64>()
-            + 0.5 * stiffness * stretch * stretch;
-        Self { scale, initial: [start.potential(), start.total()], released: 0.0 }
-    }
-
-    /// The growth of the energy where it is beyond all measure.
-    fn beyond(&mut self, energy: &Energy<f64>) -> Option<f64> {
-        let [potential, total] = self.initial;
-        self.released = self.released.max(potential - energy.potential());
-        let growth = energy.total() - total;
-        (growth > GROWN * (self.scale + self.released)).then_some(growth)
-    }
+    budget: Budget,
 }
 
 impl Judge {
@@ -172,13 +131,10 @@ impl Judge {
         let stars = joints.groups.iter().filter(|group| group.law == Law::Tsda);
         let torn = TORN * stars.map(|group| free_length(model, group)).fold(0.0, f64::max);
         let start = State::initial(model);
-        let growth = undriven(model).then(|| {
-            let energy = energy(model, &start, step_size);
-            Growth::new(model, &energy, size(&start))
-        });
+        let budget = Budget::new(model, &start, &energy(model, &start, step_size), unit(plant));
         let present = vec![[0.0; 2]; scene.joints.len()];
         let model = model.clone();
-        Self { model, joints, owners, clearances, present, openings, torn, step_size, growth }
+        Self { model, joints, owners, clearances, present, openings, torn, step_size, budget }
     }
 
     /// How far each joint opened in the states so far, in scene order.
@@ -197,11 +153,13 @@ impl Judge {
             return Err(Trouble::Energy { body: fastest(state) });
         }
         let (joint, extension) = self.look(state);
-        if self.torn > 0.0 && extension > self.torn {
-            return Err(Trouble::Torn { joint, extension });
-        }
-        if let Some(growth) = self.growth.as_mut().and_then(|growth| growth.beyond(&energy)) {
-            return Err(Trouble::Growth { growth, body: fastest(state) });
+        let time = state.step as f64 * self.step_size;
+        if let Some(growth) = self.budget.beyond(&self.model, state, &energy, time) {
+            return Err(if self.torn > 0.0 && extension > self.torn {
+                Trouble::Torn { joint, extension }
+            } else {
+                Trouble::Growth { growth, body: fastest(state) }
+            });
         }
         Ok(Verdict { energy, extension })
     }
@@ -230,17 +188,6 @@ impl Judge {
     }
 }
 
-/// \[m\] the largest free length of a group's elements.
-fn free_length(model: &SceneModel<F64>, group: &Group) -> f64 {
-    let first = usize::from(group.element);
-    let rows = first..first + group.elements();
-    match group.law {
-        Law::Tsda => model.tsdas[rows].iter().map(|tsda| tsda.free_length).fold(0.0, f64::max),
-        Law::PointOnLine => model.lines[rows].iter().map(|on| on.free_length).fold(0.0, f64::max),
-        Law::PointBushing => 0.0,
-    }
-}
-
 /// Whether a scene's total energy is meant to stay as it is.
 #[must_use]
 pub fn conserves_energy(scene: &Scene) -> bool {
@@ -252,10 +199,13 @@ fn undriven(model: &SceneModel<F64>) -> bool {
     model.loads.is_empty() && model.inputs.is_empty()
 }
 
-/// \[m\] the largest coordinate.
-fn size(state: &State<SceneModel<F64>>) -> f64 {
-    let coordinates = state.bodies.iter().flat_map(|body| body.position.to_f64());
-    coordinates.fold(0.0, |size, x| size.max(x.abs()))
+/// The relative rounding of the coarsest numbers of a plant's state.
+fn unit(plant: &dyn AnyPlant) -> f64 {
+    let Numerals { position, orientation, velocity, reading: _ } = plant.numerals();
+    match [position, orientation, velocity].contains(&Digits::Single) {
+        true => f32::EPSILON.into(),
+        false => f64::EPSILON,
+    }
 }
 
 /// The row of the body with the largest component of a velocity.
@@ -271,41 +221,6 @@ fn fastest(state: &State<SceneModel<F64>>) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn released_energy_is_no_growth_and_energy_from_nowhere_is() {
-        let mut growth = Growth { scale: 1.0, initial: [10.0, 10.0], released: 0.0 };
-        let energy = |kinetic, gravity| Energy { kinetic, gravity, ..Energy::default() };
-        assert_eq!(growth.beyond(&energy(1000.0, -990.0)), None);
-        // What was released once may come back, and an error of that size is only an error.
-        assert_eq!(growth.beyond(&energy(1000.0, 10.0)), None);
-        assert_eq!(growth.beyond(&energy(2e5, 10.0)), Some(2e5));
-        // At rest with no energy at all: nothing to be beyond of.
-        let mut growth = Growth { scale: 0.0, initial: [0.0, 0.0], released: 0.0 };
-        assert_eq!(growth.beyond(&energy(0.0, 0.0)), None);
-    }
-
-    #[test]
-    fn a_stretched_line_is_an_energy_of_the_run() {
-        let text = |offset: f64| {
-            format!(
-                "name = \"slider\"\nduration = 1\n[[body]]\nname = \"b\"\nmass = 1\n\
-                 inertia = [1, 1, 1]\nposition = [0, {offset}, 0]\n[[point_on_line]]\n\
-                 between = [\"world\", \"b\"]\nline_point = [0, 0, 0]\nline_direction = [1, 0, 0]\n\
-                 point = [0, 0, 0]\nstiffness = 1e4\nfree_length = 0\n"
-            )
-        };
-        let scale = |offset: f64| {
-            let scene = Scene::parse(&text(offset), "slider.toml").unwrap();
-            let start = State::initial(&scene.model);
-            let energy = energy(&scene.model, &start, 1e-3);
-            Growth::new(&scene.model, &energy, 1.0).scale
-        };
-        // At rest what a stretch of the scene's share holds; stretched by 0.1 m 50 J more.
-        let least = 0.5 * 1e4 * SHARE * SHARE;
-        assert!((scale(0.0) - least).abs() < 1e-12);
-        assert!((scale(0.1) - 50.0 - least).abs() < 1e-9);
-    }
 
     /// A body falls through its joint's clearance: that is no opening. What is beyond it is, with the
     /// time at which it was seen.

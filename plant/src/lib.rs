@@ -14,6 +14,7 @@
 //! - [`readings`]: what sensors show, in double precision.
 //! - [`frequencies`]: how fast a scene can vibrate, and the step that follows.
 //! - [`any`]: what a plant of any method can do.
+//! - `budget`: how much energy a run can have.
 //! - [`plant`](mod@plant): where the names become the kernel's types.
 //! - [`judge`]: what a state holds, and whether a run can go on from it.
 //!
@@ -37,6 +38,7 @@
 //! ```
 
 pub mod any;
+mod budget;
 pub mod digits;
 pub mod fitting;
 pub mod frequencies;
