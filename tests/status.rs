@@ -4,7 +4,9 @@ use dbd_kernel::builder::{BuildError, LineLaw, ModelBuilder, Part, Quantity, Sta
 use dbd_kernel::model::ModelOwner;
 use dbd_kernel::plant::{PlantError, StateError};
 use dbd_kernel::status::Cause;
-use dbd_kernel::{BodyIndex, BodyState, Dbd, F32, F64, Leapfrog, Plant, Scheme, Status};
+use dbd_kernel::{
+    BodyIndex, BodyState, Dbd, F32, F64, Failure, Geometry, Leapfrog, Plant, Rk4, Scheme, Status,
+};
 use dbd_tests::{Bench, at, turned};
 
 const WORLD: BodyIndex = BodyIndex::WORLD;
@@ -37,6 +39,41 @@ fn a_body_that_is_not_finite_is_named() {
         assert_eq!(cause, Cause::NonFinite { body: stiff });
         assert!(step < 100, "{step}");
     }
+}
+
+/// A pose overflows while every velocity is still finite: the step in which that happens fails, not
+/// the next, and a body that nothing acts on does not go on without a place.
+#[test]
+fn a_pose_that_is_not_finite_is_named_in_its_own_step() {
+    fn first<P: Geometry, S: Scheme>(scheme: S, most: f64, spin: f64) {
+        let rest = at::<P>([0.0; 3]);
+        let far =
+            BodyState::from_f64([most, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [most, 0.0, 0.0], [0.0; 3]);
+        let spun = BodyState::from_f64([0.0; 3], [1.0, 0.0, 0.0, 0.0], [0.0; 3], [spin, 0.0, 0.0]);
+        for (state, pose) in [(far, "position"), (spun, "orientation")] {
+            let mut model = Bench::<P>::new();
+            model.add_body(1.0, [0.1; 3], rest).unwrap();
+            let lost = model.add_body(1.0, [0.1; 3], state).unwrap();
+            let mut plant = Plant::new(&model, scheme, 1.0).unwrap();
+            let failure = plant.step().ok().unwrap_err();
+            let velocities = plant.state().bodies.iter();
+            assert!(velocities.map(|b| P::velocity(&b.velocity)).all(|v| v.is_finite()));
+            let wanted = Failure { cause: Cause::NonFinite { body: lost }, step: 1 };
+            assert_eq!(failure, wanted, "{pose} {} {}", S::NAME, P::NAME);
+        }
+    }
+    first::<F64, _>(Leapfrog, 1.5e308, 1e160);
+    first::<F64, _>(Rk4, 1.5e308, 1e160);
+    first::<F32, _>(Leapfrog, 3e38, 1e30);
+    first::<F32, _>(Dbd::default(), 3e38, 1e30);
+}
+
+/// Numbers whose sum overflows are finite all the same.
+#[test]
+fn a_body_far_away_is_finite() {
+    let mut model = Bench::<F32>::new();
+    model.add_body(1.0, [0.1; 3], at([3e38, 3e38, 3e38])).unwrap();
+    assert!(Plant::new(&model, Leapfrog, 1e-3).unwrap().advance(3).is_running());
 }
 
 /// A NaN's sign and payload are the machine's: `-0.0/0.0`, `inf − inf` and what a fused or wider

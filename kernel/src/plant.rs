@@ -20,7 +20,7 @@ use crate::schemes::Scheme;
 use crate::state::State;
 use crate::status::{Cause, Failure, Status};
 use crate::step::{Diagonal, Ledger, Stepper};
-use crate::words::{Finite, Words as _};
+use crate::words::is_finite;
 
 /// A model stepped by a scheme at a fixed step. `H` points to the model: `&M`, or a pointer that
 /// owns it.
@@ -388,9 +388,7 @@ fn check<M: ModelOwner>(state: &State<M>, own: &State<M>) -> Result<(), StateErr
     }
     for (i, body) in state.bodies.as_ref().iter().enumerate() {
         let index = BodyIndex(i as u16);
-        let mut finite = Finite(true);
-        body.visit(&mut finite);
-        if !finite.0 {
+        if !is_finite(body) {
             return Err(StateError::NotFinite(index));
         }
         let q = body.orientation.to_f64();
@@ -408,15 +406,9 @@ fn check<M: ModelOwner>(state: &State<M>, own: &State<M>) -> Result<(), StateErr
     Ok(())
 }
 
-/// The first body with a velocity that is infinite or NaN. A position or an orientation becomes
-/// non-finite only through a velocity, at the latest one step later.
+/// The first body with a number in its state that is infinite or NaN.
 #[inline]
 fn first_non_finite<P: Geometry>(bodies: &[BodyState<P>]) -> Option<Cause> {
-    for (i, state) in bodies.iter().enumerate() {
-        let (v, w) = (P::velocity(&state.velocity), P::velocity(&state.angular_velocity));
-        if !(v.is_finite() && w.is_finite()) {
-            return Some(Cause::NonFinite { body: BodyIndex(i as u16) });
-        }
-    }
-    None
+    let row = bodies.iter().position(|state| !is_finite(state))?;
+    Some(Cause::NonFinite { body: BodyIndex(row as u16) })
 }

@@ -121,6 +121,37 @@ impl WordVisitor for Finite {
     }
 }
 
+/// Sums of the numbers visited so far. One that is finite has finite parts only.
+struct Sums {
+    single: f32,
+    double: f64,
+}
+
+impl WordVisitor for Sums {
+    #[inline(always)]
+    fn word(&mut self, word: Word) {
+        match word {
+            Word::F32(x) => self.single += x,
+            Word::F64(x) => self.double += x,
+            Word::I32(_) | Word::U64(_) => {}
+        }
+    }
+}
+
+/// Whether every number of some words is finite. One addition each: a step asks this of every body.
+#[inline]
+pub(crate) fn is_finite(words: &impl Words) -> bool {
+    let mut sums = Sums { single: 0.0, double: 0.0 };
+    words.visit(&mut sums);
+    if sums.single.is_finite() && sums.double.is_finite() {
+        return true;
+    }
+    // The sum of finite numbers may overflow, too.
+    let mut finite = Finite(true);
+    words.visit(&mut finite);
+    finite.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
