@@ -4,8 +4,9 @@ use dbd_kernel::builder::{BuildError, Quantity};
 use dbd_kernel::elements::input::{Input, InputKind};
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::index::{ClearanceIndex, DamperIndex};
-use dbd_kernel::model::{Group, Law};
+use dbd_kernel::model::{Group, Law, ModelOwner as _};
 use dbd_kernel::plant::InputError;
+use dbd_kernel::real::Real as _;
 use dbd_kernel::{
     Body, BodyIndex, Dbd, F32, F64, Geometry, Leapfrog, LoadFrame, Model, Plant, Scheme, Tsda, Vec3,
 };
@@ -246,4 +247,49 @@ fn a_const_model_with_an_anchor_of_no_input_is_refused() {
 #[should_panic(expected = "an anchor's input moves the ground")]
 fn a_const_model_with_an_anchor_of_another_input_is_refused() {
     let _ = hung_from(0).checked();
+}
+
+/// However long after its last knot, and whatever the step: nothing is added to what is held.
+#[test]
+fn a_table_holds_its_last_value_for_ever() {
+    fn held<P: Geometry>(step: f64, linear: bool) {
+        let mut model = Bench::<P>::new();
+        let body = model.add_body(1.0, [0.1; 3], at([0.0; 3])).unwrap();
+        let axis = Vec3::from_f64([0.0, 0.0, 1.0]);
+        let kind = InputKind::Torque { body, axis, frame: LoadFrame::World };
+        model.add_table(kind, &[[0.0, 1.0], [1.0, 0.0]], linear).unwrap();
+        let mut plant = Plant::new(&model, Leapfrog, step).unwrap();
+        let mut state = plant.state().clone();
+        // As many steps as take longer than the number can hold seconds.
+        state.step = 1_000_000_000_000;
+        plant.set_state(state).unwrap();
+        assert!(plant.advance(3).is_running(), "{}", P::NAME);
+        assert!(plant.state().signals[0].value.to_f64() == 0.0, "{}", P::NAME);
+    }
+    for linear in [false, true] {
+        held::<F64>(1e300, linear);
+        held::<F32>(1e30, linear);
+    }
+}
+
+#[test]
+fn a_direction_that_is_not_finite_is_refused() {
+    let mut model = Bench::<F32>::new();
+    let body = model.add_body(1.0, [0.1; 3], at([0.0; 3])).unwrap();
+    let frame = LoadFrame::World;
+    for lost in [f32::NAN, f32::INFINITY] {
+        let (good, lost) = (Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, lost, 0.0));
+        let axis = BuildError::OutOfRange(Quantity::Axis);
+        let point = BuildError::OutOfRange(Quantity::Point);
+        for (kind, error) in [
+            (InputKind::Force { body, point: good, direction: lost, frame }, axis),
+            (InputKind::Force { body, point: lost, direction: good, frame }, point),
+            (InputKind::Torque { body, axis: lost, frame }, axis),
+            (InputKind::JointTorque { a: BodyIndex::WORLD, b: body, axis: lost }, axis),
+            (InputKind::Anchor { direction: lost }, axis),
+        ] {
+            assert_eq!(model.add_input(kind, 1.0), Err(error));
+        }
+    }
+    assert!(model.view().inputs.is_empty());
 }

@@ -171,7 +171,9 @@ fn table<R: Real>(knots: &[Knot<R>], steps: &[KnotStep<R>], at: StageTime<R>) ->
         Some(steps) => (R::from_u64(steps) + part) * h + step.offset,
         None => within(step),
     };
-    Some(Signal { value: knot.value + knot.slope * since, rate: knot.slope })
+    // What is held stays so for ever, also where the time since is beyond what the number can hold.
+    let rise = if knot.slope == R::ZERO { R::ZERO } else { knot.slope * since };
+    Some(Signal { value: knot.value + rise, rate: knot.slope })
 }
 
 #[cfg(test)]

@@ -38,7 +38,7 @@ impl<
     /// Adds an input that the caller drives, at first with `value`.
     ///
     /// # Errors
-    /// [`BuildError::Full`], a body that is not there, a value that is not finite.
+    /// [`BuildError::Full`], a body that is not there, a point, direction or value that is not finite.
     pub fn add_input(&mut self, kind: InputKind<P>, value: f64) -> Result<InputIndex, BuildError> {
         match &kind {
             InputKind::Force { body, .. } | InputKind::Torque { body, .. } => {
@@ -53,6 +53,17 @@ impl<
                 check(there, Quantity::Arms)?;
             }
             InputKind::Anchor { .. } => {}
+        }
+        match &kind {
+            InputKind::Force { point, direction, .. } => {
+                check(finite(&P::local_to_f64(point)), Quantity::Point)?;
+                check(direction.is_finite(), Quantity::Axis)?;
+            }
+            InputKind::Torque { axis, .. } | InputKind::JointTorque { axis, .. } => {
+                check(axis.is_finite(), Quantity::Axis)?;
+            }
+            InputKind::Anchor { direction } => check(direction.is_finite(), Quantity::Axis)?,
+            InputKind::Actuator { .. } => {}
         }
         check(P::Real::from_f64(value).is_finite(), Quantity::Load)?;
         room(&self.inputs, 1, Part::Inputs)?;
