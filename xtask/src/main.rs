@@ -9,6 +9,7 @@ mod bits;
 mod built;
 mod command;
 mod cost;
+mod fuzz;
 mod steps;
 mod target;
 mod tests;
@@ -72,6 +73,9 @@ enum Command {
         #[arg(long, conflicts_with_all = ["compare", "scenes"])]
         baseline: bool,
     },
+    /// Gives random input to the reader of scenes, to snapshots, to steps and to the command line, on
+    /// all cores; fails where anything fails.
+    Fuzz(fuzz::Campaign),
     /// Looks into the linked steps and calls for panics, allocation, fused and soft floating point.
     Audit,
 }
@@ -86,6 +90,7 @@ fn main() -> ExitCode {
         Command::Fw { name, long, arguments } => firmware::run(&name, long, &arguments),
         Command::Cost { baseline: true, .. } => cost::baseline(),
         Command::Cost { scenes, compare, .. } => cost::run(&scenes, compare),
+        Command::Fuzz(campaign) => fuzz::run(&campaign),
         Command::Audit => audit::run(),
     });
     match outcome {

@@ -1,0 +1,271 @@
+//! Command lines: commands, options, values and scenes, at random and at times nonsense.
+
+use std::ffi::OsString;
+
+use fastrand::Rng;
+
+use crate::corpus::{SHIPPED, SMALL};
+
+/// Arguments and the scene file that lies beside them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Arguments {
+    /// The arguments after the program's name.
+    pub words: Vec<OsString>,
+    /// The content of `scene.toml`, and of standard input.
+    pub scene: Vec<u8>,
+}
+
+impl Arguments {
+    /// What bytes say: a count, so many lengths and words, the rest is the scene.
+    #[must_use]
+    pub fn of(bytes: &[u8]) -> Self {
+        let (count, mut rest) = bytes.split_first().map_or((0, bytes), |(n, rest)| (*n, rest));
+        let mut words = Vec::new();
+        for _ in 0..count {
+            let Some(([low, high], after)) = rest.split_first_chunk::<2>() else { break };
+            let length = usize::from(u16::from_le_bytes([*low, *high])).min(after.len());
+            let (word, after) = after.split_at(length);
+            words.push(os_string(word));
+            rest = after;
+        }
+        Self { words, scene: rest.to_vec() }
+    }
+
+    /// The bytes that say so.
+    #[must_use]
+    pub fn bytes(&self) -> Vec<u8> {
+        let count = self.words.len().min(255);
+        let mut bytes = vec![count as u8];
+        for word in &self.words[..count] {
+            let word = word.as_encoded_bytes();
+            let length = word.len().min(usize::from(u16::MAX));
+            bytes.extend_from_slice(&(length as u16).to_le_bytes());
+            bytes.extend_from_slice(&word[..length]);
+        }
+        bytes.extend_from_slice(&self.scene);
+        bytes
+    }
+}
+
+#[cfg(unix)]
+fn os_string(bytes: &[u8]) -> OsString {
+    use std::os::unix::ffi::OsStringExt as _;
+    // No process takes a zero byte in an argument.
+    OsString::from_vec(bytes.iter().copied().filter(|byte| *byte != 0).collect())
+}
+
+#[cfg(not(unix))]
+fn os_string(bytes: &[u8]) -> OsString {
+    String::from_utf8_lossy(bytes).replace('\0', "").into()
+}
+
+const COMMANDS: &[&str] =
+    &["run", "run", "run", "run", "check", "check", "export", "trade", "list", "completions"];
+
+/// Options with a value, and what may come after them beside anything else.
+const OPTIONS: &[(&str, &[&str])] = &[
+    ("--step", TIMES),
+    ("--duration", TIMES),
+    ("--every", TIMES),
+    ("--window", TIMES),
+    ("--period", TIMES),
+    ("--newton", &["0", "1", "2", "8", "9", "-1", "4294967295", "4294967296", "x", ""]),
+    (
+        "--scheme",
+        &[
+            "dbd",
+            "dbd-p1",
+            "dbd-p2",
+            "leapfrog",
+            "rk4",
+            "pefrl",
+            "blanes-moan-s6",
+            "semi-implicit-euler",
+            "euler",
+            "",
+        ],
+    ),
+    ("--damping", &["sweeps", "explicit", "none"]),
+    ("--precision", &["f64", "f32", "f32", "f32-micromath", "f16", "all"]),
+    ("--orientation", &["quaternion", "euler-321", "euler-321-single", "x"]),
+    (
+        "--out",
+        &[
+            "out",
+            "folder",
+            "file",
+            "file/below",
+            "taken",
+            "",
+            ".",
+            "..",
+            "a/b/c",
+            "/dev/null",
+            "/dev/null/x",
+            "/proc/none",
+            "é\n",
+            "-",
+            "--",
+            "CON",
+        ],
+    ),
+];
+
+const FLAGS: &[&str] = &[
+    "--json",
+    "--quiet",
+    "--overwrite",
+    "--stability",
+    "--help",
+    "-h",
+    "--version",
+    "-V",
+    "--",
+    "-",
+    "--nothing",
+    "-x",
+    "--json=1",
+    "",
+];
+
+const TIMES: &[&str] = &[
+    "1ms",
+    "10ms",
+    "0.1s",
+    "1s",
+    "20us",
+    "100us",
+    "1us",
+    "0.5",
+    "1e-3",
+    "2e-3s",
+    "3ms",
+    "7ms",
+    "0.3s",
+    "1e-20",
+    "1e-300",
+    "5e-324",
+    "1e300",
+    "1e308s",
+    "1e999",
+    "0",
+    "-1",
+    "-1ms",
+    "nan",
+    "inf",
+    "1e",
+    "s",
+    "",
+    "1 ms",
+    "١ms",
+    "1e-2147483648ns",
+    "1e2147483647s",
+    "0.1234567890123456",
+    "9007199254740993ns",
+    "1e12s",
+    "1e6",
+];
+
+const NAMES: &[&str] = &[
+    "four-bar",
+    "spring-ball",
+    "gyroscope",
+    "crank-slider",
+    "cart-pendulum",
+    "four-ba",
+    "file",
+    "folder",
+    "folder/",
+    "none.toml",
+    "./scene.toml",
+    "../scene.toml",
+    "/dev/null",
+    "é",
+    "bash",
+    "zsh",
+    "fish",
+    "elvish",
+    "powershell",
+    "a\0b",
+    "taken/scene/summary.json",
+    ".toml",
+    "/",
+];
+
+fn pick<'l>(list: &[&'l str], random: &mut Rng) -> &'l str {
+    list[random.usize(..list.len())]
+}
+
+/// A scene that is valid and small.
+pub fn valid_scene(random: &mut Rng) -> Vec<u8> {
+    let list = if random.u8(..8) > 0 { &SMALL } else { &SHIPPED };
+    list[random.usize(..list.len())].clone().into_bytes()
+}
+
+/// Arguments, of which most are right by themselves.
+pub fn random(random: &mut Rng) -> Vec<OsString> {
+    let mut words: Vec<Vec<u8>> = Vec::new();
+    let mut push = |word: &str| words.push(word.as_bytes().to_vec());
+    push(pick(COMMANDS, random));
+    match random.u8(..8) {
+        0..=4 => push("scene.toml"),
+        5 | 6 => push(pick(NAMES, random)),
+        _ => {}
+    }
+    for _ in 0..random.u8(..5) {
+        if random.u8(..3) == 0 {
+            push(pick(FLAGS, random));
+            continue;
+        }
+        let (option, values) = OPTIONS[random.usize(..OPTIONS.len())];
+        let value = match random.u8(..12) {
+            0 => pick(NAMES, random),
+            1 => pick(TIMES, random),
+            _ => pick(values, random),
+        };
+        if random.bool() {
+            push(option);
+            push(value);
+        } else {
+            push(&format!("{option}={value}"));
+        }
+    }
+    for _ in 0..2 {
+        if random.u8(..12) == 0 {
+            spoil(&mut words, random);
+        }
+    }
+    words.iter().map(|word| os_string(word)).collect()
+}
+
+/// Other order, other bytes, less, more or much longer.
+fn spoil(words: &mut Vec<Vec<u8>>, random: &mut Rng) {
+    let at = random.usize(..words.len());
+    match random.u8(..6) {
+        0 => random.shuffle(words),
+        1 => drop(words.remove(at)),
+        2 => words.push(words[at].clone()),
+        3 => words[at] = words[at].repeat(random.usize(..2000)),
+        4 => words[at].push(random.u8(..)),
+        _ => words[at] = (0..random.usize(..40)).map(|_| random.u8(..)).collect(),
+    }
+    if words.is_empty() {
+        words.push(Vec::new());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arguments_are_read_back_from_their_bytes() {
+        let mut source = Rng::with_seed(7);
+        for _ in 0..1000 {
+            let arguments = Arguments { words: random(&mut source), scene: b"name".to_vec() };
+            assert_eq!(Arguments::of(&arguments.bytes()), arguments);
+        }
+        assert_eq!(Arguments::of(&[]), Arguments::default());
+        assert_eq!(Arguments::of(&[3, 200]).words.len(), 0);
+    }
+}
