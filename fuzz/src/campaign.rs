@@ -51,6 +51,8 @@ pub struct Report {
     pub time: Duration,
     /// Findings by their keys.
     pub found: BTreeMap<String, Found>,
+    /// Inputs that took long, and how long \[s\].
+    pub slow: Vec<(PathBuf, f64)>,
 }
 
 impl Report {
@@ -185,6 +187,9 @@ fn hear(line: &str, report: &Mutex<Report>) -> Option<u64> {
     if let Some(found) = Found::of_line(line) {
         report.find(found);
     }
+    if let Some((file, time)) = line.strip_prefix("slow\t").and_then(|rest| rest.split_once('\t')) {
+        report.slow.push((file.into(), time.parse().unwrap_or_default()));
+    }
     let told = Told::of_line(line)?;
     report.add(&told);
     Some(told.block)
@@ -210,9 +215,13 @@ pub fn text(reports: &[(&dyn Target, Report)], root: &Path) -> String {
             sum.findings,
         );
     }
+    let short = |file: &'_ Path| file.strip_prefix(root).unwrap_or(file).display().to_string();
+    for (file, time) in reports.iter().flat_map(|(_, report)| &report.slow) {
+        text += &format!("\n{}\n    took {time:.1} s\n", short(file));
+    }
     for found in reports.iter().flat_map(|(_, report)| report.found.values()) {
-        let file = found.file.strip_prefix(root).unwrap_or(&found.file);
-        text += &format!("\n{}\n    {}\n", file.display(), found.finding.message);
+        let file = short(&found.file);
+        text += &format!("\n{file}\n    {}\n", found.finding.message);
     }
     text
 }

@@ -60,7 +60,7 @@ impl Target for CommandLineTarget {
 
     fn execute(&self, input: &[u8]) -> Result<Reach, Finding> {
         let arguments = Arguments::of(input);
-        if !budget::is_short(&arguments) {
+        if !(budget::stays(&arguments) && budget::is_short(&arguments)) {
             return Ok(Reach::Skipped);
         }
         // One folder for all that a thread runs: to make one takes as long as a command.

@@ -194,11 +194,12 @@ fn replay_one(file: &Path, show: bool) -> Result<bool> {
     if show {
         println!("{}", target.shown(&input));
     }
-    match execute(target, &input) {
+    let outcome = execute(target, &input);
+    match &outcome {
         Ok(reach) => println!("{name}: {reach:?}"),
         Err(finding) => println!("{name}: FAILS: {}", finding.message),
     }
-    Ok(execute(target, &input).is_ok())
+    Ok(outcome.is_ok())
 }
 
 fn worker(arguments: &WorkerArguments) -> Result<()> {

@@ -18,6 +18,9 @@ use crate::execution::execute;
 use crate::shrink::shrunk;
 use crate::target::{Finding, Reach, Target};
 
+/// What takes longer is shown: it is no fault, but may become one.
+const SLOW: Duration = Duration::from_secs(2);
+
 /// The exit code of a worker whose input took too long.
 pub const TOO_LONG: i32 = 3;
 
@@ -162,7 +165,11 @@ fn run_block(
         BEGUN.fetch_add(1, Ordering::Relaxed);
         let begun = Instant::now();
         let outcome = execute(target, &input);
-        told.slowest = told.slowest.max(begun.elapsed());
+        let took = begun.elapsed();
+        if took > SLOW.max(told.slowest) {
+            keep_slow(target, &work.findings, &input, took)?;
+        }
+        told.slowest = told.slowest.max(took);
         match outcome {
             Ok(Reach::Skipped) => {
                 told.skipped += 1;
@@ -180,6 +187,13 @@ fn run_block(
         told.executions += 1;
     }
     Ok(told)
+}
+
+/// Writes an input that took long and tells of it.
+fn keep_slow(target: &dyn Target, folder: &Path, input: &[u8], took: Duration) -> Result<()> {
+    let file = folder.join(file_name(target, input));
+    fs::write(&file, input).with_context(|| format!("{}", file.display()))?;
+    say(&format!("slow\t{}\t{}", file.display(), took.as_secs_f64()))
 }
 
 /// Writes a finding's input, tells of it, then makes it small: what shrinks may hang.

@@ -14,9 +14,10 @@ use crate::target::Finding;
 pub const SCENE: &str = "scene.toml";
 
 /// A folder with a scene, a file, a folder and another scene's results; the current folder of this
-/// process.
+/// process. It lies within one that holds nothing else: `..` is looked at, too.
 pub struct Folder {
-    folder: TempDir,
+    outer: TempDir,
+    inner: PathBuf,
     clean: bool,
 }
 
@@ -51,14 +52,16 @@ fn failed(error: io::Error) -> Finding {
 
 impl Folder {
     fn new() -> io::Result<Self> {
-        let folder = tempfile::Builder::new().prefix("dbd-fuzz-").tempdir()?;
-        std::env::set_current_dir(folder.path())?;
-        Ok(Self { folder, clean: false })
+        let outer = tempfile::Builder::new().prefix("dbd-fuzz-").tempdir()?;
+        let inner = outer.path().join("here");
+        fs::create_dir(&inner)?;
+        std::env::set_current_dir(&inner)?;
+        Ok(Self { outer, inner, clean: false })
     }
 
     /// Where it lies.
     pub fn path(&self) -> &Path {
-        self.folder.path()
+        &self.inner
     }
 
     /// What a command changed is brought back before the next.
@@ -75,12 +78,10 @@ impl Folder {
     }
 
     fn lay(&mut self, scene: &[u8]) -> io::Result<()> {
-        let here = self.folder.path();
+        let here = self.inner.as_path();
         if !self.clean {
-            for entry in fs::read_dir(here)? {
-                let path = entry?.path();
-                if path.is_dir() { fs::remove_dir_all(path)? } else { fs::remove_file(path)? }
-            }
+            empty(here)?;
+            empty(self.outer.path())?;
             fs::write(here.join("file"), "neither a scene nor a folder")?;
             fs::create_dir(here.join("folder"))?;
             fs::create_dir_all(here.join("taken/scene"))?;
@@ -94,10 +95,22 @@ impl Folder {
     /// What lies in it now.
     pub fn listing(&self) -> Listing {
         let mut listing = Vec::new();
-        list(self.folder.path(), &mut listing);
+        list(self.outer.path(), &mut listing);
         listing.sort();
         listing
     }
+}
+
+/// Removes what lies in a folder, but not the current one.
+fn empty(folder: &Path) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.ends_with("here") {
+            continue;
+        }
+        if path.is_dir() { fs::remove_dir_all(path)? } else { fs::remove_file(path)? }
+    }
+    Ok(())
 }
 
 fn list(folder: &Path, into: &mut Listing) {

@@ -59,8 +59,18 @@ fn os_string(bytes: &[u8]) -> OsString {
     String::from_utf8_lossy(bytes).replace('\0', "").into()
 }
 
-const COMMANDS: &[&str] =
-    &["run", "run", "run", "run", "check", "check", "export", "trade", "list", "completions"];
+/// Commands with the options and flags that are theirs: rows of [`OPTIONS`], flags.
+const COMMANDS: &[(&str, &[usize], &[&str])] = &[
+    ("run", &[0, 1, 2, 5, 6, 7, 8, 9, 10], &["--json", "--quiet", "--overwrite"]),
+    ("run", &[0, 1, 1, 2, 6, 8, 10], &["--json", "--quiet", "--overwrite"]),
+    ("run", &[1, 6, 8], &["--json", "--quiet"]),
+    ("check", &[], &["--json"]),
+    ("check", &[5, 6, 7, 8], &["--stability", "--json"]),
+    ("export", &[8], &[]),
+    ("trade", &[3, 4, 10], &["--json", "--quiet", "--overwrite"]),
+    ("list", &[], &["--json"]),
+    ("completions", &[], &[]),
+];
 
 /// Options with a value, and what may come after them beside anything else.
 const OPTIONS: &[(&str, &[&str])] = &[
@@ -166,6 +176,11 @@ const TIMES: &[&str] = &[
     "1e6",
 ];
 
+/// So many values of an option are right, mostly.
+const GOOD: usize = 8;
+
+const SHELLS: &[&str] = &["bash", "zsh", "fish", "elvish", "powershell", "sh", ""];
+
 const NAMES: &[&str] = &[
     "four-bar",
     "spring-ball",
@@ -181,15 +196,9 @@ const NAMES: &[&str] = &[
     "../scene.toml",
     "/dev/null",
     "é",
-    "bash",
-    "zsh",
-    "fish",
-    "elvish",
-    "powershell",
     "a\0b",
     "taken/scene/summary.json",
     ".toml",
-    "/",
 ];
 
 fn pick<'l>(list: &[&'l str], random: &mut Rng) -> &'l str {
@@ -206,23 +215,22 @@ pub fn valid_scene(random: &mut Rng) -> Vec<u8> {
 pub fn random(random: &mut Rng) -> Vec<OsString> {
     let mut words: Vec<Vec<u8>> = Vec::new();
     let mut push = |word: &str| words.push(word.as_bytes().to_vec());
-    push(pick(COMMANDS, random));
-    match random.u8(..8) {
-        0..=4 => push("scene.toml"),
-        5 | 6 => push(pick(NAMES, random)),
+    let (command, own, flags) = COMMANDS[random.usize(..COMMANDS.len())];
+    push(command);
+    match random.u8(..16) {
+        _ if command == "list" => {}
+        _ if command == "completions" => push(pick(SHELLS, random)),
+        0..=11 => push("scene.toml"),
+        12..=14 => push(pick(NAMES, random)),
         _ => {}
     }
-    for _ in 0..random.u8(..5) {
-        if random.u8(..3) == 0 {
-            push(pick(FLAGS, random));
-            continue;
-        }
-        let (option, values) = OPTIONS[random.usize(..OPTIONS.len())];
-        let value = match random.u8(..12) {
-            0 => pick(NAMES, random),
-            1 => pick(TIMES, random),
-            _ => pick(values, random),
-        };
+    // Most of them once: what is given twice is refused.
+    let mut own = own.to_vec();
+    random.shuffle(&mut own);
+    for row in own.into_iter().take(random.usize(..4)) {
+        let (option, values) = OPTIONS[row];
+        let good = random.usize(..values.len().min(GOOD));
+        let value = if random.u8(..4) == 0 { pick(values, random) } else { values[good] };
         if random.bool() {
             push(option);
             push(value);
@@ -230,10 +238,21 @@ pub fn random(random: &mut Rng) -> Vec<OsString> {
             push(&format!("{option}={value}"));
         }
     }
-    for _ in 0..2 {
-        if random.u8(..12) == 0 {
-            spoil(&mut words, random);
+    flags.iter().filter(|_| random.u8(..3) == 0).for_each(|flag| push(flag));
+    if random.u8(..8) == 0 {
+        // Somebody else's.
+        match random.u8(..3) {
+            0 => push(pick(FLAGS, random)),
+            1 => push(pick(NAMES, random)),
+            _ => {
+                let (option, _) = OPTIONS[random.usize(..OPTIONS.len())];
+                push(option);
+                push(pick(TIMES, random));
+            }
         }
+    }
+    if random.u8(..8) == 0 {
+        spoil(&mut words, random);
     }
     words.iter().map(|word| os_string(word)).collect()
 }
