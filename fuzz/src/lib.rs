@@ -8,7 +8,7 @@
 //! - [`execution`]: one input through one target, a panic caught.
 //! - [`numbers`], [`mutation`], [`corpus`]: numbers at the extremes; texts changed; where they
 //!   begin.
-//! - [`scene`], [`snapshot`], [`stepper`], [`command_line`]: the targets.
+//! - [`scene`], [`stepper`], [`snapshot`], [`command_line`]: the targets.
 //! - [`planted`]: faults that must be found.
 //! - [`targets`]: all of them by name.
 //! - [`shrink`]: a finding made small.
