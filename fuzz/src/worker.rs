@@ -165,7 +165,13 @@ fn run_block(
         BEGUN.fetch_add(1, Ordering::Relaxed);
         let begun = Instant::now();
         let outcome = execute(target, &input);
-        let took = begun.elapsed();
+        let mut took = begun.elapsed();
+        if took > SLOW && outcome.is_ok() {
+            // On a busy machine it may only have waited.
+            let again = Instant::now();
+            let _ = execute(target, &input);
+            took = took.min(again.elapsed());
+        }
         if took > SLOW.max(told.slowest) {
             keep_slow(target, &work.findings, &input, took)?;
         }
