@@ -23,6 +23,7 @@ pages! {
     command_line "docs/command-line.md"
     development "docs/development.md"
     joints "docs/joints.md"
+    proof "docs/proof.md"
     reference_solvers "docs/reference-solvers.md"
     scene_reference "docs/scene-reference.md"
     schemes "docs/schemes.md"

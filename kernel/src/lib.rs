@@ -6,7 +6,7 @@
 //!
 //! The modules in the order of the road; each uses only those before it (a test holds it to that):
 //!
-//! - [`words`], `square_root`, [`real`], [`vector`], `arctangent`: the arithmetic, and the words in
+//! - [`words`], `square_root`, [`real`], [`vector`], [`arctangent`]: the arithmetic, and the words in
 //!   which it is stored.
 //! - `compositions`, [`index`]: coefficients, and names of a model's parts.
 //! - [`attitude`], [`geometry`], [`euler`], [`loose`]: a precision is a type: [`F64`], [`F32`]; an
@@ -46,7 +46,7 @@
 #[cfg(test)]
 extern crate std;
 
-mod arctangent;
+pub mod arctangent;
 pub mod attitude;
 pub mod body;
 #[cfg(feature = "heapless")]

@@ -10,6 +10,7 @@ mod built;
 mod command;
 mod cost;
 mod fuzz;
+mod prove;
 mod steps;
 mod target;
 mod tests;
@@ -76,6 +77,16 @@ enum Command {
     /// Gives random input to the reader of scenes, to snapshots, to steps and to the command line, on
     /// all cores; fails where anything fails.
     Fuzz(fuzz::Campaign),
+    /// Tries all inputs where the tests try a sample: roots, arctangents, long runs; writes
+    /// docs/results/proof.csv.
+    Prove,
+    /// Compares the golden bits with other optimisations on the host, and in QEMU on other machines;
+    /// writes docs/results/bits.csv where all are compared.
+    Bits {
+        /// Builds and machines to compare, all of them where none is named: the rows' first words.
+        #[arg(value_name = "NAME")]
+        names: Vec<String>,
+    },
     /// Looks into the linked steps and calls for panics, allocation, fused and soft floating point.
     Audit,
 }
@@ -91,6 +102,8 @@ fn main() -> ExitCode {
         Command::Cost { baseline: true, .. } => cost::baseline(),
         Command::Cost { scenes, compare, .. } => cost::run(&scenes, compare),
         Command::Fuzz(campaign) => fuzz::run(&campaign),
+        Command::Bits { names } => bits::machines::run(&names),
+        Command::Prove => prove::run(),
         Command::Audit => audit::run(),
     });
     match outcome {

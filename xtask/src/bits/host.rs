@@ -3,6 +3,7 @@
 //! Optimised as a release and not at all: with the target's, three levels of optimisation.
 
 use std::path::PathBuf;
+use std::process::Command;
 
 use anyhow::{Context as _, Result};
 
@@ -35,7 +36,7 @@ impl Host {
     /// # Errors
     /// Where it fails.
     pub fn released(&self, arguments: &[&str]) -> Result<Vec<String>> {
-        lines(&self.release, arguments)
+        lines(program(&self.release).args(arguments))
     }
 
     /// Lines of a program, not optimised.
@@ -43,17 +44,25 @@ impl Host {
     /// # Errors
     /// Where it fails.
     pub fn unoptimised(&self, arguments: &[&str]) -> Result<Vec<String>> {
-        lines(&self.unoptimised, arguments)
+        lines(program(&self.unoptimised).args(arguments))
     }
 }
 
-fn shared(built: &[Program]) -> Result<PathBuf> {
+/// The program that holds the others, among those that were built.
+///
+/// # Errors
+/// Where it is not among them.
+pub fn shared(built: &[Program]) -> Result<PathBuf> {
     let name = format!("firmware::{}", firmware::SHARED);
     let program = built.iter().find(|program| program.name == name && !program.tests);
     Ok(program.with_context(|| format!("{name} was not built"))?.path.clone())
 }
 
-fn lines(path: &PathBuf, arguments: &[&str]) -> Result<Vec<String>> {
-    let text = output(program(path).args(arguments))?;
+/// What a program prints.
+///
+/// # Errors
+/// Where it fails.
+pub fn lines(command: &mut Command) -> Result<Vec<String>> {
+    let text = output(command)?;
     Ok(text.lines().map(str::to_owned).collect())
 }

@@ -19,14 +19,25 @@ const END: &str = "2";
 /// # Errors
 /// Where a hash differs or a program fails.
 pub fn compare(toolchain: &Toolchain, host: &Host) -> Result<()> {
-    let on_host = |part: &str| {
-        let lines = host.released(&["relay", part])?;
-        Ok::<_, anyhow::Error>(hashes(lines.iter().map(String::as_str)))
+    let on_host = |arguments: &[&str]| host.released(arguments);
+    let on_target = |arguments: &[&str]| {
+        let [program, parts @ ..] = arguments else { bail!("no program is named") };
+        let parts: Vec<String> = parts.iter().map(|part| (*part).to_owned()).collect();
+        firmware::execute(toolchain, program, false, &parts)
     };
-    let on_target = |part: &str| {
-        let lines = firmware::execute(toolchain, "relay", false, &[part.to_owned()])?;
-        Ok::<_, anyhow::Error>(hashes(lines.iter().map(String::as_str)))
-    };
+    compare_machines(("host", on_host), ("target", on_target)).map(drop)
+}
+
+/// The same for any two machines, each a name and what prints a program's lines; the number of runs.
+///
+/// # Errors
+/// Where a hash differs or a program fails.
+pub fn compare_machines(
+    (host, on_host): (&str, impl Fn(&[&str]) -> Result<Vec<String>>),
+    (target, on_target): (&str, impl Fn(&[&str]) -> Result<Vec<String>>),
+) -> Result<usize> {
+    let on_host = |part| on_host(&["relay", part]).map(hashes);
+    let on_target = |part| on_target(&["relay", part]).map(hashes);
     let folder = root().join("out");
     std::fs::create_dir_all(&folder).context("cannot make the folder out")?;
     let whole = on_host(WHOLE)?;
@@ -40,19 +51,18 @@ pub fn compare(toolchain: &Toolchain, host: &Host) -> Result<()> {
     on_target(BEGIN)?;
     let target_first = on_host(END)?;
     forget()?;
-    for (way, halves) in [("host, then target", &host_first), ("target, then host", &target_first)]
-    {
+    for (first, then, halves) in [(host, target, &host_first), (target, host, &target_first)] {
         if halves != &whole {
             let missing = whole.iter().find(|line| !halves.contains(line));
             let line = missing.map_or("a line too many", String::as_str);
-            bail!("{way}: not the same as in one run: {line}");
+            bail!("{first}, then {then}: not the same as in one run: {line}");
         }
     }
-    println!("\nequal in one run on the host and in halves on host and target, both ways:");
-    for line in whole {
+    println!("\nequal in one run on the {host} and in halves on {host} and {target}, both ways:");
+    for line in &whole {
         println!("{line}");
     }
-    Ok(())
+    Ok(whole.len())
 }
 
 /// Removes the snapshots, so that no machine takes its own for the other's.
@@ -68,6 +78,6 @@ fn forget() -> Result<()> {
 }
 
 /// The lines `relay SCENE SCHEME PRECISION STEPS HASH`.
-fn hashes<'l>(lines: impl Iterator<Item = &'l str>) -> Vec<String> {
-    lines.filter(|line| line.starts_with("relay ")).map(str::to_owned).collect()
+fn hashes(lines: Vec<String>) -> Vec<String> {
+    lines.into_iter().filter(|line| line.starts_with("relay ")).collect()
 }

@@ -1,6 +1,6 @@
 //! The target: its compiler and tools, the firmware's images, the emulator that runs them.
 
-mod debian;
+pub mod debian;
 mod emulator;
 pub mod firmware;
 pub mod setup;

@@ -1,4 +1,4 @@
-//! The compiler for a bare target: which of three ways, and the cargo command of it.
+//! The compiler for another target: which of three ways, and the cargo command of it.
 //!
 //! 1. prebuilt: the host's toolchain has the target's libraries.
 //! 2. rust-src: it has the library sources, from which cargo builds `core`.
@@ -45,6 +45,14 @@ impl Toolchain {
     /// # Errors
     /// Where no way works, or the one demanded does not; the remedies are named.
     pub fn find(target: &str) -> Result<Self> {
+        Self::with_linker(target, None)
+    }
+
+    /// The same for a target that has a linker of its own.
+    ///
+    /// # Errors
+    /// As [`Toolchain::find`].
+    pub fn with_linker(target: &str, own: Option<PathBuf>) -> Result<Self> {
         let demanded = demanded()?;
         let sysroot = host_sysroot()?;
         let way = match demanded {
@@ -66,6 +74,7 @@ impl Toolchain {
             _ => {}
         }
         let linker = match way {
+            _ if own.is_some() => own,
             // The toolchain that has the target has its linker too.
             Way::Prebuilt => None,
             Way::RustSrc | Way::Debian => Some(linker(&sysroot)?),
@@ -110,7 +119,7 @@ impl Toolchain {
         self.target_dir().join(&self.target).join(profile)
     }
 
-    /// `cargo SUBCOMMAND` for the target; `libraries` as for build-std: `core`, `core,alloc`.
+    /// `cargo SUBCOMMAND` for the target; `libraries` as for build-std: `core`, `core,alloc`, `std,…`.
     pub fn cargo(&self, subcommand: &str, libraries: &str) -> Command {
         let mut command = match self.way {
             Way::Debian => program(DEBIAN_CARGO),

@@ -21,6 +21,7 @@ use cases::{Case, Selection};
 
 const KERNEL: &str = "dbd-kernel";
 const GOLDEN: &str = "dbd-golden";
+const PROOF: &str = "dbd-proof";
 /// What every build of the host's takes: one set of features, so that nothing is built twice.
 const EVERYTHING: [&str; 2] = ["--workspace", "--all-features"];
 /// Targets that the kernel is checked for beside the firmware's: without an FPU, without
@@ -83,7 +84,14 @@ pub fn quick() -> Result<()> {
 pub fn tables() -> Result<()> {
     let command = |options: &[&str]| {
         let mut tests = cargo();
-        tests.arg("test").args(options).args(["--package", "dbd-tests", "--package", GOLDEN]);
+        tests.arg("test").args(options).args([
+            "--package",
+            "dbd-tests",
+            "--package",
+            GOLDEN,
+            "--package",
+            PROOF,
+        ]);
         tests.arg("--all-features");
         tests
     };

@@ -1,0 +1,194 @@
+//! `cargo xtask bits`: the golden bits however the host's compiler optimises, and on other machines.
+//!
+//! `builds × tests => docs/results/bits.csv`. The host runs the golden tests; another machine, which
+//! QEMU's user mode emulates, those of the kernel and the proofs too, and halves of runs whose other
+//! halves the host takes.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use anyhow::{Context as _, Result, bail};
+
+use crate::bits::{host, relay};
+use crate::built::{Program, build};
+use crate::command::{cargo, find, output, program, root};
+use crate::steps::Steps;
+use crate::target::{Toolchain, debian, firmware};
+
+/// Where the outcome is kept.
+const FILE: &str = "docs/results/bits.csv";
+const HEADER: &str = "build,byte_order,optimisation,hashes,tests,relayed";
+/// The tables of golden bits, whose rows the test `golden` compares.
+const GOLDEN: [&str; 2] = ["tests/golden/hashes.csv", "tests/golden/orientations.csv"];
+
+/// Levels of optimisation on the host, and flags of the compiler.
+const LEVELS: [(&str, &str, &str); 6] = [
+    ("opt-0", "0", ""),
+    ("opt-1", "1", ""),
+    ("opt-2", "2", ""),
+    ("opt-3", "3", ""),
+    ("opt-s", "s", ""),
+    ("native", "3", "-C target-cpu=native"),
+];
+
+/// A machine that QEMU emulates, with Debian's linker and C library for it.
+struct Machine {
+    name: &'static str,
+    byte_order: &'static str,
+    target: &'static str,
+    emulator: &'static str,
+    /// The name of its GNU tools.
+    tools: &'static str,
+    packages: [&'static str; 3],
+}
+
+/// One of each byte order. s390x is not among them: before QEMU 9 its product of two numbers in single
+/// precision, to double precision (MDEBR), takes the first for one in double precision.
+const MACHINES: [Machine; 2] = [
+    Machine {
+        name: "aarch64",
+        byte_order: "little",
+        target: "aarch64-unknown-linux-gnu",
+        emulator: "qemu-aarch64",
+        tools: "aarch64-linux-gnu",
+        packages: ["qemu-user", "gcc-aarch64-linux-gnu", "libc6-dev-arm64-cross"],
+    },
+    Machine {
+        name: "powerpc64",
+        byte_order: "big",
+        target: "powerpc64-unknown-linux-gnu",
+        emulator: "qemu-ppc64",
+        tools: "powerpc64-linux-gnu",
+        packages: ["qemu-user", "gcc-powerpc64-linux-gnu", "libc6-dev-ppc64-cross"],
+    },
+];
+
+/// Compares all builds, or those that are named.
+///
+/// # Errors
+/// Where one differs, a name is unknown, or a compiler or an emulator is missing and cannot be installed.
+pub fn run(names: &[String]) -> Result<()> {
+    let known =
+        LEVELS.iter().map(|level| level.0).chain(MACHINES.iter().map(|machine| machine.name));
+    let known: Vec<&str> = known.collect();
+    if let Some(name) = names.iter().find(|name| !known.contains(&name.as_str())) {
+        bail!("there is no build `{name}`; there are: {}", known.join(", "));
+    }
+    let wanted = |name: &str| names.is_empty() || names.iter().any(|other| other == name);
+    let (mut steps, mut rows) = (Steps::default(), Vec::new());
+    for (name, level, flags) in LEVELS.into_iter().filter(|level| wanted(level.0)) {
+        steps.step(&format!("golden bits: {name}"), || {
+            rows.push(on_host(name, level, flags)?);
+            Ok(())
+        });
+    }
+    for machine in MACHINES.iter().filter(|machine| wanted(machine.name)) {
+        steps.step(&format!("the same bits on {}", machine.name), || {
+            rows.push(machine.compare()?);
+            Ok(())
+        });
+    }
+    let complete = rows.len() == known.len();
+    println!("\n{HEADER}\n{}", rows.join("\n"));
+    steps.finish()?;
+    if complete {
+        let head = "# Golden hashes that were found equal; written by `cargo xtask bits`.\n";
+        std::fs::write(root().join(FILE), format!("{head}{HEADER}\n{}\n", rows.join("\n")))
+            .with_context(|| format!("cannot write {FILE}"))?;
+        println!("written: {FILE}");
+    }
+    Ok(())
+}
+
+/// The row of a level of optimisation.
+fn on_host(name: &str, level: &str, flags: &str) -> Result<String> {
+    let mut command = cargo();
+    command.args(["test", "--no-run", "--release", "--package", "dbd-golden"]);
+    command.env("CARGO_PROFILE_RELEASE_OPT_LEVEL", level);
+    if !flags.is_empty() {
+        command.env("RUSTFLAGS", flags);
+    }
+    let passed = run_tests(&build(&mut command)?, |path| program(path))?;
+    let order = if cfg!(target_endian = "big") { "big" } else { "little" };
+    let options = format!("opt-level = {level} {flags}");
+    Ok(format!(
+        "{name} on {},{order},{},{},{passed},",
+        std::env::consts::ARCH,
+        options.trim(),
+        golden()?
+    ))
+}
+
+impl Machine {
+    /// The row of this machine.
+    fn compare(&self) -> Result<String> {
+        let toolchain = self.toolchain()?;
+        println!("{}\n{}", toolchain.describe()?, first_line(self.emulator)?);
+        let libraries = "std,panic_abort,test";
+        let mut tests = toolchain.cargo("test", libraries);
+        tests.args(["--no-run", "--release", "--lib", "--bins", "--tests"]);
+        for package in ["dbd-golden", "dbd-kernel", "dbd-proof"] {
+            tests.args(["--package", package]);
+        }
+        let passed = run_tests(&build(&mut tests)?, |path| self.command(path))?;
+        let both = ["build", "--release", "--package", "firmware", "--bin", firmware::SHARED];
+        let here = host::shared(&build(cargo().args(both))?)?;
+        let mut there = toolchain.cargo(both[0], libraries);
+        let there = host::shared(&build(there.args(&both[1..]))?)?;
+        let relayed = relay::compare_machines(
+            ("host", |arguments: &[&str]| host::lines(program(&here).args(arguments))),
+            (self.name, |arguments: &[&str]| host::lines(self.command(&there).args(arguments))),
+        )?;
+        let Self { name, byte_order, .. } = self;
+        Ok(format!("{name} in QEMU,{byte_order},opt-level = 3,{},{passed},{relayed}", golden()?))
+    }
+
+    fn toolchain(&self) -> Result<Toolchain> {
+        let linker = format!("{}-gcc", self.tools);
+        if find(self.emulator).is_none() || find(&linker).is_none() {
+            let purpose = format!("emulator or linker for {}", self.name);
+            let otherwise = format!("install {} and {linker}", self.emulator);
+            debian::install(&purpose, &self.packages, &otherwise)?;
+        }
+        let linker = find(&linker).with_context(|| format!("{linker} is not on PATH"))?;
+        Toolchain::with_linker(self.target, Some(linker))
+    }
+
+    /// A program of this machine as the host runs it.
+    fn command(&self, path: &PathBuf) -> Command {
+        let mut command = program(self.emulator);
+        command.arg("-L").arg(format!("/usr/{}", self.tools)).arg(path);
+        command
+    }
+}
+
+/// Runs programs of tests; how many tests passed.
+fn run_tests(built: &[Program], command: impl Fn(&PathBuf) -> Command) -> Result<u32> {
+    let mut passed = 0;
+    for program in built.iter().filter(|program| program.tests) {
+        println!("    {}", program.name);
+        let text = output(command(&program.path).current_dir(&program.folder));
+        let text = text.with_context(|| format!("{} failed", program.name))?;
+        let counts = text.lines().filter_map(|line| line.strip_prefix("test result: ok. "));
+        passed +=
+            counts.filter_map(|line| line.split(' ').next()?.parse::<u32>().ok()).sum::<u32>();
+    }
+    if passed == 0 {
+        bail!("no test was run");
+    }
+    Ok(passed)
+}
+
+/// How many golden hashes there are.
+fn golden() -> Result<usize> {
+    let rows = GOLDEN.into_iter().map(|file| {
+        let text = std::fs::read_to_string(root().join(file));
+        Ok(text.with_context(|| format!("cannot read {file}"))?.lines().skip(1).count())
+    });
+    rows.sum()
+}
+
+fn first_line(emulator: &str) -> Result<String> {
+    let text = output(program(emulator).arg("--version"))?;
+    Ok(text.lines().next().unwrap_or(emulator).to_owned())
+}
