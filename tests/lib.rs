@@ -22,6 +22,7 @@ pages! {
     architecture "docs/architecture.md"
     command_line "docs/command-line.md"
     development "docs/development.md"
+    extremes "docs/extremes.md"
     joints "docs/joints.md"
     proof "docs/proof.md"
     reference_solvers "docs/reference-solvers.md"
