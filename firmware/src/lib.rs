@@ -14,6 +14,7 @@ pub mod chart;
 pub mod console;
 pub mod hash;
 pub mod relay;
+pub mod root;
 pub mod sample;
 
 #[cfg(target_os = "none")]

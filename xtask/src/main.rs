@@ -81,7 +81,7 @@ enum Command {
     /// docs/results/proof.csv.
     Prove,
     /// Compares the golden bits with other optimisations on the host, and in QEMU on other machines;
-    /// writes docs/results/bits.csv where all are compared.
+    /// writes docs/results/bits.csv.
     Bits {
         /// Builds and machines to compare, all of them where none is named: the rows' first words.
         #[arg(value_name = "NAME")]

@@ -5,6 +5,7 @@
 //!   Without limits: 10,000 steps, 3,000 million instructions.
 //! - `relay [PART]`: 0 whole runs, 1 their first halves, 2 their second halves, see
 //!   [`firmware::relay`].
+//! - `root`: square roots in single precision, see [`firmware::root`].
 //! - `sample`: what a step costs, of some models and schemes, see `firmware::cost` (target only).
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
@@ -13,12 +14,13 @@ use core::str::FromStr;
 use firmware::console::{argument, exit};
 use firmware::hash::Limits;
 use firmware::relay::Part;
-use firmware::{hash, relay, say};
+use firmware::{hash, relay, root, say};
 
 enum Program {
     Board,
     Hash,
     Relay,
+    Root,
     Sample,
 }
 
@@ -30,6 +32,7 @@ impl FromStr for Program {
             "board" => Ok(Self::Board),
             "hash" => Ok(Self::Hash),
             "relay" => Ok(Self::Relay),
+            "root" => Ok(Self::Root),
             "sample" => Ok(Self::Sample),
             _ => Err(()),
         }
@@ -42,9 +45,10 @@ fn main() -> ! {
         Some(Program::Board) => machine::board(),
         Some(Program::Hash) => hash::run(limits(), &mut machine::counter()),
         Some(Program::Relay) => relay::run(part()),
+        Some(Program::Root) => root::run(),
         Some(Program::Sample) => machine::sample(),
         None => {
-            say!("the first argument names a program: board, hash, relay or sample");
+            say!("the first argument names a program: board, hash, relay, root or sample");
             false
         }
     })

@@ -68,9 +68,7 @@ const MACHINES: [Machine; 2] = [
 /// # Errors
 /// Where one differs, a name is unknown, or a compiler or an emulator is missing and cannot be installed.
 pub fn run(names: &[String]) -> Result<()> {
-    let known =
-        LEVELS.iter().map(|level| level.0).chain(MACHINES.iter().map(|machine| machine.name));
-    let known: Vec<&str> = known.collect();
+    let known = names_of_builds();
     if let Some(name) = names.iter().find(|name| !known.contains(&name.as_str())) {
         bail!("there is no build `{name}`; there are: {}", known.join(", "));
     }
@@ -88,16 +86,42 @@ pub fn run(names: &[String]) -> Result<()> {
             Ok(())
         });
     }
-    let complete = rows.len() == known.len();
     println!("\n{HEADER}\n{}", rows.join("\n"));
+    let written = write(&rows);
     steps.finish()?;
-    if complete {
-        let head = "# Golden hashes that were found equal; written by `cargo xtask bits`.\n";
-        std::fs::write(root().join(FILE), format!("{head}{HEADER}\n{}\n", rows.join("\n")))
-            .with_context(|| format!("cannot write {FILE}"))?;
-        println!("written: {FILE}");
-    }
+    written
+}
+
+/// Puts rows into the file, in place of those of the same builds.
+fn write(rows: &[String]) -> Result<()> {
+    let path = root().join(FILE);
+    let present = std::fs::read_to_string(&path).unwrap_or_default();
+    std::fs::write(&path, merged(&present, rows))
+        .with_context(|| format!("cannot write {FILE}"))?;
+    println!("written: {FILE}");
     Ok(())
+}
+
+/// The file with these rows, in the order of the builds.
+fn merged(present: &str, rows: &[String]) -> String {
+    let build = |row: &str| row.split([' ', ',']).next().unwrap_or_default().to_owned();
+    let mut text = format!(
+        "# Golden hashes that were found equal, tests that passed and runs that changed machines half way;\n\
+         # written by `cargo xtask bits`.\n{HEADER}\n"
+    );
+    for name in names_of_builds() {
+        let of = |row: &&str| build(row) == name;
+        let new = rows.iter().map(String::as_str).find(of);
+        if let Some(row) = new.or_else(|| present.lines().find(of)) {
+            text += row;
+            text.push('\n');
+        }
+    }
+    text
+}
+
+fn names_of_builds() -> Vec<&'static str> {
+    LEVELS.iter().map(|level| level.0).chain(MACHINES.iter().map(|machine| machine.name)).collect()
 }
 
 /// The row of a level of optimisation.
@@ -191,4 +215,22 @@ fn golden() -> Result<usize> {
 fn first_line(emulator: &str) -> Result<String> {
     let text = output(program(emulator).arg("--version"))?;
     Ok(text.lines().next().unwrap_or(emulator).to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_take_the_place_of_those_of_their_builds() {
+        let rows = |text: &[&str]| text.iter().map(|&row| row.to_owned()).collect::<Vec<_>>();
+        let first = merged("", &rows(&["powerpc64 in QEMU,big,a", "opt-0 on x86_64,little,a"]));
+        let both =
+            merged(&first, &rows(&["opt-0 on x86_64,little,b", "native on x86_64,little,b"]));
+        let builds: Vec<&str> = both.lines().skip(3).collect();
+        assert_eq!(
+            builds,
+            ["opt-0 on x86_64,little,b", "native on x86_64,little,b", "powerpc64 in QEMU,big,a"]
+        );
+    }
 }

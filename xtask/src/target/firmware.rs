@@ -20,8 +20,14 @@ const AUDIT: &str = "audit";
 const LIBRARIES: &str = "core,alloc";
 
 /// Programs that can be run, each with the image that holds it.
-const PROGRAMS: [(&str, &str); 5] =
-    [("board", SHARED), ("cost", "cost"), ("hash", SHARED), ("relay", SHARED), ("sample", SHARED)];
+const PROGRAMS: [(&str, &str); 6] = [
+    ("board", SHARED),
+    ("cost", "cost"),
+    ("hash", SHARED),
+    ("relay", SHARED),
+    ("root", SHARED),
+    ("sample", SHARED),
+];
 
 /// `cargo xtask fw NAME`.
 ///
