@@ -79,7 +79,10 @@ enum Command {
     Fuzz(fuzz::Campaign),
     /// Tries all inputs where the tests try a sample: roots, arctangents, long runs; writes
     /// docs/results/proof.csv.
-    Prove,
+    Prove {
+        /// `roots`, `arctangents`, `long-runs`; all of them where none is named.
+        names: Vec<String>,
+    },
     /// Compares the golden bits with other optimisations on the host, and in QEMU on other machines;
     /// writes docs/results/bits.csv.
     Bits {
@@ -103,7 +106,7 @@ fn main() -> ExitCode {
         Command::Cost { scenes, compare, .. } => cost::run(&scenes, compare),
         Command::Fuzz(campaign) => fuzz::run(&campaign),
         Command::Bits { names } => bits::machines::run(&names),
-        Command::Prove => prove::run(),
+        Command::Prove { names } => prove::run(&names),
         Command::Audit => audit::run(),
     });
     match outcome {

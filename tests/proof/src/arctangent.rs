@@ -66,9 +66,9 @@ impl Sector {
     }
 
     /// The first and the last number in single precision that is a quotient of it, as bits. Below
-    /// 2⁻³⁰ the polynomial is 1, so the arctangent is the quotient.
+    /// 2⁻¹³ the polynomial rounds to 1, so the arctangent is the quotient.
     fn bits_f32(&self) -> [u32; 2] {
-        self.ends().map(|t| (t as f32).max(f32::EPSILON / 128.0).to_bits())
+        self.ends().map(|t| (t as f32).max(f32::EPSILON * 1_024.0).to_bits())
     }
 
     /// How many numbers those are.

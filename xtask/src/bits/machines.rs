@@ -42,8 +42,8 @@ struct Machine {
     packages: [&'static str; 3],
 }
 
-/// One of each byte order. s390x is not among them: before QEMU 9 its product of two numbers in single
-/// precision, to double precision (MDEBR), takes the first for one in double precision.
+/// One of each byte order. s390x is not among them: QEMU 7.2 takes the first factor of its product of two
+/// numbers in single precision, to double precision (MDEBR), for one in double precision.
 const MACHINES: [Machine; 2] = [
     Machine {
         name: "aarch64",
