@@ -24,6 +24,7 @@ use crate::commands::stability::StabilityCheck;
 use crate::commands::trade::{TradeRequest, json as survey_json, trade};
 use crate::commands::warnings::of_scene;
 use crate::error::Error;
+use crate::simulate::EnergyLimit;
 use crate::terminal::text::{json, table};
 use crate::terminal::{Catalogue, Console, Exit, Found, Progress, SceneFile};
 
@@ -149,6 +150,10 @@ struct RunArguments {
     /// Sampling interval, e.g. 1ms [default: the scene's, else about 500 samples]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     every: Option<Time>,
+    /// End the run at the first sample whose total energy has changed by more than so many joules,
+    /// or risen where only dampers change it
+    #[arg(long, value_name = "LIMIT", allow_hyphen_values = true)]
+    watch_energy: Option<EnergyLimit>,
     #[command(flatten)]
     results: ResultsArguments,
     /// Print nothing but errors
@@ -246,6 +251,7 @@ fn run_scene(
         step: arguments.step.map(Time::seconds),
         duration: arguments.duration.map(Time::seconds),
         every: arguments.every.map(Time::seconds),
+        watch_energy: arguments.watch_energy,
         out: Some(arguments.results.destination(&file)),
         called: Some(arguments.scene.scene.clone()),
     };
@@ -265,11 +271,12 @@ fn run_scene(
             console.warn(warning);
         }
     }
-    if let Some(failure) = &outcome.failure {
-        console.report(failure);
+    let ended_by = outcome.ended_by();
+    if let Some(ended_by) = ended_by {
+        console.report(ended_by);
     }
     printed?;
-    Ok(if outcome.failure.is_some() { Exit::Failed } else { Exit::Done })
+    Ok(if ended_by.is_some() { Exit::Failed } else { Exit::Done })
 }
 
 fn summary_table(outcome: &Outcome) -> String {

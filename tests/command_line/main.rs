@@ -5,6 +5,7 @@ mod refusal;
 mod results;
 mod run;
 mod warnings;
+mod watch;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -112,8 +112,13 @@ fn every_key_of_a_summary_is_in_the_reference() {
     let scene =
         folder.scene(&PENDULUM.replace("free_length = 1.0", "free_length = 1.0\ndamping = 5"));
     // Of a run in the scheme's own way and in another, of one that fails and one that is warned of.
-    let runs: [&[&str]; 4] =
-        [&[], &["--damping", "explicit"], &["--step", "0.25s"], &["--scheme", "dbd"]];
+    let runs: [&[&str]; 5] = [
+        &[],
+        &["--damping", "explicit"],
+        &["--step", "0.25s"],
+        &["--scheme", "dbd"],
+        &["--watch-energy", "1"],
+    ];
     let mut written = Vec::new();
     for options in runs {
         let done = folder.run(&scene, &[options, &["--json"]].concat());

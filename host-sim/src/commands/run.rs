@@ -20,7 +20,10 @@ use thiserror::Error;
 use crate::commands::folder::{Destination, FolderError};
 use crate::commands::warnings::{of_run, of_scene, of_step};
 use crate::report::{Curves, JointOpening, Report, Statistics, Summary, TraceWriter, html};
-use crate::simulate::{Ending, FailedRun, Observer, Sample, SimulationError, simulate};
+use crate::simulate::{
+    Ending, EnergyLimit, EnergyStop, EnergyWatch, FailedRun, Observer, Sample, SimulationError,
+    simulate,
+};
 use crate::terminal::LoadError;
 
 /// What a run is asked for. What is `None` is the scene's, or ours.
@@ -34,6 +37,8 @@ pub struct RunOptions {
     pub duration: Option<f64>,
     /// \[s\] the sampling interval.
     pub every: Option<f64>,
+    /// What the energy may do before the run is ended; anything where `None`.
+    pub watch_energy: Option<EnergyLimit>,
     /// Where results go; `None` writes nothing.
     pub out: Option<Destination>,
     /// What a command line calls the scene; its name where `None`.
@@ -44,7 +49,15 @@ impl RunOptions {
     /// A method with the scene's step, duration and sampling interval; writes nothing.
     #[must_use]
     pub fn new(method: Method) -> Self {
-        Self { method, step: None, duration: None, every: None, out: None, called: None }
+        Self {
+            method,
+            step: None,
+            duration: None,
+            every: None,
+            watch_energy: None,
+            out: None,
+            called: None,
+        }
     }
 }
 
@@ -57,6 +70,17 @@ pub struct Outcome {
     pub folder: Option<PathBuf>,
     /// The failure, where it failed.
     pub failure: Option<FailedRun>,
+    /// What its watch saw, where that ended it.
+    pub stop: Option<EnergyStop>,
+}
+
+impl Outcome {
+    /// What ended the run early.
+    #[must_use]
+    pub fn ended_by(&self) -> Option<&dyn Diagnostic> {
+        let stop = self.stop.as_ref().map(|stop| stop as &dyn Diagnostic);
+        self.failure.as_ref().map(|failure| failure as &dyn Diagnostic).or(stop)
+    }
 }
 
 /// Why a run could not be carried out, or its results not be written.
@@ -163,10 +187,11 @@ pub fn run(
         trace,
         curves,
         statistics: Statistics::default(),
+        watch: options.watch_energy.map(|limit| EnergyWatch::new(scene, limit)),
         progress: &mut |steps| progress(steps, plan.steps),
     };
     let ending = simulate(scene, &options.method, &plan, &mut recorder)?;
-    let Recorder { trace, curves, statistics, .. } = recorder;
+    let Recorder { trace, curves, statistics, watch, .. } = recorder;
     if let Some(trace) = trace {
         trace.finish().and_then(PendingFile::complete).map_err(RunError::Write)?;
     }
@@ -176,6 +201,8 @@ pub fn run(
         .map(|trouble| FailedRun::new(scene, &options.method, &plan, every, &ending, trouble));
     let mut summary =
         summarise(scene, &options.method, &plan, &frequencies, &ending, &statistics, &failure);
+    let stop = watch.and_then(|watch| watch.stop());
+    summary.of_watch(watch, stop);
     summary.of_file(options.out.as_ref().map(|out| &out.file));
     if let (Some(folder), Some(mut curves)) = (&folder, curves) {
         curves.close();
@@ -184,7 +211,7 @@ pub fn run(
         file::write(folder, "report.html", &html(&report)).map_err(RunError::Write)?;
         file::write(folder, "summary.json", &summary.json()).map_err(RunError::Write)?;
     }
-    Ok(Outcome { summary, folder, failure })
+    Ok(Outcome { summary, folder, failure, stop })
 }
 
 /// Passes samples on to trace, curves and statistics.
@@ -192,12 +219,16 @@ struct Recorder<'p> {
     trace: Option<TraceWriter<PendingFile>>,
     curves: Option<Curves>,
     statistics: Statistics,
+    watch: Option<EnergyWatch>,
     progress: &'p mut dyn FnMut(u64),
 }
 
 impl Observer for Recorder<'_> {
     fn sample(&mut self, sample: &Sample<'_>) -> io::Result<()> {
         self.statistics.push(sample);
+        if let Some(watch) = &mut self.watch {
+            watch.look(sample.time, sample.energy.total());
+        }
         if let Some(curves) = &mut self.curves {
             curves.push(sample);
         }
@@ -205,6 +236,10 @@ impl Observer for Recorder<'_> {
             Some(trace) => trace.row(sample),
             None => Ok(()),
         }
+    }
+
+    fn goes_on(&self) -> bool {
+        self.watch.is_none_or(|watch| watch.stopped_at.is_none())
     }
 
     fn progress(&mut self, steps: u64) {
@@ -223,6 +258,7 @@ fn summarise(
 ) -> Summary {
     let duration = match failure {
         Some(failure) => failure.time,
+        None if ending.steps < plan.steps => plan.time(ending.steps),
         None => plan.duration,
     };
     let wall_seconds = ending.wall.as_secs_f64();
@@ -259,6 +295,7 @@ fn summarise(
         status,
         scene_file: None,
         scene_hash: None,
+        watch_energy: None,
         widest_joint: widest(scene, &ending.openings),
         warnings,
     }

@@ -8,6 +8,7 @@ use dbd_plant::frequencies::advised_text;
 use dbd_plant::time::{display, rounded};
 use serde::Serialize;
 
+use crate::simulate::watch::{EnergyStop, EnergyWatch, Watched};
 use crate::terminal::SceneFile;
 use crate::terminal::text::json;
 
@@ -70,6 +71,9 @@ pub struct Summary {
     pub scene_hash: Option<String>,
     /// The joint that opened by the largest share of its free length; `None` without joints.
     pub widest_joint: Option<JointOpening>,
+    /// The watch over the energy, where there was one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub watch_energy: Option<EnergyWatch>,
     /// What is probably not meant.
     pub warnings: Vec<String>,
 }
@@ -98,6 +102,14 @@ impl Summary {
     pub fn of_file(&mut self, file: Option<&SceneFile>) {
         self.scene_file = file.map(|file| file.place.clone());
         self.scene_hash = file.map(|file| file.hash.clone());
+    }
+
+    /// Takes in what a watch over the energy saw, and that it ended the run.
+    pub fn of_watch(&mut self, watch: Option<EnergyWatch>, stop: Option<EnergyStop>) {
+        self.watch_energy = watch;
+        if let Some(stop) = stop {
+            self.status = format!("{stop}; {}", stop.advice());
+        }
     }
 
     /// The count of force evaluations, with its reason where it is higher than the method's.
@@ -162,8 +174,17 @@ impl Summary {
             ("highest frequency", frequency),
             ("advised step", advised),
             ("state hash", self.state_hash.clone().unwrap_or_else(|| "– (no sample)".into())),
-            ("status", self.status.clone()),
         ];
+        if let Some(watch) = &self.watch_energy {
+            let [largest, limit] =
+                [watch.largest, watch.limit].map(|joules| significant(joules, 4));
+            let of = match watch.watched {
+                Watched::Change => "change from the start",
+                Watched::Rise => "rise above the least before",
+            };
+            rows.push(("energy, watched", format!("{of} ≤ {largest} J, {limit} J allowed")));
+        }
+        rows.push(("status", self.status.clone()));
         rows.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
         rows
     }

@@ -47,6 +47,11 @@ pub trait Observer {
     /// Where it cannot be recorded; the run then ends.
     fn sample(&mut self, sample: &Sample<'_>) -> io::Result<()>;
 
+    /// Whether the run is to go on after the last sample.
+    fn goes_on(&self) -> bool {
+        true
+    }
+
     /// Hears of the number of steps done, now and then.
     fn progress(&mut self, steps: u64) {
         let _ = steps;
@@ -80,7 +85,7 @@ pub enum SimulationError {
     Observer(io::Error),
 }
 
-/// Runs the plan to its end or to the first failure.
+/// Runs the plan to its end, to the first failure or to where the observer has seen enough.
 ///
 /// # Errors
 /// Where there is no plant of the method with the plan's step, or the observer fails.
@@ -110,7 +115,7 @@ pub fn simulate(
             observer.sample(&sample).map_err(SimulationError::Observer)?;
             next_sample = plan.steps.min(next_sample + plan.stride);
         }
-        if done == plan.steps {
+        if done == plan.steps || !observer.goes_on() {
             break None;
         }
         let start = Instant::now();
