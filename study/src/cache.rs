@@ -1,8 +1,10 @@
-//! What is known already: one line of JSON per result, appended as it comes.
+//! What is known already: one line per result, a check sum and JSON, appended as it comes.
 //!
 //! `folder, key => file, results`. Scene, build and window have a file of their own. A survey that is
 //! interrupted leaves the lines it has; the next one goes on behind the last whole one, and one that
-//! is complete is read and nothing more. One survey at a time has a file.
+//! is complete is read and nothing more. A line whose sum is not that of its text and of the key,
+//! and all behind it, is what a damaged disk or another scene left: it counts as not there. One
+//! survey at a time has a file.
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions, TryLockError};
@@ -89,7 +91,8 @@ pub struct Cache {
     pub limits: BTreeMap<String, f64>,
     /// Costs by label.
     pub costs: BTreeMap<String, Cost>,
-    file: Option<File>,
+    /// Its file and key.
+    file: Option<(File, u64)>,
 }
 
 impl Cache {
@@ -107,24 +110,30 @@ impl Cache {
         })?;
         let mut text = Vec::new();
         file.read_to_end(&mut text)?;
+        let (mut cache, good) = Self::read(key, &text);
+        // What follows the last whole line is the end of a survey that was killed, or damage.
+        if good < text.len() as u64 {
+            file.set_len(good)?;
+        }
+        file.seek(SeekFrom::Start(good))?;
+        cache.file = Some((file, key));
+        Ok(cache)
+    }
+
+    /// The results of a key in a file's bytes, and how many bytes they take.
+    fn read(key: u64, text: &[u8]) -> (Self, u64) {
         let mut cache = Self::default();
         let mut good = 0;
         for line in text.split_inclusive(|byte| *byte == b'\n') {
-            let Ok(entry) = serde_json::from_slice(line) else { break };
+            let Some(entry) = read(key, line) else { break };
             let is_head = matches!(&entry, Entry::Head(head) if head.key == key);
-            if !line.ends_with(b"\n") || (good == 0 && !is_head) {
+            if good == 0 && !is_head {
                 break;
             }
             cache.keep(&entry);
             good += line.len() as u64;
         }
-        // What follows the last whole line is the end of a survey that was killed.
-        if good < text.len() as u64 {
-            file.set_len(good)?;
-        }
-        file.seek(SeekFrom::Start(good))?;
-        cache.file = Some(file);
-        Ok(cache)
+        (cache, good)
     }
 
     /// Results that are kept nowhere.
@@ -140,7 +149,7 @@ impl Cache {
     pub fn add(&mut self, entry: Entry) -> io::Result<()> {
         self.keep(&entry);
         match &mut self.file {
-            Some(file) => append(file, &entry),
+            Some((file, key)) => append(file, *key, &entry),
             None => Ok(()),
         }
     }
@@ -161,13 +170,33 @@ impl Cache {
     }
 }
 
-fn append(file: &mut File, entry: &Entry) -> io::Result<()> {
-    let mut line = serde_json::to_string(entry).map_err(io::Error::other)?;
+/// The result on a line, where it is whole and of this key.
+fn read(key: u64, line: &[u8]) -> Option<Entry> {
+    let text = std::str::from_utf8(line.strip_suffix(b"\n")?).ok()?;
+    let (sum, json) = text.split_once(' ')?;
+    // Compared as text: another spelling of the number is damage, too.
+    if sum != check_sum(key, json) {
+        return None;
+    }
+    serde_json::from_str(json).ok()
+}
+
+/// FNV-1a 64 of a key and a text, 16 hexadecimal digits: no byte can change and leave it as it is.
+fn check_sum(key: u64, text: &str) -> String {
+    let bytes = key.to_le_bytes().into_iter().chain(text.bytes());
+    let sum = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |sum, byte| {
+        (sum ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    });
+    format!("{sum:016x}")
+}
+
+fn append(file: &mut File, key: u64, entry: &Entry) -> io::Result<()> {
+    let json = serde_json::to_string(entry).map_err(io::Error::other)?;
     // JSON has no infinity: what would not be read again is not kept.
-    if serde_json::from_str::<Entry>(&line).is_err() {
+    if serde_json::from_str::<Entry>(&json).is_err() {
         return Ok(());
     }
-    line.push('\n');
+    let line = format!("{} {json}\n", check_sum(key, &json));
     // In one call, so that a line is there or not.
     file.write_all(line.as_bytes())
 }
@@ -242,6 +271,63 @@ mod tests {
         let other = Cache::open(folder, 8).unwrap();
         assert!(other.head.is_none() && other.accuracies.is_empty());
         assert_eq!(Cache::open(folder, 7).unwrap().accuracies.len(), 2);
+    }
+
+    /// Whatever happens to a byte, or wherever the file ends: what is read is what was written.
+    #[test]
+    fn a_damaged_file_gives_no_wrong_result() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut cache = Cache::open(folder.path(), 7).unwrap();
+        cache.add(Entry::Head(head(7))).unwrap();
+        let cost = Cost { least: 1e-7, median: 1e-7, spread: 0.1 };
+        cache.add(Entry::Cost { way: "x".into(), cost }).unwrap();
+        cache.add(accuracy(3)).unwrap();
+        drop(cache);
+        let whole = std::fs::read(path(folder.path(), 7)).unwrap();
+        let read = |bytes: &[u8]| {
+            let (cache, good) = Cache::read(7, bytes);
+            assert!(cache.head.is_none_or(|found| found == head(7)));
+            assert!(cache.costs.values().all(|found| *found == cost));
+            assert!(cache.accuracies.values().all(|found| *found == accuracy(3)));
+            let found =
+                [usize::from(cache.head.is_some()), cache.costs.len(), cache.accuracies.len()];
+            assert!(whole.starts_with(&bytes[..good as usize]));
+            found
+        };
+        assert_eq!(read(&whole), [1, 1, 1]);
+        let lines: Vec<&[u8]> = whole.split_inclusive(|byte| *byte == b'\n').collect();
+        let begin_of_last = lines[0].len() + lines[1].len();
+        for at in 0..whole.len() {
+            for bit in 0..8 {
+                let mut bytes = whole.clone();
+                bytes[at] ^= 1 << bit;
+                assert_eq!(read(&bytes)[2], 0, "bit {bit} of byte {at}");
+            }
+            assert_eq!(
+                read(&whole[..at]),
+                [usize::from(at >= lines[0].len()), usize::from(at >= begin_of_last), 0]
+            );
+        }
+        // Lines of other types, of another key, in another order, without their sums.
+        let retyped = String::from_utf8(lines[2].to_vec()).unwrap().replace("3,", "\"3\",");
+        let other = format!("{} {}", check_sum(8, "{}"), "{}\n");
+        let bare = [lines[0], &lines[1][17..]].concat();
+        for bytes in [
+            [lines[0], retyped.as_bytes()].concat(),
+            [lines[0], other.as_bytes()].concat(),
+            [lines[1], lines[0], lines[2]].concat(),
+            [&[0; 64], whole.as_slice()].concat(),
+            bare,
+            vec![0xff; 100],
+        ] {
+            assert_eq!(read(&bytes)[1..], [0, 0]);
+        }
+        // The file of another scene under this one's name.
+        let mut other = Cache::open(folder.path(), 8).unwrap();
+        other.add(Entry::Head(head(8))).unwrap();
+        other.add(accuracy(5)).unwrap();
+        drop(other);
+        assert_eq!(read(&std::fs::read(path(folder.path(), 8)).unwrap()), [0, 0, 0]);
     }
 
     #[test]
