@@ -2,7 +2,8 @@
 //!
 //! Each is written under a temporary name in its folder and renamed when complete, so that a run
 //! that ends early leaves nothing half-written under a final name. A program that is told to end
-//! calls [`give_up_all`] first: then nothing is left under a temporary name either.
+//! calls [`give_up_all`] first: then nothing is left under a temporary name either. What a program
+//! that was killed left is known by its lock, which is gone: [`sweep`] removes it.
 
 use std::fs;
 use std::io::{self, BufWriter, Write as _};
@@ -10,6 +11,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::NamedTempFile;
+
+use crate::lock::FolderLock;
 
 /// A file on its way to its final name.
 pub struct PendingFile {
@@ -54,10 +57,12 @@ impl PendingFile {
     /// Where the folder cannot be written to.
     pub fn create(folder: &Path, name: &str) -> io::Result<Self> {
         let prefix = format!(".{name}.");
+        // Held until the file is locked: no other program takes it for one that was left.
+        let _lock = FolderLock::of(folder);
         // Held until the name is in the list: no file is made unseen.
         let mut names = in_use();
         let mut builder = tempfile::Builder::new();
-        builder.prefix(&prefix);
+        builder.prefix(&prefix).rand_bytes(RANDOM);
         #[cfg(unix)]
         {
             // Like any file a program writes, not private as temporary files are by default.
@@ -65,6 +70,8 @@ impl PendingFile {
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
         let file = builder.tempfile_in(folder)?;
+        // Where the system has no locks nothing is swept either.
+        let _ = file.as_file().try_lock();
         names.push(file.path().to_owned());
         let listed = Listed(file.path().to_owned());
         Ok(Self { file: BufWriter::new(file), path: folder.join(name), listed })
@@ -75,16 +82,78 @@ impl PendingFile {
     /// # Errors
     /// Where what is buffered cannot be written or the name cannot be taken.
     pub fn complete(self) -> io::Result<()> {
+        publish(vec![self.finish()?])
+    }
+
+    /// Writes what is buffered.
+    ///
+    /// # Errors
+    /// Where it cannot be written.
+    pub(crate) fn finish(self) -> io::Result<WholeFile> {
         let Self { file, path, listed } = self;
         let file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
-        // The list is held, so that nobody removes the file between its two names.
-        let names = in_use();
-        let persisted = file.persist(&path).map(drop).map_err(|error| error.error);
-        drop(names);
-        drop(listed);
-        persisted
+        Ok(WholeFile { file, path, listed })
     }
 }
+
+/// A file that is whole and has not got its name yet.
+pub(crate) struct WholeFile {
+    file: NamedTempFile,
+    path: PathBuf,
+    listed: Listed,
+}
+
+impl WholeFile {
+    /// Its final name.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+/// Gives files their final names in their order, in place of older ones.
+///
+/// # Errors
+/// Where a name cannot be taken; those behind it are given up.
+pub(crate) fn publish(files: Vec<WholeFile>) -> io::Result<()> {
+    // The list is held, so that nobody removes a file between its two names.
+    let names = in_use();
+    let mut done = Vec::new();
+    // Those that are given up are dropped after the list, which they leave then.
+    let mut files = files.into_iter();
+    let published = files.by_ref().try_for_each(|WholeFile { file, path, listed }| {
+        // A name leaves the list when nobody holds that any more.
+        done.push(listed);
+        file.persist(&path).map(drop).map_err(|error| error.error)
+    });
+    drop(names);
+    drop(done);
+    published
+}
+
+/// Removes what programs that were killed have left of files of these names in a folder.
+pub fn sweep(folder: &Path, names: &[&str]) {
+    let _lock = FolderLock::of(folder);
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let is_pending = |of: &&&str| {
+            let rest = name.to_str().and_then(|name| name.strip_prefix(&format!(".{of}.")));
+            rest.is_some_and(|rest| {
+                rest.len() == RANDOM && rest.bytes().all(|b| b.is_ascii_alphanumeric())
+            })
+        };
+        if names.iter().any(|of| is_pending(&of)) {
+            let path = entry.path();
+            // Whoever writes to it has its lock.
+            if fs::File::open(&path).is_ok_and(|file| file.try_lock().is_ok()) {
+                let _ = fs::remove_file(path);
+            }
+        }
+    }
+}
+
+/// Random characters of a temporary name.
+const RANDOM: usize = 6;
 
 impl io::Write for PendingFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
@@ -162,6 +231,23 @@ mod tests {
         file.write_all(b"half").unwrap();
         drop(file);
         assert!(names(out.path()).is_empty());
+    }
+
+    #[test]
+    fn what_was_left_is_swept_and_what_is_written_to_is_not() {
+        let out = tempfile::tempdir().unwrap();
+        let mut file = PendingFile::create(out.path(), "a.txt").unwrap();
+        for name in [".a.txt.q1W2e3", ".a.txt.toolong", ".a.txt.12345é", ".b.txt.q1W2e3", "a.txt"]
+        {
+            fs::write(out.path().join(name), "left").unwrap();
+        }
+        let before = names(out.path()).len();
+        sweep(out.path(), &["a.txt", "c.txt"]);
+        let after = names(out.path());
+        assert!(after.len() == before - 1 && !after.iter().any(|name| name == ".a.txt.q1W2e3"));
+        file.write_all(b"whole").unwrap();
+        file.complete().unwrap();
+        assert_eq!(fs::read_to_string(out.path().join("a.txt")).unwrap(), "whole");
     }
 
     #[test]

@@ -1,11 +1,15 @@
 //! What is left of a run or a study: files, drawings, pages.
 //!
+//! - `lock`: one program at a time.
 //! - [`file`](mod@file): files that appear complete or not at all.
+//! - [`set`]: files that belong together.
 //! - [`markup`]: text as HTML and SVG take it, the style that pages share.
 //! - [`svg`]: what drawings are made of.
 //! - [`panel`]: curves over time as an SVG.
 
 pub mod file;
+mod lock;
 pub mod markup;
 pub mod panel;
+pub mod set;
 pub mod svg;

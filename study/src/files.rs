@@ -5,7 +5,7 @@
 use std::io;
 use std::path::Path;
 
-use dbd_output::file::{self, PendingFile};
+use dbd_output::set::FileSet;
 use dbd_plant::digits::significant;
 use dbd_plant::frequencies::LARGEST_TURN;
 use dbd_plant::time::{display, rounded};
@@ -81,14 +81,28 @@ pub struct Json<'r> {
     points: &'r [Point],
 }
 
+/// The chart of the target, where steps were counted.
+const TARGET: &str = "trade-cortex-m4f.svg";
+
 impl<'r> Report<'r> {
-    /// Writes all files.
+    /// Writes all files into a folder.
     ///
     /// # Errors
     /// Where the folder cannot be written to.
     pub fn write(&self, folder: &Path) -> io::Result<()> {
+        let mut files = FileSet::new(folder);
+        self.add_to(&mut files)?;
+        files.finish()?.publish()
+    }
+
+    /// Writes all files and adds them to others. A chart of the target that an earlier survey left
+    /// goes where there is none.
+    ///
+    /// # Errors
+    /// Where the folder cannot be written to.
+    pub fn add_to(&self, files: &mut FileSet) -> io::Result<()> {
         let Self { scene, called, trade } = *self;
-        table(folder, &trade.points)?;
+        table(files, &trade.points)?;
         let conditions = conditions(trade);
         let chart = Chart {
             scene: &scene.name,
@@ -100,11 +114,13 @@ impl<'r> Report<'r> {
             real_time_instructions: REAL_TIME,
             conditions: &conditions,
         };
-        file::write(folder, "trade.svg", &svg(&chart, Machine::Host))?;
+        files.write("trade.svg", &svg(&chart, Machine::Host))?;
         if trade.points.iter().any(|point| point.target_instructions.is_some()) {
-            file::write(folder, "trade-cortex-m4f.svg", &svg(&chart, Machine::Target))?;
+            files.write(TARGET, &svg(&chart, Machine::Target))?;
+        } else {
+            files.without(TARGET);
         }
-        file::write(folder, "trade.html", &html(&chart))
+        files.write("trade.html", &html(&chart))
     }
 
     /// What people read on a terminal: for both machines what nothing beats, what to choose and
@@ -194,8 +210,8 @@ fn conditions(trade: &Trade) -> Vec<String> {
     lines
 }
 
-fn table(folder: &Path, points: &[Point]) -> io::Result<()> {
-    let mut rows = csv::Writer::from_writer(PendingFile::create(folder, "trade.csv")?);
+fn table(files: &mut FileSet, points: &[Point]) -> io::Result<()> {
+    let mut rows = csv::Writer::from_writer(files.begin("trade.csv")?);
     rows.write_record(COLUMNS)?;
     let fronts = [Machine::Host, Machine::Target].map(|machine| front(points, machine));
     let number = |value: Option<f64>| value.map(|value| format!("{value:?}")).unwrap_or_default();
@@ -229,5 +245,6 @@ fn table(folder: &Path, points: &[Point]) -> io::Result<()> {
         ])?;
     }
     let file = rows.into_inner().map_err(|error| io::Error::other(error.to_string()))?;
-    file.complete()
+    files.add(file);
+    Ok(())
 }

@@ -15,6 +15,11 @@ use thiserror::Error;
 
 use crate::terminal::SceneFile;
 
+/// Files of a run, of a survey; the last of each says that the others are there, and whose they are.
+const OF_A_RUN: [&str; 3] = ["trace.csv", "report.html", "summary.json"];
+const OF_A_SURVEY: [&str; 5] =
+    ["trade.csv", "trade.svg", "trade-cortex-m4f.svg", "trade.html", "trade.json"];
+
 /// Where results go.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Destination {
@@ -75,7 +80,8 @@ const NAMING: [&str; 2] = ["summary.json", "trade.json"];
 
 impl Destination {
     /// The folder of a scene's results, made where it is not there yet. Of another scene's results,
-    /// where they are to be replaced, nothing is left: old and new are never mixed.
+    /// where they are to be replaced, nothing is left: old and new are never mixed. What a program
+    /// that was killed has left is removed.
     ///
     /// # Errors
     /// Where it cannot be made or written to, no folder can have the file's name, or it holds the
@@ -84,6 +90,18 @@ impl Destination {
         let wanted = self.out.join(&self.file.stem);
         let failed = |reason| FolderError::Unwritable { folder: wanted.clone(), reason };
         let folder = file::folder(&self.out, &self.file.stem).map_err(failed)?;
+        file::sweep(&folder, &[&OF_A_RUN[..], &OF_A_SURVEY, &["writable"]].concat());
+        self.claim(&folder, scene)?;
+        Ok(folder)
+    }
+
+    /// Sees that a folder holds no results of another scene, or nothing of them is left where they
+    /// are to be replaced.
+    ///
+    /// # Errors
+    /// Where it holds such, or they cannot be removed.
+    pub fn claim(&self, folder: &Path, scene: &str) -> Result<(), FolderError> {
+        let failed = |reason| FolderError::Unwritable { folder: folder.to_owned(), reason };
         for name in NAMING {
             let Some(owner) = Owner::of(&folder.join(name)) else { continue };
             if owner.is_this(scene, &self.file) {
@@ -91,11 +109,11 @@ impl Destination {
             }
             if !self.overwrite {
                 let other = owner.scene_file.unwrap_or_else(|| format!("`{}`", owner.scene));
-                return Err(FolderError::Taken { folder, other });
+                return Err(FolderError::Taken { folder: folder.to_owned(), other });
             }
-            clear(&folder).map_err(failed)?;
+            clear(folder).map_err(failed)?;
         }
-        Ok(folder)
+        Ok(())
     }
 }
 
@@ -119,10 +137,17 @@ impl Owner {
 
 /// Removes what commands leave in a folder; what else lies there stays.
 fn clear(folder: &Path) -> io::Result<()> {
+    // What says that the others are there goes first.
+    for name in NAMING {
+        match fs::remove_file(folder.join(name)) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+            _ => {}
+        }
+    }
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
         let name = entry.file_name().to_string_lossy().into_owned();
-        let of_a_run = ["trace.csv", "summary.json", "report.html"].contains(&name.as_str());
+        let of_a_run = OF_A_RUN.contains(&name.as_str());
         let of_a_survey = name.starts_with("trade")
             && [".csv", ".json", ".svg", ".html", ".cache"].iter().any(|end| name.ends_with(end));
         if of_a_run || of_a_survey {

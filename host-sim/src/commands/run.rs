@@ -1,14 +1,15 @@
 //! `host-sim run`: a scene becomes a trace, a summary and a report.
 //!
 //! `(scene, options) => plan => samples => OUT/SCENE/{trace.csv,report.html,summary.json}`. The
-//! folder is made once the input is known to be good; each file appears when it is complete, the
-//! summary last. A run that fails keeps its trace up to there.
+//! folder is made once the input is known to be good; the files appear together when they are complete,
+//! the summary last. A run that fails keeps its trace up to there.
 
 use std::io;
 use std::path::PathBuf;
 
 use dbd_kernel::damping::Damping;
-use dbd_output::file::{self, PendingFile};
+use dbd_output::file::PendingFile;
+use dbd_output::set::FileSet;
 use dbd_plant::judge::{Opening, conserves_energy};
 use dbd_plant::plan::{Request, StepRequest, plan};
 use dbd_plant::plant::{check_inputs, check_step};
@@ -173,9 +174,10 @@ pub fn run(
         Some(out) => Some(out.folder(&scene.name)?),
         None => None,
     };
-    let trace = match &folder {
-        Some(folder) => {
-            let file = PendingFile::create(folder, "trace.csv").map_err(RunError::Write)?;
+    let mut files = folder.as_deref().map(FileSet::new);
+    let trace = match &files {
+        Some(files) => {
+            let file = files.begin("trace.csv").map_err(RunError::Write)?;
             Some(TraceWriter::new(file, scene).map_err(RunError::Write)?)
         }
         None => None,
@@ -192,8 +194,8 @@ pub fn run(
     };
     let ending = simulate(scene, &options.method, &plan, &mut recorder)?;
     let Recorder { trace, curves, statistics, watch, .. } = recorder;
-    if let Some(trace) = trace {
-        trace.finish().and_then(PendingFile::complete).map_err(RunError::Write)?;
+    if let (Some(files), Some(trace)) = (&mut files, trace) {
+        files.add(trace.finish().map_err(RunError::Write)?);
     }
     let every = options.every.or(scene.every);
     let failure = ending
@@ -204,12 +206,17 @@ pub fn run(
     let stop = watch.and_then(|watch| watch.stop());
     summary.of_watch(watch, stop);
     summary.of_file(options.out.as_ref().map(|out| &out.file));
-    if let (Some(folder), Some(mut curves)) = (&folder, curves) {
+    if let (Some(mut files), Some(mut curves), Some(out)) = (files, curves, &options.out) {
         curves.close();
         let called = options.called.as_deref().unwrap_or(&scene.name);
         let report = Report { scene, plan: &plan, summary: &summary, curves: &curves, called };
-        file::write(folder, "report.html", &html(&report)).map_err(RunError::Write)?;
-        file::write(folder, "summary.json", &summary.json()).map_err(RunError::Write)?;
+        let written = files.write("report.html", &html(&report));
+        let written = written.and_then(|()| files.write("summary.json", &summary.json()));
+        let place = files.folder().to_owned();
+        let whole = written.and_then(|()| files.finish()).map_err(RunError::Write)?;
+        // Another scene's results may have come there meanwhile.
+        out.claim(&place, &scene.name)?;
+        whole.publish().map_err(RunError::Write)?;
     }
     Ok(Outcome { summary, folder, failure, stop })
 }

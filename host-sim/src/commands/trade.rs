@@ -6,7 +6,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use dbd_output::file;
+use dbd_output::set::FileSet;
 use dbd_scene::Scene;
 use dbd_study::frame::frame;
 use dbd_study::{Phase, SurveyError, Trade, TradeOptions, files, survey};
@@ -67,9 +67,13 @@ pub fn trade(
     let options = TradeOptions { cache: Some(folder.clone()), ..options };
     let trade = survey(scene, &options, progress)?;
     let report = files::Report { scene, called, trade: &trade };
-    report.write(&folder).map_err(TradeError::Write)?;
-    let all = json(&report, &out.file);
-    file::write(&folder, "trade.json", &all).map_err(TradeError::Write)?;
+    let mut files = FileSet::new(&folder);
+    let written = report.add_to(&mut files);
+    let written = written.and_then(|()| files.write("trade.json", &json(&report, &out.file)));
+    let whole = written.and_then(|()| files.finish()).map_err(TradeError::Write)?;
+    // Another scene's results may have come there meanwhile.
+    out.claim(&folder, &scene.name)?;
+    whole.publish().map_err(TradeError::Write)?;
     Ok((trade, folder))
 }
 
