@@ -59,6 +59,44 @@ fn rest_and_softness_are_no_divergence() {
     }
 }
 
+/// Whatever drives a body that lies still gives it energy that came from somewhere, in a moment between
+/// two looks, too.
+#[test]
+fn every_drive_gives_energy() {
+    let joint = "[[joint]]\nname = \"j\"\nbetween = [\"world\", \"b\"]\nat = [0, 0, 0]\n";
+    let revolute =
+        format!("{joint}type = \"revolute\"\naxis = [0, 0, 1]\nspan = 0.1\nstiffness = 1e4\n");
+    let ball = format!("{joint}type = \"spherical\"\narm = 0.1\nstiffness = 1e4\n");
+    let tsda = "[[tsda]]\nname = \"t\"\nbetween = [\"world\", \"b\"]\nstiffness = 1e-3\n\
+                free_length = 1\npoints = [[1, 0, 0], [0, 0, 0]]\n";
+    let input = "[[input]]\nname = \"i\"\n";
+    let pulse = "table = [[0, 0], [0.5002, 1e5], [0.5032, 0]]\n";
+    let steady = "value = 20\n";
+    let jumps = "table = [[0, 0], [0.1, 0.5], [0.2, -0.5], [0.3, 0.5]]\n";
+    let ramp = "table = [[0, 0], [0.6, 0], [0.604, 5]]\ninterpolate = \"linear\"\n";
+    for drive in [
+        format!("{input}type = \"force\"\nbody = \"b\"\naxis = [0, 1, 0]\n{pulse}"),
+        format!(
+            "{input}type = \"force\"\nbody = \"b\"\naxis = [0, 1, 0]\npoint = [0.1, 0, 0]\n{steady}"
+        ),
+        format!("{input}type = \"torque\"\nbody = \"b\"\naxis = [0, 1, 0]\n{steady}"),
+        format!("{revolute}{input}type = \"joint_torque\"\ntarget = \"j\"\n{steady}"),
+        format!("{tsda}{input}type = \"actuator\"\ntarget = \"t\"\nvalue = -20\n"),
+        format!("{ball}{input}type = \"anchor\"\ntarget = \"j\"\naxis = [0, 1, 0]\n{jumps}"),
+        format!("{ball}{input}type = \"anchor\"\ntarget = \"j\"\naxis = [0, 1, 0]\n{ramp}"),
+        "[[load]]\nbody = \"b\"\nforce = [0, 1e5, 0]\nfrom = 0.5002\nuntil = 0.5032\n".into(),
+        "[[load]]\nbody = \"b\"\ntorque = [0, 0, 20]\nframe = \"body\"\n".into(),
+    ] {
+        let text = format!(
+            "name = \"s\"\nduration = 1\n[[body]]\nname = \"b\"\nmass = 1\n\
+             inertia = [1, 1, 1]\nposition = [0, 0, 0]\n{drive}"
+        );
+        for precision in PRECISIONS {
+            assert_eq!(judged(&scene(&text), precision, 1e-3, 1000), Ok(()), "{drive}");
+        }
+    }
+}
+
 /// Kinds of joints. Those that slide come last: what slides far gains a long lever, and with it
 /// frequencies beyond any step.
 const KINDS: usize = 5;
