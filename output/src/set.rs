@@ -139,6 +139,13 @@ mod tests {
         assert_eq!(content(folder), old);
         set("new").finish().unwrap().publish().unwrap();
         assert_eq!(content(folder), files(&[("a", "new"), ("seal", "new")]));
+        let mut without = FileSet::new(folder);
+        without.without("a");
+        without.without("never there");
+        without.write("seal", "newest").unwrap();
+        assert_eq!(content(folder)[1..], files(&[("a", "new"), ("seal", "new")]));
+        without.finish().unwrap().publish().unwrap();
+        assert_eq!(content(folder), files(&[("seal", "newest")]));
     }
 
     /// As where a program is killed in between: a file cannot take its name.
