@@ -19,7 +19,7 @@ use crate::elements::point_law::taut;
 use crate::forces::{self, At, DampersLeft, Evaluation, Instant, Turns, Wrench};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::model::{FrameOf, ModelOwner, RealOf};
+use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, Terms};
 use crate::pose::{Places, place_bodies, placed, twist_of};
 use crate::real::Real;
 use crate::rotation;
@@ -45,69 +45,83 @@ pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
     place_bodies::<M::Precision>(bodies, frames.as_mut());
     let frames = frames.as_ref();
     let places = Places { frames, signals: state.signals.as_ref() };
-    let zero = RealOf::<M>::ZERO;
-    let mut largest = zero;
-    for (row, (body, frame)) in view.bodies.iter().zip(frames).enumerate() {
-        let here = BodyIndex(row as u16);
-        let mut block = [[zero; 6]; 6];
-        let mut add = |stiffness: RealOf<M>, other: BodyIndex, u: Vec3<_>, moment: Vec3<_>| {
-            let share = if other.is_world() { RealOf::<M>::ONE } else { RealOf::<M>::TWO };
-            let n = M::Precision::to_body(frame, moment);
-            add_row(&mut block, share * stiffness, scaled(body, u, n));
-        };
-        let mut turning = zero;
-        for (number, group) in view.groups.iter().enumerate() {
-            let at_a = group.a == here;
-            if !(at_a || group.b == here) {
-                continue;
-            }
-            let other = if at_a { group.b } else { group.a };
-            for i in 0..group.elements() {
-                let Some(e) = placed(&view, places, (number, group), i) else { continue };
-                let Some(law) = view.element(group.law, e.index) else { continue };
-                let arm = if at_a { e.arm_a } else { e.arm_b };
-                let mut add = |stiffness, u: Vec3<_>| add(stiffness, other, u, arm.cross(u));
-                turning = turning + law.tangent(&e.stretch, arm, &mut add);
-            }
-        }
-        for (input, signal) in view.inputs.iter().zip(state.signals.as_ref()) {
-            let InputKind::Actuator { group, element } = input.kind else { continue };
-            let row = group as usize;
-            let group = view.groups.get(row);
-            let element = group.and_then(|g| placed(&view, places, (row, g), element as usize));
-            let Some(e) = element else { continue };
-            let ends = [(e.group.a, e.group.b, e.arm_a), (e.group.b, e.group.a, e.arm_b)];
-            for (_, other, arm) in ends.into_iter().filter(|(body, ..)| *body == here) {
-                let mut add = |stiffness, u: Vec3<_>| add(stiffness, other, u, arm.cross(u));
-                let tension = signal.value.abs();
-                turning = turning + taut(tension, e.stretch.displacement, arm, &mut add);
-            }
-        }
-        for (spring, &turns) in view.torsions.iter().zip(state.turns.as_ref()) {
-            let other = if spring.a == here {
-                spring.b
-            } else if spring.b == here {
-                spring.a
-            } else {
-                continue;
-            };
-            let Some(twist) = twist_of::<M::Precision>(spring, bodies, turns) else { continue };
-            let gradient = match frames.get(spring.a.row()) {
-                Some(frame) => M::Precision::to_world(frame, twist.gradient),
-                None => twist.gradient,
-            };
-            add(spring.stiffness, other, Vec3::ZERO, gradient);
-            turning = turning + spring.turning(twist.angle, gradient);
-        }
-        for axis in Vec3::axes() {
-            add_row(&mut block, turning, scaled(body, Vec3::ZERO, axis));
-        }
-        let eigenvalue = largest_eigenvalue(block);
+    let mut largest = RealOf::<M>::ZERO;
+    for row in 0..bodies.len() {
+        let eigenvalue = square_of(&view, places, bodies, state.turns.as_ref(), row);
         if eigenvalue > largest {
             largest = eigenvalue;
         }
     }
     largest.sqrt()
+}
+
+/// The square of the bound of what is mounted to one body, 0 where there is none.
+pub(crate) fn square_of<P: Geometry, T: Terms>(
+    view: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    bodies: &[BodyState<P>],
+    turns: &[i32],
+    row: usize,
+) -> P::Real {
+    let zero = P::Real::ZERO;
+    let (Some(body), Some(frame)) = (view.bodies.get(row), places.frames.get(row)) else {
+        return zero;
+    };
+    let here = BodyIndex(row as u16);
+    let mut block = [[zero; 6]; 6];
+    let mut add = |stiffness: P::Real, other: BodyIndex, u: Vec3<_>, moment: Vec3<_>| {
+        let share = if other.is_world() { P::Real::ONE } else { P::Real::TWO };
+        let n = P::to_body(frame, moment);
+        add_row(&mut block, share * stiffness, scaled(body, u, n));
+    };
+    let mut turning = zero;
+    for (number, group) in view.groups.iter().enumerate() {
+        let at_a = group.a == here;
+        if !(at_a || group.b == here) {
+            continue;
+        }
+        let other = if at_a { group.b } else { group.a };
+        for i in 0..group.elements() {
+            let Some(e) = placed(view, places, (number, group), i) else { continue };
+            let Some(law) = view.element(group.law, e.index) else { continue };
+            let arm = if at_a { e.arm_a } else { e.arm_b };
+            let mut add = |stiffness, u: Vec3<_>| add(stiffness, other, u, arm.cross(u));
+            turning = turning + law.tangent(&e.stretch, arm, &mut add);
+        }
+    }
+    for (input, signal) in view.inputs.iter().zip(places.signals) {
+        let InputKind::Actuator { group, element } = input.kind else { continue };
+        let row = group as usize;
+        let group = view.groups.get(row);
+        let element = group.and_then(|g| placed(view, places, (row, g), element as usize));
+        let Some(e) = element else { continue };
+        let ends = [(e.group.a, e.group.b, e.arm_a), (e.group.b, e.group.a, e.arm_b)];
+        for (_, other, arm) in ends.into_iter().filter(|(body, ..)| *body == here) {
+            let mut add = |stiffness, u: Vec3<_>| add(stiffness, other, u, arm.cross(u));
+            let tension = signal.value.abs();
+            turning = turning + taut(tension, e.stretch.displacement, arm, &mut add);
+        }
+    }
+    for (spring, &turns) in view.torsions.iter().zip(turns) {
+        let other = if spring.a == here {
+            spring.b
+        } else if spring.b == here {
+            spring.a
+        } else {
+            continue;
+        };
+        let Some(twist) = twist_of::<P>(spring, bodies, turns) else { continue };
+        let gradient = match places.frames.get(spring.a.row()) {
+            Some(frame) => P::to_world(frame, twist.gradient),
+            None => twist.gradient,
+        };
+        add(spring.stiffness, other, Vec3::ZERO, gradient);
+        turning = turning + spring.turning(twist.angle, gradient);
+    }
+    for axis in Vec3::axes() {
+        add_row(&mut block, turning, scaled(body, Vec3::ZERO, axis));
+    }
+    largest_eigenvalue(block)
 }
 
 /// `M^-1/2·(u, n)`.

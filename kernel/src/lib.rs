@@ -18,7 +18,8 @@
 //! - `pose`, [`forces`], [`damping`]: where points lie; one evaluation; dampers as impulses.
 //! - [`step`], [`schemes`], [`plant`]: kick and drift; how they make a step; model, scheme, step and
 //!   state together.
-//! - [`energy`], [`frequency`]: what a state holds, how fast it can vibrate.
+//! - [`energy`], [`frequency`], [`watch`]: what a state holds, how fast it can vibrate; guards that
+//!   look at both.
 //! - [`snapshot`], [`readouts`]: a state as bytes from machine to machine; what sensors see.
 //! - [`builder`], `convert`, `format`: models assembled at run time, nalgebra's types, defmt's
 //!   (features).
@@ -81,6 +82,7 @@ pub mod state;
 pub mod status;
 pub mod step;
 pub mod vector;
+pub mod watch;
 pub mod words;
 
 pub use body::{Body, BodyState};

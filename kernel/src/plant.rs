@@ -11,14 +11,14 @@ use crate::body::BodyState;
 use crate::damping::{Damping, share};
 use crate::forces::Wrench;
 use crate::geometry::Geometry;
-use crate::index::{BodyIndex, InputIndex};
-use crate::model::{FrameOf, ModelOwner, RealOf, Terms};
+use crate::index::{BodyIndex, InputIndex, TorsionIndex};
+use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, Terms};
 use crate::pose::{Places, place_bodies};
 use crate::real::Real;
 use crate::schedule::{KnotStep, LoadWindow, Signal, StageTime, sample};
 use crate::schemes::Scheme;
 use crate::state::State;
-use crate::status::{Cause, Failure, Status};
+use crate::status::{Cause, Failure, MOST_TURN, Status};
 use crate::step::{Diagonal, Ledger, Stepper};
 use crate::words::is_finite;
 
@@ -205,6 +205,9 @@ where
             return self.status;
         }
         let step = self.state.step;
+        if step == u64::MAX {
+            return self.fail(Cause::Steps);
+        }
         let model = self.model.view();
         let mut stepper = Stepper {
             model,
@@ -223,17 +226,47 @@ where
             ledger: &mut self.ledger,
         };
         let cause = match self.scheme.step(&mut stepper) {
-            Ok(()) => first_non_finite::<<H::Target as ModelOwner>::Precision>(stepper.bodies),
+            Ok(()) => first_fault::<_, <H::Target as ModelOwner>::Terms>(
+                stepper.bodies,
+                stepper.turns,
+                stepper.h,
+            ),
             Err(cause) => Some(cause),
         };
-        self.state.step = step.wrapping_add(1);
+        self.state.step = step + 1;
         if let Some(cause) = cause {
-            self.ledger.fresh = false;
-            self.status = Status::Failed(Failure { cause, step: self.state.step });
-        } else {
-            self.sample();
+            return self.fail(cause);
         }
+        self.sample();
         self.status
+    }
+
+    /// Latches a failure.
+    #[cold]
+    pub(crate) fn fail(&mut self, cause: Cause) -> Status {
+        self.ledger.fresh = false;
+        self.status = Status::Failed(Failure { cause, step: self.state.step });
+        self.status
+    }
+
+    /// Looks at the state with the bodies' frames brought to it.
+    pub(crate) fn with_places<A>(
+        &mut self,
+        look: impl FnOnce(
+            &ModelRef<'_, <H::Target as ModelOwner>::Precision, <H::Target as ModelOwner>::Terms>,
+            Places<'_, <H::Target as ModelOwner>::Precision>,
+            &State<H::Target>,
+        ) -> A,
+    ) -> A {
+        place_bodies(self.state.bodies.as_ref(), self.frames.as_mut());
+        let signals = self.state.signals.as_ref();
+        look(&self.model.view(), Places { frames: self.frames.as_ref(), signals }, &self.state)
+    }
+
+    /// Forgets a failure and leaves the state as it failed. What is not finite, spins too fast or is
+    /// at its end fails again.
+    pub fn clear(&mut self) {
+        self.status = Status::Running;
     }
 
     /// `n` steps with held inputs, or as many as succeed.
@@ -406,9 +439,31 @@ fn check<M: ModelOwner>(state: &State<M>, own: &State<M>) -> Result<(), StateErr
     Ok(())
 }
 
-/// The first body with a number in its state that is infinite or NaN.
+/// The first body with a number in its state that is infinite or NaN or that turns too far in a
+/// step, else the first turn count at its end.
 #[inline]
-fn first_non_finite<P: Geometry>(bodies: &[BodyState<P>]) -> Option<Cause> {
-    let row = bodies.iter().position(|state| !is_finite(state))?;
-    Some(Cause::NonFinite { body: BodyIndex(row as u16) })
+fn first_fault<P: Geometry, T: Terms>(
+    bodies: &[BodyState<P>],
+    turns: &[i32],
+    h: P::Real,
+) -> Option<Cause> {
+    // 1 rad: no conversion on a target without double precision.
+    const { assert!(MOST_TURN == 1.0) };
+    let square = h * h;
+    for (row, state) in bodies.iter().enumerate() {
+        let body = BodyIndex(row as u16);
+        let spin = P::velocity(&state.angular_velocity);
+        let slow = spin.dot(spin) * square <= P::Real::ONE;
+        if !is_finite(state) {
+            return Some(Cause::NonFinite { body });
+        }
+        if !slow {
+            return Some(Cause::Spin { body });
+        }
+    }
+    if T::TORSIONS {
+        let ended = turns.iter().position(|turns| matches!(*turns, i32::MIN | i32::MAX))?;
+        return Some(Cause::Turns { spring: TorsionIndex(ended as u16) });
+    }
+    None
 }

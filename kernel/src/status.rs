@@ -28,7 +28,7 @@ pub struct Failure {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Cause {
-    /// A velocity of this body is infinite or not a number.
+    /// A number of this body's state is infinite or not a number.
     NonFinite {
         /// The first such body.
         body: BodyIndex,
@@ -39,7 +39,34 @@ pub enum Cause {
         /// The first such spring.
         spring: TorsionIndex,
     },
+    /// This body turns by more than [`MOST_TURN`] in a step.
+    Spin {
+        /// The first such body.
+        body: BodyIndex,
+    },
+    /// The turn count of this torsion spring is at its end: 2³¹ turns.
+    Turns {
+        /// The first such spring.
+        spring: TorsionIndex,
+    },
+    /// The step counter is at its end: 2⁶⁴ − 1 steps. The state is left as it was.
+    Steps,
+    /// What is mounted to this body can vibrate faster than the step bears; see
+    /// [`crate::watch::Watch`].
+    Frequency {
+        /// The body.
+        body: BodyIndex,
+    },
+    /// The energy is beyond what was allowed; see [`crate::watch::Watch`].
+    Energy {
+        /// The body with the most kinetic energy.
+        body: BodyIndex,
+    },
 }
+
+/// \[rad\] what a body may turn in a step: the polynomials of a turn lose digits from 0.3 on, and
+/// forces that turn with the body are sampled too rarely long before.
+pub const MOST_TURN: f64 = 1.0;
 
 impl Status {
     /// Whether the plant has not failed.
@@ -66,6 +93,19 @@ impl core::fmt::Display for Failure {
             Cause::NonFinite { body } => write!(f, "body {} is not finite", body.0)?,
             Cause::UndefinedTwist { spring } => {
                 write!(f, "the twist of torsion spring {} is undefined", spring.0)?;
+            }
+            Cause::Spin { body } => {
+                write!(f, "body {} turns by more than {MOST_TURN} rad in a step", body.0)?;
+            }
+            Cause::Turns { spring } => {
+                write!(f, "the turn count of torsion spring {} is at its end", spring.0)?;
+            }
+            Cause::Steps => write!(f, "the step counter is at its end")?,
+            Cause::Frequency { body } => {
+                write!(f, "the mounts of body {} can vibrate too fast for the step", body.0)?;
+            }
+            Cause::Energy { body } => {
+                write!(f, "the energy is beyond its limit, most of it in body {},", body.0)?;
             }
         }
         write!(f, " after step {}", self.step)

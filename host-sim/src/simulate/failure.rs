@@ -9,7 +9,7 @@
 use std::fmt;
 use std::io;
 
-use dbd_kernel::status::Cause;
+use dbd_kernel::status::{Cause, MOST_TURN};
 use dbd_plant::digits::significant;
 use dbd_plant::judge::Trouble;
 use dbd_plant::plan::{Request, StepRequest, plan};
@@ -128,7 +128,24 @@ fn describe(scene: &Scene, trouble: Trouble) -> String {
     match trouble {
         Trouble::Step(Cause::NonFinite { body }) => {
             let body = name(&scene.body_names, body.row());
-            format!("the velocity of body `{body}` is not finite")
+            format!("a number of body `{body}`'s state is not finite")
+        }
+        Trouble::Step(Cause::Spin { body }) => {
+            let body = name(&scene.body_names, body.row());
+            format!("body `{body}` turns by more than {MOST_TURN} rad in a step")
+        }
+        Trouble::Step(Cause::Turns { spring }) => {
+            let spring = name(&scene.torsion_names, usize::from(spring.0));
+            format!("the turn count of {spring} is at its end")
+        }
+        Trouble::Step(Cause::Steps) => "the step counter is at its end".to_owned(),
+        Trouble::Step(Cause::Frequency { body }) => {
+            let body = name(&scene.body_names, body.row());
+            format!("what is mounted to body `{body}` can vibrate faster than the step bears")
+        }
+        Trouble::Step(Cause::Energy { body }) => {
+            let body = name(&scene.body_names, body.row());
+            format!("the energy is beyond its limit, most of it in body `{body}`,")
         }
         Trouble::Step(Cause::UndefinedTwist { spring }) => {
             let spring = name(&scene.torsion_names, usize::from(spring.0));
