@@ -71,13 +71,15 @@ impl<R: Real> Watch<R> {
         });
         let count = plant.state().bodies.as_ref().len();
         self.next = if row + 1 < count { row + 1 } else { 0 };
-        // Also where it is not a number.
-        if !(square <= self.square) {
+        // What is not a number is not calm either.
+        let calm = square <= self.square;
+        if !calm {
             return plant.fail(Cause::Frequency { body: BodyIndex(row as u16) });
         }
         if let Some(most) = self.energy {
             let total = energy(plant.model(), plant.state(), plant.step_size()).total();
-            if !(total <= most) {
+            let calm = total <= most;
+            if !calm {
                 return plant.fail(Cause::Energy { body: fastest(plant) });
             }
         }
