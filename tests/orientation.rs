@@ -117,7 +117,7 @@ fn quaternions_keep_the_angular_momentum_to_rounding_and_angles_to_their_order()
     ];
     block("docs/schemes.md", "rotor", &table(&head, &rows));
     // Beyond the advised 0.1 rad the truncated turns of the rotor show.
-    for (turn, largest) in [(0.3, 5e-13), (0.6, 2e-12), (1.1, 1e-9)] {
+    for (turn, largest) in [(0.3, 5e-13), (0.6, 2e-12), (0.95, 1e-9)] {
         for worst in
             [worst_change_at::<F64, _>(Leapfrog, turn), worst_change_at::<F64, _>(Pefrl, turn)]
         {

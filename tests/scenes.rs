@@ -51,7 +51,7 @@ const SCENES: &[Row] = &[
     row("chain-open-60", 10, 60, 1.1e-9, 8.2e-6),
     row("crank-slider", 4, 29, 4.1e-7, 5.8e-4),
     damped("delta-pick-and-place", 13, 90, 1e-9, 8.4e-6),
-    damped("double-wishbone", 4, 38, 1e-9, 1.5e-7),
+    damped("double-wishbone", 4, 38, 1e-9, 6.7e-7),
     row("five-bar-a", 4, 30, 3.2e-4, 3.2e-4),
     row("five-bar-b", 4, 30, 3.8e-5, 9.7e-5),
     row("four-bar", 3, 24, 6.5e-5, 2.9e-4),

@@ -449,11 +449,10 @@ fn first_fault<P: Geometry, T: Terms>(
 ) -> Option<Cause> {
     // 1 rad: no conversion on a target without double precision.
     const { assert!(MOST_TURN == 1.0) };
-    let square = h * h;
     for (row, state) in bodies.iter().enumerate() {
         let body = BodyIndex(row as u16);
-        let spin = P::velocity(&state.angular_velocity);
-        let slow = spin.dot(spin) * square <= P::Real::ONE;
+        let turn = P::velocity(&state.angular_velocity) * h;
+        let slow = turn.dot(turn) <= P::Real::ONE;
         if !is_finite(state) {
             return Some(Cause::NonFinite { body });
         }

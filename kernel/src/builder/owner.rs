@@ -6,7 +6,7 @@ use heapless::Vec;
 
 use crate::body::BodyState;
 use crate::builder::ModelBuilder;
-use crate::damping::Share;
+use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::model::{AllTerms, ModelOwner, ModelRef};
 use crate::schedule::{KnotStep, LoadWindow, Signal};

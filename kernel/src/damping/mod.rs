@@ -24,8 +24,8 @@ mod pair;
 mod shares;
 mod strength;
 
+pub use crate::elements::share::Share;
 pub(crate) use pair::{HalfKick, Kick, NoKick};
-pub use shares::Share;
 pub(crate) use shares::share;
 pub use strength::{DampersOf, Strength, strengths};
 

@@ -9,25 +9,11 @@
 
 use crate::body::BodyState;
 use crate::damping::motion::{Motion, Pose, meet};
+use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::model::{ModelRef, Terms};
 use crate::pose::Places;
 use crate::real::Real;
-
-/// The share of one damper in what it bears together with others.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Share<R> {
-    /// Its own, above 0, 1 at most.
-    pub own: R,
-    /// Of all dampers that come after it in ascending order.
-    pub later: R,
-}
-
-impl<R: Real> Share<R> {
-    /// Of a damper that no other touches.
-    pub const ALONE: Self = Self { own: R::ONE, later: R::ZERO };
-}
 
 /// Writes the share of every damper; `shares` is as long as the dampers.
 pub(crate) fn share<P: Geometry, T: Terms>(

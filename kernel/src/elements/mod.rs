@@ -11,5 +11,6 @@ pub mod load;
 pub mod point_bushing;
 pub mod point_law;
 pub mod point_on_line;
+pub mod share;
 pub mod torsion_spring;
 pub mod tsda;

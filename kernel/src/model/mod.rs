@@ -19,7 +19,6 @@ use core::marker::PhantomData;
 
 use crate::body::Body;
 use crate::body::BodyState;
-use crate::damping::Share;
 use crate::elements::element::Element;
 pub use crate::elements::element::Law;
 use crate::elements::input::{Input, Knot};
@@ -27,6 +26,7 @@ use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_law::{PointLaw as _, Stretch};
 use crate::elements::point_on_line::PointOnLine;
+use crate::elements::share::Share;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::geometry::Geometry;

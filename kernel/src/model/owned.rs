@@ -3,11 +3,11 @@
 use core::marker::PhantomData;
 
 use crate::body::{Body, BodyState};
-use crate::damping::Share;
 use crate::elements::input::{Input, InputKind, Knot};
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_on_line::PointOnLine;
+use crate::elements::share::Share;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::geometry::Geometry;
