@@ -4,6 +4,7 @@
 mod loops;
 mod oscillators;
 mod points;
+mod sizes;
 
 use dbd_kernel::{BodyState, F64, State};
 use dbd_plant::judge::Judge;

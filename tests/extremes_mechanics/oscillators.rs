@@ -205,3 +205,33 @@ fn dampers_of_any_strength() {
     }
     rows.write("damping ratios");
 }
+
+/// Constants that double precision holds and single precision does not: each run in the latter ends told.
+#[test]
+fn constants_beyond_single_precision_are_told() {
+    let mut rows = Rows::new(&["a body on a spring, with"], &UNDAMPED);
+    let cases = [
+        ("a mass of 1e39 kg", body("b", 1e39, 1.0), 1e5, 1e-3),
+        ("a mass of 1e-38 kg", body("b", 1e-38, 1.0), 1e5, 1e-25),
+        ("a stiffness of 1e39 N/m", body("b", 1.0, 1.0), 1e39, 1e-25),
+        ("a spring of 1e20 m", body("b", 1.0, 1e20), 1.0, 0.1),
+    ];
+    for (name, body, stiffness, step) in cases {
+        let scene = scene_of(&[body, spring(["world", "b"], stiffness, 0.0, 0.5)]);
+        let start = x(&dbd_kernel::State::initial(&scene.model), 0);
+        let ends = each(&UNDAMPED, |_, method| {
+            let end = follow(&scene, method, step, 100, 100, |_, state| {
+                // No further than it was let go, but for the scheme's error.
+                (x(state, 0).abs() / start - 1.0).max(0.0)
+            });
+            let held = name.contains("e-38") || !single(method);
+            assert!(
+                if held { end.is_within(0.2) } else { end.is_told() },
+                "{name} {method:?} {end:?}"
+            );
+            end
+        });
+        rows.push(vec![name.into()], &ends);
+    }
+    rows.write("beyond f32");
+}
