@@ -90,8 +90,8 @@ fn springs_of_any_stiffness_carry_a_weight() {
                 (x(state, 0) - LENGTH - deflection * (1.0 - (omega * t).cos())).abs()
             });
             let grid: f64 = if single(method) { f32::EPSILON.into() } else { f64::EPSILON };
-            // A rounding of the position is a kick of k times it; pefrl rounds four times a step,
-            // and its steps forth and back are longer than the whole.
+            // A rounding of the position is a kick of k times it; pefrl drifts forth and back within
+            // a step and rounds each time.
             let kicks = if way == Way::Pefrl { 300.0 } else { 50.0 };
             let bound = deflection * way.error(0.1, 100.0) + kicks * grid;
             assert!(end.is_within(bound), "{stiffness:e} {method:?} {end:?} {bound:e}");
