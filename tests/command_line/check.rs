@@ -170,13 +170,13 @@ fn a_spin_limits_the_step() {
     let head = ["rad per step", "energy lost in 10 s, in parts of it"];
     block("docs/schemes.md", "spin", &table(&head, &rows));
 
-    let warned = |text: &str| text.contains("body `top` turns by 5.5 rad in a step of 0.1s");
-    let long = ["--step", "100ms"];
+    let warned = |text: &str| text.contains("body `top` turns by 0.88 rad in a step of 16ms");
+    let long = ["--step", "16ms"];
     assert!(warned(&folder.run(&scene, &long).out));
     assert!(warned(&folder.run(&scene, &[&long[..], &["--json"]].concat()).err));
     let quiet = folder.run(&scene, &[&long[..], &["--quiet"]].concat());
     assert_eq!((quiet.out.as_str(), quiet.err.as_str()), ("", ""));
     assert!(!warned(&folder.run(&scene, &[]).out));
-    let given = folder.scene(&ROTOR.replace("duration = 10", "duration = 10\nstep = 0.1"));
+    let given = folder.scene(&ROTOR.replace("duration = 10", "duration = 10\nstep = 0.016"));
     assert!(warned(&call(&["check", &given]).out));
 }

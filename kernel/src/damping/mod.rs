@@ -10,7 +10,7 @@
 //! A sweep that follows a kick is told of it: a force that lasts while the damper acts does not come
 //! before it. The rate then follows the flow of `ṙ = a − (c/μ)·r`, `a` the kick's acceleration along
 //! u, and a strong damper leaves `a·μ/c`, at which it bears the force, where a sweep by itself would
-//! leave next to nothing (see [`pair`], and [`Share`] for dampers that bear a force together). At
+//! leave next to nothing ([`Share`]: dampers that bear a force together). At
 //! rest under any forces it does nothing.
 //!
 //! A TSDA damps along its line, a torsion spring along its gradient, a point bushing along the

@@ -47,7 +47,7 @@ pub trait Scheme: Copy {
     fn stability_limit(&self) -> f64;
 
     /// One step of the size [`Stepper::step_size`]. Ends with the state at the next step's start; the
-    /// caller advances the counter and looks for non-finite velocities.
+    /// caller advances the counter and looks for what is not finite or spins too fast.
     ///
     /// # Errors
     /// The torsion spring whose twist is undefined; the state is then that of the stage.
