@@ -179,6 +179,55 @@ fn a_step_too_short_for_single_precision_is_warned_of() {
     }
 }
 
+/// Strong dampers: a composition is warned of any, the others of those that cross. The step that is
+/// named brings the warning to an end, and `check` says what `run` says.
+#[test]
+fn dampers_too_strong_for_a_step_are_warned_of() {
+    let folder = Folder::new();
+    let scene = |mount: &str| {
+        folder.scene(&format!(
+            "name = \"creep\"\nduration = 0.1\nstep = 1e-3\n[[body]]\nname = \"b\"\nmass = 1\n\
+             inertia = [0.01, 0.01, 0.01]\nposition = [0, 0, 0]\n{mount}"
+        ))
+    };
+    let said = |scene: &str, scheme: &str, step: &str| -> Vec<String> {
+        let all = warnings(&folder.summary(scene, &["--scheme", scheme, "--step", step]));
+        all.into_iter().filter(|warning| warning.contains("h·c/μ")).collect()
+    };
+    let tsda = scene(
+        "[[tsda]]\nname = \"dashpot\"\nbetween = [\"world\", \"b\"]\npoints = [[0, 0, 1], [0, 0, 0]]\n\
+         stiffness = 1e3\ndamping = 1e4\nfree_length = 1\n",
+    );
+    for scheme in ["leapfrog", "semi-implicit-euler"] {
+        assert_eq!(said(&tsda, scheme, "1ms"), [""; 0], "{scheme}");
+    }
+    for scheme in ["pefrl", "blanes-moan-s6"] {
+        let [warning] = &said(&tsda, scheme, "1ms")[..] else { panic!("{scheme}") };
+        assert!(warning.starts_with("the step of 1ms is long for the dampers of "), "{warning}");
+        assert!(
+            warning.contains("dashpot") && warning.contains("(line 9): h·c/μ = 10;"),
+            "{warning}"
+        );
+        assert!(warning.ends_with(&format!("under {scheme}: leapfrog, or a step of at most 30us")));
+        assert_eq!(said(&tsda, scheme, "20us"), [""; 0], "{scheme}");
+    }
+    let revolute = scene(
+        "[[joint]]\nname = \"hinge\"\ntype = \"revolute\"\nbetween = [\"world\", \"b\"]\n\
+         at = [0, 0, 0]\naxis = [0, 0, 1]\nspan = 0.1\nstiffness = 1e5\ndamping = 1e4\n",
+    );
+    let [warning] = &said(&revolute, "leapfrog", "1ms")[..] else { panic!() };
+    assert!(warning.contains("joint `hinge` (line 9)"), "{warning}");
+    let (_, advice) = warning.split_once("where dampers cross: a step of at most ").unwrap();
+    let advised: f64 = advice.strip_suffix("us").unwrap().parse().unwrap();
+    assert!((100.0..200.0).contains(&advised), "{advice}");
+    assert_eq!(said(&revolute, "leapfrog", "100us"), [""; 0]);
+    assert_eq!(said(&revolute, "leapfrog", "200us").len(), 1);
+    let checked: Value = serde_json::from_str(&call(&["check", &revolute, "--json"]).out).unwrap();
+    let checked = warnings(&checked);
+    let theirs = warning.strip_prefix("the step").unwrap();
+    assert!(checked.iter().any(|ours| ours.ends_with(theirs)), "{checked:?} {warning}");
+}
+
 #[test]
 fn a_failure_begins_with_its_cause_where_that_is_known() {
     let folder = Folder::new();
