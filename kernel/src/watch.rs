@@ -3,8 +3,8 @@
 //! `(watch, plant) => status`. A step itself refuses what is not finite, what spins too fast and
 //! counters at their ends. [`Watch`] sees a run that leaves the range its step was chosen for:
 //! mounts that vibrate faster than at the start, for an element is compressed or under tension far
-//! beyond what it was, and energy beyond a limit. Each look takes one body in turn, so that its
-//! cost does not grow with the model but by what is mounted to the body.
+//! beyond what it was, and energy beyond a limit. Each look takes the mounts of one body in turn; only
+//! placing the bodies, and the energy where it is asked for, go through the whole model.
 
 use core::ops::Deref;
 

@@ -5,8 +5,8 @@
 //! with quaternions, angular momentum are kept to rounding; with damped bushings and points on
 //! lines, whose law does not keep it, the linear one alone. One force evaluation per step: the
 //! last of a step is the first of the next, unless a load begins or ends or an input jumps.
-//! Stable for `ω_max·h < 2`. Dampers are exact pairwise sweeps of half a step before and after
-//! (see [`crate::damping`]); they cost no stability and keep second order.
+//! Stable for `ω_max·h < 2`. Dampers are pairwise sweeps of half a step, each told of the half kick
+//! before it (see [`crate::damping`]); they cost no stability and keep second order.
 
 use crate::damping::Damping;
 use crate::forces::{At, Dampers, DampersLeft};

@@ -5,7 +5,7 @@
 //! oscillates by O(h⁴) and does not drift; linear and, with quaternions, angular momentum are kept
 //! to rounding; with damped bushings and points on lines, whose law does not keep it, the linear
 //! one alone. The free rotor is of fourth order; planar motion takes one exact turn.
-//! Dampers are exact pairwise sweeps of half a step before and after (see [`crate::damping`]), never
+//! Dampers are pairwise sweeps of half a step before and after (see [`crate::damping`]), never
 //! within a step, some of whose parts go backwards: second order then.
 
 use crate::compositions::PEFRL;

@@ -4,9 +4,9 @@
 //! free rotor is a splitting that keeps the world's angular momentum. First order, one evaluation,
 //! stable for `ω_max·h < 2`. Symplectic without dampers: the energy oscillates by O(h) and does
 //! not drift; linear and, with quaternions, angular momentum are kept to rounding; with damped
-//! bushings and points on lines, whose law does not keep it, the linear one alone. Dampers are
-//! exact pairwise sweeps of half a step before and after the kick (see [`crate::damping`]); around the
-//! drift, too, they would lower the limit towards √2.
+//! bushings and points on lines, whose law does not keep it, the linear one alone. With dampers the
+//! kick comes in two halves, each followed by a pairwise sweep that is told of it (see
+//! [`crate::damping`]); around the drift, too, sweeps would lower the limit towards √2.
 
 use crate::damping::Damping;
 use crate::forces::{At, Dampers, DampersLeft};
