@@ -9,7 +9,7 @@
 use core::hint::black_box;
 
 use dbd_kernel::model::ModelOwner;
-use dbd_kernel::{Geometry, Plant, Scheme, Status};
+use dbd_kernel::{Geometry, Plant, Scheme};
 
 use crate::board::stack;
 use crate::board::systick::SysTick;
@@ -45,7 +45,38 @@ pub struct Costing<'t> {
     well: bool,
 }
 
-type Call<M, S> = fn(&mut Plant<&'static M, S>) -> Status;
+/// What is counted, and whether it went well.
+type Call<T> = fn(&mut T) -> bool;
+
+/// Ticks of one call, and whether it went well.
+#[inline(never)]
+pub fn time<T>(systick: &mut SysTick, call: Call<T>, subject: &mut T) -> (u64, bool) {
+    let start = systick.read();
+    let well = call(black_box(subject));
+    let end = systick.read();
+    (SysTick::between(start, end), well)
+}
+
+/// Ticks of some calls in sum and of the dearest, an empty call subtracted from each.
+pub fn count<T>(
+    systick: &mut SysTick,
+    calls: u32,
+    call: Call<T>,
+    subject: &mut T,
+) -> (u64, u64, bool) {
+    let empty: Call<T> = black_box(nothing::<T>);
+    let call: Call<T> = black_box(call);
+    let (mut total, mut most, mut well) = (0_u64, 0_u64, true);
+    for _ in 0..calls {
+        let (nothing, _) = time(systick, empty, subject);
+        let (ticks, went_well) = time(systick, call, subject);
+        let ticks = ticks.saturating_sub(nothing);
+        total += ticks;
+        most = most.max(ticks);
+        well &= went_well;
+    }
+    (total, most, well)
+}
 
 impl Visitor for Costing<'_> {
     fn visit<M: ModelOwner, S: Scheme>(&mut self, shipped: Shipped<M, S>) {
@@ -62,20 +93,14 @@ impl Visitor for Costing<'_> {
             self.well = false;
             return;
         };
-        let empty: Call<M, S> = black_box(no_step::<M, S>);
-        let step: Call<M, S> = black_box(one_step::<M, S>);
         for _ in 0..WARM_UP {
-            self.well &= step(&mut plant).is_running();
+            self.well &= one_step(&mut plant);
         }
-        let (mut total, mut most) = (0_u64, 0_u64);
-        for _ in 0..STEPS {
-            let nothing = self.time(empty, &mut plant);
-            let ticks = self.time(step, &mut plant).saturating_sub(nothing);
-            total += ticks;
-            most = most.max(ticks);
-        }
+        let (total, most, well) = count(self.systick, STEPS, one_step::<M, S>, &mut plant);
+        self.well &= well;
+        let step: Call<Plant<&'static M, S>> = black_box(one_step::<M, S>);
         let stack = stack::depth(|| {
-            self.well &= step(&mut plant).is_running();
+            self.well &= step(&mut plant);
         });
         let nanoseconds = (shipped.step * 1e9 + 0.5) as u64;
         say!(
@@ -94,28 +119,13 @@ impl Visitor for Costing<'_> {
     }
 }
 
-impl Costing<'_> {
-    #[inline(never)]
-    fn time<M: ModelOwner, S: Scheme>(
-        &mut self,
-        call: Call<M, S>,
-        plant: &mut Plant<&'static M, S>,
-    ) -> u64 {
-        let start = self.systick.read();
-        let status = call(black_box(plant));
-        let end = self.systick.read();
-        self.well &= status.is_running();
-        SysTick::between(start, end)
-    }
+#[inline(never)]
+fn one_step<M: ModelOwner, S: Scheme>(plant: &mut Plant<&'static M, S>) -> bool {
+    plant.step().is_running()
 }
 
 #[inline(never)]
-fn one_step<M: ModelOwner, S: Scheme>(plant: &mut Plant<&'static M, S>) -> Status {
-    plant.step()
-}
-
-#[inline(never)]
-fn no_step<M: ModelOwner, S: Scheme>(plant: &mut Plant<&'static M, S>) -> Status {
-    black_box(plant);
-    Status::Running
+fn nothing<T>(subject: &mut T) -> bool {
+    black_box(subject);
+    true
 }

@@ -19,6 +19,8 @@ pub mod sample;
 
 #[cfg(target_os = "none")]
 pub mod cost;
+#[cfg(target_os = "none")]
+pub mod guards;
 
 /// The README's programs compile: the model that they include is one of [`models`].
 #[cfg(doctest)]

@@ -16,8 +16,9 @@
 //! - [`mod@model`], [`sketch`], [`state`]: read-only constants of bodies and elements, and how a person
 //!   writes them; plain data and its hash.
 //! - `pose`, [`forces`], [`damping`]: where points lie; one evaluation; dampers as impulses.
-//! - [`step`], [`schemes`], [`plant`]: kick and drift; how they make a step; model, scheme, step and
-//!   state together.
+//! - [`step`], [`schemes`]: kick and drift; how they make a step.
+//! - `guards`, `refusal`, [`plant`]: what a step must not have made; why a plant refuses what it is given;
+//!   model, scheme, step and state together.
 //! - [`energy`], [`frequency`], [`watch`]: what a state holds, how fast it can vibrate; guards that
 //!   look at both.
 //! - [`snapshot`], [`readouts`]: a state as bytes from machine to machine; what sensors see.
@@ -64,6 +65,7 @@ pub mod forces;
 mod format;
 pub mod frequency;
 pub mod geometry;
+mod guards;
 pub mod index;
 #[cfg(feature = "micromath")]
 pub mod loose;
@@ -72,6 +74,7 @@ pub mod plant;
 mod pose;
 pub mod readouts;
 pub mod real;
+mod refusal;
 pub mod rotation;
 pub mod schedule;
 pub mod schemes;

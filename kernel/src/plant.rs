@@ -7,18 +7,18 @@
 use core::ops::Deref;
 
 use crate::attitude::Attitude as _;
-use crate::body::BodyState;
 use crate::damping::{Damping, share};
 use crate::forces::Wrench;
-use crate::geometry::Geometry;
-use crate::index::{BodyIndex, InputIndex, TorsionIndex};
+use crate::guards::first_fault;
+use crate::index::{BodyIndex, InputIndex};
 use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, Terms};
 use crate::pose::{Places, place_bodies};
 use crate::real::Real;
+pub use crate::refusal::{InputError, PlantError, StateError};
 use crate::schedule::{KnotStep, LoadWindow, Signal, StageTime, sample};
 use crate::schemes::Scheme;
 use crate::state::State;
-use crate::status::{Cause, Failure, MOST_TURN, Status};
+use crate::status::{Cause, Failure, Status};
 use crate::step::{Diagonal, Ledger, Stepper};
 use crate::words::is_finite;
 
@@ -47,80 +47,6 @@ where
 
 /// One `T` per body of the model that `H` points to.
 type PerBody<H, T> = <<H as Deref>::Target as ModelOwner>::PerBody<T>;
-
-/// Why a plant could not be made.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum PlantError {
-    /// The step is not a positive finite number in the model's precision.
-    Step(f64),
-}
-
-impl core::fmt::Display for PlantError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let PlantError::Step(step) = self;
-        write!(f, "the step must be a positive finite time, not {step} s")
-    }
-}
-
-impl core::error::Error for PlantError {}
-
-/// Why an input could not be set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum InputError {
-    /// The model has no such input.
-    Unknown(InputIndex),
-    /// A table of the scene drives it.
-    Table(InputIndex),
-    /// The value is infinite or not a number in the model's precision.
-    NotFinite(InputIndex),
-}
-
-impl core::fmt::Display for InputError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            InputError::Unknown(input) => write!(f, "the model has no input {}", input.0),
-            InputError::Table(input) => write!(f, "input {} follows a table", input.0),
-            InputError::NotFinite(input) => write!(f, "input {}: the value is not finite", input.0),
-        }
-    }
-}
-
-impl core::error::Error for InputError {}
-
-/// Why a plant could not take a state.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum StateError {
-    /// It has another number of bodies, torsion springs or inputs than the model.
-    Count,
-    /// A number of this body is infinite or not a number.
-    NotFinite(BodyIndex),
-    /// The orientation of this body is no unit quaternion within 1e-3.
-    Orientation(BodyIndex),
-    /// The signal of this input is infinite or not a number.
-    Signal(InputIndex),
-}
-
-impl core::fmt::Display for StateError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            StateError::Count => {
-                write!(f, "the state has other counts of bodies, springs or inputs than the model")
-            }
-            StateError::NotFinite(body) => {
-                write!(f, "the state of body {} is not finite", body.0)
-            }
-            StateError::Orientation(body) => {
-                write!(f, "the orientation of body {} is no unit quaternion", body.0)
-            }
-            StateError::Signal(input) => write!(f, "the signal of input {} is not finite", input.0),
-        }
-    }
-}
-
-impl core::error::Error for StateError {}
 
 impl<H, S> Plant<H, S>
 where
@@ -261,6 +187,16 @@ where
         place_bodies(self.state.bodies.as_ref(), self.frames.as_mut());
         let signals = self.state.signals.as_ref();
         look(&self.model.view(), Places { frames: self.frames.as_ref(), signals }, &self.state)
+    }
+
+    /// What the guards of a step find wrong with the present state: a body that is not finite or turns
+    /// too far in a step, or a turn count at its end. After a failure it may be the one that failed;
+    /// before [`Self::clear`] it tells whether the next step can go well.
+    #[inline]
+    #[must_use]
+    pub fn fault(&self) -> Option<Cause> {
+        let (bodies, turns) = (self.state.bodies.as_ref(), self.state.turns.as_ref());
+        first_fault::<_, <H::Target as ModelOwner>::Terms>(bodies, turns, self.h)
     }
 
     /// Forgets a failure and leaves the state as it failed. What is not finite, spins too fast or is
@@ -437,32 +373,4 @@ fn check<M: ModelOwner>(state: &State<M>, own: &State<M>) -> Result<(), StateErr
         }
     }
     Ok(())
-}
-
-/// The first body with a number in its state that is infinite or NaN or that turns too far in a
-/// step, else the first turn count at its end.
-#[inline]
-fn first_fault<P: Geometry, T: Terms>(
-    bodies: &[BodyState<P>],
-    turns: &[i32],
-    h: P::Real,
-) -> Option<Cause> {
-    // 1 rad: no conversion on a target without double precision.
-    const { assert!(MOST_TURN == 1.0) };
-    for (row, state) in bodies.iter().enumerate() {
-        let body = BodyIndex(row as u16);
-        let turn = P::velocity(&state.angular_velocity) * h;
-        let slow = turn.dot(turn) <= P::Real::ONE;
-        if !is_finite(state) {
-            return Some(Cause::NonFinite { body });
-        }
-        if !slow {
-            return Some(Cause::Spin { body });
-        }
-    }
-    if T::TORSIONS {
-        let ended = turns.iter().position(|turns| matches!(*turns, i32::MIN | i32::MAX))?;
-        return Some(Cause::Turns { spring: TorsionIndex(ended as u16) });
-    }
-    None
 }

@@ -62,3 +62,25 @@ fn golden_bits_are_the_same_everywhere() {
     let head = ["build", "byte order", "optimisation", "equal hashes", "tests", "runs in halves"];
     block("docs/proof.md", "bits", &table(&head, &lines));
 }
+
+#[test]
+fn guards_cost_little_beside_their_step() {
+    let mut lines = Vec::new();
+    for row in rows("docs/results/guards.csv") {
+        let [step, every] = ["step", "every_step"].map(|column| row.number(column));
+        assert!(every < 0.05 * step, "{row:?}");
+        let name = ["scene", "scheme", "precision"].map(|column| row.text(column));
+        let counts = ["step", "every_step", "look_mean", "look_most", "look_at_energy"];
+        let counts = counts.map(|column| grouped(row.text(column)));
+        lines.push([name.join(" ")].into_iter().chain(counts).collect());
+    }
+    let head = [
+        "instructions on a Cortex-M4F",
+        "a step",
+        "its guards",
+        "a look of the watch, mean",
+        "most",
+        "and at the energy",
+    ];
+    block("docs/extremes.md", "guards", &table(&head, &lines));
+}

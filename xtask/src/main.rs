@@ -73,6 +73,9 @@ enum Command {
         /// Counts the sample alone and writes the baseline of this compiler, nothing else.
         #[arg(long, conflicts_with_all = ["compare", "scenes"])]
         baseline: bool,
+        /// Counts what the guards of the sample's models cost, and writes docs/results/guards.csv.
+        #[arg(long, conflicts_with_all = ["compare", "scenes", "baseline"])]
+        guards: bool,
     },
     /// Gives random input to the reader of scenes, to snapshots, to steps and to the command line, on
     /// all cores; fails where anything fails.
@@ -103,6 +106,7 @@ fn main() -> ExitCode {
         Command::Tables => tests::tables(),
         Command::Fw { name, long, arguments } => firmware::run(&name, long, &arguments),
         Command::Cost { baseline: true, .. } => cost::baseline(),
+        Command::Cost { guards: true, .. } => cost::guards::run(),
         Command::Cost { scenes, compare, .. } => cost::run(&scenes, compare),
         Command::Fuzz(campaign) => fuzz::run(&campaign),
         Command::Bits { names } => bits::machines::run(&names),

@@ -6,6 +6,7 @@
 
 pub mod baseline;
 mod compare;
+pub mod guards;
 mod row;
 
 use anyhow::{Context as _, Result, bail};

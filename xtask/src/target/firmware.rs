@@ -20,9 +20,10 @@ const AUDIT: &str = "audit";
 const LIBRARIES: &str = "core,alloc";
 
 /// Programs that can be run, each with the image that holds it.
-const PROGRAMS: [(&str, &str); 6] = [
+const PROGRAMS: [(&str, &str); 7] = [
     ("board", SHARED),
     ("cost", "cost"),
+    ("guards", "guards"),
     ("hash", SHARED),
     ("relay", SHARED),
     ("root", SHARED),

@@ -1,0 +1,80 @@
+//! Why a plant, the value of an input or a state was refused.
+//!
+//! `condition => error that names it`. Each is a few bytes, without text; the text is made where it is
+//! shown.
+
+use crate::index::{BodyIndex, InputIndex};
+
+/// Why a plant could not be made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum PlantError {
+    /// The step is not a positive finite number in the model's precision.
+    Step(f64),
+}
+
+impl core::fmt::Display for PlantError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let PlantError::Step(step) = self;
+        write!(f, "the step must be a positive finite time, not {step} s")
+    }
+}
+
+impl core::error::Error for PlantError {}
+
+/// Why an input could not be set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum InputError {
+    /// The model has no such input.
+    Unknown(InputIndex),
+    /// A table of the scene drives it.
+    Table(InputIndex),
+    /// The value is infinite or not a number in the model's precision.
+    NotFinite(InputIndex),
+}
+
+impl core::fmt::Display for InputError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            InputError::Unknown(input) => write!(f, "the model has no input {}", input.0),
+            InputError::Table(input) => write!(f, "input {} follows a table", input.0),
+            InputError::NotFinite(input) => write!(f, "input {}: the value is not finite", input.0),
+        }
+    }
+}
+
+impl core::error::Error for InputError {}
+
+/// Why a plant could not take a state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum StateError {
+    /// It has another number of bodies, torsion springs or inputs than the model.
+    Count,
+    /// A number of this body is infinite or not a number.
+    NotFinite(BodyIndex),
+    /// The orientation of this body is no unit quaternion within 1e-3.
+    Orientation(BodyIndex),
+    /// The signal of this input is infinite or not a number.
+    Signal(InputIndex),
+}
+
+impl core::fmt::Display for StateError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            StateError::Count => {
+                write!(f, "the state has other counts of bodies, springs or inputs than the model")
+            }
+            StateError::NotFinite(body) => {
+                write!(f, "the state of body {} is not finite", body.0)
+            }
+            StateError::Orientation(body) => {
+                write!(f, "the orientation of body {} is no unit quaternion", body.0)
+            }
+            StateError::Signal(input) => write!(f, "the signal of input {} is not finite", input.0),
+        }
+    }
+}
+
+impl core::error::Error for StateError {}
