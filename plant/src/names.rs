@@ -81,7 +81,7 @@ named! {
 named! {
     /// The ways of damping by name.
     DampingName {
-        /// Exact pairwise impulses before and after: no limit of the step.
+        /// Pairwise impulses that know of the kick before them: no limit of the step.
         Sweeps = "sweeps",
         /// Forces at the velocities of each evaluation: limit the step.
         Explicit = "explicit",

@@ -172,6 +172,9 @@ fn a_step_too_short_for_single_precision_is_warned_of() {
         ("leapfrog", "f32", "1us", true),
         ("rk4", "f32", "1us", true),
         ("semi-implicit-euler", "f32", "1us", false),
+        ("semi-implicit-euler", "f32", "200ns", true),
+        ("dbd", "f32", "200ns", true),
+        ("dbd", "f64", "200ns", false),
     ] {
         let said = said(scheme, precision, step);
         assert_eq!(said.len(), usize::from(warned), "{scheme}, {precision}, {step}: {said:#?}");

@@ -233,5 +233,20 @@ fn constants_beyond_single_precision_are_told() {
         });
         rows.push(vec![name.into()], &ends);
     }
+    // Its way is 1e40 m: the error in parts of it.
+    let (speed, omega, step) = (1e37, 1e-3, 10.0);
+    let body = body("b", 1.0, 0.0) + &format!("velocity = [{speed:?}, 0, 0]\n");
+    let scene = scene_of(&[body, spring(["world", "b"], omega * omega, 0.0, 0.0)]);
+    let ends = each(&UNDAMPED, |_, method| {
+        let end = follow(&scene, method, step, 100, 100, |t, state| {
+            (x(state, 0) - speed / omega * (omega * t).sin()).abs() * omega / speed
+        });
+        assert!(
+            if single(method) { end.is_told() } else { end.is_within(0.02) },
+            "{method:?} {end:?}"
+        );
+        end
+    });
+    rows.push(vec!["a speed of 1e37 m/s and steps of 10 s".into()], &ends);
     rows.write("beyond f32");
 }

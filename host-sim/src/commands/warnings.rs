@@ -22,6 +22,9 @@ const SHORTEST: f64 = 0.0125;
 /// The same of compositions, which round every part of a step.
 const SHORTEST_COMPOSED: f64 = 0.03;
 
+/// The same of schemes of first order, whose error falls slowly with the step.
+const SHORTEST_FIRST: f64 = 0.003;
+
 /// Schemes composed of several kicks.
 const COMPOSED: [&str; 2] = ["pefrl", "blanes-moan-s6"];
 
@@ -163,7 +166,8 @@ fn of_rounding(
     let product = frequencies.bound * step;
     let [order, _] = method.orders();
     let shortest = match method.scheme_name() {
-        _ if method.precision() == PrecisionName::F64 || order < 2 => return None,
+        _ if method.precision() == PrecisionName::F64 => return None,
+        _ if order < 2 => SHORTEST_FIRST,
         name if COMPOSED.contains(&name) => SHORTEST_COMPOSED,
         _ => SHORTEST,
     };
