@@ -11,6 +11,8 @@ pub const CLOCK_HZ: u32 = 25_000_000;
 pub const TIMER0: usize = 0x4000_0000;
 /// Timer 1.
 pub const TIMER1: usize = 0x4000_1000;
+/// Interrupt of timer 1 (AN386, interrupt assignments).
+pub const TIMER1_INTERRUPT: u16 = 9;
 /// UART 0 (AN386, APB peripherals; CMSDK APB UART).
 pub const UART0: usize = 0x4000_4000;
 /// FPGA system control and I/O (AN386, section "FPGA system control and I/O").
@@ -22,10 +24,16 @@ pub mod timer {
     pub const CTRL: usize = 0x0;
     /// Control: count.
     pub const CTRL_ENABLE: u32 = 1 << 0;
+    /// Control: interrupt when the count reaches 0.
+    pub const CTRL_INTERRUPT: u32 = 1 << 3;
     /// The present count, downwards.
     pub const VALUE: usize = 0x4;
     /// What follows a count of 0.
     pub const RELOAD: usize = 0x8;
+    /// Write 1: the interrupt is served.
+    pub const INTERRUPT_CLEAR: usize = 0xc;
+    /// The longest period in clock ticks.
+    pub const MOST_PERIOD: u32 = u32::MAX;
 }
 
 /// Registers of the CMSDK APB UART and their bits.

@@ -7,11 +7,14 @@
 pub mod addresses;
 pub mod led;
 pub mod registers;
+pub mod ticks;
 pub mod timer;
 pub mod uart;
 
 #[cfg(target_os = "none")]
 mod fault;
+#[cfg(target_os = "none")]
+mod interrupt;
 #[cfg(target_os = "none")]
 pub mod stack;
 #[cfg(target_os = "none")]

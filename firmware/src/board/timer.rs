@@ -28,6 +28,11 @@ impl<R: Registers> Timer<R> {
         Self { registers, last, ticks: 0 }
     }
 
+    /// Its registers, for another use.
+    pub fn release(self) -> R {
+        self.registers
+    }
+
     /// Ticks since the start. Must be asked once per 2³² ticks (172 s) or it loses them.
     pub fn ticks(&mut self) -> u64 {
         let value = self.registers.read(VALUE);

@@ -10,7 +10,7 @@ use super::Board;
 use super::addresses::CLOCK_HZ;
 use crate::say;
 
-/// Tries LEDs, timers and the UART.
+/// Tries LEDs, timers, the UART and ticks.
 #[must_use]
 pub fn run(mut board: Board) -> bool {
     let [first, second] = &mut board.leds;
@@ -30,5 +30,13 @@ pub fn run(mut board: Board) -> bool {
     let sent = board.uart.write_all(b"board\n").is_ok() && board.uart.flush().is_ok();
     let quiet = board.uart.read_ready() == Ok(false);
     say!("board uart {}", sent && quiet);
-    lit && punctual && sent && quiet
+
+    // Three ticks on time; then work of three and a half ticks, which misses three.
+    let mut ticks = board.delay.into_ticks(1_000);
+    let late = [(); 3].map(|()| ticks.wait(cortex_m::asm::wfi));
+    board.timer.delay_us(3_500);
+    let missed = [(); 2].map(|()| ticks.wait(cortex_m::asm::wfi));
+    let counted = late == [0; 3] && missed == [2, 0];
+    say!("board ticks {} (missed {} and {})", counted, missed[0], missed[1]);
+    lit && punctual && sent && quiet && counted
 }
