@@ -1,0 +1,128 @@
+//! What can go wrong: at the start, by the name of what is wired wrongly; while it runs.
+
+use core::fmt;
+
+use dbd_kernel::Failure;
+use dbd_kernel::index::InputIndex;
+use dbd_kernel::plant::InputError;
+
+/// A sensor or an actuator is wired to nothing, or to the wrong thing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct WiringError {
+    /// The name that the program gave.
+    pub name: &'static str,
+    /// What is wrong.
+    pub problem: Problem,
+}
+
+/// What is wrong with a wire.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Problem {
+    /// The input cannot be set: the model has none, or a table of the scene drives it.
+    Input(InputError),
+    /// The model has no such read-out, or its value is undefined at the start.
+    NoReadout,
+    /// The read-out is of another kind.
+    Kind {
+        /// What is wired needs this.
+        wanted: &'static str,
+        /// The read-out shows this.
+        found: &'static str,
+    },
+    /// A parameter is out of its range: which.
+    Parameter(&'static str),
+    /// Two parts drive the same input.
+    Shared(InputIndex),
+    /// The part stands behind a driver but no node steps it.
+    NoNode,
+    /// The part is stepped by two nodes, or twice by one.
+    Twice,
+    /// The part is in use elsewhere, or its slot is empty.
+    Busy,
+}
+
+impl fmt::Display for WiringError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}`: ", self.name)?;
+        match self.problem {
+            Problem::Input(error) => write!(f, "{error}"),
+            Problem::NoReadout => write!(f, "the model has no such read-out"),
+            Problem::Kind { wanted, found } => {
+                write!(f, "the read-out shows {found} where {wanted} is needed")
+            }
+            Problem::Parameter(which) => write!(f, "{which} is out of its range"),
+            Problem::Shared(input) => write!(f, "another part drives input {}", input.0),
+            Problem::NoNode => write!(f, "no node steps it"),
+            Problem::Twice => write!(f, "it is stepped twice"),
+            Problem::Busy => write!(f, "it is in use elsewhere, or not there yet"),
+        }
+    }
+}
+
+impl core::error::Error for WiringError {}
+
+/// Why a driver's call failed, or a node stands still.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Fault {
+    /// The plant failed: it diverged, or its steps are at an end.
+    Plant(Failure),
+    /// An input refused its value: it is not finite.
+    Input(InputError),
+    /// A read-out, by its name, is undefined now.
+    Readout(&'static str),
+    /// A part or a node is in use at the same time elsewhere.
+    Busy,
+    /// Nothing steps the part any more, or not yet.
+    NotWired,
+    /// A duty above the largest.
+    Duty,
+    /// I2C: nothing answers at this address.
+    Address(u8),
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Fault::Plant(failure) => write!(f, "the plant failed: {failure}"),
+            Fault::Input(error) => write!(f, "{error}"),
+            Fault::Readout(name) => write!(f, "`{name}` is undefined now"),
+            Fault::Busy => write!(f, "in use elsewhere"),
+            Fault::NotWired => write!(f, "no node steps it"),
+            Fault::Duty => write!(f, "the duty is above the largest"),
+            Fault::Address(address) => write!(f, "nothing answers at {address:#04x}"),
+        }
+    }
+}
+
+impl core::error::Error for Fault {}
+
+impl embedded_hal::pwm::Error for Fault {
+    fn kind(&self) -> embedded_hal::pwm::ErrorKind {
+        embedded_hal::pwm::ErrorKind::Other
+    }
+}
+
+impl embedded_hal::digital::Error for Fault {
+    fn kind(&self) -> embedded_hal::digital::ErrorKind {
+        embedded_hal::digital::ErrorKind::Other
+    }
+}
+
+impl embedded_hal::spi::Error for Fault {
+    fn kind(&self) -> embedded_hal::spi::ErrorKind {
+        embedded_hal::spi::ErrorKind::Other
+    }
+}
+
+impl embedded_hal::i2c::Error for Fault {
+    fn kind(&self) -> embedded_hal::i2c::ErrorKind {
+        use embedded_hal::i2c::{ErrorKind, NoAcknowledgeSource};
+        match self {
+            Fault::Address(_) => ErrorKind::NoAcknowledge(NoAcknowledgeSource::Address),
+            _ => ErrorKind::Other,
+        }
+    }
+}

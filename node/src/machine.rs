@@ -1,0 +1,89 @@
+//! What stands on the far side of drivers: a plant, through the few calls that parts need.
+//!
+//! `(input, value) => machine; machine => reading; steps => machine`. The kernel's plant is one; a
+//! recorded one, a remote one or one of another solver may stand in its place.
+
+use core::ops::Deref;
+
+use dbd_kernel::geometry::Geometry;
+use dbd_kernel::index::InputIndex;
+use dbd_kernel::model::ModelOwner;
+use dbd_kernel::plant::InputError;
+use dbd_kernel::readouts::{Reading, Readout};
+use dbd_kernel::{Plant, Scheme, Status};
+
+use crate::number::Number;
+
+/// A machine that is stepped, driven by inputs and seen through read-outs.
+pub trait Machine {
+    /// The numbers of its inputs and read-outs.
+    type Real: Number;
+    /// The precision of its points.
+    type Precision: Geometry<Real = Self::Real>;
+
+    /// Sets an input \[N, N·m or m\]; it is held until set again.
+    ///
+    /// # Errors
+    /// [`InputError`]; nothing is changed then.
+    fn set_input(&mut self, input: InputIndex, value: Self::Real) -> Result<(), InputError>;
+
+    /// Reads a sensor now; `None` where the machine has no such or its value is undefined.
+    fn read(&self, readout: &Readout<Self::Precision>) -> Option<Reading<Self::Real>>;
+
+    /// Steps until `steps` are done or one fails.
+    fn advance(&mut self, steps: u64) -> Status;
+
+    /// The status of the last step.
+    fn status(&self) -> Status;
+
+    /// Steps since t = 0.
+    fn steps(&self) -> u64;
+
+    /// \[s\] the time of a step.
+    fn step_size(&self) -> f64;
+
+    /// \[s\] the present time.
+    fn time(&self) -> f64 {
+        self.steps() as f64 * self.step_size()
+    }
+}
+
+impl<H, S> Machine for Plant<H, S>
+where
+    H: Deref<Target: ModelOwner<Precision: Geometry<Real: Number>> + Sized>,
+    S: Scheme,
+{
+    type Real = <<H::Target as ModelOwner>::Precision as Geometry>::Real;
+    type Precision = <H::Target as ModelOwner>::Precision;
+
+    #[inline]
+    fn set_input(&mut self, input: InputIndex, value: Self::Real) -> Result<(), InputError> {
+        self.set_input_real(input, value)
+    }
+
+    #[inline]
+    fn read(&self, readout: &Readout<Self::Precision>) -> Option<Reading<Self::Real>> {
+        Plant::read(self, readout)
+    }
+
+    #[inline]
+    fn advance(&mut self, steps: u64) -> Status {
+        Plant::advance(self, steps)
+    }
+
+    fn status(&self) -> Status {
+        Plant::status(self)
+    }
+
+    fn steps(&self) -> u64 {
+        self.state().step
+    }
+
+    fn step_size(&self) -> f64 {
+        Plant::step_size(self)
+    }
+
+    fn time(&self) -> f64 {
+        Plant::time(self)
+    }
+}

@@ -1,0 +1,179 @@
+//! What a sensor makes of the truth: bias, walk, noise, range, resolution and delay.
+//!
+//! `truth => (((truth + bias + walk) + noise) limited, rounded to a multiple of the resolution) of
+//! DELAY samples ago`. In the plant's own numbers. Each step of it is left out where its parameter is 0.
+//! Terms as in IEEE Std 952-1997, annex C: white noise by its deviation per sample, random walk
+//! by its deviation after one second.
+
+use crate::fault::{Problem, WiringError};
+use crate::number::Number;
+use crate::random::Stream;
+
+/// What is wrong with a sensor, in its own unit. The default is a sensor without error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Errors {
+    /// \[unit\] standard deviation of the white noise of a sample, ≥ 0.
+    pub noise: f64,
+    /// \[unit\] constant bias.
+    pub bias: f64,
+    /// \[unit/√s\] standard deviation of the bias's random walk after one second, ≥ 0.
+    pub walk: f64,
+    /// \[unit\] the least difference that is told, ≥ 0; 0 tells every one.
+    pub resolution: f64,
+    /// \[unit\] least and most that is shown.
+    pub range: [f64; 2],
+    /// Of the random numbers; sensors of one seed and different names have different ones.
+    pub seed: u64,
+}
+
+impl Errors {
+    /// A sensor that shows the truth.
+    pub const NONE: Self = Self {
+        noise: 0.0,
+        bias: 0.0,
+        walk: 0.0,
+        resolution: 0.0,
+        range: [f64::NEG_INFINITY, f64::INFINITY],
+        seed: 0,
+    };
+}
+
+impl Default for Errors {
+    fn default() -> Self {
+        Self::NONE
+    }
+}
+
+/// One number of a sensor, sampled at a fixed period; `DELAY` samples late.
+#[derive(Clone, Debug)]
+pub struct Sensor<R, const DELAY: usize = 0> {
+    errors: Errors,
+    name: &'static str,
+    lane: u16,
+    noise: R,
+    bias: R,
+    per_root: R,
+    walk: R,
+    resolution: R,
+    range: [R; 2],
+    noises: Stream,
+    walks: Stream,
+    wandered: R,
+    late: [R; DELAY],
+    next: usize,
+    begun: bool,
+}
+
+impl<R: Number, const DELAY: usize> Sensor<R, DELAY> {
+    /// A sensor of a name, whose random numbers are those of seed, name and `lane`, sampled every
+    /// `period` \[s\].
+    ///
+    /// # Errors
+    /// [`Problem::Parameter`] where a deviation, the resolution or the period is negative or not
+    /// finite, the bias is not finite or the range is empty.
+    pub fn new(
+        name: &'static str,
+        lane: u16,
+        errors: Errors,
+        period: f64,
+    ) -> Result<Self, WiringError> {
+        let refuse = |which| WiringError { name, problem: Problem::Parameter(which) };
+        let fine = |value: f64, which| {
+            if value >= 0.0 && value.is_finite() { Ok(value) } else { Err(refuse(which)) }
+        };
+        let period = fine(period, "the sample period")?;
+        if !errors.bias.is_finite() {
+            return Err(refuse("the bias"));
+        }
+        let [least, most] = errors.range;
+        if least >= most || least.is_nan() || most.is_nan() {
+            return Err(refuse("the range"));
+        }
+        let per_root = R::from_f64(fine(errors.walk, "the random walk")?);
+        Ok(Self {
+            errors,
+            name,
+            lane,
+            noise: R::from_f64(fine(errors.noise, "the noise")?),
+            bias: R::from_f64(errors.bias),
+            per_root,
+            walk: per_root * R::from_f64(period).sqrt(),
+            resolution: R::from_f64(fine(errors.resolution, "the resolution")?),
+            range: errors.range.map(R::from_f64),
+            noises: Stream::new(errors.seed, name, lanes(lane)[0]),
+            walks: Stream::new(errors.seed, name, lanes(lane)[1]),
+            wandered: R::ZERO,
+            late: [R::ZERO; DELAY],
+            next: 0,
+            begun: false,
+        })
+    }
+
+    /// Goes on with another sample period \[s\], which is not negative.
+    #[inline]
+    pub fn set_period(&mut self, period: R) {
+        self.walk = self.per_root * period.sqrt();
+    }
+
+    /// The sample that is shown for the present truth. Before `DELAY` samples have been taken it is
+    /// the first one.
+    #[inline]
+    pub fn sample(&mut self, truth: R) -> R {
+        let shown = self.show(truth);
+        if DELAY == 0 {
+            return shown;
+        }
+        if !self.begun {
+            self.begun = true;
+            self.late = [shown; DELAY];
+        }
+        let Some(place) = self.late.get_mut(self.next) else { return shown };
+        let old = core::mem::replace(place, shown);
+        self.next = if self.next + 1 < DELAY { self.next + 1 } else { 0 };
+        old
+    }
+
+    /// The present sample without its delay.
+    #[inline]
+    fn show(&mut self, truth: R) -> R {
+        let mut value = truth + self.bias;
+        if self.walk != R::ZERO {
+            self.wandered = self.wandered + self.walk * self.walks.normal::<R>();
+            value = value + self.wandered;
+        }
+        if self.noise != R::ZERO {
+            value = value + self.noise * self.noises.normal::<R>();
+        }
+        let [least, most] = self.range;
+        value = value.limited(least, most);
+        if self.resolution != R::ZERO {
+            value = (value / self.resolution).rounded() * self.resolution;
+        }
+        value
+    }
+
+    /// What is wrong with it.
+    pub fn errors(&self) -> &Errors {
+        &self.errors
+    }
+
+    /// \[unit\] the present bias, the walk included.
+    pub fn bias(&self) -> R {
+        self.bias + self.wandered
+    }
+
+    /// Begins again: the first random numbers, no walk, nothing delayed.
+    pub fn reset(&mut self) {
+        self.noises = Stream::new(self.errors.seed, self.name, lanes(self.lane)[0]);
+        self.walks = Stream::new(self.errors.seed, self.name, lanes(self.lane)[1]);
+        self.wandered = R::ZERO;
+        self.next = 0;
+        self.begun = false;
+    }
+}
+
+/// The lanes of noise and walk.
+fn lanes(lane: u16) -> [u32; 2] {
+    let lane = 2 * u32::from(lane);
+    [lane, lane + 1]
+}
