@@ -34,6 +34,9 @@ const SCENES_F32: &[&str] = &[
     "six-bar",
     "spring-ball",
 ];
+/// Scenes in single precision whose inputs a controller drives: the tables that drive them in the
+/// scene are left out, and they are in none of the lists that macros go through.
+const CONTROLLED: &[&str] = &["delta-pick-and-place"];
 /// Scenes of `SCENES_F32` whose steps are counted with every scheme in both precisions.
 const CHARTED: &[&str] = &[
     "3rrr",
@@ -61,14 +64,7 @@ fn models(root: &Path) {
     let [mut modules, mut both, mut f32, mut charted] = [const { String::new() }; 4];
     let all = SCENES.iter().map(|name| (name, true));
     for (name, double) in all.chain(SCENES_F32.iter().map(|name| (name, false))) {
-        let file = format!("scenes/{name}.toml");
-        println!("cargo:rerun-if-changed={}", root.join(&file).display());
-        let text = std::fs::read_to_string(root.join(&file));
-        let text = text.unwrap_or_else(|error| refuse(&format!("{file}: {error}")));
-        let scene = Scene::parse(&text, &file).unwrap_or_else(|error| refuse(&place(&error)));
-        let Some(step) = scene.step else {
-            refuse(&format!("{file}: a scene for the firmware gives its `step`"));
-        };
+        let (scene, step) = load(root, name);
         let constant = export::constant_name(name);
         let (module, model) = (constant.to_lowercase(), export::type_name(name));
         let mut source = export::preamble(&scene, step) + &export::model::<f32>(&scene);
@@ -89,6 +85,17 @@ fn models(root: &Path) {
         }
         modules += &format!("/// The scene `{name}`.\npub mod {module} {{\n{source}}}\n");
     }
+    for name in CONTROLLED {
+        let (mut scene, step) = load(root, name);
+        scene.inputs.iter().for_each(|input| scene.model.release(input.index));
+        scene.model.inputs.iter_mut().for_each(|input| input.knot = 0);
+        scene.model.knots.clear();
+        let module = export::constant_name(name).to_lowercase();
+        let source = export::preamble(&scene, step) + &export::model::<f32>(&scene);
+        modules += &format!(
+            "/// The scene `{name}` without its tables.\npub mod {module} {{\n{source}}}\n"
+        );
+    }
     let list = |name: &str, of: &str, lines: &str| {
         format!(
             "/// Calls a macro with all models {of}: module, name, step, static and type.\n\
@@ -105,6 +112,19 @@ fn models(root: &Path) {
         + &list("shipped_f32", "shipped in single precision", &f32)
         + &list("charted", "of those that are counted in both", &charted);
     write("models.rs", &source);
+}
+
+/// A scene and its step \[s\].
+fn load(root: &Path, name: &str) -> (Scene, f64) {
+    let file = format!("scenes/{name}.toml");
+    println!("cargo:rerun-if-changed={}", root.join(&file).display());
+    let text = std::fs::read_to_string(root.join(&file));
+    let text = text.unwrap_or_else(|error| refuse(&format!("{file}: {error}")));
+    let scene = Scene::parse(&text, &file).unwrap_or_else(|error| refuse(&place(&error)));
+    let Some(step) = scene.step else {
+        refuse(&format!("{file}: a scene for the firmware gives its `step`"));
+    };
+    (scene, step)
 }
 
 fn write(name: &str, source: &str) {

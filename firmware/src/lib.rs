@@ -12,10 +12,12 @@ pub mod alone;
 pub mod board;
 pub mod chart;
 pub mod console;
+pub mod controllers;
 pub mod hash;
 pub mod relay;
 pub mod root;
 pub mod sample;
+pub mod wiring;
 
 #[cfg(target_os = "none")]
 pub mod cost;
