@@ -23,6 +23,24 @@ macro_rules! say {
     ($($line:tt)*) => { ::std::println!($($line)*) };
 }
 
+/// Logs one line at a level: `info`, `warn` or `error`. On the target those of the levels that the image
+/// was built with (`DEFMT_LOG`); on a host on standard error.
+#[cfg(target_os = "none")]
+#[macro_export]
+macro_rules! log {
+    ($level:ident, $($line:tt)*) => { ::defmt::$level!($($line)*) };
+}
+
+/// Logs one line at a level: `info`, `warn` or `error`. On the target those of the levels that the image
+/// was built with (`DEFMT_LOG`); on a host on standard error.
+#[cfg(not(target_os = "none"))]
+#[macro_export]
+macro_rules! log {
+    ($level:ident, $($line:tt)*) => {
+        ::std::eprintln!("{}: {}", stringify!($level), ::std::format_args!($($line)*))
+    };
+}
+
 #[cfg(target_os = "none")]
 mod target {
     use core::ffi::CStr;

@@ -11,6 +11,7 @@ pub mod models;
 pub mod alone;
 pub mod board;
 pub mod chart;
+pub mod closed_loop;
 pub mod console;
 pub mod controllers;
 pub mod hash;

@@ -42,6 +42,15 @@ impl<'d, R: Registers> Ticks<'d, R> {
         Self { registers, due, done, period }
     }
 
+    /// Begins anew: the next tick is due a period from now, none was missed.
+    pub fn restart(&mut self) {
+        self.registers.write(CTRL, 0);
+        self.registers.write(INTERRUPT_CLEAR, 1);
+        self.registers.write(VALUE, self.period - 1);
+        self.done = self.due.load(Ordering::Relaxed);
+        self.registers.write(CTRL, CTRL_ENABLE | CTRL_INTERRUPT);
+    }
+
     /// Waits for the next tick, with `sleep` in between; how many ticks came while the last one was
     /// still at work, and are left out. `sleep` returns after an interrupt at the latest.
     pub fn wait(&mut self, mut sleep: impl FnMut()) -> u32 {
@@ -65,6 +74,11 @@ impl<'d, R: Registers> Ticks<'d, R> {
     /// Ticks that came since the last wait.
     pub fn ahead(&self) -> u32 {
         self.due.load(Ordering::Relaxed).wrapping_sub(self.done)
+    }
+
+    /// \[µs\] from tick to tick.
+    pub fn period(&self) -> u32 {
+        self.period / PER_MICROSECOND
     }
 
     /// Stops; the timer can be started again.
@@ -136,6 +150,9 @@ mod tests {
         assert_eq!(ticks.ahead(), 3);
         assert_eq!(wait(&mut ticks), 2);
         assert_eq!(wait(&mut ticks), 0);
+        (0..3).for_each(|_| tick());
+        ticks.restart();
+        assert_eq!((ticks.ahead(), ticks.registers.value.get()), (0, 2_499));
         assert_eq!(slept, 2);
     }
 }
