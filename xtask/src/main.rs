@@ -93,6 +93,12 @@ enum Command {
         #[arg(value_name = "NAME")]
         names: Vec<String>,
     },
+    /// Runs controllers with their plants on the target: the host's bits, no tick missed at their rate.
+    Plant {
+        /// Ticks of each.
+        #[arg(default_value_t = 100_000)]
+        ticks: u32,
+    },
     /// Looks into the linked steps and calls for panics, allocation, fused and soft floating point.
     Audit,
 }
@@ -111,6 +117,7 @@ fn main() -> ExitCode {
         Command::Fuzz(campaign) => fuzz::run(&campaign),
         Command::Bits { names } => bits::machines::run(&names),
         Command::Prove { names } => prove::run(&names),
+        Command::Plant { ticks } => bits::closed_loop::run(ticks),
         Command::Audit => audit::run(),
     });
     match outcome {

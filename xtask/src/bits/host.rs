@@ -14,6 +14,7 @@ use crate::target::firmware;
 /// The same programs twice.
 pub struct Host {
     release: PathBuf,
+    plant: PathBuf,
     unoptimised: PathBuf,
 }
 
@@ -28,7 +29,13 @@ impl Host {
                 .args(["build", "--package", "firmware", "--bin", firmware::SHARED])
                 .env("CARGO_PROFILE_DEV_OPT_LEVEL", "0"),
         )?;
-        Ok(Self { release: shared(built)?, unoptimised: shared(&unoptimised)? })
+        let plant = plant(built)?;
+        Ok(Self { release: shared(built)?, plant, unoptimised: shared(&unoptimised)? })
+    }
+
+    /// The program of controllers with their plants, optimised.
+    pub fn plant(&self) -> &PathBuf {
+        &self.plant
     }
 
     /// Lines of a program, optimised.
@@ -53,7 +60,19 @@ impl Host {
 /// # Errors
 /// Where it is not among them.
 pub fn shared(built: &[Program]) -> Result<PathBuf> {
-    let name = format!("firmware::{}", firmware::SHARED);
+    named(built, firmware::SHARED)
+}
+
+/// The program of controllers with their plants, among those that were built.
+///
+/// # Errors
+/// Where it is not among them.
+pub fn plant(built: &[Program]) -> Result<PathBuf> {
+    named(built, firmware::PLANT)
+}
+
+fn named(built: &[Program], name: &str) -> Result<PathBuf> {
+    let name = format!("firmware::{name}");
     let program = built.iter().find(|program| program.name == name && !program.tests);
     Ok(program.with_context(|| format!("{name} was not built"))?.path.clone())
 }

@@ -15,7 +15,7 @@ const TIME_LIMIT: Duration = Duration::from_secs(600);
 /// The image of several programs: its first argument names one.
 pub const SHARED: &str = "programs";
 /// The image of controllers with their plants.
-const PLANT: &str = "plant";
+pub const PLANT: &str = "plant";
 /// Where time matters: 8 ns an instruction, 125 million in a second, about what a part of 168 MHz
 /// does; asleep it passes at once to what is due next, whatever the host does. The last of several such
 /// options holds.

@@ -10,7 +10,7 @@ mod times;
 
 use anyhow::{Context as _, Result, bail};
 
-use crate::bits::{hashes, host::Host, relay};
+use crate::bits::{closed_loop, hashes, host::Host, relay};
 use crate::built::{Program, build};
 use crate::command::{cargo, run as run_command, succeeds};
 use crate::steps::Steps;
@@ -168,6 +168,8 @@ fn release(steps: &mut Steps, cases: &mut Vec<Case>) -> Option<Host> {
             "firmware",
             "--bin",
             firmware::SHARED,
+            "--bin",
+            firmware::PLANT,
         ]))?;
         golden = built.iter().find(|program| program.tests).cloned();
         host = Some(Host::new(&built)?);
@@ -214,6 +216,8 @@ fn on_target(toolchain: &Toolchain, host: Option<&Host>, long: bool, steps: &mut
     let host = || host.context("the host's programs were not built");
     steps.step("same bits on host and target", || hashes::compare(toolchain, host()?, long));
     steps.step("runs that change machines", || relay::compare(toolchain, host()?));
+    let closed = "controllers with their plants, ticked on the target";
+    steps.step(closed, || closed_loop::step(toolchain, host()?, long));
     steps.step("costs on the target", || cost::baseline::check(toolchain));
 }
 
