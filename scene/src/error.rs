@@ -109,11 +109,33 @@ impl Diagnostic for SceneError {
 pub(crate) struct Source<'t> {
     /// The name used in messages.
     pub(crate) file: &'t str,
-    /// The text.
+    /// The text: the file's, then a line per change of it.
     pub(crate) text: &'t str,
+    /// How long the file's is.
+    pub(crate) own: usize,
 }
 
-impl Source<'_> {
+impl<'t> Source<'t> {
+    /// What a change of a scene is called where a file's name stands.
+    pub(crate) const CHANGE: &'static str = "--set";
+
+    /// The text of a file, without changes.
+    pub(crate) fn of(file: &'t str, text: &'t str) -> Self {
+        Self { file, text, own: text.len() }
+    }
+
+    /// What a byte belongs to, and where that begins: the file, or the line of a change.
+    fn part(self, byte: usize) -> (Self, usize) {
+        let own = |text| (Self { text, ..self }, 0);
+        if byte <= self.own || self.text.len() == self.own {
+            return own(self.text.get(..self.own).unwrap_or(self.text));
+        }
+        let byte = byte.min(self.text.len());
+        let start = self.text[..byte].rfind('\n').map_or(0, |newline| newline + 1);
+        let end = self.text[byte..].find('\n').map_or(self.text.len(), |length| byte + length);
+        (Self::of(Self::CHANGE, &self.text[start..end]), start)
+    }
+
     /// A refusal of the bytes `span`.
     pub(crate) fn refuse(
         self,
@@ -121,9 +143,11 @@ impl Source<'_> {
         message: impl Into<String>,
         help: impl Into<String>,
     ) -> SceneError {
-        let (line, column) = self.position(span.start);
+        let (part, start) = self.part(span.start);
+        let span = span.start - start..span.end.saturating_sub(start);
+        let (line, column) = part.position(span.start);
         SceneError::Refused(Box::new(Refusal {
-            scene: NamedSource::new(self.file, self.text.to_owned()).with_language("TOML"),
+            scene: NamedSource::new(part.file, part.text.to_owned()).with_language("TOML"),
             span: span.into(),
             line,
             column,
@@ -147,7 +171,7 @@ mod tests {
 
     #[test]
     fn positions_count_lines_and_characters_from_one() {
-        let source = Source { file: "f", text: "a = 1\n# ö\nö = 2" };
+        let source = Source::of("f", "a = 1\n# ö\nö = 2");
         assert_eq!(source.position(0), (1, 1));
         assert_eq!(source.position(4), (1, 5));
         assert_eq!(source.position(6), (2, 1));
@@ -158,7 +182,7 @@ mod tests {
 
     #[test]
     fn the_diagnostic_holds_file_place_message_and_help() {
-        let source = Source { file: "slope.toml", text: "mass = -1\n" };
+        let source = Source::of("slope.toml", "mass = -1\n");
         let error = source.refuse(7..9, "`mass` is -1", "`mass` is a number > 0 in kg");
         assert_eq!((error.file(), error.line(), error.column()), ("slope.toml", Some(1), Some(8)));
         assert_eq!(error.to_string(), "`mass` is -1");

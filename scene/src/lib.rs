@@ -22,6 +22,7 @@ mod nearest;
 mod orientation;
 mod origin;
 mod pair;
+pub mod parameters;
 mod point_on_line;
 mod readout;
 mod runtime;
@@ -54,10 +55,10 @@ use dbd_kernel::readouts::Readout;
 use dbd_kernel::{F64, Geometry};
 
 use crate::assembly::Assembly;
-use crate::error::Source;
 use crate::file_lines::FileLines;
 use crate::hinge::Known;
 use crate::origin::Origin;
+use crate::parameters::{Changed, Changes};
 use crate::target::Elements;
 use crate::text::{Number, Numbers, Seconds, Text};
 use crate::written::WrittenAngle;
@@ -104,6 +105,8 @@ pub struct Scene {
     pub inputs: Vec<InputInfo>,
     /// The read-outs in scene order.
     pub readouts: Vec<ReadoutInfo>,
+    /// What was changed of the file's values before it was read.
+    pub changed: Vec<Changed>,
     /// The assembled model in double precision; every other precision is a rounding of it.
     pub model: SceneModel<F64>,
     file_lines: FileLines,
@@ -185,8 +188,25 @@ impl Scene {
     /// # Errors
     /// Where the scene is refused.
     pub fn parse(text: &str, file: &str) -> Result<Self, SceneError> {
-        let source = Source { file, text };
-        let document = text::parse(source)?;
+        Self::parse_with(text, file, &[""; 0])
+    }
+
+    /// Reads a scene from its text with values changed by their paths, each `PATH=VALUE`
+    /// ([`parameters`]): `body.cart.mass=1.2`, `joint.*.stiffness=1e6`, `step=20us`. Later ones go
+    /// before earlier ones.
+    ///
+    /// # Errors
+    /// Where a change leads nowhere or the changed scene is refused; what is wrong with a change is
+    /// shown in it, and [`SceneError::file`] is `--set` then.
+    pub fn parse_with(
+        text: &str,
+        file: &str,
+        changes: &[impl AsRef<str>],
+    ) -> Result<Self, SceneError> {
+        let changes = Changes::read(text, changes)?;
+        let source = changes.source(file);
+        let mut document = text::parse(source)?;
+        let changed = changes.apply(file, &mut document)?;
         let root = text::root(source, &document);
         root.only(&[KEYS])?;
         let name = root.required("name", Text::Name)?;
@@ -224,6 +244,7 @@ impl Scene {
             file_lines: FileLines::of(&root)?,
             origin: Origin::of(source, &root),
             written_angles: written::angles(&root)?,
+            changed,
             raw_names,
         })
     }

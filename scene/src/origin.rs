@@ -36,6 +36,7 @@ impl Setting {
 pub(crate) struct Origin {
     file: String,
     text: Arc<str>,
+    own: usize,
     /// In the order of [`Setting::ALL`].
     places: [Option<Range<usize>>; 3],
 }
@@ -44,12 +45,12 @@ impl Origin {
     pub(crate) fn of(source: Source<'_>, root: &Table<'_>) -> Self {
         let place = |setting: Setting| root.value(setting.key()).map(|value| value.span());
         let places = Setting::ALL.map(place);
-        Self { file: source.file.to_owned(), text: source.text.into(), places }
+        Self { file: source.file.to_owned(), text: source.text.into(), own: source.own, places }
     }
 
     pub(crate) fn refuse(&self, setting: Setting, message: &str, help: &str) -> Option<SceneError> {
         let place = self.places[setting as usize].clone()?;
-        let source = Source { file: &self.file, text: &self.text };
+        let source = Source { file: &self.file, text: &self.text, own: self.own };
         Some(source.refuse(place, message, help))
     }
 }

@@ -266,8 +266,8 @@ mod tests {
             ("x = 1_0.5", 10.5),
             ("x = -4.9e-324", -5e-324),
         ] {
-            let document = parse(Source { file: "f", text }).unwrap();
-            let table = root(Source { file: "f", text }, &document);
+            let document = parse(Source::of("f", text)).unwrap();
+            let table = root(Source::of("f", text), &document);
             assert_eq!(table.required("x", Number::any("")).unwrap(), expected, "{text}");
         }
     }

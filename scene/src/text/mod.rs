@@ -18,12 +18,17 @@ use toml::de::DeTable;
 use crate::error::{SceneError, Source};
 use crate::shortened::shortened;
 
-/// Parses the text.
+/// Parses the file's text.
 pub(crate) fn parse(source: Source<'_>) -> Result<DeTable<'_>, SceneError> {
-    match DeTable::parse(source.text) {
+    parse_at(source, source.text.get(..source.own).unwrap_or(source.text))
+}
+
+/// Parses a text whose places are those of the source.
+pub(crate) fn parse_at<'t>(source: Source<'t>, text: &'t str) -> Result<DeTable<'t>, SceneError> {
+    match DeTable::parse(text) {
         Ok(document) => Ok(document.into_inner()),
         Err(error) => {
-            let end = source.text.len();
+            let end = text.len();
             let span = error.span().unwrap_or(end..end);
             let (message, help) = explain(source, &span, error.message());
             Err(source.refuse(span, message, help))

@@ -1,0 +1,334 @@
+//! Changes of single values of a scene by their paths, before it is checked: `body.cart.mass=1.2`.
+//!
+//! `(text, changes) => tables with other values`. A changed value is checked as one in the file is; a refusal
+//! of it names the change. Of a kind of which there are many, the second step of a path is a name, or
+//! the number from 1 of what has none; then keys, and entries of arrays from 0. A key that a table
+//! does not have is added to it.
+
+mod path;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::error::{SceneError, Source};
+use crate::nearest::nearest;
+use crate::shortened::shortened;
+use crate::text;
+use path::{Placed, Step};
+
+/// What a change did.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Changed {
+    /// The whole path of one value, without wildcards: `body.cart.mass`.
+    pub path: String,
+    /// As it was written in the file; `None` where it was not there.
+    pub before: Option<String>,
+    /// As it is now.
+    pub now: String,
+}
+
+/// A scene's text with changes behind it, so that each byte of either has one place.
+pub(crate) struct Changes {
+    /// The file's text, then a line per change, its value written in TOML.
+    text: String,
+    /// How long the file's text is.
+    own: usize,
+    changes: Vec<Change>,
+}
+
+struct Change {
+    steps: Vec<Placed>,
+    /// Where its line begins in the whole text, and its value.
+    start: usize,
+    value: usize,
+    /// Blanks up to the value and the value as a table's: what is parsed has the places of the whole
+    /// text.
+    padded: String,
+}
+
+impl Changes {
+    /// Reads changes, each `PATH=VALUE`.
+    pub(crate) fn read(text: &str, changes: &[impl AsRef<str>]) -> Result<Self, SceneError> {
+        let mut whole = Self { text: text.to_owned(), own: text.len(), changes: Vec::new() };
+        for written in changes.iter().map(AsRef::as_ref) {
+            let source = Source::of(Source::CHANGE, written);
+            let (steps, value) = path::read(source)?;
+            let tail = written[value..].trim();
+            if tail.is_empty() || tail.contains(['\n', '\r']) {
+                let help = "a value is a number, a text or an array as in the file, on one line";
+                let problem = format!("`{}` is no value", shortened(tail));
+                return Err(source.refuse(value..written.len(), problem, help));
+            }
+            let toml = if is_word(tail) { format!("\"{tail}\"") } else { tail.to_owned() };
+            whole.text.push('\n');
+            let start = whole.text.len();
+            whole.text.push_str(&written[..value]);
+            let value = whole.text.len();
+            whole.text.push_str(&toml);
+            let padded = format!("{}v={toml}", " ".repeat(value - 2));
+            whole.changes.push(Change { steps, start, value, padded });
+        }
+        Ok(whole)
+    }
+
+    /// The text, the file's and the changes'.
+    pub(crate) fn source<'t>(&'t self, file: &'t str) -> Source<'t> {
+        Source { file, text: &self.text, own: self.own }
+    }
+
+    /// Puts the values into the document, one change after the other.
+    pub(crate) fn apply<'t>(
+        &'t self,
+        file: &'t str,
+        document: &mut DeTable<'t>,
+    ) -> Result<Vec<Changed>, SceneError> {
+        let source = self.source(file);
+        let mut all = Vec::new();
+        for change in &self.changes {
+            let value = change.parse(source)?;
+            let places = change.resolve(source, document)?;
+            for place in places {
+                let before = put(document, &place, value.clone(), change.place());
+                all.push(Changed {
+                    path: shown(&place),
+                    before: before.and_then(|span| self.text.get(span).map(str::to_owned)),
+                    now: self.text[value.span()].to_owned(),
+                });
+            }
+        }
+        Ok(all)
+    }
+}
+
+/// Whether a value is a text without its quotes: `20us`, `quaternion`.
+fn is_word(value: &str) -> bool {
+    let plain = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '+' | ' ');
+    let number = value.replace('_', "").parse::<f64>().is_ok();
+    let radix = ["0x", "0o", "0b"].iter().any(|prefix| value.starts_with(prefix));
+    let keyword = matches!(value, "true" | "false");
+    value.chars().all(plain) && !(number || radix || keyword)
+}
+
+/// A way to one value: keys, and entries of arrays.
+#[derive(Clone, Debug)]
+enum To {
+    Key(String),
+    /// What it is called in the shown path, and which of the array it is.
+    Named(String, usize),
+    Entry(usize),
+}
+
+impl Change {
+    /// Where it is written.
+    fn place(&self) -> std::ops::Range<usize> {
+        self.start..self.value
+    }
+
+    fn parse<'t>(&'t self, source: Source<'t>) -> Result<Spanned<DeValue<'t>>, SceneError> {
+        let parsed = text::parse_at(source, &self.padded)?;
+        match parsed.into_iter().next() {
+            Some((_, value)) => Ok(value),
+            None => Err(source.refuse(self.place(), "no value", "PATH=VALUE")),
+        }
+    }
+
+    /// All ways that the path means.
+    fn resolve(
+        &self,
+        source: Source<'_>,
+        document: &DeTable<'_>,
+    ) -> Result<Vec<Vec<To>>, SceneError> {
+        let mut ways = vec![(Vec::new(), Node::Table(document))];
+        let mut steps = self.steps.iter().peekable();
+        while let Some((step, place)) = steps.next() {
+            let place = self.start + place.start..self.start + place.end;
+            let last = steps.peek().is_none();
+            let mut next = Vec::new();
+            let mut known: Vec<String> = Vec::new();
+            for (way, node) in ways {
+                for (to, node) in node.children(step, last, &mut known) {
+                    let mut way: Vec<To> = way.clone();
+                    way.push(to);
+                    next.push((way, node));
+                }
+            }
+            if next.is_empty() {
+                let kind = match self.steps.first() {
+                    Some((Step::Name { text, .. }, first))
+                        if self.start + first.start < place.start =>
+                    {
+                        text
+                    }
+                    _ => "key",
+                };
+                return Err(nothing(source, step, place, kind, &known));
+            }
+            ways = next;
+        }
+        Ok(ways.into_iter().map(|(way, _)| way).collect())
+    }
+}
+
+/// What a step starts from.
+#[derive(Clone, Copy)]
+enum Node<'d> {
+    Table(&'d DeTable<'d>),
+    Value(&'d DeValue<'d>),
+    /// A key that is not there yet.
+    Absent,
+}
+
+impl<'d> Node<'d> {
+    /// Where a step leads; what it could have led to is added to `known`.
+    fn children(self, step: &Step, last: bool, known: &mut Vec<String>) -> Vec<(To, Node<'d>)> {
+        match self {
+            Self::Table(table) => Self::keys(table, step, last, known),
+            Self::Value(DeValue::Table(table)) => Self::keys(table, step, last, known),
+            Self::Value(DeValue::Array(array)) => {
+                let entry = |i: usize| array.get(i).map(|entry| Self::Value(entry.get_ref()));
+                match step {
+                    Step::Entry(i) => {
+                        known.push(format!("entries 0 to {}", array.len().saturating_sub(1)));
+                        entry(*i).map(|node| (To::Entry(*i), node)).into_iter().collect()
+                    }
+                    Step::Name { text, .. } => {
+                        let mut found = Vec::new();
+                        for (i, value) in array.iter().enumerate() {
+                            let name = value.get_ref().get("name");
+                            let name = name.and_then(|name| name.get_ref().as_str());
+                            let number = (i + 1).to_string();
+                            let called = name.unwrap_or(&number);
+                            known.push(called.to_owned());
+                            if step.fits(called) || (name.is_none() && *text == number) {
+                                let node = Self::Value(value.get_ref());
+                                found.push((To::Named(called.to_owned(), i), node));
+                            }
+                        }
+                        found
+                    }
+                }
+            }
+            Self::Value(_) | Self::Absent => Vec::new(),
+        }
+    }
+
+    fn keys(
+        table: &'d DeTable<'d>,
+        step: &Step,
+        last: bool,
+        known: &mut Vec<String>,
+    ) -> Vec<(To, Node<'d>)> {
+        let mut found = Vec::new();
+        for (key, value) in table.iter() {
+            let key = key.get_ref().as_ref();
+            known.push(key.to_owned());
+            if step.fits(key) {
+                found.push((To::Key(key.to_owned()), Self::Value(value.get_ref())));
+            }
+        }
+        // Whether a table may have the key is checked with the scene.
+        if let (true, true, Step::Name { text, is_pattern: false }) = (found.is_empty(), last, step)
+        {
+            found.push((To::Key(text.clone()), Self::Absent));
+        }
+        found
+    }
+}
+
+/// The refusal of a step that leads nowhere.
+fn nothing(
+    source: Source<'_>,
+    step: &Step,
+    place: std::ops::Range<usize>,
+    kind: &str,
+    known: &[String],
+) -> SceneError {
+    let (what, meant) = match step {
+        Step::Name { text, .. } => {
+            let what = format!("the scene has no {} `{}`", shortened(kind), shortened(text));
+            (what, nearest(text, known.iter().map(String::as_str)))
+        }
+        Step::Entry(entry) => (format!("there is no entry {entry}"), None),
+    };
+    let mut help = meant.map_or_else(String::new, |meant| format!("did you mean `{meant}`? "));
+    let some: Vec<_> = known.iter().take(12).map(|name| shortened(name)).collect();
+    help += &match some.is_empty() {
+        true => "it is a plain value".to_owned(),
+        false => {
+            format!("there is {}{}", some.join(", "), if known.len() > 12 { " …" } else { "" })
+        }
+    };
+    source.refuse(place, what, help)
+}
+
+/// Puts a value at a place; where the one before it stood.
+fn put<'t>(
+    document: &mut DeTable<'t>,
+    way: &[To],
+    value: Spanned<DeValue<'t>>,
+    written: std::ops::Range<usize>,
+) -> Option<std::ops::Range<usize>> {
+    let (last, before) = way.split_last()?;
+    let mut table = Some(document);
+    let mut entry: Option<&mut DeValue<'t>> = None;
+    for to in before {
+        let next = child(table.take(), entry.take(), to)?;
+        entry = Some(next.get_mut());
+    }
+    let container = match (table, entry) {
+        (Some(table), _) => table,
+        (None, Some(DeValue::Table(table))) => table,
+        (None, Some(entry)) => {
+            let old = child(None, Some(entry), last)?;
+            let span = old.span();
+            *old = value;
+            return Some(span);
+        }
+        (None, None) => return None,
+    };
+    let To::Key(key) = last else { return None };
+    match container.get_mut(key.as_str()) {
+        Some(old) => {
+            let span = old.span();
+            *old = value;
+            Some(span)
+        }
+        None => {
+            container.insert(Spanned::new(written, key.clone().into()), value);
+            None
+        }
+    }
+}
+
+/// The value that a step leads to.
+fn child<'d, 't>(
+    table: Option<&'d mut DeTable<'t>>,
+    value: Option<&'d mut DeValue<'t>>,
+    to: &To,
+) -> Option<&'d mut Spanned<DeValue<'t>>> {
+    match (table, value, to) {
+        (Some(table), _, To::Key(key)) | (None, Some(DeValue::Table(table)), To::Key(key)) => {
+            table.get_mut(key.as_str())
+        }
+        (_, Some(DeValue::Array(array)), To::Named(_, i) | To::Entry(i)) => array.get_mut(*i),
+        _ => None,
+    }
+}
+
+/// The path of one value.
+fn shown(way: &[To]) -> String {
+    let mut text = String::new();
+    for to in way {
+        match to {
+            To::Entry(i) => text += &format!("[{i}]"),
+            To::Key(name) | To::Named(name, _) => {
+                if !text.is_empty() {
+                    text.push('.');
+                }
+                let plain = !name.contains(['.', '[', '=', '*', '?', '"']) && name.trim() == name;
+                text += &if plain { name.clone() } else { format!("\"{name}\"") };
+            }
+        }
+    }
+    text
+}

@@ -1,0 +1,178 @@
+//! What is written before the `=` of a change: the way to a value of a scene.
+//!
+//! `body.cart.mass, joint."base 1".at[2], joint.leg*.stiffness => segments with their places`. A segment with a
+//! point, an equals sign or a bracket stands in quotes, in which `*` and `?` are letters; elsewhere they
+//! stand for any letters and for any one.
+
+use std::ops::Range;
+
+use crate::error::{SceneError, Source};
+
+/// A step on the way.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Step {
+    /// Into a table, by key or by name.
+    Name {
+        /// As it is written, without quotes.
+        text: String,
+        /// Whether `*` and `?` stand for letters.
+        is_pattern: bool,
+    },
+    /// Into an array, from 0.
+    Entry(usize),
+}
+
+impl Step {
+    /// Whether a name is meant.
+    pub(crate) fn fits(&self, name: &str) -> bool {
+        match self {
+            Self::Name { text, is_pattern: false } => text == name,
+            Self::Name { text, is_pattern: true } => {
+                let [pattern, name] = [text, name].map(|text| text.chars().collect::<Vec<_>>());
+                fits(&pattern, &name)
+            }
+            Self::Entry(_) => false,
+        }
+    }
+}
+
+/// Whether a name is of a pattern; in time of the product of their lengths.
+fn fits(pattern: &[char], name: &[char]) -> bool {
+    let (mut at, mut from) = (0, 0);
+    // The last star, and the letters that it took.
+    let mut star: Option<(usize, usize)> = None;
+    while from < name.len() {
+        if at < pattern.len() && pattern[at] == '*' {
+            star = Some((at, from));
+            at += 1;
+        } else if at < pattern.len() && (pattern[at] == '?' || pattern[at] == name[from]) {
+            (at, from) = (at + 1, from + 1);
+        } else if let Some((place, taken)) = star {
+            // It takes one more.
+            star = Some((place, taken + 1));
+            (at, from) = (place + 1, taken + 1);
+        } else {
+            return false;
+        }
+    }
+    pattern[at..].iter().all(|letter| *letter == '*')
+}
+
+/// A step with its place.
+pub(crate) type Placed = (Step, Range<usize>);
+
+const HELP: &str = "a change is PATH=VALUE, e.g. body.cart.mass=1.2, joint.pivot.at[1]=0.5, \
+                    joint.*.stiffness=1e6 or step=20us; a name with a point in it stands in quotes";
+
+/// Reads the path of a change; where its value begins.
+pub(crate) fn read(source: Source<'_>) -> Result<(Vec<Placed>, usize), SceneError> {
+    let text = source.text;
+    let refuse = |place: usize, what: &str| Err(source.refuse(place..text.len(), what, HELP));
+    let (mut steps, mut place) = (Vec::new(), 0);
+    loop {
+        let rest = &text[place..];
+        let (name, length, is_quoted) = match rest.strip_prefix('"') {
+            Some(quoted) => match quoted.find('"') {
+                Some(end) => (&quoted[..end], end + 2, true),
+                None => return refuse(place, "a quote that is not closed"),
+            },
+            None => {
+                let end = rest.find(['.', '[', '=', '"']).unwrap_or(rest.len());
+                (rest[..end].trim(), end, false)
+            }
+        };
+        if name.is_empty() {
+            return refuse(place, "a part of the path is empty");
+        }
+        let is_pattern = !is_quoted && name.contains(['*', '?']);
+        steps.push((Step::Name { text: name.into(), is_pattern }, place..place + length));
+        place += length;
+        while text[place..].starts_with('[') {
+            let inner = &text[place + 1..];
+            let end = inner.find(']').unwrap_or(inner.len());
+            let Ok(entry) = inner[..end].trim().parse() else {
+                return refuse(place, "an entry of an array is a whole number from 0 in brackets");
+            };
+            let next = (place + end + 2).min(text.len());
+            steps.push((Step::Entry(entry), place..next));
+            place = next;
+        }
+        let rest = &text[place..];
+        let blank = rest.len() - rest.trim_start().len();
+        match rest.trim_start().chars().next() {
+            Some('.') if blank == 0 => place += 1,
+            Some('=') => return Ok((steps, place + blank + 1)),
+            None => return refuse(place, "no value follows the path"),
+            Some(_) => return refuse(place, "neither a point nor an equals sign follows"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn steps(text: &str) -> Vec<String> {
+        let (steps, value) = read(Source::of("--set", text)).unwrap();
+        let mut shown: Vec<_> = steps
+            .into_iter()
+            .map(|(step, place)| match step {
+                Step::Name { text: name, is_pattern } => {
+                    format!("{name}{} {}", if is_pattern { "~" } else { "" }, &text[place])
+                }
+                Step::Entry(entry) => entry.to_string(),
+            })
+            .collect();
+        shown.push(text[value..].to_owned());
+        shown
+    }
+
+    #[test]
+    fn a_path_is_read_step_by_step() {
+        assert_eq!(steps("step=20us"), ["step step", "20us"]);
+        assert_eq!(steps("body.cart.mass = 1"), ["body body", "cart cart", "mass mass ", " 1"]);
+        assert_eq!(
+            steps("joint.\"a.b=c*\".points[1][2]=x=y"),
+            ["joint joint", "a.b=c* \"a.b=c*\"", "points points", "1", "2", "x=y"]
+        );
+        assert_eq!(steps("joint.leg*.k=1")[1], "leg*~ leg*");
+    }
+
+    #[test]
+    fn what_is_no_path_is_refused_at_its_place() {
+        for (text, column, what) in [
+            ("", 1, "empty"),
+            ("=1", 1, "empty"),
+            ("body..mass=1", 6, "empty"),
+            ("body.cart.mass", 15, "no value"),
+            ("body.\"cart=1", 6, "not closed"),
+            ("gravity[a]=1", 8, "whole number"),
+            ("gravity[1=1", 8, "whole number"),
+            ("body.\"cart\"mass=1", 12, "neither"),
+        ] {
+            let error = read(Source::of("--set", text)).unwrap_err();
+            assert_eq!(error.column(), Some(column), "{text}: {error}");
+            assert!(error.message().contains(what), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn stars_and_question_marks_stand_for_letters() {
+        for (pattern, name, meant) in [
+            ("*", "", true),
+            ("leg*", "leg 1", true),
+            ("leg*", "a leg", false),
+            ("*leg*", "a leg 1", true),
+            ("l?g", "läg", true),
+            ("l?g", "lg", false),
+            ("*a*b*", "xxaxxbxx", true),
+            ("*a*b", "abab", true),
+            ("*a*b", "aba", false),
+        ] {
+            let step = Step::Name { text: pattern.into(), is_pattern: true };
+            assert_eq!(step.fits(name), meant, "{pattern} {name}");
+        }
+        let long = Step::Name { text: "*a".repeat(2_000), is_pattern: true };
+        assert!(!long.fits(&"a".repeat(1_000)));
+    }
+}
