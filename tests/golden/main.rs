@@ -1,7 +1,7 @@
 //! Golden bits: the state's hash per scene, scheme, precision, step and number of steps.
 //!
 //! The table `hashes.csv` is part of the interface, `orientations.csv` holds those of Euler angles.
-//! `DBD_BLESS=bits cargo test -p dbd-golden` writes the present hashes; a changed one needs its
+//! `DBD_BLESS=bits cargo test -p dbd-bits` writes the present hashes; a changed one needs its
 //! reason in the commit.
 
 use std::fmt::Write as _;

@@ -127,7 +127,7 @@ fn names_of_builds() -> Vec<&'static str> {
 /// The row of a level of optimisation.
 fn on_host(name: &str, level: &str, flags: &str) -> Result<String> {
     let mut command = cargo();
-    command.args(["test", "--no-run", "--release", "--package", "dbd-golden"]);
+    command.args(["test", "--no-run", "--release", "--package", "dbd-bits"]);
     command.env("CARGO_PROFILE_RELEASE_OPT_LEVEL", level);
     if !flags.is_empty() {
         command.env("RUSTFLAGS", flags);
@@ -151,7 +151,7 @@ impl Machine {
         let libraries = "std,panic_abort,test";
         let mut tests = toolchain.cargo("test", libraries);
         tests.args(["--no-run", "--release", "--lib", "--bins", "--tests"]);
-        for package in ["dbd-golden", "dbd-kernel", "dbd-proof"] {
+        for package in ["dbd-bits", "dbd-kernel", "dbd-proof"] {
             tests.args(["--package", package]);
         }
         let passed = run_tests(&build(&mut tests)?, |path| self.command(path))?;

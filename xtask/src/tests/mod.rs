@@ -20,7 +20,7 @@ use crate::{audit, cost};
 use cases::{Case, Selection};
 
 const KERNEL: &str = "dbd-kernel";
-const GOLDEN: &str = "dbd-golden";
+const GOLDEN: &str = "dbd-bits";
 const PROOF: &str = "dbd-proof";
 /// What every build of the host's takes: one set of features, so that nothing is built twice.
 const EVERYTHING: [&str; 2] = ["--workspace", "--all-features"];
