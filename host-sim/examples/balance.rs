@@ -12,6 +12,12 @@ const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/cart-pendulu
 /// and pendulum for weights 20, 50, 1, 1 on these and 0.05 on the force.
 const GAINS: [f64; 4] = [-20.0, 88.97, -18.33, 17.54];
 
+/// The force [N] on the cart for its position, the angle from upright and their rates.
+pub fn force(state: [f64; 4]) -> f64 {
+    let force: f64 = state.iter().zip(GAINS).map(|(x, gain)| -gain * x).sum();
+    force.clamp(-20.0, 20.0)
+}
+
 /// Balances for so many milliseconds; cart position and angle from upright, furthest in each second.
 pub fn balance(milliseconds: u64) -> Result<Vec<[f64; 2]>, Box<dyn Error>> {
     let scene = Scene::load(SCENE)?;
@@ -27,8 +33,7 @@ pub fn balance(milliseconds: u64) -> Result<Vec<[f64; 2]>, Box<dyn Error>> {
         let (Some(x), Some(angle), Some(v), Some(w)) = seen else { return Err("blind".into()) };
         // The scene lets go five degrees off upright; the motor gives 20 N; two steps are 1 ms.
         let state = [x, angle + 5_f64.to_radians(), v, w];
-        let force: f64 = state.iter().zip(GAINS).map(|(x, gain)| -gain * x).sum();
-        plant.set_input(drive, force.clamp(-20.0, 20.0))?;
+        plant.set_input(drive, force(state))?;
         plant.advance(2).ok()?;
         let second = &mut furthest[millisecond as usize / 1000];
         *second = [second[0].max(x.abs()), second[1].max(state[1].abs())];

@@ -193,6 +193,27 @@ where
     }
 }
 
+/// FNV-1a 64 over a model's constants, each number rounded to single precision: the same for a scene in
+/// every precision, whatever the scheme, the step and the initial state.
+#[must_use]
+pub fn model_hash<M: ModelOwner>(model: &M) -> u64 {
+    let mut hash = Singles(Fnv1a::new());
+    visit_model(&model.view(), &mut hash);
+    hash.0.finish()
+}
+
+/// Hashes numbers rounded to single precision.
+struct Singles(Fnv1a);
+
+impl WordVisitor for Singles {
+    fn word(&mut self, word: Word) {
+        self.0.word(match word {
+            Word::F64(x) => Word::F32(x as f32),
+            other => other,
+        });
+    }
+}
+
 /// Every constant of a model in the order of its fields, counts first.
 fn visit_model<P: Geometry, T>(model: &ModelRef<'_, P, T>, visitor: &mut impl WordVisitor) {
     // Field by field, so that a new one cannot be forgotten.

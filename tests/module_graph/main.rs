@@ -12,7 +12,8 @@ use rules::{breaches, floors};
 use sources::Sources;
 
 /// The crates that are held to it: all that keep to it.
-const CRATES: &[&str] = &["kernel", "plant", "reference", "study", "output", "host-sim", "fuzz"];
+const CRATES: &[&str] =
+    &["kernel", "plant", "reference", "study", "output", "golden", "host-sim", "fuzz"];
 
 fn sources(name: &str) -> Sources {
     Sources::of_crate(&Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name))

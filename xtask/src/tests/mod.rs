@@ -21,6 +21,8 @@ use cases::{Case, Selection};
 
 const KERNEL: &str = "dbd-kernel";
 const GOLDEN: &str = "dbd-bits";
+/// What firmwares compare trajectories with.
+const TRAJECTORIES: &str = "dbd-golden";
 const PROOF: &str = "dbd-proof";
 /// What every build of the host's takes: one set of features, so that nothing is built twice.
 const EVERYTHING: [&str; 2] = ["--workspace", "--all-features"];
@@ -200,7 +202,7 @@ fn other_targets(steps: &mut Steps) {
                 command.env("CARGO_PROFILE_DEV_OPT_LEVEL", "0").env("CARGO_PROFILE_DEV_DEBUG", "0");
                 command
             };
-            run_command(&mut check())?;
+            run_command(check().args(["--package", TRAJECTORIES, "--no-default-features"]))?;
             if *target == setup::TARGET {
                 run_command(check().arg("--all-features"))?;
             }
