@@ -10,6 +10,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
+use dbd_golden::{BandList, Blessing};
 use dbd_plant::time::Time;
 use dbd_plant::{DampingName, Method, Named, OrientationName, PrecisionName, SchemeName};
 use dbd_study::{Phase, files};
@@ -18,6 +19,7 @@ use crate::commands::check::check;
 use crate::commands::completions::script;
 use crate::commands::export::{ExportPrecision, export};
 use crate::commands::folder::Destination;
+use crate::commands::golden::GoldenOptions;
 use crate::commands::list::list;
 use crate::commands::run::{Outcome, RunOptions, run};
 use crate::commands::stability::StabilityCheck;
@@ -154,6 +156,13 @@ struct RunArguments {
     /// or risen where only dampers change it
     #[arg(long, value_name = "LIMIT", allow_hyphen_values = true)]
     watch_energy: Option<EnergyLimit>,
+    /// Compare with the golden run in a file, bit for bit; DBD_BLESS=golden in the environment writes it
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    golden: Option<PathBuf>,
+    /// Compare within bands instead, by whatever scheme and precision: 1e-6 for all in SI units, or
+    /// position=1e-6,orientation=1e-6,velocity=1e-3,angular-velocity=1e-3,READOUT=1e-3
+    #[arg(long, value_name = "BANDS", requires = "golden", allow_hyphen_values = true)]
+    golden_band: Option<BandList>,
     #[command(flatten)]
     results: ResultsArguments,
     /// Print nothing but errors
@@ -252,6 +261,11 @@ fn run_scene(
         duration: arguments.duration.map(Time::seconds),
         every: arguments.every.map(Time::seconds),
         watch_energy: arguments.watch_energy,
+        golden: arguments.golden.as_ref().map(|file| GoldenOptions {
+            file: file.clone(),
+            bands: arguments.golden_band.clone(),
+            blessing: Blessing::from_environment(),
+        }),
         out: Some(arguments.results.destination(&file)),
         called: Some(arguments.scene.scene.clone()),
     };
@@ -271,7 +285,12 @@ fn run_scene(
             console.warn(warning);
         }
     }
-    let ended_by = outcome.ended_by();
+    let golden = outcome.summary.golden.as_ref();
+    if let Some(golden) = golden.filter(|golden| golden.verdict == "blessed") {
+        // Never silently.
+        console.note(&golden.words);
+    }
+    let ended_by = outcome.ended_by().or(outcome.differs());
     if let Some(ended_by) = ended_by {
         console.report(ended_by);
     }

@@ -50,6 +50,7 @@ impl Error {
                 RunError::Plan(_)
                 | RunError::Setting(_)
                 | RunError::Plant(_)
+                | RunError::Golden(_)
                 | RunError::Folder(_) => Exit::Refused,
                 RunError::Write(_) => Exit::Failed,
             },

@@ -186,3 +186,29 @@ fn send(signal: &str, child: &mut Child) {
     let sent = Command::new("sh").args(["-c", "kill -s $0 $1", signal, &process]).status().unwrap();
     assert!(sent.success());
 }
+
+/// The environment blesses a golden file, in words; a build server's does not.
+#[test]
+fn a_golden_file_is_blessed_by_the_environment() {
+    let here = tempfile::tempdir().unwrap();
+    fs::write(here.path().join("ball.toml"), ball("0.1")).unwrap();
+    let run = |variables: &[(&str, &str)], more: &[&str]| {
+        let arguments = ["run", "ball.toml", "--every", "10ms", "--golden", "ball.golden"];
+        let mut command = program(here.path(), &[&arguments[..], more].concat());
+        command.env_remove("CI").env_remove("DBD_BLESS");
+        let done = command.envs(variables.iter().copied()).output().unwrap();
+        (done.status.code(), text(&done.stderr).to_owned())
+    };
+    let (bless, file) = (("DBD_BLESS", "golden"), here.path().join("ball.golden"));
+    for variables in [&[][..], &[("DBD_BLESS", "1")], &[bless, ("CI", "true")]] {
+        assert_eq!(run(variables, &[]).0, Some(2), "{variables:?}");
+        assert!(!file.exists() && !here.path().join("out").exists());
+    }
+    let (code, said) = run(&[bless], &["--golden-band", "1"]);
+    assert!(code == Some(2) && said.contains("without --golden-band"), "{said}");
+    let (code, said) = run(&[bless, ("CI", "false")], &["--quiet"]);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(said.contains("note: blessed: ball.golden is written anew"), "{said}");
+    assert!(fs::read_to_string(&file).unwrap().lines().count() == 12 + 11 + 1);
+    assert_eq!(run(&[], &[]), (Some(0), String::new()));
+}

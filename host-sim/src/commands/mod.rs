@@ -4,6 +4,7 @@
 //! - [`warnings`]: what is probably not meant, in one place for all.
 //! - [`stability`], [`check`]: what a scene is, without running it.
 //! - [`folder`]: where results go.
+//! - [`golden`]: a run beside a golden file.
 //! - [`run`]: a scene becomes a trace, a summary and a report.
 //! - [`trade`]: speed against accuracy.
 //! - [`export`]: Rust source of a scene's const model.
@@ -13,6 +14,7 @@ pub mod check;
 pub mod completions;
 pub mod export;
 pub mod folder;
+pub mod golden;
 pub mod list;
 pub mod run;
 pub mod stability;

@@ -19,6 +19,7 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::commands::folder::{Destination, FolderError};
+use crate::commands::golden::{GoldenOptions, GoldenRefusal, GoldenWatch};
 use crate::commands::warnings::{of_run, of_scene, of_step};
 use crate::report::{Curves, JointOpening, Report, Statistics, Summary, TraceWriter, html};
 use crate::simulate::{
@@ -40,6 +41,8 @@ pub struct RunOptions {
     pub every: Option<f64>,
     /// What the energy may do before the run is ended; anything where `None`.
     pub watch_energy: Option<EnergyLimit>,
+    /// What the run is compared with.
+    pub golden: Option<GoldenOptions>,
     /// Where results go; `None` writes nothing.
     pub out: Option<Destination>,
     /// What a command line calls the scene; its name where `None`.
@@ -56,6 +59,7 @@ impl RunOptions {
             duration: None,
             every: None,
             watch_energy: None,
+            golden: None,
             out: None,
             called: None,
         }
@@ -82,6 +86,13 @@ impl Outcome {
         let stop = self.stop.as_ref().map(|stop| stop as &dyn Diagnostic);
         self.failure.as_ref().map(|failure| failure as &dyn Diagnostic).or(stop)
     }
+
+    /// How it differs from its golden run, where it does; one that ended early is not compared.
+    #[must_use]
+    pub fn differs(&self) -> Option<&dyn Diagnostic> {
+        let failure = self.summary.golden.as_ref()?.failure.as_ref()?;
+        Some(failure)
+    }
 }
 
 /// Why a run could not be carried out, or its results not be written.
@@ -103,6 +114,10 @@ pub enum RunError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Folder(#[from] FolderError),
+    /// There is nothing to compare the run with.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Golden(#[from] GoldenRefusal),
     /// Results cannot be written.
     #[error("cannot write the results: {0}")]
     Write(io::Error),
@@ -170,6 +185,8 @@ pub fn run(
         plan_of(scene, options, &frequencies).map_err(|error| refused(scene, options, error))?;
     check_step(&options.method, plan.step)?;
     check_inputs(scene, &options.method)?;
+    let golden = options.golden.as_ref();
+    let golden = golden.map(|golden| golden.begin(scene, &options.method, &plan)).transpose()?;
     let folder = match &options.out {
         Some(out) => Some(out.folder(&scene.name)?),
         None => None,
@@ -190,10 +207,11 @@ pub fn run(
         curves,
         statistics: Statistics::default(),
         watch: options.watch_energy.map(|limit| EnergyWatch::new(scene, limit)),
+        golden,
         progress: &mut |steps| progress(steps, plan.steps),
     };
     let ending = simulate(scene, &options.method, &plan, &mut recorder)?;
-    let Recorder { trace, curves, statistics, watch, .. } = recorder;
+    let Recorder { trace, curves, statistics, watch, golden, .. } = recorder;
     if let (Some(files), Some(trace)) = (&mut files, trace) {
         files.add(trace.finish().map_err(RunError::Write)?);
     }
@@ -206,9 +224,12 @@ pub fn run(
     let stop = watch.and_then(|watch| watch.stop());
     summary.of_watch(watch, stop);
     summary.of_file(options.out.as_ref().map(|out| &out.file));
+    let called = options.called.as_deref().unwrap_or(&scene.name);
+    // What did not come to its end is neither compared nor blessed.
+    let golden = golden.filter(|_| failure.is_none() && stop.is_none());
+    summary.golden = golden.map(|golden| golden.finish(&plan, called));
     if let (Some(mut files), Some(mut curves), Some(out)) = (files, curves, &options.out) {
         curves.close();
-        let called = options.called.as_deref().unwrap_or(&scene.name);
         let report = Report { scene, plan: &plan, summary: &summary, curves: &curves, called };
         let written = files.write("report.html", &html(&report));
         let written = written.and_then(|()| files.write("summary.json", &summary.json()));
@@ -227,6 +248,7 @@ struct Recorder<'p> {
     curves: Option<Curves>,
     statistics: Statistics,
     watch: Option<EnergyWatch>,
+    golden: Option<GoldenWatch<'p>>,
     progress: &'p mut dyn FnMut(u64),
 }
 
@@ -235,6 +257,9 @@ impl Observer for Recorder<'_> {
         self.statistics.push(sample);
         if let Some(watch) = &mut self.watch {
             watch.look(sample.time, sample.energy.total());
+        }
+        if let Some(golden) = &mut self.golden {
+            golden.sample(sample).map_err(io::Error::other)?;
         }
         if let Some(curves) = &mut self.curves {
             curves.push(sample);
@@ -303,6 +328,7 @@ fn summarise(
         scene_file: None,
         scene_hash: None,
         watch_energy: None,
+        golden: None,
         widest_joint: widest(scene, &ending.openings),
         warnings,
     }

@@ -8,6 +8,7 @@ use dbd_plant::frequencies::advised_text;
 use dbd_plant::time::{display, rounded};
 use serde::Serialize;
 
+use crate::report::golden::GoldenOutcome;
 use crate::simulate::watch::{EnergyStop, EnergyWatch, Watched};
 use crate::terminal::SceneFile;
 use crate::terminal::text::json;
@@ -74,6 +75,9 @@ pub struct Summary {
     /// The watch over the energy, where there was one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub watch_energy: Option<EnergyWatch>,
+    /// What became of the comparison with a golden run, where there was one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub golden: Option<GoldenOutcome>,
     /// What is probably not meant.
     pub warnings: Vec<String>,
 }
@@ -183,6 +187,11 @@ impl Summary {
                 Watched::Rise => "rise above the least before",
             };
             rows.push(("energy, watched", format!("{of} ≤ {largest} J, {limit} J allowed")));
+        }
+        if let Some(golden) = &self.golden {
+            // Only the first line: the others are said of a failure.
+            let words = golden.words.lines().next().unwrap_or_default();
+            rows.push(("golden", format!("{}: {words}", golden.file)));
         }
         rows.push(("status", self.status.clone()));
         rows.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));

@@ -43,6 +43,11 @@ impl Console<'_> {
         let _ = writeln!(self.err, "warning: {warning}");
     }
 
+    /// Writes what must not go unseen, though nothing is wrong.
+    pub fn note(&mut self, note: &str) {
+        let _ = writeln!(self.err, "note: {note}");
+    }
+
     /// Writes an error with its place and its help.
     pub fn report(&mut self, error: &dyn Diagnostic) {
         let text = rendered(error, self.terminal);
