@@ -1,0 +1,62 @@
+//! Clock, console and timer of the board, through the HAL.
+//!
+//! `peripherals => clocks, console (USART2, PA2), ticker (TIM2)`. Another board changes this file and `memory.x`.
+
+use stm32f4xx_hal::pac::{GPIOA, RCC, TIM2, USART2};
+use stm32f4xx_hal::prelude::*;
+use stm32f4xx_hal::rcc::{Config, Rcc};
+use stm32f4xx_hal::serial::Tx;
+use stm32f4xx_hal::timer::{CounterHz, Event};
+
+/// [Hz] the core's clock, here the internal oscillator: no board lacks it, and it is all that QEMU has of this chip's
+/// clocks.
+#[cfg(not(feature = "pll"))]
+pub const CLOCK: u32 = 16_000_000;
+/// [Hz] the core's clock, here the most that the chip allows.
+#[cfg(feature = "pll")]
+pub const CLOCK: u32 = 168_000_000;
+/// [Hz] the board's crystal, from which the clock is made.
+#[cfg(feature = "pll")]
+const CRYSTAL: u32 = 25_000_000;
+/// [bit/s] of the console.
+const BAUD: u32 = 115_200;
+
+/// [Hz] ticks per second. The dearest plant is the cart-pendulum, one step per tick, for which docs/costs.csv allows
+/// 5478 Hz at 168 MHz and a tenth of that at 16 MHz.
+#[cfg(not(feature = "pll"))]
+pub const RATE: u32 = 400;
+/// [Hz] ticks per second, here those of the cart-pendulum in real time: the scene's step times this is 1.
+#[cfg(feature = "pll")]
+pub const RATE: u32 = 2_000;
+
+/// Where lines go.
+pub type Console = Tx<USART2>;
+
+/// What gives the ticks.
+pub type Ticker = CounterHz<TIM2>;
+
+/// Starts the clock.
+#[must_use]
+pub fn clock(rcc: RCC) -> Rcc {
+    #[cfg(feature = "pll")]
+    let config = Config::hse(CRYSTAL.Hz()).sysclk(CLOCK.Hz());
+    #[cfg(not(feature = "pll"))]
+    let config = Config::hsi();
+    rcc.freeze(config)
+}
+
+/// The console, ready.
+#[must_use]
+pub fn console(usart: USART2, gpio: GPIOA, rcc: &mut Rcc) -> Console {
+    let pin = gpio.split(rcc).pa2;
+    usart.tx(pin, BAUD.bps(), rcc).expect("the clock allows this baud rate")
+}
+
+/// The ticker, running at [`RATE`].
+#[must_use]
+pub fn ticker(timer: TIM2, rcc: &mut Rcc) -> Ticker {
+    let mut ticker = timer.counter_hz(rcc);
+    ticker.listen(Event::Update);
+    ticker.start(RATE.Hz()).expect("the timer can do this rate");
+    ticker
+}
