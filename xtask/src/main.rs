@@ -6,6 +6,7 @@
 mod attended;
 mod audit;
 mod bits;
+mod boards;
 mod built;
 mod command;
 mod cost;
@@ -99,6 +100,12 @@ enum Command {
         #[arg(default_value_t = 100_000)]
         ticks: u32,
     },
+    /// Builds the programs of a chip with its community's HAL and runs them in QEMU: hashes must be the
+    /// golden ones, overruns must be counted where they are meant, and nowhere else.
+    Boards {
+        /// `plain`, `rtic`, `embassy`; all of them where none is named.
+        names: Vec<String>,
+    },
     /// Looks into the linked steps and calls for panics, allocation, fused and soft floating point.
     Audit,
 }
@@ -118,6 +125,7 @@ fn main() -> ExitCode {
         Command::Bits { names } => bits::machines::run(&names),
         Command::Prove { names } => prove::run(&names),
         Command::Plant { ticks } => bits::closed_loop::run(ticks),
+        Command::Boards { names } => boards::run(&names),
         Command::Audit => audit::run(),
     });
     match outcome {

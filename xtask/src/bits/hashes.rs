@@ -19,7 +19,7 @@ const INSTRUCTIONS: &str = "3000";
 const UNLIMITED: &str = "1000000000";
 
 /// Rows `scene,scheme,precision,step,steps,hash`.
-const GOLDEN: &str = "tests/golden/hashes.csv";
+pub const GOLDEN: &str = "tests/golden/hashes.csv";
 
 /// Runs the program everywhere and compares.
 ///
@@ -67,7 +67,11 @@ pub fn compare(toolchain: &Toolchain, host: &Host, long: bool) -> Result<()> {
     Ok(())
 }
 
-fn golden() -> Result<Hashes> {
+/// The golden table.
+///
+/// # Errors
+/// Where it cannot be read.
+pub fn golden() -> Result<Hashes> {
     let text = std::fs::read_to_string(root().join(GOLDEN));
     let text = text.with_context(|| format!("cannot read {GOLDEN}"))?;
     let mut golden = Hashes::new();
@@ -83,10 +87,10 @@ fn golden() -> Result<Hashes> {
 }
 
 /// Hashes by combination and number of steps.
-type Hashes = BTreeMap<(String, u64), String>;
+pub type Hashes = BTreeMap<(String, u64), String>;
 
 /// Reads lines `hash SCENE SCHEME PRECISION STEPS HASH`.
-fn parse(lines: &[String]) -> Hashes {
+pub fn parse(lines: &[String]) -> Hashes {
     let mut hashes = Hashes::new();
     for line in lines {
         let words: Vec<&str> = line.split_whitespace().collect();

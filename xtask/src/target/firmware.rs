@@ -9,7 +9,7 @@ use crate::command::run as run_command;
 use crate::target::{Toolchain, emulator, setup};
 
 /// The profile of images.
-const PROFILE: &str = "firmware";
+pub const PROFILE: &str = "firmware";
 /// Real time for a program without `--long`: ten times what 3·10⁹ instructions take.
 const TIME_LIMIT: Duration = Duration::from_secs(600);
 /// The image of several programs: its first argument names one.
@@ -23,7 +23,7 @@ const CLOCK: &str = "shift=3,sleep=off";
 /// Linked for the audit, not to be run.
 const AUDIT: &str = "audit";
 /// What an image is linked from: the audit plants an allocation.
-const LIBRARIES: &str = "core,alloc";
+pub const LIBRARIES: &str = "core,alloc";
 
 /// Programs that can be run, each with the image that holds it.
 const PROGRAMS: [(&str, &str); 8] = [

@@ -15,7 +15,7 @@ use crate::built::{Program, build};
 use crate::command::{cargo, run as run_command, succeeds};
 use crate::steps::Steps;
 use crate::target::{Toolchain, firmware, setup};
-use crate::{audit, cost};
+use crate::{audit, boards, cost};
 
 use cases::{Case, Selection};
 
@@ -220,6 +220,10 @@ fn on_target(toolchain: &Toolchain, host: Option<&Host>, long: bool, steps: &mut
     steps.step("runs that change machines", || relay::compare(toolchain, host()?));
     let closed = "controllers with their plants, ticked on the target";
     steps.step(closed, || closed_loop::step(toolchain, host()?, long));
+    steps.step("an STM32F4 with its community's HAL", || {
+        boards::check_format()?;
+        boards::execute(toolchain, if long { &boards::PROGRAMS } else { &[boards::PLAIN] })
+    });
     steps.step("costs on the target", || cost::baseline::check(toolchain));
 }
 
