@@ -21,8 +21,7 @@ const CRYSTAL: u32 = 25_000_000;
 /// [bit/s] of the console.
 const BAUD: u32 = 115_200;
 
-/// [Hz] ticks per second. The dearest plant is the cart-pendulum, one step per tick, for which docs/costs.csv allows
-/// 5478 Hz at 168 MHz and a tenth of that at 16 MHz.
+/// [Hz] ticks per second: below what docs/costs.csv estimates for the dearest plant at 168 MHz, scaled to this clock.
 #[cfg(not(feature = "pll"))]
 pub const RATE: u32 = 400;
 /// [Hz] ticks per second, here those of the cart-pendulum in real time: the scene's step times this is 1.
