@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use dbd_scene::{Scene, export};
+use dbd_scene::{Scene, SceneError, export};
 
 /// Files of the repository's `scenes/`, each of which gives its step.
 const SCENES: [&str; 2] = ["four-bar", "cart-pendulum"];
@@ -35,7 +35,16 @@ fn main() {
 fn model(file: &Path) -> Result<String, String> {
     let name = file.display().to_string();
     let text = std::fs::read_to_string(file).map_err(|error| format!("{name}: {error}"))?;
-    let scene = Scene::parse(&text, &name).map_err(|error| error.to_string())?;
+    let scene = Scene::parse(&text, &name).map_err(|error| place(&error))?;
     let step = scene.step.ok_or_else(|| format!("{name}: a scene for a board gives its `step`"))?;
     Ok(export::preamble(&scene, step) + &export::model::<f32>(&scene))
+}
+
+/// Where in the scene the error lies, what it is and what would be right.
+fn place(error: &SceneError) -> String {
+    let position = match (error.line(), error.column()) {
+        (Some(line), Some(column)) => format!(":{line}:{column}"),
+        _ => String::new(),
+    };
+    format!("{}{position}: {} ({})", error.file(), error.message(), error.help())
 }

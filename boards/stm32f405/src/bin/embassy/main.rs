@@ -11,13 +11,15 @@ use core::fmt::Write as _;
 use embassy_executor::InterruptExecutor;
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::channel::Channel;
-use embassy_time::{Duration, Instant, Timer};
+use embassy_time::{Duration, Instant, TICK_HZ, Timer};
 use stm32f4xx_hal::pac::{Interrupt, NVIC, Peripherals, interrupt};
 use stm32f405::board::{self, Console, RATE};
 use stm32f405::runs::{Report, Run};
 
 /// Between two ticks of the plant.
 const PERIOD: Duration = Duration::from_hz(RATE as u64);
+const _: () =
+    assert!(TICK_HZ % RATE as u64 == 0, "the period is a whole number of embassy's ticks");
 
 /// Where the plants are stepped: at the interrupt USART6, whose peripheral nobody uses.
 static ABOVE: InterruptExecutor = InterruptExecutor::new();
