@@ -19,7 +19,7 @@ use stm32f405::runs::{Report, Run};
 /// Between two ticks of the plant.
 const PERIOD: Duration = Duration::from_hz(RATE as u64);
 const _: () =
-    assert!(TICK_HZ % RATE as u64 == 0, "the period is a whole number of embassy's ticks");
+    assert!(TICK_HZ.is_multiple_of(RATE as u64), "the period is a whole number of embassy's ticks");
 
 /// Where the plants are stepped: at the interrupt USART6, whose peripheral nobody uses.
 static ABOVE: InterruptExecutor = InterruptExecutor::new();
