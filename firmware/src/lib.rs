@@ -18,6 +18,7 @@ pub mod hash;
 pub mod relay;
 pub mod root;
 pub mod sample;
+pub mod sensors;
 pub mod wiring;
 
 #[cfg(target_os = "none")]

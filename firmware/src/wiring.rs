@@ -11,6 +11,7 @@ use core::f64::consts::TAU;
 use dbd_kernel::F32;
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::readouts::Readout;
+use dbd_node::as5047p::COUNTS;
 use dbd_node::{
     As5047p, Encoder, EncoderParameters, Errors, Motor, MotorParameters, Probe, Supply,
 };
@@ -35,9 +36,10 @@ const GEAR: f64 = 20.0;
 /// An encoder with its chip, on time.
 pub type Chip = As5047p<Encoder<F32>>;
 
-fn chip(probe: Probe<F32>, turn: f64, noise: f64) -> Chip {
+/// A chip that samples every so many steps: once per tick of its controller.
+fn chip(probe: Probe<F32>, turn: f64, noise: f64, every: u32) -> Chip {
     let errors = Errors { noise, seed: SEED, ..Errors::NONE };
-    As5047p::new(Encoder::new(probe, EncoderParameters { counts: 16_384, turn, every: 1, errors }))
+    As5047p::new(Encoder::new(probe, EncoderParameters { counts: COUNTS, turn, every, errors }))
 }
 
 /// The cart's motor, on the input `drive`.
@@ -67,13 +69,13 @@ pub fn cart_motor() -> Motor<F32> {
 #[must_use]
 pub fn cart_encoder() -> Chip {
     let probe = Probe::along("cart_point", CART_PENDULUM_READOUT_CART_POINT_F32, [1.0, 0.0, 0.0]);
-    chip(probe, CART_TURN, NOISE * CART_TURN / TAU)
+    chip(probe, CART_TURN, NOISE * CART_TURN / TAU, 2)
 }
 
 /// The pendulum's encoder, on the read-out `angle`.
 #[must_use]
 pub fn pendulum_encoder() -> Chip {
-    chip(Probe::scalar("angle", CART_PENDULUM_READOUT_ANGLE_F32), TAU, NOISE)
+    chip(Probe::scalar("angle", CART_PENDULUM_READOUT_ANGLE_F32), TAU, NOISE, 2)
 }
 
 /// The delta's inputs and read-outs of the angles, by their names.
@@ -117,5 +119,5 @@ pub fn delta_motors() -> [Motor<F32>; 3] {
 /// The encoders on those motors' shafts.
 #[must_use]
 pub fn delta_encoders() -> [Chip; 3] {
-    ARMS.map(|(.., name, angle)| chip(Probe::scalar(name, angle), TAU / GEAR, NOISE / GEAR))
+    ARMS.map(|(.., name, angle)| chip(Probe::scalar(name, angle), TAU / GEAR, NOISE / GEAR, 5))
 }

@@ -13,7 +13,7 @@
 //! - [`share`], [`part`], [`node`]: cells that two sides reach; what a node steps; the node.
 //! - [`motor`], [`encoder`], [`end_stop`]: parts by themselves.
 //! - [`spi`], [`i2c`]: buses.
-//! - [`as5047p`], [`mpu6000`]: parts behind registers.
+//! - [`as5047p`], [`ls7366r`], [`mpu6000`]: parts behind registers.
 //! - [`pins`], [`pwm`], [`delay`]: the other ends.
 #![no_std]
 #![forbid(unsafe_code)]
@@ -27,6 +27,7 @@ pub mod encoder;
 pub mod end_stop;
 pub mod fault;
 pub mod i2c;
+pub mod ls7366r;
 pub mod machine;
 pub mod motor;
 pub mod mpu6000;
@@ -47,6 +48,7 @@ pub use encoder::{Encoder, EncoderParameters};
 pub use end_stop::{EndStop, Side};
 pub use fault::{Fault, Problem, WiringError};
 pub use i2c::I2cEnd;
+pub use ls7366r::Ls7366r;
 pub use machine::Machine;
 pub use motor::{Channel, Motor, MotorParameters, Supply};
 pub use mpu6000::{ImuParameters, Mpu6000};

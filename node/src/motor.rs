@@ -84,7 +84,7 @@ pub struct Motor<P: Geometry> {
     constants: Option<Constants<P::Real>>,
     link: Link,
     current: P::Real,
-    drive: P::Real,
+    output: P::Real,
     duties: [u16; 2],
     reversed: bool,
     enabled: bool,
@@ -120,7 +120,7 @@ impl<P: Geometry<Real: Number>> Motor<P> {
             constants: None,
             link: Link::Loose,
             current: P::Real::ZERO,
-            drive: P::Real::ZERO,
+            output: P::Real::ZERO,
             duties: [0; 2],
             reversed: false,
             enabled: true,
@@ -140,8 +140,8 @@ impl<P: Geometry<Real: Number>> Motor<P> {
     }
 
     /// \[N·m or N\] what the machine's input had over the last step.
-    pub fn drive(&self) -> P::Real {
-        self.drive
+    pub fn output(&self) -> P::Real {
+        self.output
     }
 
     /// Its constants.
@@ -329,8 +329,8 @@ where
             Some(probe) => probe.see(machine)? * constants.ratio,
             None => P::Real::ZERO,
         };
-        self.drive = self.follow(&constants, speed);
-        machine.set_input(self.input, self.drive).map_err(Fault::Input)
+        self.output = self.follow(&constants, speed);
+        machine.set_input(self.input, self.output).map_err(Fault::Input)
     }
 
     #[inline]

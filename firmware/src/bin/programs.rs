@@ -7,6 +7,7 @@
 //!   [`firmware::relay`].
 //! - `root`: square roots in single precision, see [`firmware::root`].
 //! - `sample`: what a step costs, of some models and schemes, see `firmware::cost` (target only).
+//! - `sensors`: bits of sensors and motors, see [`firmware::sensors`].
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 use core::str::FromStr;
@@ -14,7 +15,7 @@ use core::str::FromStr;
 use firmware::console::{argument, exit};
 use firmware::hash::Limits;
 use firmware::relay::Part;
-use firmware::{hash, relay, root, say};
+use firmware::{hash, relay, root, say, sensors};
 
 enum Program {
     Board,
@@ -22,6 +23,7 @@ enum Program {
     Relay,
     Root,
     Sample,
+    Sensors,
 }
 
 impl FromStr for Program {
@@ -34,6 +36,7 @@ impl FromStr for Program {
             "relay" => Ok(Self::Relay),
             "root" => Ok(Self::Root),
             "sample" => Ok(Self::Sample),
+            "sensors" => Ok(Self::Sensors),
             _ => Err(()),
         }
     }
@@ -47,8 +50,9 @@ fn main() -> ! {
         Some(Program::Relay) => relay::run(part()),
         Some(Program::Root) => root::run(),
         Some(Program::Sample) => machine::sample(),
+        Some(Program::Sensors) => sensors::run(),
         None => {
-            say!("the first argument names a program: board, hash, relay, root or sample");
+            say!("the first argument names a program: board, hash, relay, root, sample or sensors");
             false
         }
     })

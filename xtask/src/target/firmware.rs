@@ -26,7 +26,7 @@ const AUDIT: &str = "audit";
 pub const LIBRARIES: &str = "core,alloc";
 
 /// Programs that can be run, each with the image that holds it.
-const PROGRAMS: [(&str, &str); 8] = [
+const PROGRAMS: [(&str, &str); 9] = [
     ("board", SHARED),
     ("cost", "cost"),
     ("guards", "guards"),
@@ -35,6 +35,7 @@ const PROGRAMS: [(&str, &str); 8] = [
     ("relay", SHARED),
     ("root", SHARED),
     ("sample", SHARED),
+    ("sensors", SHARED),
 ];
 
 /// `cargo xtask fw NAME`.

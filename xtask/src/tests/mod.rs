@@ -215,6 +215,9 @@ fn on_target(toolchain: &Toolchain, host: Option<&Host>, long: bool, steps: &mut
     steps.step("drivers on the target", || {
         firmware::execute(toolchain, "board", false, &[]).map(drop)
     });
+    steps.step("same bits of sensors on host and target", || {
+        firmware::execute(toolchain, "sensors", false, &[]).map(drop)
+    });
     let host = || host.context("the host's programs were not built");
     steps.step("same bits on host and target", || hashes::compare(toolchain, host()?, long));
     steps.step("runs that change machines", || relay::compare(toolchain, host()?));
