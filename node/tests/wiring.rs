@@ -102,7 +102,7 @@ fn an_end_of_a_part_that_no_node_steps_is_refused() {
     let mut spi = SpiEnd::new(&chip).unwrap();
     let twice = Node::new(Shaft::default(), &motor).err();
     assert_eq!(twice, Some(error("drive", Problem::Twice)));
-    drop(node.release());
+    let _taken_apart = node.release();
     assert_eq!(SpiDevice::<u8>::write(&mut spi, &[0, 0]), Err(Fault::NotWired));
 }
 
@@ -114,7 +114,8 @@ fn parameters_out_of_range_are_named() {
         refused(Motor::<F32>::new("m", TORQUE, parameters)).problem
     };
     let supply = |full, resistance, back_emf| Supply::Voltage { full, resistance, back_emf };
-    let cases: [(&dyn Fn(&mut MotorParameters), &str); 10] = [
+    type Change<'c> = &'c dyn Fn(&mut MotorParameters);
+    let cases: [(Change<'_>, &str); 10] = [
         (&|p| p.lag = -1.0, "the lag"),
         (&|p| p.most_duty = 0, "the largest duty"),
         (&|p| p.ratio = 0.0, "the ratio"),
@@ -220,9 +221,12 @@ mod with_interrupts {
     use critical_section::Mutex;
     use dbd_node::Slot;
 
-    static MOTOR: Slot<Motor<F32>> = Slot::new();
-    static CHIP: Slot<As5047p<Encoder<F32>>> = Slot::new();
-    static NODE: Slot<Node<Shaft, (&Slot<Motor<F32>>, &Slot<As5047p<Encoder<F32>>>)>> = Slot::new();
+    type Drive = Slot<Motor<F32>>;
+    type Chip = Slot<As5047p<Encoder<F32>>>;
+
+    static MOTOR: Drive = Slot::new();
+    static CHIP: Chip = Slot::new();
+    static NODE: Slot<Node<Shaft, (&Drive, &Chip)>> = Slot::new();
 
     #[test]
     fn parts_in_statics_are_reached_from_an_interrupt() {

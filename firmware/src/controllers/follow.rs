@@ -212,3 +212,47 @@ fn interpolate([a, b, c, d]: [f32; 4], along: f32) -> [f32; 3] {
     let bend = bends[0] + along * (bends[1] - bends[0]);
     [value, rate * (1.0 / KNOT), bend * (1.0 / (KNOT * KNOT))]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arms_reach_the_tool() {
+        for i in 0..40 {
+            let point = path(0.05 * i as f32);
+            for [sine, cosine] in ARMS {
+                let angle = arm(point, [sine, cosine]);
+                // In the arm's plane: elbow and the tool's joint, which stands 0.1 m from its middle.
+                let [out, up] = [0.3 + 0.524 * libm::cosf(angle), -0.524 * libm::sinf(angle)];
+                let [x, y, z] = point;
+                let along = x * cosine + y * sine + 0.1;
+                let across = y * cosine - x * sine;
+                let gap = (out - along) * (out - along) + across * across + (up - z) * (up - z);
+                assert!((libm::sqrtf(gap) - 1.244).abs() < 1e-5, "{i}: {gap}");
+            }
+        }
+    }
+
+    #[test]
+    fn between_knots_a_parabola_is_exact() {
+        let at = |s: f32| 0.5 + 0.25 * s + 0.125 * s * s;
+        for along in [0.0, 0.25, 0.5, 0.75] {
+            let [value, rate, bend] = interpolate([-1.0, 0.0, 1.0, 2.0].map(at), along);
+            assert_eq!(value, at(along));
+            assert!((rate * KNOT - (0.25 + 0.25 * along)).abs() < 1e-6);
+            assert!((bend * KNOT * KNOT - 0.25).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn the_path_begins_at_rest_and_is_a_circle() {
+        assert_eq!(path(-1.0), [0.0, 0.0, HEIGHT]);
+        let [x, y, _] = path(1e-2);
+        assert!(x * x + y * y < 1e-9);
+        for time in [1.0, 1.3, 7.9] {
+            let [x, y, z] = path(time);
+            assert!((libm::sqrtf(x * x + y * y) - RADIUS).abs() < 1e-6 && z == HEIGHT, "{time}");
+        }
+    }
+}
