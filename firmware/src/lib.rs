@@ -30,3 +30,8 @@ pub mod guards;
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 pub mod readme {}
+
+/// The page on controllers compiles and does what it says.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/controllers.md")]
+pub mod controllers_page {}

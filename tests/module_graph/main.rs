@@ -13,7 +13,7 @@ use sources::Sources;
 
 /// The crates that are held to it: all that keep to it.
 const CRATES: &[&str] =
-    &["kernel", "plant", "reference", "study", "output", "golden", "host-sim", "fuzz"];
+    &["kernel", "node", "plant", "reference", "study", "output", "golden", "host-sim", "fuzz"];
 
 fn sources(name: &str) -> Sources {
     Sources::of_crate(&Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name))

@@ -11,25 +11,25 @@ pub struct Check {
     pub name: &'static str,
     /// The planted root's name after `audit.planted.`.
     pub plant: &'static str,
-    /// Whether it is looked for in steps of single precision alone.
-    pub single_steps_only: bool,
+    /// Whether it is looked for in what is of single precision throughout alone.
+    pub single_only: bool,
     /// What is found in a function, in words.
     pub findings: fn(&Function) -> Vec<String>,
 }
 
 /// All checks.
 pub const CHECKS: [Check; 5] = [
-    Check { name: "panic", plant: "index", single_steps_only: false, findings: panics },
-    Check { name: "allocation", plant: "box", single_steps_only: false, findings: allocations },
-    Check { name: "fused multiply-add", plant: "fused", single_steps_only: false, findings: fused },
+    Check { name: "panic", plant: "index", single_only: false, findings: panics },
+    Check { name: "allocation", plant: "box", single_only: false, findings: allocations },
+    Check { name: "fused multiply-add", plant: "fused", single_only: false, findings: fused },
     Check {
         name: "soft float in an f32 step",
         plant: "soft-float",
-        single_steps_only: true,
+        single_only: true,
         findings: soft_float,
     },
     // Behind one, anything could hide: the other checks follow fixed branches only.
-    Check { name: "indirect call", plant: "pointer", single_steps_only: false, findings: indirect },
+    Check { name: "indirect call", plant: "pointer", single_only: false, findings: indirect },
 ];
 
 fn panics(function: &Function) -> Vec<String> {

@@ -18,7 +18,7 @@ use crate::target::{Toolchain, firmware, setup};
 use checks::{CHECKS, Check};
 pub use image::Image;
 pub use roots::Root;
-use roots::{CALLS, MODELS, PRECISIONS, SCHEMES, planted};
+use roots::{CALLS, ENDS, MODELS, PRECISIONS, SCHEMES, STEPPING, planted};
 
 /// `cargo xtask audit`.
 ///
@@ -74,7 +74,7 @@ fn clean(image: &Image) -> Result<()> {
 fn inspect(image: &Image, root: &Root) -> Result<Vec<String>> {
     let reach = image.reach(&root.symbol())?;
     let mut findings = Vec::new();
-    for check in CHECKS.iter().filter(|c| !c.single_steps_only || root.is_single_step()) {
+    for check in CHECKS.iter().filter(|c| !c.single_only || root.is_single()) {
         for function in &reach {
             let found = (check.findings)(function);
             findings.extend(found.into_iter().map(|finding| format!("{}: {finding}", check.name)));
@@ -97,13 +97,15 @@ fn find_planted(image: &Image, check: &Check) -> Result<()> {
 
 /// Roots that there must be.
 fn expected() -> impl Iterator<Item = Root> {
-    PRECISIONS.into_iter().flat_map(|precision| {
+    let ends = STEPPING.into_iter().chain(ENDS).map(Root::end);
+    let both = PRECISIONS.into_iter().flat_map(|precision| {
         let steps = MODELS.into_iter().flat_map(move |model| {
             SCHEMES.into_iter().map(move |scheme| Root::step(model, scheme, precision))
         });
         let call = move |what| Root::call(what, MODELS[1], "leapfrog", precision);
         steps.chain(CALLS.into_iter().map(call))
-    })
+    });
+    both.chain(ends)
 }
 
 fn missing(findings: &Findings) -> Vec<String> {
@@ -134,8 +136,13 @@ fn table(findings: &Findings) -> String {
     for call in CALLS {
         text += &line(call, &|precision| vec![Root::call(call, MODELS[1], "leapfrog", precision)]);
     }
+    text += "\nbetween plant and drivers\n";
+    for end in STEPPING.into_iter().chain(ENDS) {
+        text += &format!("{end:<32} {}\n", cell(&[Root::end(end)]));
+    }
     let further = findings.iter().filter(|(symbol, _)| {
-        Root::parse(symbol).is_some_and(|root| !MODELS.contains(&root.model.as_str()))
+        Root::parse(symbol)
+            .is_some_and(|root| root.what == "step" && !MODELS.contains(&root.model.as_str()))
     });
     let (count, clean) = further.fold((0, 0), |(count, clean), (_, found)| {
         (count + 1, clean + u32::from(found.is_empty()))

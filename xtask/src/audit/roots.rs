@@ -28,13 +28,32 @@ pub const CALLS: [&str; 10] = [
     "restore",
     "hash",
 ];
+/// What a timer calls, with [`NODE`]: it steps the plant and reads it.
+pub const STEPPING: [&str; 2] = ["node_step", "delay_ns"];
+/// What drivers call, with [`NODE`].
+pub const ENDS: [&str; 12] = [
+    "duty",
+    "bridge_pin",
+    "spi_as5047p",
+    "spi_ls7366r",
+    "spi_mpu6000",
+    "spi_words",
+    "spi_bus",
+    "chip_select",
+    "i2c_mpu6000",
+    "balance_tick",
+    "encoder_pin",
+    "switch_pin",
+];
+/// The plant behind them: model, scheme and precision.
+pub const NODE: [&str; 3] = ["cart-pendulum", "leapfrog", "f32"];
 /// Both precisions.
 pub const PRECISIONS: [&str; 2] = ["f32", "f64"];
 
 /// A root without a planted fault.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Root {
-    /// `step` or one of [`CALLS`].
+    /// `step` or one of [`CALLS`], [`STEPPING`] and [`ENDS`].
     pub what: String,
     /// The model's name.
     pub model: String,
@@ -70,9 +89,16 @@ impl Root {
         format!("audit.{what}.{model}.{scheme}.{precision}")
     }
 
-    /// Whether it steps in single precision.
-    pub fn is_single_step(&self) -> bool {
-        self.what == "step" && self.precision == "f32"
+    /// What a timer or a driver calls.
+    pub fn end(what: &str) -> Self {
+        let [model, scheme, precision] = NODE;
+        Self::call(what, model, scheme, precision)
+    }
+
+    /// Whether it is of single precision throughout: a step, or an end.
+    pub fn is_single(&self) -> bool {
+        let is_end = ENDS.contains(&self.what.as_str());
+        (self.what == "step" || is_end) && self.precision == "f32"
     }
 }
 
@@ -89,8 +115,9 @@ mod tests {
     fn symbols_are_read_as_they_are_written() {
         let root = Root::step("3rrr", "blanes-moan-s6", "f64");
         assert_eq!(Root::parse(&root.symbol()), Some(root.clone()));
-        assert!(!root.is_single_step());
-        assert!(Root::step("3rrr", "dbd", "f32").is_single_step());
+        assert!(!root.is_single());
+        assert!(Root::step("3rrr", "dbd", "f32").is_single() && Root::end("duty").is_single());
+        assert!(!Root::end("node_step").is_single());
         assert_eq!(Root::parse(&planted("panic")), None);
         assert_eq!(Root::parse("audit_roots"), None);
     }

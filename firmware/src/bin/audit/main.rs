@@ -11,6 +11,9 @@
 mod calls;
 #[cfg(target_os = "none")]
 #[allow(unsafe_code)]
+mod ends;
+#[cfg(target_os = "none")]
+#[allow(unsafe_code)]
 mod planted;
 #[cfg(target_os = "none")]
 #[allow(unsafe_code)]
@@ -28,6 +31,7 @@ type Keep = extern "C" fn(*const ());
 extern "C" fn audit_roots(keep: Keep) {
     steps::keep(keep);
     calls::keep(keep);
+    ends::keep(keep);
     planted::keep(keep);
 }
 

@@ -63,6 +63,9 @@ pub fn keep(keep: Keep) {
     }
     firmware::shipped!(shipped);
     firmware::shipped_f32!(shipped_f32);
+    // What a controller drives, without the scene's tables.
+    step!(keep, "delta-pick-and-place" models::delta_pick_and_place::DeltaPickAndPlaceF32,
+        "leapfrog" Leapfrog, "f32");
     // What the shipped four-bar has not: all but leapfrog and dbd.
     four_bar! {
         "dbd-p1" DbdP1;
