@@ -100,13 +100,13 @@ impl<E: Counting> As5047p<E> {
     /// What a whole frame does; the answer of the next one.
     fn frame(&mut self, frame: u16) -> u16 {
         let data = frame & DATA;
-        let answer = if !frame.count_ones().is_multiple_of(2) {
+        if !frame.count_ones().is_multiple_of(2) {
             self.errors |= PARERR;
             self.writing = None;
-            None
-        } else if let Some(address) = self.writing.take() {
-            let written = self.write(address, data);
-            written.and_then(|()| self.read(address))
+            return ERROR;
+        }
+        let answer = if let Some(address) = self.writing.take() {
+            self.write(address, data).and_then(|()| self.read(address))
         } else if frame & READ == 0 {
             // What is written now is answered with what was there before.
             let old = self.read_setting(data);
@@ -118,9 +118,7 @@ impl<E: Counting> As5047p<E> {
         match answer {
             Some(data) => data & DATA,
             None => {
-                if self.errors & PARERR == 0 {
-                    self.errors |= INVCOMM;
-                }
+                self.errors |= INVCOMM;
                 ERROR
             }
         }

@@ -131,6 +131,9 @@ fn the_as5047p_tells_errors_until_they_are_read() {
     // A register that is not there.
     let answers = frames(&mut spi, &[0x7000 | 0x8000, READ_ERRORS, NOP]);
     assert_eq!(answers[1..], [0xc000, 0x8002]);
+    // Both: they gather until they are read. A write to what is only read is such a command, too.
+    let answers = frames(&mut spi, &[READ_ANGLE ^ 1, 0x3fff, READ_ERRORS, NOP]);
+    assert_eq!(answers[1..], [0xc000, 0xc000, 0x0006]);
     // A frame of three bytes, and one of one.
     for length in [3, 1] {
         SpiDevice::<u8>::write(&mut spi, &[0xff; 3][..length]).unwrap();
