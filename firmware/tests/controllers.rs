@@ -98,13 +98,13 @@ fn followed(constants: follow::Constants, ticks: u32) -> f32 {
 
 #[test]
 fn the_tool_keeps_to_its_path() {
-    let furthest = followed(follow::Constants::DELTA, 8_000);
+    let furthest = followed(follow::Constants::DELTA, 6_000);
     assert!(furthest > 1e-5 && furthest < 3e-3, "{furthest}");
 }
 
 #[test]
 fn a_wrong_gain_loses_the_path() {
     let wrong = follow::Constants { spring: 0.0, ..follow::Constants::DELTA };
-    let furthest = followed(wrong, 6_000);
+    let furthest = followed(wrong, 5_000);
     assert!(furthest > 3e-3, "{furthest}");
 }

@@ -20,7 +20,7 @@ pub struct DutyEnd<C> {
 }
 
 impl<C: Shared<Part: Bridge>> DutyEnd<C> {
-    /// A channel of a motor that a node steps; with a [`DirectionPin`] the one forwards.
+    /// A channel of a motor that a node steps; with a direction's pin, the one forwards.
     ///
     /// # Errors
     /// [`WiringError`] where none does.
