@@ -7,7 +7,7 @@
 
 use std::path::{Path, PathBuf};
 
-use dbd_scene::{Scene, SceneError, export};
+use dbd_scene::{Build, export};
 
 /// Scenes that ship in both precisions: files of `scenes/`, each of which gives its step.
 const SCENES: &[&str] = &["four-bar"];
@@ -54,26 +54,26 @@ const AUDIT: &str = "audit";
 fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the repository's root");
     println!("cargo:rerun-if-changed=build.rs");
-    models(root);
+    models();
     if std::env::var("CARGO_CFG_TARGET_OS").as_deref() == Ok("none") {
         link_arguments(root);
     }
 }
 
-fn models(root: &Path) {
+fn models() {
     let [mut modules, mut both, mut f32, mut charted] = [const { String::new() }; 4];
     let all = SCENES.iter().map(|name| (name, true));
     for (name, double) in all.chain(SCENES_F32.iter().map(|name| (name, false))) {
-        let (scene, step) = load(root, name);
+        let counted = CHARTED.contains(name);
+        let mut build = Build::scene(format!("../scenes/{name}.toml")).precision("f32");
+        if double || counted {
+            build = build.precision("f64");
+        }
+        let source = source(&build);
         let constant = export::constant_name(name);
         let (module, model) = (constant.to_lowercase(), export::type_name(name));
-        let mut source = export::preamble(&scene, step) + &export::model::<f32>(&scene);
         let single = format!("{module} \"{name}\" {constant}_STEP, {constant}_F32: {model}F32");
-        let counted = CHARTED.contains(name);
-        if double || counted {
-            source += &export::model::<f64>(&scene);
-        }
-        write(&format!("{module}.rs"), &source);
+        write(&build.file_name(), &source);
         let line = format!("            {single}, {constant}_F64: {model}F64;\n");
         if double {
             both += &line;
@@ -86,12 +86,8 @@ fn models(root: &Path) {
         modules += &format!("/// The scene `{name}`.\npub mod {module} {{\n{source}}}\n");
     }
     for name in CONTROLLED {
-        let (mut scene, step) = load(root, name);
-        scene.inputs.iter().for_each(|input| scene.model.release(input.index));
-        scene.model.inputs.iter_mut().for_each(|input| input.knot = 0);
-        scene.model.knots.clear();
-        let module = export::constant_name(name).to_lowercase();
-        let source = export::preamble(&scene, step) + &export::model::<f32>(&scene);
+        let build = Build::scene(format!("../scenes/{name}.toml")).without_tables();
+        let (module, source) = (export::constant_name(name).to_lowercase(), source(&build));
         modules += &format!(
             "/// The scene `{name}` without its tables.\npub mod {module} {{\n{source}}}\n"
         );
@@ -114,37 +110,19 @@ fn models(root: &Path) {
     write("models.rs", &source);
 }
 
-/// A scene and its step \[s\].
-fn load(root: &Path, name: &str) -> (Scene, f64) {
-    let file = format!("scenes/{name}.toml");
-    println!("cargo:rerun-if-changed={}", root.join(&file).display());
-    let text = std::fs::read_to_string(root.join(&file));
-    let text = text.unwrap_or_else(|error| refuse(&format!("{file}: {error}")));
-    let scene = Scene::parse(&text, &file).unwrap_or_else(|error| refuse(&place(&error)));
-    let Some(step) = scene.step else {
-        refuse(&format!("{file}: a scene for the firmware gives its `step`"));
-    };
-    (scene, step)
+/// The source of a scene; where there is none, cargo is told why.
+fn source(build: &Build) -> String {
+    println!("{}", build.watched());
+    let built = build.source().unwrap_or_else(|error| {
+        println!("{}", error.line());
+        std::process::exit(1)
+    });
+    built.source
 }
 
 fn write(name: &str, source: &str) {
     let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     std::fs::write(out.join(name), source).expect("OUT_DIR can be written");
-}
-
-/// Where in the scene the error lies, what it is and what would be right.
-fn place(error: &SceneError) -> String {
-    let position = match (error.line(), error.column()) {
-        (Some(line), Some(column)) => format!(":{line}:{column}"),
-        _ => String::new(),
-    };
-    format!("{}{position}: {} ({})", error.file(), error.message(), error.help())
-}
-
-/// Fails the build with one line that cargo shows.
-fn refuse(message: &str) -> ! {
-    println!("cargo::error={}", message.replace('\n', " "));
-    std::process::exit(1)
 }
 
 fn link_arguments(root: &Path) {

@@ -6,6 +6,7 @@
 
 mod assembly;
 mod body;
+pub mod build;
 mod columns;
 mod direction;
 mod error;
@@ -38,6 +39,7 @@ mod written;
 use std::ops::Range;
 use std::path::Path;
 
+pub use build::{Build, build};
 pub use columns::{BODY_COLUMNS, ENERGY_COLUMNS};
 pub use error::{Refusal, SceneError};
 pub use facts::{ElementDamping, ElementFrequency, Facts, Island, JointElement, JointFacts};

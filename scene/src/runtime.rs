@@ -88,6 +88,13 @@ impl<P: Geometry> SceneModel<P> {
         }
     }
 
+    /// [`Self::release`]s every input; the model holds no table then.
+    pub fn release_all(&mut self) {
+        (0..self.inputs.len()).for_each(|row| self.release(InputIndex(row as u16)));
+        self.inputs.iter_mut().for_each(|input| input.knot = 0);
+        self.knots.clear();
+    }
+
     /// The number of elements that count as a TSDA (Franco & Degani 2026, Table 7b).
     #[must_use]
     pub fn tsda_count(&self) -> usize {

@@ -1,0 +1,317 @@
+//! A build script in one call: a scene becomes Rust source that the crate includes.
+//!
+//! `scene file => OUT_DIR/STEM.rs, lines for cargo`. `build.rs` is
+//! `fn main() { dbd_scene::build("scenes/four-bar.toml") }`, the crate has
+//! `include!(concat!(env!("OUT_DIR"), "/four-bar.rs"))` in a module of its own and `dbd-kernel`
+//! among its dependencies. What is in the source: [`export::source`](crate::export::source).
+
+use std::fmt::{self, Display};
+use std::io;
+use std::path::{Path, PathBuf};
+
+use dbd_kernel::{F32, State, frequency};
+
+use crate::export::{Export, ExportPrecision, ExportScheme, SchemeError, source};
+use crate::time::{Time, TimeError, display};
+use crate::{Scene, SceneError, Severity, UnfitInput};
+
+/// The share of a stability limit at t = 0 that leaves room for a motion.
+const MARGIN: f64 = 0.85;
+
+/// Writes the source of a scene in single precision, stepped by leapfrog at the scene's step:
+/// `scenes/my.toml` becomes `OUT_DIR/my.rs`. The path is relative to the crate's `Cargo.toml`.
+///
+/// What is wrong with the scene ends the build script with its place and with what would be right;
+/// what is probably not meant is a warning of cargo's. [`Build`] has the options.
+pub fn build(scene: impl AsRef<Path>) {
+    Build::scene(scene).write();
+}
+
+/// A build script's call with options.
+///
+/// ```no_run
+/// dbd_scene::Build::scene("scenes/four-bar.toml")
+///     .precision("f32")
+///     .scheme("pefrl")
+///     .step("50us")
+///     .write();
+/// ```
+#[derive(Clone, Debug)]
+#[must_use = "nothing is written before `write`"]
+pub struct Build {
+    scene: PathBuf,
+    output: Option<String>,
+    precisions: Vec<String>,
+    scheme: Option<String>,
+    newton: Option<u32>,
+    damping: Option<String>,
+    step: Option<String>,
+    without_tables: bool,
+}
+
+/// What a build script makes of a scene.
+#[derive(Clone, Debug)]
+pub struct Built {
+    /// The scene.
+    pub scene: Scene,
+    /// The Rust source.
+    pub source: String,
+    /// What is probably not meant, each on a line of its own with its place.
+    pub warnings: Vec<String>,
+}
+
+/// Why nothing was written. Displayed on one line: place, what is wrong, what would be right.
+#[derive(Debug)]
+pub enum BuildError {
+    /// The scene cannot be read or is refused.
+    Scene(SceneError),
+    /// An option of the build script is not right; what it is and what would be right.
+    Option(String, String),
+    /// The scene gives no step, nor does the build script; the scene's file and a step that works.
+    NoStep(String, String),
+    /// A precision cannot hold what an input is given; the scene's file.
+    Input(String, UnfitInput),
+    /// The source cannot be written.
+    Write(PathBuf, io::Error),
+}
+
+impl Build {
+    /// A scene file, relative to the crate's `Cargo.toml`.
+    pub fn scene(path: impl AsRef<Path>) -> Self {
+        Self {
+            scene: path.as_ref().to_owned(),
+            output: None,
+            precisions: Vec::new(),
+            scheme: None,
+            newton: None,
+            damping: None,
+            step: None,
+            without_tables: false,
+        }
+    }
+
+    /// `f32` or `f64`; called twice, both. Without it `f32`.
+    pub fn precision(mut self, name: &str) -> Self {
+        self.precisions.push(name.to_owned());
+        self
+    }
+
+    /// The scheme by its name, as on the command line. Without it `leapfrog`.
+    pub fn scheme(mut self, name: &str) -> Self {
+        self.scheme = Some(name.to_owned());
+        self
+    }
+
+    /// Newton iterations of the dbd schemes.
+    pub fn newton(mut self, iterations: u32) -> Self {
+        self.newton = Some(iterations);
+        self
+    }
+
+    /// `sweeps` or `explicit`, for schemes that have both. Without it the scheme's own.
+    pub fn damping(mut self, name: &str) -> Self {
+        self.damping = Some(name.to_owned());
+        self
+    }
+
+    /// The step: seconds, or a text with a unit, `"20us"`. Without it the scene's.
+    pub fn step(mut self, step: impl Display) -> Self {
+        self.step = Some(step.to_string());
+        self
+    }
+
+    /// Leaves out the tables that drive inputs: the program drives all of them. Each begins with the
+    /// first value of its table.
+    pub fn without_tables(mut self) -> Self {
+        self.without_tables = true;
+        self
+    }
+
+    /// The file's name in `OUT_DIR`, where a scene is written more than once. Without it the
+    /// scene file's, ending in `.rs`.
+    pub fn output(mut self, name: &str) -> Self {
+        self.output = Some(name.to_owned());
+        self
+    }
+
+    /// Writes the source into `OUT_DIR`, tells cargo, and ends the build script with exit code 1 where
+    /// something is wrong.
+    pub fn write(&self) {
+        let folder = std::env::var_os("OUT_DIR").map(PathBuf::from);
+        // What cargo does not read it does not need.
+        if !self.write_into(folder.as_deref(), &mut io::stdout()).unwrap_or(true) {
+            std::process::exit(1)
+        }
+    }
+
+    /// Writes the source into a folder and lines for cargo; `false` where something is wrong.
+    fn write_into(&self, folder: Option<&Path>, cargo: &mut dyn io::Write) -> io::Result<bool> {
+        writeln!(cargo, "{}", self.watched())?;
+        let written = self.source().and_then(|built| {
+            let Some(folder) = folder else {
+                let help = "cargo sets it for a build script; elsewhere: host-sim export";
+                return Err(BuildError::Option("OUT_DIR is not set".into(), help.into()));
+            };
+            let file = folder.join(self.file_name());
+            match std::fs::write(&file, &built.source) {
+                Ok(()) => Ok(built.warnings),
+                Err(reason) => Err(BuildError::Write(file, reason)),
+            }
+        });
+        match &written {
+            Ok(warnings) => {
+                for warning in warnings {
+                    writeln!(cargo, "cargo::warning={}", on_one_line(warning))?;
+                }
+            }
+            Err(error) => writeln!(cargo, "{}", error.line())?,
+        }
+        Ok(written.is_ok())
+    }
+
+    /// The line that tells cargo what the source is made from.
+    #[must_use]
+    pub fn watched(&self) -> String {
+        format!("cargo::rerun-if-changed={}", self.scene.display())
+    }
+
+    /// The name of the file that [`Self::write`] writes.
+    #[must_use]
+    pub fn file_name(&self) -> String {
+        let stem = || self.scene.file_stem().unwrap_or_default().to_string_lossy();
+        self.output.clone().unwrap_or_else(|| format!("{}.rs", stem()))
+    }
+
+    /// The source, without writing it.
+    ///
+    /// # Errors
+    /// [`BuildError`], but for the one of writing.
+    pub fn source(&self) -> Result<Built, BuildError> {
+        let precisions = self.precisions()?;
+        let scheme = self.scheme.as_deref().unwrap_or(ExportScheme::default().name());
+        let scheme = ExportScheme::named(scheme, self.newton, self.damping.as_deref())
+            .map_err(BuildError::scheme)?;
+        let asked = self.step.as_deref().map(step).transpose()?;
+        // As it was given, in messages too, wherever cargo runs the script.
+        let called = self.scene.display().to_string();
+        let text = std::fs::read_to_string(self.path())
+            .map_err(|reason| SceneError::Unreadable { file: called.clone(), reason });
+        let mut scene =
+            text.and_then(|text| Scene::parse(&text, &called)).map_err(BuildError::Scene)?;
+        if self.without_tables {
+            scene.model.release_all();
+        }
+        let bound = frequency::bound(&scene.model, &State::initial(&scene.model));
+        let Some(step) = asked.or(scene.step) else {
+            let works = if bound > 0.0 { 1.0 / bound } else { scene.duration / 1000.0 };
+            return Err(BuildError::NoStep(called, display(crate::time::rounded(works, 2))));
+        };
+        let mut warnings: Vec<String> = scene
+            .warnings()
+            .into_iter()
+            .filter(|warning| warning.severity == Severity::Warning)
+            .map(|warning| {
+                let line = warning.line.map_or(String::new(), |line| format!(":{line}"));
+                format!("{called}{line}: {}: {}", warning.name, warning.text)
+            })
+            .collect();
+        let limit = scheme.stability_limit();
+        if bound * step > limit {
+            warnings.push(format!(
+                "{called}: the step of {} may be beyond what {} bears: ω·h = {:.3} with the bound of the \
+                 highest frequency at t = 0, the limit is {limit:.4}; a step of at most {}",
+                display(step),
+                scheme.name(),
+                bound * step,
+                display(crate::time::rounded(MARGIN * limit / bound, 2)),
+            ));
+        }
+        if precisions.contains(&ExportPrecision::F32) {
+            let single = step as f32;
+            if !(single > 0.0 && single.is_finite()) {
+                let message = format!("f32 does not hold the step of {}", display(step));
+                return Err(BuildError::Option(message, "a longer step, or f64".into()));
+            }
+            let held = scene.check_inputs::<F32>();
+            held.map_err(|error| BuildError::Input(called, error))?;
+        }
+        let source = source(&scene, &Export { precisions, scheme, step });
+        Ok(Built { scene, source, warnings })
+    }
+
+    fn path(&self) -> PathBuf {
+        let root = std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default();
+        Path::new(&root).join(&self.scene)
+    }
+
+    fn precisions(&self) -> Result<Vec<ExportPrecision>, BuildError> {
+        let mut precisions = Vec::new();
+        for name in &self.precisions {
+            let Some(one) = ExportPrecision::ALL.into_iter().find(|one| one.name() == name) else {
+                let message = format!("there is no precision \"{name}\"");
+                return Err(BuildError::Option(message, "f32 or f64".into()));
+            };
+            if !precisions.contains(&one) {
+                precisions.push(one);
+            }
+        }
+        if precisions.is_empty() {
+            precisions.push(ExportPrecision::F32);
+        }
+        Ok(precisions)
+    }
+}
+
+/// \[s\] a step as it was given.
+fn step(text: &str) -> Result<f64, BuildError> {
+    let wrong = |error: TimeError| {
+        BuildError::Option(format!("the step \"{text}\" is none"), error.to_string())
+    };
+    text.parse::<Time>().map(Time::seconds).map_err(wrong)
+}
+
+impl BuildError {
+    fn scheme(error: SchemeError) -> Self {
+        Self::Option(error.to_string(), error.help().to_owned())
+    }
+
+    /// The line that fails a build and that cargo shows.
+    #[must_use]
+    pub fn line(&self) -> String {
+        format!("cargo::error={}", on_one_line(&self.to_string()))
+    }
+}
+
+/// A message as cargo takes it.
+fn on_one_line(text: &str) -> String {
+    text.replace(['\n', '\r'], " ")
+}
+
+impl Display for BuildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scene(error) => {
+                // The message of a file that cannot be read names it itself.
+                if let (Some(line), Some(column)) = (error.line(), error.column()) {
+                    write!(f, "{}:{line}:{column}: ", error.file())?;
+                }
+                write!(f, "{} ({})", error.message(), error.help())
+            }
+            Self::Option(message, help) => write!(f, "{message} ({help})"),
+            Self::NoStep(file, works) => write!(
+                f,
+                "{file}: the scene gives no step, nor does the build script (`step = \"{works}\"` in the \
+                 scene, or `.step(\"{works}\")`)"
+            ),
+            Self::Input(file, error) => {
+                write!(f, "{file}:{}: {error} (a smaller value, or f64)", error.line)
+            }
+            Self::Write(file, reason) => write!(f, "cannot write {}: {reason}", file.display()),
+        }
+    }
+}
+
+impl std::error::Error for BuildError {}
+
+#[cfg(test)]
+mod tests;

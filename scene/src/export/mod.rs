@@ -1,0 +1,172 @@
+//! Rust source of a const model and of a plant made of it, for firmware.
+//!
+//! `(scene, precisions, scheme, step) => source text`. Every number is written as its bit pattern,
+//! so the model that the compiler evaluates has the bits of the run-time-sized one; the compiler
+//! checks every index ([`dbd_kernel::Model::checked`]). What a program has of it: the head of
+//! [`source`]. A build script calls [`build`](mod@crate::build), a person `host-sim export`.
+
+mod model;
+mod names;
+mod number;
+mod plant;
+mod preamble;
+mod rows;
+mod scheme;
+
+pub use model::model;
+pub use names::{constant_name, type_name};
+pub use number::SourceNumber;
+pub use preamble::preamble;
+pub use scheme::{ExportScheme, MOST_ITERATIONS, SchemeError};
+
+use crate::Scene;
+use crate::time::display;
+
+/// Stands before what a program need not use.
+const UNUSED: &str = "#[allow(dead_code)]\n";
+
+/// What every exported file begins with.
+pub const HEAD: &str = "// Written by dbd-scene from the scene ";
+
+/// Precisions that const models are written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ExportPrecision {
+    /// Double precision.
+    F64,
+    /// Single precision.
+    F32,
+}
+
+impl ExportPrecision {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::F64, Self::F32];
+
+    /// `f64` or `f32`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::F64 => "f64",
+            Self::F32 => "f32",
+        }
+    }
+}
+
+/// What is exported of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Export {
+    /// The precisions, in the order in which they are written.
+    pub precisions: Vec<ExportPrecision>,
+    /// The scheme of the plants.
+    pub scheme: ExportScheme,
+    /// \[s\] their step.
+    pub step: f64,
+}
+
+/// The whole source. For a scene `four-bar` in f32 it holds, each with its documentation:
+///
+/// - `FourBarF32`, `FOUR_BAR_F32`: the model's type and the model, in flash;
+/// - `FourBarPlantF32`, `plant_f32()`: the plant's type, and a plant at the initial state; in one
+///   precision also `FourBarPlant` and `plant()`;
+/// - `FOUR_BAR_STEP`, `FOUR_BAR_SCHEME`: the step \[s\] and the scheme;
+/// - `FOUR_BAR_BODY_CRANK`, `FOUR_BAR_INPUT_…`, `FOUR_BAR_READOUT_…_F32`: what the plant's calls take;
+/// - `FOUR_BAR_JOINT_A0_BODIES`, `…_GROUPS`, `…_FORCE_F32`: the bodies of a joint, its groups of
+///   elements, and the read-out of its force on its second body;
+/// - `FOUR_BAR_BODIES`, `…_JOINTS`, `…_INPUTS`, `…_TORSION_SPRINGS`: names by index.
+#[must_use]
+pub fn source(scene: &Scene, export: &Export) -> String {
+    let precisions: Vec<&str> = export.precisions.iter().map(|one| one.name()).collect();
+    let head = format!(
+        "{HEAD}{:?}: {}, {}, a step of {}.\n",
+        scene.name,
+        export.scheme.name(),
+        precisions.join(" and "),
+        display(export.step),
+    );
+    let mut text = head + &preamble::shared(scene, export.step) + &preamble::names(scene);
+    text += &plant::scheme(scene, &export.scheme);
+    for precision in &export.precisions {
+        match precision {
+            ExportPrecision::F64 => text += &parts::<f64>(scene, &export.scheme),
+            ExportPrecision::F32 => text += &parts::<f32>(scene, &export.scheme),
+        }
+    }
+    if let [only] = export.precisions[..] {
+        text += &plant::only(scene, only);
+    }
+    text
+}
+
+/// What there is of a precision.
+fn parts<R: SourceNumber>(scene: &Scene, scheme: &ExportScheme) -> String {
+    model::<R>(scene) + &model::joint_forces::<R>(scene) + &plant::plant::<R>(scene, scheme)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn export(precisions: &[ExportPrecision]) -> Export {
+        let scheme = ExportScheme::named("leapfrog", None, None).unwrap();
+        Export { precisions: precisions.into(), scheme, step: 2e-5 }
+    }
+
+    const ELEMENTS: &str = r#"
+        [[joint]]
+        name = "w1"
+        type = "revolute"
+        between = ["world", "arm"]
+        at = [0, 0, 0]
+        axis = [0, 0, 1]
+        stiffness = 40
+        span = 0.1
+        [[input]]
+        name = "motor"
+        type = "joint_torque"
+        target = "w1"
+        [[readout]]
+        name = "angle"
+        type = "joint_angle"
+        target = "w1"
+    "#;
+
+    #[test]
+    fn what_a_scene_names_are_constants_and_a_plant_is_one_call_away() {
+        let scene = crate::example::with(ELEMENTS);
+        let text = source(&scene, &export(&[ExportPrecision::F32]));
+        for part in [
+            "// Written by dbd-scene from the scene \"two bodies\": leapfrog, f32, a step of 20us.\n",
+            "pub const TWO_BODIES_BODY_HAND: BodyIndex = BodyIndex(1);",
+            "pub const TWO_BODIES_INPUT_MOTOR: InputIndex = InputIndex(0);",
+            "pub const TWO_BODIES_READOUT_ANGLE_F32: Readout<F32> = ",
+            "pub const TWO_BODIES_JOINT_W1_BODIES: [BodyIndex; 2] = [BodyIndex::WORLD, BodyIndex(0)];",
+            "pub const TWO_BODIES_JOINT_W1_GROUPS: core::ops::Range<u16> = 0..1;",
+            "pub const TWO_BODIES_JOINT_W1_FORCE_F32: Readout<F32> = Readout::JointForce { group: 0 };",
+            "pub type TwoBodiesPlantF32 = dbd_kernel::Plant<&'static TwoBodiesF32, dbd_kernel::schemes::Leapfrog>;",
+            "pub type TwoBodiesPlant = TwoBodiesPlantF32;",
+            "pub fn plant() -> Result<TwoBodiesPlant, dbd_kernel::plant::PlantError> {",
+            "pub const TWO_BODIES_STEP: f64 = f64::from_bits(0x3ef4f8b588e368f1);",
+        ] {
+            assert!(text.contains(part), "{part}: {text}");
+        }
+    }
+
+    /// Nothing is called `plant` where there are two.
+    #[test]
+    fn each_precision_has_a_plant_of_its_own() {
+        let scene = crate::example::with("");
+        let text = source(&scene, &export(&ExportPrecision::ALL));
+        assert!(text.contains("pub fn plant_f64()") && text.contains("pub fn plant_f32()"));
+        assert!(!text.contains("pub fn plant()") && !text.contains("TwoBodiesPlant ="));
+    }
+
+    /// The step that was asked for comes before the scene's.
+    #[test]
+    fn the_step_asked_for_is_the_plants() {
+        let text = "name = \"s\"\nduration = 1\nstep = 1e-3\n[[body]]\nname = \"b\"\nmass = 1\n\
+                    inertia = [1, 1, 1]\nposition = [0, 0, 0]\n";
+        let scene = Scene::parse(text, "s.toml").unwrap();
+        let line = |step: f64| format!("S_STEP: f64 = {};", step.number());
+        assert!(source(&scene, &export(&[ExportPrecision::F32])).contains(&line(2e-5)));
+        assert!(preamble(&scene, 2e-5).contains(&line(1e-3)));
+    }
+}

@@ -1,0 +1,99 @@
+//! Source of a const model.
+//!
+//! `(scene, precision) => type alias, static, read-outs`.
+
+use std::fmt::{Display, Write};
+
+use dbd_kernel::geometry::Float;
+use dbd_kernel::model::ModelOwner;
+use dbd_kernel::readouts::Readout;
+
+use super::UNUSED;
+use super::names::{constant_name, constant_names, quoted, type_name};
+use super::number::SourceNumber;
+use super::rows::{
+    body, bushing, group, input, knot, list, load, point_on_line, readout, state, torsion, tsda,
+    vector,
+};
+use crate::{Scene, SceneModel};
+
+/// Source of the scene's model in the precision of `R`: a type alias `FourBarF32` with the counts,
+/// a static `FOUR_BAR_F32` and a constant for each read-out, `FOUR_BAR_READOUT_ANGLE_F32`.
+#[must_use]
+pub fn model<R: SourceNumber>(scene: &Scene) -> String {
+    let model: SceneModel<Float<R>> = scene.model.convert();
+    let ty = format!("{}{}", type_name(&scene.name), R::TYPE);
+    let name = format!("{}_{}", constant_name(&scene.name), R::TYPE);
+    let counts = [
+        model.bodies.len(),
+        model.groups.len(),
+        model.points.len(),
+        model.tsdas.len(),
+        model.bushings.len(),
+        model.dampers.len(),
+        model.torsions.len(),
+        model.gravity.len(),
+        model.loads.len(),
+        model.lines.len(),
+        model.inputs.len(),
+        model.knots.len(),
+        model.clearances.len(),
+    ];
+    let counts = counts.map(|n| n.to_string()).join(", ");
+    let mut out = String::new();
+    let mut line = |text: &dyn Display| {
+        // Writing to a string cannot fail.
+        let _ = writeln!(out, "{text}");
+    };
+    line(&format_args!("/// The shape of the scene {}.", quoted(&scene.name)));
+    line(&format_args!("{UNUSED}pub type {ty} = Model<{}, {counts}>;", R::TYPE));
+    line(&format_args!("/// The scene {}.", quoted(&scene.name)));
+    line(&format_args!("{UNUSED}pub static {name}: {ty} = Model {{"));
+    line(&format_args!("    bodies: {},", list(&model.bodies, body::<R>)));
+    line(&format_args!("    initial: {},", list(model.initial(), state::<R>)));
+    line(&format_args!("    gravity: {},", list(&model.gravity, vector::<R>)));
+    line(&format_args!("    groups: {},", list(&model.groups, group)));
+    line(&format_args!("    points: {},", list(&model.points, vector::<R>)));
+    line(&format_args!("    tsdas: {},", list(&model.tsdas, tsda::<R>)));
+    line(&format_args!("    bushings: {},", list(&model.bushings, bushing::<R>)));
+    line(&format_args!("    dampers: {},", list(&model.dampers, |c| c.number())));
+    line(&format_args!("    torsions: {},", list(&model.torsions, torsion::<R>)));
+    line(&format_args!("    loads: {},", list(&model.loads, load::<R>)));
+    line(&format_args!("    lines: {},", list(&model.lines, point_on_line)));
+    line(&format_args!("    inputs: {},", list(&model.inputs, input)));
+    line(&format_args!("    knots: {},", list(&model.knots, knot)));
+    line(&format_args!("    clearances: {},", list(&model.clearances, |c| c.number())));
+    line(&"}");
+    line(&".checked();");
+    let names = constant_names(scene.readouts.iter().map(|readout| readout.name.as_str()));
+    for (info, constant) in scene.readouts.iter().zip(names) {
+        let scene = constant_name(&scene.name);
+        line(&format_args!("/// The read-out {}.", quoted(&info.name)));
+        line(&format_args!(
+            "{UNUSED}pub const {scene}_READOUT_{constant}_{}: Readout<{}> = {};",
+            R::TYPE,
+            R::TYPE,
+            readout(&info.readout.convert::<Float<R>>())
+        ));
+    }
+    out
+}
+
+/// The force of each joint on its second body: of its last group, which acts on that.
+pub(super) fn joint_forces<R: SourceNumber>(scene: &Scene) -> String {
+    let names = constant_names(scene.joints.iter().map(|joint| joint.name.as_str()));
+    let name = constant_name(&scene.name);
+    let joints = scene.joints.iter().zip(names);
+    let line = |(joint, constant): (&crate::JointInfo, String)| {
+        let force =
+            Readout::<Float<R>>::JointForce { group: joint.groups.end.checked_sub(1)? as u16 };
+        Some(format!(
+            "/// \\[N\\] the force of the joint {} on its second body, world.\n\
+             {UNUSED}pub const {name}_JOINT_{constant}_FORCE_{precision}: Readout<{precision}> = {};\n",
+            quoted(&joint.name),
+            readout(&force),
+            precision = R::TYPE,
+        ))
+    };
+    joints.filter_map(line).collect()
+}

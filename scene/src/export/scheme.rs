@@ -1,0 +1,198 @@
+//! The kernel's schemes by name, as source.
+//!
+//! `(name, Newton iterations, damping) => type, value`. Names are the kernel's own.
+
+use dbd_kernel::damping::Damping;
+use dbd_kernel::schemes::{
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, Leapfrog, Pefrl, Rk4, Scheme, SemiImplicitEuler,
+};
+
+use crate::nearest::nearest;
+
+/// Newton iterations that may be asked for: more change nothing but the stable step.
+pub const MOST_ITERATIONS: u32 = 8;
+
+/// All names, for messages.
+const NAMES: [&str; 8] = [
+    Dbd::NAME,
+    DbdP1::NAME,
+    DbdP2::NAME,
+    SemiImplicitEuler::NAME,
+    Leapfrog::NAME,
+    Pefrl::NAME,
+    BlanesMoanS6::NAME,
+    Rk4::NAME,
+];
+
+/// A scheme with its parameters, as source.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExportScheme {
+    name: &'static str,
+    damping: Damping,
+    stability_limit: f64,
+    /// The type's path.
+    pub(super) path: String,
+    /// The value's expression.
+    pub(super) value: String,
+}
+
+/// Why there is no such scheme.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
+pub struct SchemeError {
+    message: String,
+    help: String,
+}
+
+impl SchemeError {
+    /// What would be right.
+    #[must_use]
+    pub fn help(&self) -> &str {
+        &self.help
+    }
+}
+
+impl ExportScheme {
+    /// A scheme by its name, with Newton iterations for those that have them, and with another
+    /// damping than its own, `sweeps` or `explicit`, for those that have both.
+    ///
+    /// # Errors
+    /// Where there is no such scheme, or it has no such parameter.
+    pub fn named(
+        name: &str,
+        newton: Option<u32>,
+        damping: Option<&str>,
+    ) -> Result<Self, SchemeError> {
+        let refuse = |message: String, help: String| Err(SchemeError { message, help });
+        let swept = |word: &str| word == Damping::Sweeps.name();
+        if let Some(word) = damping
+            && !swept(word)
+            && word != Damping::Explicit.name()
+        {
+            let help = format!("{} or {}", Damping::Sweeps.name(), Damping::Explicit.name());
+            return refuse(format!("there is no damping \"{word}\""), help);
+        }
+        let iterations = newton.unwrap_or(0);
+        if iterations > MOST_ITERATIONS {
+            let message = format!("{iterations} Newton iterations are more than {MOST_ITERATIONS}");
+            return refuse(message, format!("at most {MOST_ITERATIONS}; more of them buy nothing"));
+        }
+        let explicit = damping.is_some_and(|word| !swept(word));
+        let with_newton = |name: &str| format!("{name} {{ newton: {iterations} }}");
+        let scheme = match name {
+            Dbd::NAME => Self::of(Dbd { newton: iterations }, "Dbd", &with_newton("Dbd")),
+            DbdP1::NAME => Self::of(DbdP1 { newton: iterations }, "DbdP1", &with_newton("DbdP1")),
+            DbdP2::NAME => Self::of(DbdP2 { newton: iterations }, "DbdP2", &with_newton("DbdP2")),
+            SemiImplicitEuler::NAME if explicit => {
+                Self::explicit(SemiImplicitEuler, "SemiImplicitEuler")
+            }
+            SemiImplicitEuler::NAME => Self::plain(SemiImplicitEuler, "SemiImplicitEuler"),
+            Leapfrog::NAME if explicit => Self::explicit(Leapfrog, "Leapfrog"),
+            Leapfrog::NAME => Self::plain(Leapfrog, "Leapfrog"),
+            Pefrl::NAME => Self::plain(Pefrl, "Pefrl"),
+            BlanesMoanS6::NAME => Self::plain(BlanesMoanS6, "BlanesMoanS6"),
+            Rk4::NAME => Self::plain(Rk4, "Rk4"),
+            _ => {
+                let meant = nearest(name, NAMES);
+                let meant = meant.map(|name| format!("did you mean {name}? ")).unwrap_or_default();
+                let help = format!("{meant}the schemes: {}", NAMES.join(", "));
+                return refuse(format!("there is no scheme \"{name}\""), help);
+            }
+        };
+        if newton.is_some() && !scheme.path.contains("Dbd") {
+            let message = format!("the scheme {name} has no Newton iterations");
+            return refuse(message, format!("dbd, dbd-p1 and dbd-p2 have; none for {name}"));
+        }
+        match damping {
+            Some(word) if word != scheme.damping.name() => refuse(
+                format!("the scheme {name} has no {word} damping, only {}", scheme.damping.name()),
+                format!("leapfrog and semi-implicit-euler have both; none for {name}"),
+            ),
+            _ => Ok(scheme),
+        }
+    }
+
+    fn plain<S: Scheme>(scheme: S, name: &str) -> Self {
+        Self::of(scheme, name, name)
+    }
+
+    fn explicit<S: dbd_kernel::schemes::Kicked>(scheme: S, name: &str) -> Self {
+        let path = "dbd_kernel::schemes::";
+        let (ty, value) = (format!("Explicit<{path}{name}>"), format!("Explicit({path}{name})"));
+        Self::of(Explicit(scheme), &ty, &value)
+    }
+
+    fn of<S: Scheme>(scheme: S, path: &str, value: &str) -> Self {
+        let within = |text: &str| format!("dbd_kernel::schemes::{text}");
+        Self {
+            name: S::NAME,
+            damping: S::DAMPING,
+            stability_limit: scheme.stability_limit(),
+            path: within(path),
+            value: within(value),
+        }
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// Largest stable `ω_max·h` of an undamped oscillator.
+    #[must_use]
+    pub fn stability_limit(&self) -> f64 {
+        self.stability_limit
+    }
+}
+
+impl Default for ExportScheme {
+    /// Leapfrog.
+    fn default() -> Self {
+        Self::plain(Leapfrog, "Leapfrog")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(name: &str, newton: Option<u32>, damping: Option<&str>) -> String {
+        let error = ExportScheme::named(name, newton, damping).unwrap_err();
+        format!("{error} ({})", error.help())
+    }
+
+    #[test]
+    fn schemes_are_written_with_their_parameters() {
+        let value = |name, newton, damping| {
+            let scheme = ExportScheme::named(name, newton, damping).unwrap();
+            (scheme.path, scheme.value)
+        };
+        let of = |path: &str, value: &str| (path.to_owned(), value.to_owned());
+        assert_eq!(
+            value("dbd", Some(2), None),
+            of("dbd_kernel::schemes::Dbd", "dbd_kernel::schemes::Dbd { newton: 2 }")
+        );
+        assert_eq!(
+            value("leapfrog", None, Some("explicit")),
+            of(
+                "dbd_kernel::schemes::Explicit<dbd_kernel::schemes::Leapfrog>",
+                "dbd_kernel::schemes::Explicit(dbd_kernel::schemes::Leapfrog)"
+            )
+        );
+        for name in NAMES {
+            assert_eq!(ExportScheme::named(name, None, None).unwrap().name(), name);
+        }
+        assert_eq!(ExportScheme::default(), ExportScheme::named("leapfrog", None, None).unwrap());
+    }
+
+    #[test]
+    fn what_there_is_not_is_refused_with_what_there_is() {
+        let unknown = refused("leap-frog", None, None);
+        assert!(unknown.contains("did you mean leapfrog?") && unknown.contains("blanes-moan-s6"));
+        assert!(refused("rk4", Some(0), None).contains("no Newton iterations"));
+        assert!(refused("dbd", Some(9), None).contains("at most 8"));
+        assert!(refused("dbd", None, Some("sweeps")).contains("no sweeps damping"));
+        assert!(refused("dbd", None, Some("none")).contains("sweeps or explicit"));
+    }
+}
