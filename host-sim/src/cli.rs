@@ -7,20 +7,21 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 use dbd_golden::{BandList, Blessing};
 use dbd_plant::time::Time;
-use dbd_plant::{DampingName, Method, Named, OrientationName, PrecisionName, SchemeName};
+use dbd_plant::{DampingName, Method, Named as _, OrientationName, PrecisionName, SchemeName};
 use dbd_study::{Phase, files};
 
+use crate::arguments::names;
 use crate::commands::check::check;
 use crate::commands::completions::script;
-use crate::commands::export::{ExportPrecision, export};
+use crate::commands::export::{self, ExportArguments};
 use crate::commands::folder::Destination;
 use crate::commands::golden::GoldenOptions;
 use crate::commands::list::list;
+use crate::commands::new::{self, NewCommand};
 use crate::commands::run::{Outcome, RunOptions, run};
 use crate::commands::stability::StabilityCheck;
 use crate::commands::trade::{TradeRequest, json as survey_json, trade};
@@ -53,27 +54,16 @@ enum Command {
     /// Surveys speed against accuracy: writes OUT/SCENE/trade.{csv,svg,html,json}, trade-cortex-m4f.svg
     /// where steps were counted, and trade-*.cache; prints what to choose
     Trade(TradeArguments),
-    /// Prints Rust source of a scene's const model, for a firmware
-    Export {
-        #[command(flatten)]
-        scene: SceneArgument,
-        /// The model's precision [default: all]
-        #[arg(long, value_enum)]
-        precision: Option<ExportPrecision>,
-    },
+    /// Prints Rust source of a scene's const model and of its plant, for a firmware
+    Export(ExportArguments),
+    /// Writes a new project that builds and runs as it is
+    #[command(subcommand, disable_help_subcommand = true)]
+    New(NewCommand),
     /// Prints a script that completes commands, options and scenes for a shell
     Completions {
         /// The shell
         shell: Shell,
     },
-}
-
-/// Takes a choice by its name; what it is shows in the help.
-fn names<N: Named + Send + Sync>() -> impl TypedValueParser<Value = N> {
-    let values =
-        N::ALL.iter().map(|choice| PossibleValue::new(choice.name()).help(choice.summary()));
-    PossibleValuesParser::new(values)
-        .try_map(|name| N::of_name(&name).ok_or("there is no such name"))
 }
 
 #[derive(Debug, Args)]
@@ -211,8 +201,10 @@ where
         Command::Run(arguments) => run_scene(&catalogue, &arguments, console),
         Command::Check(arguments) => check_scene(&catalogue, &arguments, console),
         Command::Trade(arguments) => trade_scene(&catalogue, &arguments, console),
-        Command::Export { scene, precision } => {
-            export_scene(&catalogue, &scene.scene, precision, console)
+        Command::Export(arguments) => export_scene(&catalogue, &arguments, console),
+        Command::New(NewCommand::Firmware(arguments)) => {
+            let said = new::firmware(&arguments, |scene| catalogue.load(scene));
+            said.and_then(|said| Ok(console.print(&said).map(|()| Exit::Done)?))
         }
         Command::Completions { shell } => complete(&catalogue, shell, console),
     };
@@ -254,7 +246,7 @@ fn run_scene(
     let method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
     let method = damped(method, arguments.damping)?.with_orientation(arguments.orientation);
     method.check_built()?;
-    let Found { scene, file } = catalogue.load(&arguments.scene.scene)?;
+    let Found { scene, file, .. } = catalogue.load(&arguments.scene.scene)?;
     let options = RunOptions {
         method,
         step: arguments.step.map(Time::seconds),
@@ -339,7 +331,7 @@ fn trade_scene(
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
     let called = &arguments.scene.scene;
-    let Found { scene, file } = catalogue.load(called)?;
+    let Found { scene, file, .. } = catalogue.load(called)?;
     of_scene(&scene).iter().filter(|_| !arguments.quiet).for_each(|w| console.warn(w));
     let destination = arguments.results.destination(&file);
     let request = TradeRequest {
@@ -376,11 +368,14 @@ fn trade_scene(
 
 fn export_scene(
     catalogue: &Catalogue,
-    scene: &str,
-    precision: Option<ExportPrecision>,
+    arguments: &ExportArguments,
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
-    console.print(&export(&catalogue.load(scene)?.scene, precision)?)?;
+    let text = export::export(&catalogue.load(&arguments.scene)?.scene, &arguments.options)?;
+    match &arguments.out {
+        Some(file) => export::write(file, &text)?,
+        None => console.print(&text)?,
+    }
     Ok(Exit::Done)
 }
 

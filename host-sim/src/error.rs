@@ -5,6 +5,8 @@ use dbd_study::SurveyError;
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::commands::export::ExportError;
+use crate::commands::new::NewError;
 use crate::commands::run::RunError;
 use crate::commands::trade::TradeError;
 use crate::terminal::console::OutputError;
@@ -25,6 +27,14 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Plant(#[from] PlantError),
+    /// A scene was not exported.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Export(#[from] ExportError),
+    /// There is no new project.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    New(#[from] NewError),
     /// A run was refused, or its results could not be written.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -45,6 +55,10 @@ impl Error {
     pub fn exit(&self) -> Exit {
         match self {
             Self::Load(_) | Self::Method(_) | Self::Plant(_) => Exit::Refused,
+            Self::Export(ExportError::Write { .. }) | Self::New(NewError::Write { .. }) => {
+                Exit::Failed
+            }
+            Self::Export(_) | Self::New(_) => Exit::Refused,
             Self::Output(_) => Exit::Failed,
             Self::Run(error) => match error {
                 RunError::Plan(_)

@@ -7,10 +7,12 @@
 //! - [`simulate`]: a planned run, sample by sample; where one failed and which step works.
 //! - [`compliance`]: how far joints give way under the forces at t = 0.
 //! - [`report`]: what is left of a run: trace, summary, page.
-//! - [`commands`]: `list`, `check`, `run`, `trade`, `export`, `completions`.
+//! - [`arguments`]: what several commands take.
+//! - [`commands`]: `list`, `check`, `run`, `trade`, `export`, `new`, `completions`.
 //! - [`error`]: what ends a command early.
 //! - [`cli`]: arguments in, exit code out.
 
+pub mod arguments;
 pub mod cli;
 pub mod commands;
 pub mod compliance;

@@ -2,6 +2,7 @@
 
 mod check;
 mod golden;
+mod new;
 mod refusal;
 mod results;
 mod run;

@@ -1,31 +1,144 @@
-//! `host-sim export`: Rust source of a scene's const model.
+//! `host-sim export`: Rust source of a scene's const model and of its plant.
 //!
-//! `(scene, precisions) => source`. The constant of the step is the scene's, else the default one
-//! before it is shortened to fit.
+//! `(scene, precisions, scheme, step) => source`, the one that a build script writes
+//! ([`dbd_scene::Build`]). The constant of the step is the one asked for, else the scene's, else the
+//! default one before it is shortened to fit.
 
-use dbd_plant::plant::check_inputs;
-use dbd_plant::{Frequencies, Method, PlantError, PrecisionName, SchemeName};
-use dbd_scene::{Scene, export as source};
+use std::fmt;
+use std::io::{self, BufRead as _, Write as _};
+use std::path::{Path, PathBuf};
 
-/// The source of a scene's const model in these precisions, f64 and f32 where none is named.
+use clap::{Args, ValueHint};
+use dbd_output::file::PendingFile;
+use dbd_plant::plant::{check_inputs, check_step};
+use dbd_plant::time::Time;
+use dbd_plant::{
+    DampingName, Frequencies, Method, Named as _, PlantError, PrecisionName, SchemeName,
+};
+use dbd_scene::Scene;
+use dbd_scene::export::{self as source, ExportScheme, HEAD, SchemeError};
+use miette::Diagnostic;
+use thiserror::Error;
+
+use crate::arguments::names;
+
+/// What is exported, and where to.
+#[derive(Clone, Debug, Args)]
+pub struct ExportArguments {
+    /// A scene by name (see list), a path to a .toml file, or - for standard input
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub scene: String,
+    /// What is exported of it
+    #[command(flatten)]
+    pub options: ExportOptions,
+    /// Write to this file, whole or not at all, instead of to standard output
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub out: Option<PathBuf>,
+}
+
+/// What is exported of a scene.
+#[derive(Clone, Debug, Default, Args)]
+pub struct ExportOptions {
+    /// The model's precision [default: all]
+    #[arg(long, value_enum)]
+    pub precision: Option<ExportPrecision>,
+    /// Time-stepping scheme of the plant
+    #[arg(long, value_parser = names::<SchemeName>(), default_value = SchemeName::default().name())]
+    pub scheme: SchemeName,
+    /// Newton iterations per step of the dbd schemes, at most 8 [default: 0]
+    #[arg(long, value_name = "N")]
+    pub newton: Option<u32>,
+    /// How dampers act [default: the scheme's own]
+    #[arg(long, value_parser = names::<DampingName>())]
+    pub damping: Option<DampingName>,
+    /// Step, e.g. 20us [default: the scene's, else the advised one]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub step: Option<Time>,
+}
+
+/// Why a scene was not exported.
+#[derive(Debug, Error)]
+pub enum ExportError {
+    /// There is no such scheme.
+    #[error(transparent)]
+    Scheme(#[from] SchemeError),
+    /// A precision cannot hold the step or what an input is given.
+    #[error(transparent)]
+    Plant(#[from] PlantError),
+    /// The file holds something else.
+    #[error("{} holds what host-sim has not exported", file.display())]
+    Taken {
+        /// The file.
+        file: PathBuf,
+    },
+    /// The file cannot be written.
+    #[error("cannot write {}: {reason}", file.display())]
+    Write {
+        /// The file.
+        file: PathBuf,
+        /// Why; part of the message and therefore not a source, which would say it twice.
+        reason: io::Error,
+    },
+}
+
+impl Diagnostic for ExportError {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        match self {
+            Self::Scheme(error) => Some(Box::new(error.help())),
+            Self::Plant(error) => error.help(),
+            Self::Taken { .. } => Some(Box::new("--out takes another name, or remove that file")),
+            Self::Write { .. } => None,
+        }
+    }
+}
+
+/// The source of a scene's const model and its plant, in f64 and f32 where no precision is named.
 ///
 /// # Errors
-/// [`PlantError::Input`] where single precision cannot hold what an input is given.
-pub fn export(scene: &Scene, precision: Option<ExportPrecision>) -> Result<String, PlantError> {
-    let step = Frequencies::of(scene).default_limit(scene.duration);
-    let mut text = source::preamble(scene, step);
+/// [`ExportError`], but for those of files.
+pub fn export(scene: &Scene, options: &ExportOptions) -> Result<String, ExportError> {
+    let damping = options.damping.map(DampingName::name);
+    let scheme = ExportScheme::named(options.scheme.name(), options.newton, damping)?;
+    let step = options.step.map(Time::seconds).or(scene.step);
+    let step = step.unwrap_or_else(|| Frequencies::of(scene).default_limit(scene.duration));
+    let asked = |one: &ExportPrecision| options.precision.is_none_or(|asked| asked == *one);
     let all = [ExportPrecision::F64, ExportPrecision::F32];
-    for precision in all.into_iter().filter(|one| precision.is_none_or(|asked| asked == *one)) {
-        text += &match precision {
-            ExportPrecision::F64 => source::model::<f64>(scene),
-            ExportPrecision::F32 => {
-                let single = Method::new(SchemeName::default(), None, PrecisionName::F32);
-                check_inputs(scene, &single?)?;
-                source::model::<f32>(scene)
-            }
-        };
+    let precisions: Vec<ExportPrecision> = all.into_iter().filter(asked).collect();
+    for precision in &precisions {
+        let method = Method::default().with_precision(precision.name());
+        check_step(&method, step)?;
+        check_inputs(scene, &method)?;
     }
-    Ok(text)
+    let precisions = precisions.into_iter().map(ExportPrecision::source).collect();
+    Ok(source::source(scene, &source::Export { precisions, scheme, step }))
+}
+
+/// Writes exported source to a file, in place of an older one.
+///
+/// # Errors
+/// [`ExportError::Taken`] where the file is none that was exported, [`ExportError::Write`].
+pub fn write(file: &Path, text: &str) -> Result<(), ExportError> {
+    if file.exists() && !is_exported(file) {
+        return Err(ExportError::Taken { file: file.to_owned() });
+    }
+    let written = || {
+        let name = file.file_name().and_then(|name| name.to_str());
+        let name = name.ok_or_else(|| io::Error::other("it is no file's name"))?;
+        let folder = file.parent().filter(|folder| *folder != Path::new(""));
+        let mut pending = PendingFile::create(folder.unwrap_or(Path::new(".")), name)?;
+        pending.write_all(text.as_bytes())?;
+        pending.complete()
+    };
+    written().map_err(|reason| ExportError::Write { file: file.to_owned(), reason })
+}
+
+/// Whether a file begins as exported source does; an empty one holds nothing to lose.
+fn is_exported(file: &Path) -> bool {
+    let Ok(content) = std::fs::File::open(file) else { return false };
+    let mut line = Vec::new();
+    // Enough for the head of any name.
+    let read = io::Read::take(io::BufReader::new(content), 4096).read_until(b'\n', &mut line);
+    read.is_ok_and(|count| count == 0 || line.starts_with(HEAD.as_bytes()))
 }
 
 /// Precisions that const models are written in.
@@ -35,4 +148,49 @@ pub enum ExportPrecision {
     F64,
     /// Single precision.
     F32,
+}
+
+impl ExportPrecision {
+    fn name(self) -> PrecisionName {
+        match self {
+            Self::F64 => PrecisionName::F64,
+            Self::F32 => PrecisionName::F32,
+        }
+    }
+
+    fn source(self) -> source::ExportPrecision {
+        match self {
+            Self::F64 => source::ExportPrecision::F64,
+            Self::F32 => source::ExportPrecision::F32,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What steps on the PC can be exported, and nothing else.
+    #[test]
+    fn a_plant_has_the_schemes_that_run_on_the_pc() {
+        for scheme in SchemeName::ALL {
+            for newton in [None, Some(0), Some(8), Some(9)] {
+                for damping in [None, Some(DampingName::Sweeps), Some(DampingName::Explicit)] {
+                    let method = Method::new(*scheme, newton, PrecisionName::F64)
+                        .and_then(|method| damping.map_or(Ok(method), |d| method.with_damping(d)));
+                    let damping = damping.map(DampingName::name);
+                    let exported = ExportScheme::named(scheme.name(), newton, damping);
+                    assert_eq!(
+                        method.is_ok(),
+                        exported.is_ok(),
+                        "{scheme:?} {newton:?} {damping:?}"
+                    );
+                    if let (Ok(method), Ok(exported)) = (method, exported) {
+                        assert_eq!(method.scheme_name(), exported.name());
+                        assert_eq!(method.stability_limit(), exported.stability_limit());
+                    }
+                }
+            }
+        }
+    }
 }

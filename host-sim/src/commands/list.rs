@@ -36,7 +36,7 @@ pub fn list(
     let mut entries = Vec::new();
     for name in catalogue.names() {
         match catalogue.load(&name) {
-            Ok(Found { scene, file }) => entries.push(Entry {
+            Ok(Found { scene, file, .. }) => entries.push(Entry {
                 name,
                 bodies: scene.body_names.len(),
                 tsdas: scene.model.tsda_count(),

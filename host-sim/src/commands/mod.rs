@@ -7,7 +7,8 @@
 //! - [`golden`]: a run beside a golden file.
 //! - [`run`]: a scene becomes a trace, a summary and a report.
 //! - [`trade`]: speed against accuracy.
-//! - [`export`]: Rust source of a scene's const model.
+//! - [`export`]: Rust source of a scene's const model and its plant.
+//! - [`new`]: a project with a plant in firmware.
 //! - [`completions`]: a script for a shell.
 
 pub mod check;
@@ -16,6 +17,7 @@ pub mod export;
 pub mod folder;
 pub mod golden;
 pub mod list;
+pub mod new;
 pub mod run;
 pub mod stability;
 pub mod trade;

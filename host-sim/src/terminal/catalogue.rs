@@ -37,6 +37,8 @@ pub struct Found {
     pub scene: Scene,
     /// Its text's origin.
     pub file: SceneFile,
+    /// The text.
+    pub text: String,
 }
 
 /// Where a scene's text comes from.
@@ -175,7 +177,8 @@ impl Catalogue {
         match built_in::SCENES.iter().find(|(name, _)| *name == called) {
             Some((name, text)) => {
                 let file = SceneFile::new((*name).into(), BUILT_IN.into(), text);
-                Ok(Found { scene: Scene::parse(text, &format!("{name}.toml"))?, file })
+                let scene = Scene::parse(text, &format!("{name}.toml"))?;
+                Ok(Found { scene, file, text: (*text).into() })
             }
             None => Err(UnknownScene { name: called.into(), known: self.names() }.into()),
         }
@@ -192,7 +195,7 @@ fn from_file(path: &Path) -> Result<Found, LoadError> {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let whole = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let file = SceneFile::new(stem, whole.display().to_string(), &text);
-    Ok(Found { scene, file })
+    Ok(Found { scene, file, text })
 }
 
 fn from_standard_input() -> Result<Found, LoadError> {
@@ -203,7 +206,7 @@ fn from_standard_input() -> Result<Found, LoadError> {
     };
     let scene = Scene::parse(&text, place)?;
     let file = SceneFile::new(scene.name.clone(), place.into(), &text);
-    Ok(Found { scene, file })
+    Ok(Found { scene, file, text })
 }
 
 fn is_path(scene: &str) -> bool {

@@ -1,0 +1,312 @@
+//! `host-sim new firmware`: a project with a plant in firmware, which builds and runs as it is.
+//!
+//! `(name, scene) => folder`. The files are those of `templates/firmware/`, with what the scene
+//! tells in place of `{{…}}`; the golden bits are those of a run of the scene here.
+
+mod dependencies;
+mod folder;
+mod name;
+
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Subcommand};
+use dbd_plant::time::{display, rounded};
+use dbd_plant::{Frequencies, Method, PlantError, PrecisionName, plant};
+use dbd_scene::Scene;
+use dbd_scene::export::{constant_name, type_name};
+use miette::Diagnostic;
+use thiserror::Error;
+
+use crate::terminal::Found;
+use dependencies::Dependencies;
+
+pub use name::NameError;
+
+/// The scene of a project that names none.
+pub const SCENE: &str = "cart-pendulum";
+
+/// Most steps of the golden run: a second or two in QEMU.
+const MOST_STEPS: u64 = 10_000;
+
+/// Constants that the project's page shows of a kind.
+const SHOWN: usize = 6;
+
+/// Files of a project and what they are made from.
+const TEMPLATES: &[(&str, &str)] = &[
+    ("Cargo.toml", include_str!("../../../templates/firmware/Cargo.toml.in")),
+    ("build.rs", include_str!("../../../templates/firmware/build.rs.in")),
+    ("memory.x", include_str!("../../../templates/firmware/memory.x.in")),
+    (".cargo/config.toml", include_str!("../../../templates/firmware/config.toml.in")),
+    (".gitignore", include_str!("../../../templates/firmware/gitignore.in")),
+    ("README.md", include_str!("../../../templates/firmware/README.md.in")),
+    ("src/lib.rs", include_str!("../../../templates/firmware/lib.rs.in")),
+    ("src/main.rs", include_str!("../../../templates/firmware/main.rs.in")),
+    ("tests/golden.rs", include_str!("../../../templates/firmware/golden.rs.in")),
+];
+
+/// What is new.
+#[derive(Clone, Debug, Subcommand)]
+pub enum NewCommand {
+    /// Writes a project with a scene as a plant in firmware: builds, runs in QEMU and on the PC
+    Firmware(FirmwareArguments),
+}
+
+/// A project for firmware.
+#[derive(Clone, Debug, Args)]
+pub struct FirmwareArguments {
+    /// The project's name, or a path to its folder, which must not exist yet
+    pub name: PathBuf,
+    /// A scene by name (see list) or a path to a .toml file; the project gets a copy
+    #[arg(long, default_value = SCENE)]
+    pub scene: String,
+    /// Depend on published crates, even where the sources of this program are on this machine
+    #[arg(long)]
+    pub registry: bool,
+}
+
+/// Why there is no project.
+#[derive(Debug, Error)]
+pub enum NewError {
+    /// It cannot be called so.
+    #[error(transparent)]
+    Name(#[from] NameError),
+    /// Something has its folder's name.
+    #[error("there is something called {} already", folder.display())]
+    Taken {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// Single precision cannot hold the scene.
+    #[error(transparent)]
+    Plant(#[from] PlantError),
+    /// The scene fails within the golden run.
+    #[error("the scene {scene} fails in f32: {failure}")]
+    Fails {
+        /// The scene.
+        scene: String,
+        /// Where.
+        failure: String,
+    },
+    /// The project cannot be written.
+    #[error("cannot write to {}: {reason}", folder.display())]
+    Write {
+        /// The folder.
+        folder: PathBuf,
+        /// Why; part of the message and therefore not a source, which would say it twice.
+        reason: io::Error,
+    },
+}
+
+impl Diagnostic for NewError {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        match self {
+            Self::Name(error) => error.help(),
+            Self::Plant(error) => error.help(),
+            Self::Taken { .. } => Some(Box::new("another name; nothing is ever overwritten")),
+            Self::Fails { scene, .. } => {
+                let help = format!("host-sim run {scene} --precision f32 finds a step that works");
+                Some(Box::new(help))
+            }
+            Self::Write { .. } => None,
+        }
+    }
+}
+
+/// A project's name and folder.
+struct Place<'p> {
+    name: &'p str,
+    folder: &'p Path,
+}
+
+impl<'p> Place<'p> {
+    fn of(folder: &'p Path) -> Result<Self, NameError> {
+        let name = folder.file_name().and_then(|name| name.to_str());
+        let name = name.or(folder.to_str()).unwrap_or_default();
+        name::check(name).map(|()| Self { name, folder })
+    }
+}
+
+/// Writes a project and says what to type next.
+///
+/// # Errors
+/// [`NewError`]; nothing is written then.
+pub fn firmware(
+    arguments: &FirmwareArguments,
+    load: impl FnOnce(&str) -> Result<Found, crate::terminal::LoadError>,
+) -> Result<String, crate::error::Error> {
+    let place = Place::of(&arguments.name).map_err(NewError::from)?;
+    let found = load(&arguments.scene)?;
+    let dependencies = Dependencies::of(arguments.registry);
+    Ok(project(&place, &found, &dependencies)?)
+}
+
+fn project(
+    place: &Place<'_>,
+    found: &Found,
+    dependencies: &Dependencies,
+) -> Result<String, NewError> {
+    let scene = &found.scene;
+    let advised = || rounded(Frequencies::of(scene).default_limit(scene.duration), 2);
+    let step = scene.step.unwrap_or_else(advised);
+    let steps = ((scene.duration / step).round() as u64).clamp(1, MOST_STEPS);
+    let golden = golden(scene, step, steps)?;
+    let stem = &plain(&found.file.stem);
+    let file = format!("scenes/{stem}.toml");
+    let method = format!("leapfrog, f32, a step of {}", display(step));
+    let build = match scene.step {
+        Some(_) => format!("dbd_scene::build({file:?});"),
+        None => format!("dbd_scene::Build::scene({file:?}).step({:?}).write();", display(step)),
+    };
+    let values: &[(&str, String)] = &[
+        ("name", place.name.to_owned()),
+        ("crate", place.name.replace('-', "_")),
+        ("rust_version", env!("CARGO_PKG_RUST_VERSION").to_owned()),
+        ("kernel", dependencies.kernel.clone()),
+        ("scene_crate", dependencies.scene.clone()),
+        ("origin", dependencies.origin.clone()),
+        ("build", build),
+        ("scene", scene.name.clone()),
+        ("stem", stem.clone()),
+        ("type", type_name(&scene.name)),
+        ("steps", steps.to_string()),
+        ("method", method),
+        ("hints", hints(scene)),
+        ("constants", constants(scene)),
+    ];
+    let mut files: Vec<(PathBuf, String)> = TEMPLATES
+        .iter()
+        .map(|(path, template)| (PathBuf::from(path), filled(template, values)))
+        .collect();
+    files.push((PathBuf::from(&file), found.text.clone()));
+    files.push((PathBuf::from("tests/golden.txt"), golden));
+    let folder = place.folder;
+    folder::write(folder, &files).map_err(|reason| match reason.kind() {
+        io::ErrorKind::AlreadyExists => NewError::Taken { folder: folder.to_owned() },
+        _ => NewError::Write { folder: folder.to_owned(), reason },
+    })?;
+    Ok(format!(
+        "{0}: the scene {1} as a plant in firmware; {2}\n\n  cd {0}\n  cargo test    golden bits on the \
+         PC\n  cargo qemu    the same bits on a Cortex-M4F in QEMU; README.md says what to install\n",
+        folder.display(),
+        scene.name,
+        dependencies.origin,
+    ))
+}
+
+/// A file name that stands in source and in paths as it is.
+fn plain(stem: &str) -> String {
+    let plain = |c: char| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '-' };
+    let name: String = stem.chars().map(plain).collect();
+    if name.starts_with(|c: char| c.is_ascii_alphanumeric()) {
+        name
+    } else {
+        format!("scene{name}")
+    }
+}
+
+/// A template with its values. No value is looked through for names: a scene may hold anything.
+fn filled(template: &str, values: &[(&str, String)]) -> String {
+    let mut text = String::new();
+    let mut rest = template;
+    while let Some((before, name, after)) = placeholder(rest) {
+        text += before;
+        match values.iter().find(|(known, _)| *known == name) {
+            Some((_, value)) => text += value,
+            // Braces of the template's own.
+            None => text += &format!("{{{{{name}}}}}"),
+        }
+        rest = after;
+    }
+    text + rest
+}
+
+/// What stands before the first `{{name}}`, its name, and what stands behind it.
+fn placeholder(text: &str) -> Option<(&str, &str, &str)> {
+    let (before, rest) = text.split_once("{{")?;
+    let (name, after) = rest.split_once("}}")?;
+    Some((before, name, after))
+}
+
+/// Lines `STEPS HASH` after 1, 10, 100, … steps and at the end, as the project's own run shows them.
+fn golden(scene: &Scene, step: f64, steps: u64) -> Result<String, NewError> {
+    let method = Method::default().with_precision(PrecisionName::F32);
+    let mut plant = plant(scene, &method, step)?;
+    let (mut lines, mut next, mut done) = (String::new(), 1, 0);
+    while done < steps {
+        let count = next.min(steps) - done;
+        if let Err(failure) = plant.advance(count).ok() {
+            let scene = scene.name.clone();
+            return Err(NewError::Fails { scene, failure: failure.to_string() });
+        }
+        done += count;
+        lines += &format!("{done} {:016x}\n", plant.hash());
+        next = next.saturating_mul(10);
+    }
+    Ok(lines)
+}
+
+/// Calls of a controller, for the scene's first read-out and input.
+fn hints(scene: &Scene) -> String {
+    let prefix = constant_name(&scene.name);
+    let readout = scene.readouts.first().map(|readout| {
+        let name = constant_name(&readout.name);
+        format!("/// plant.read(&model::{prefix}_READOUT_{name}_F32)\n")
+    });
+    let input = scene.inputs.iter().find(|input| !input.table).map(|input| {
+        let name = constant_name(&input.name);
+        format!("/// plant.set_input_real(model::{prefix}_INPUT_{name}, 0.0)\n")
+    });
+    let calls: String = readout.into_iter().chain(input).collect();
+    if calls.is_empty() { calls } else { format!("///\n/// ```text\n{calls}/// ```\n") }
+}
+
+/// The constants that a controller takes, for the project's page.
+fn constants(scene: &Scene) -> String {
+    let prefix = constant_name(&scene.name);
+    let row = |what: &str, names: Vec<String>| {
+        let more = if names.len() > SHOWN { ", …" } else { "" };
+        let shown: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
+        (!names.is_empty()).then(|| format!("| {what} | {}{more} |\n", shown.join(", ")))
+    };
+    let name =
+        |kind: &str, name: &str, end: &str| format!("{prefix}_{kind}_{}{end}", constant_name(name));
+    let inputs = scene.inputs.iter().map(|one| name("INPUT", &one.name, "")).collect();
+    let readouts = scene.readouts.iter().map(|one| name("READOUT", &one.name, "_F32")).collect();
+    let bodies = scene.body_names.iter().map(|one| name("BODY", one, "")).collect();
+    let joints = scene.joints.iter().map(|one| name("JOINT", &one.name, "_FORCE_F32")).collect();
+    let rows = [
+        row("inputs", inputs),
+        row("read-outs", readouts),
+        row("bodies", bodies),
+        row("forces of joints", joints),
+    ];
+    let rows: String = rows.into_iter().flatten().collect();
+    format!("In `model`, beside the plant:\n\n| what | constants |\n|---|---|\n{rows}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn templates_are_filled_once() {
+        let values = [("a", "{{b}}".to_owned()), ("b", "2".to_owned())];
+        assert_eq!(filled("{{a}} {{b}} {{c}} {{", &values), "{{b}} 2 {{c}} {{");
+    }
+
+    /// Nothing is left to be filled in, and nothing is asked for that is not there.
+    #[test]
+    fn every_name_in_a_template_is_known() {
+        let here = tempfile::tempdir().unwrap();
+        let folder = here.path().join("plant");
+        let found = crate::terminal::Catalogue::default().load("gyroscope").unwrap();
+        let place = Place::of(&folder).unwrap();
+        project(&place, &found, &Dependencies::of(true)).unwrap();
+        for (path, _) in TEMPLATES {
+            let text = std::fs::read_to_string(folder.join(path)).unwrap();
+            assert!(!text.contains("{{"), "{path}: {text}");
+        }
+    }
+}

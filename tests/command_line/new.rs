@@ -1,0 +1,124 @@
+//! `new firmware` and `export`: what is written, and what is refused. That the project builds and
+//! runs is a step of `cargo xtask test`.
+
+use std::fs;
+use std::path::Path;
+
+use dbd_scene::Build;
+use host_sim::terminal::Exit;
+
+use crate::{Folder, call};
+
+fn new(folder: &Path, options: &[&str]) -> crate::Done {
+    call(&[&["new", "firmware", folder.to_str().unwrap()], options].concat())
+}
+
+#[test]
+fn a_new_project_is_whole_and_stands_alone() {
+    let folder = Folder::new();
+    let project = folder.path("my-plant");
+    let done = new(&project, &[]);
+    assert_eq!((done.exit, done.err.as_str()), (Exit::Done, ""));
+    let read = |path: &str| fs::read_to_string(project.join(path)).unwrap();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let shipped = fs::read_to_string(root.join("scenes/cart-pendulum.toml")).unwrap();
+    assert_eq!(read("scenes/cart-pendulum.toml"), shipped);
+    let manifest: toml::Table = read("Cargo.toml").parse().unwrap();
+    assert!(manifest["workspace"].as_table().unwrap().is_empty());
+    assert_eq!(manifest["package"]["name"].as_str(), Some("my-plant"));
+    let kernel = manifest["dependencies"]["dbd-kernel"]["path"].as_str().unwrap();
+    assert!(Path::new(kernel).join("Cargo.toml").is_file());
+    let configuration: toml::Table = read(".cargo/config.toml").parse().unwrap();
+    let own: toml::Table =
+        fs::read_to_string(root.join(".cargo/config.toml")).unwrap().parse().unwrap();
+    // The emulator is the one that the firmware of this repository runs in.
+    assert_eq!(configuration["target"], own["target"]);
+    for sources in ["src/lib.rs", "src/main.rs", "tests/golden.rs", "build.rs"] {
+        syn::parse_file(&read(sources)).unwrap_or_else(|error| panic!("{sources}: {error}"));
+    }
+    for path in ["README.md", "memory.x", ".gitignore"] {
+        assert!(!read(path).contains("{{"), "{path}");
+    }
+    // The bits are those of `run`.
+    let last = read("tests/golden.txt").lines().last().unwrap().to_owned();
+    let run = folder.summary("cart-pendulum", &["--precision", "f32", "--duration", "5s"]);
+    assert_eq!(last, format!("{} {}", run["steps"], run["state_hash"].as_str().unwrap()));
+    // Nothing is ever overwritten, not even what is empty.
+    let again = new(&project, &[]);
+    assert_eq!(again.exit, Exit::Refused);
+    assert!(again.err.contains("already") && again.err.contains("another name"), "{}", again.err);
+    fs::create_dir(folder.path("empty")).unwrap();
+    assert_eq!(new(&folder.path("empty"), &[]).exit, Exit::Refused);
+}
+
+#[test]
+fn a_project_has_the_scene_that_is_asked_for() {
+    let folder = Folder::new();
+    let text = "name = \"a ball\"\nduration = 1\n[[body]]\nname = \"b\"\nmass = 1\n\
+                inertia = [1, 1, 1]\nposition = [0, 0, 0]\n";
+    let scene = folder.scene(text);
+    let project = folder.path("ball");
+    let done = new(&project, &["--scene", &scene, "--registry"]);
+    assert_eq!((done.exit, done.err.as_str()), (Exit::Done, ""));
+    let read = |path: &str| fs::read_to_string(project.join(path)).unwrap();
+    assert_eq!(read("scenes/scene.toml"), text);
+    // The scene gives no step: the build script does.
+    assert!(
+        read("build.rs").contains("Build::scene(\"scenes/scene.toml\").step(\"1ms\").write();")
+    );
+    assert!(read("src/lib.rs").contains("use model::ABallPlant;"));
+    let manifest: toml::Table = read("Cargo.toml").parse().unwrap();
+    assert!(manifest["build-dependencies"]["dbd-scene"].is_str());
+}
+
+#[test]
+fn what_cannot_be_a_project_is_refused_and_nothing_is_written() {
+    let folder = Folder::new();
+    for (name, options, said) in [
+        ("my plant", &[][..], "my-plant"),
+        ("test", &[], "test-plant"),
+        ("plant", &["--scene", "cart-pendulun"], "did you mean cart-pendulum?"),
+        ("none/plant", &[], "cannot write"),
+    ] {
+        let done = new(&folder.path(name), options);
+        assert!(matches!(done.exit, Exit::Refused | Exit::Failed), "{name}");
+        assert!(done.err.contains(said), "{name}: {}", done.err);
+        assert_eq!(fs::read_dir(folder.0.path()).unwrap().count(), 0, "{name}");
+    }
+    assert_eq!(call(&["new", "firmware", ""]).exit, Exit::Refused);
+    assert_eq!(call(&["new"]).exit, Exit::Refused);
+}
+
+/// The command and the build script write the same source.
+#[test]
+fn export_writes_what_a_build_script_writes() {
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/cart-pendulum.toml");
+    let build = Build::scene(scene).precision("f32").scheme("dbd").newton(2).step("250us");
+    let options = ["--precision", "f32", "--scheme", "dbd", "--newton", "2", "--step", "250us"];
+    let done = call(&[&["export", "cart-pendulum"][..], &options].concat());
+    assert_eq!(done.exit, Exit::Done, "{}", done.err);
+    assert!(done.out == build.source().unwrap().source);
+    assert!(done.out.contains("_SCHEME: dbd_kernel::schemes::Dbd = "));
+    let refused = call(&["export", "four-bar", "--newton", "2"]);
+    assert_eq!(refused.exit, Exit::Refused);
+    assert!(refused.err.contains("no Newton iterations"), "{}", refused.err);
+}
+
+#[test]
+fn a_file_that_was_not_exported_is_not_replaced() {
+    let folder = Folder::new();
+    let file = folder.path("model.rs");
+    let export = |scene: &str| call(&["export", scene, "--out", file.to_str().unwrap()]);
+    for scene in ["four-bar", "gyroscope"] {
+        let done = export(scene);
+        assert_eq!((done.exit, done.out.as_str()), (Exit::Done, ""), "{}", done.err);
+        assert!(fs::read_to_string(&file).unwrap() == call(&["export", scene]).out);
+    }
+    fs::write(&file, "fn main() {}\n").unwrap();
+    let done = export("four-bar");
+    assert_eq!(done.exit, Exit::Refused);
+    assert!(done.err.contains("has not exported"), "{}", done.err);
+    assert_eq!(fs::read_to_string(&file).unwrap(), "fn main() {}\n");
+    let out = folder.path("none/model.rs");
+    assert_eq!(call(&["export", "four-bar", "--out", out.to_str().unwrap()]).exit, Exit::Failed);
+}
