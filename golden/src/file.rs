@@ -5,6 +5,7 @@
 //! file is replaced.
 
 use std::borrow::ToOwned as _;
+use std::boxed::Box;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -36,7 +37,7 @@ pub enum Verdict {
         /// The file.
         path: PathBuf,
         /// How the file before differed; `None` where there was none or it was equal.
-        before: Option<Mismatch<String>>,
+        before: Option<Box<Mismatch<String>>>,
     },
 }
 
@@ -83,7 +84,7 @@ pub enum GoldenError {
         /// Its path.
         path: PathBuf,
         /// What is another.
-        mismatch: Mismatch<String>,
+        mismatch: Box<Mismatch<String>>,
     },
     /// The run differs.
     #[error("the run differs from {}: {mismatch}\n{}", path.display(), left(new, *own))]
@@ -91,7 +92,7 @@ pub enum GoldenError {
         /// The golden file's path.
         path: PathBuf,
         /// How.
-        mismatch: Mismatch<String>,
+        mismatch: Box<Mismatch<String>>,
         /// Whether the run is of the file's own method, so that it may become the golden one.
         own: bool,
         /// Where the run was written, or why it was not.
@@ -229,8 +230,8 @@ impl GoldenFile {
     }
 }
 
-fn owned(mismatch: Mismatch<&str>) -> Mismatch<String> {
-    mismatch.map(|name| name.to_string())
+fn owned(mismatch: Mismatch<&str>) -> Box<Mismatch<String>> {
+    Box::new(mismatch.map(|name| name.to_string()))
 }
 
 /// Whether a file is none of ours, which is never replaced.

@@ -203,7 +203,10 @@ impl<N> Furthest<N> {
 
     /// Takes a distance, if it is the largest so far. What is no number is larger than any.
     pub(crate) fn take(place: &mut Option<(f64, N)>, distance: f64, name: N) {
-        let largest = place.as_ref().is_none_or(|(most, _)| !(distance <= *most) && !most.is_nan());
+        let largest = place.as_ref().is_none_or(|(most, _)| {
+            let within = distance <= *most;
+            !within && !most.is_nan()
+        });
         if distance != 0.0 && largest {
             *place = Some((distance, name));
         }

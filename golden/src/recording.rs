@@ -4,6 +4,7 @@
 //! it; the recording looks, and keeps a sample whenever one is due.
 
 use std::borrow::ToOwned as _;
+use std::boxed::Box;
 use std::format;
 use std::string::{String, ToString as _};
 use std::vec::Vec;
@@ -274,7 +275,7 @@ impl Recording {
         &self,
         golden: &str,
         tolerance: &Tolerance<'_>,
-    ) -> Result<Summary<String>, Mismatch<String>> {
+    ) -> Result<Summary<String>, Box<Mismatch<String>>> {
         self.head.with(|head| {
             let compared = Golden::read(golden).and_then(|golden| {
                 let mut comparison = Comparison::new(golden, head, *tolerance)?;
@@ -288,7 +289,7 @@ impl Recording {
                 Ok(Summary { samples, furthest }) => {
                     Ok(Summary { samples, furthest: furthest.map(&mut owned) })
                 }
-                Err(mismatch) => Err(mismatch.map(owned)),
+                Err(mismatch) => Err(Box::new(mismatch.map(owned))),
             }
         })
     }

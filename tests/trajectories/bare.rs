@@ -1,5 +1,6 @@
 //! The same files, compared as a firmware does: no recording, no allocation, names as constants, the
 //! file's text in the program.
+#![allow(clippy::result_large_err, reason = "once a test")]
 
 use dbd_golden::{Bands, Comparison, Golden, Head, Mismatch, Recorder, Subject as _, Tolerance};
 use dbd_kernel::readouts::Reading;

@@ -149,6 +149,6 @@ fn the_files_are_not_taken_for_each_other() {
     let other = four_bar::<F32, _>(Leapfrog).compare(&text, &Tolerance::Bits);
     let scenes = ["cart-pendulum", "four-bar"].map(str::to_owned);
     let [golden, present] = scenes;
-    assert_eq!(other, Err(Mismatch::Scene { golden, present }));
+    assert_eq!(other, Err(Box::new(Mismatch::Scene { golden, present })));
     assert!(text.lines().count() < 100);
 }

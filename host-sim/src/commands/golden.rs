@@ -122,9 +122,8 @@ impl GoldenWatch<'_> {
 
 /// How to find the very step, where it lies between two samples.
 fn finer(error: &GoldenError, plan: &Plan, called: &str) -> Option<String> {
-    let GoldenError::Different { mismatch: Mismatch::Difference(found), .. } = error else {
-        return None;
-    };
+    let GoldenError::Different { mismatch, .. } = error else { return None };
+    let Mismatch::Difference(found) = &**mismatch else { return None };
     let equal = found.equal.filter(|equal| equal + 1 < found.step)?;
     let mut help = format!("the first step that differs is one of {} to {}", equal + 1, found.step);
     let (every, duration) = (display(plan.step), display(plan.time(found.step)));
