@@ -24,6 +24,7 @@ pages! {
     command_line "docs/command-line.md"
     development "docs/development.md"
     extremes "docs/extremes.md"
+    golden "docs/golden.md"
     joints "docs/joints.md"
     proof "docs/proof.md"
     reference_solvers "docs/reference-solvers.md"

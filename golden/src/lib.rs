@@ -10,8 +10,39 @@
 //! - [`mod@text`]: a file's lines become numbers, or damage is named.
 //! - [`bands`]: how far a run may be off.
 //! - [`compare`]: a run beside a file.
-//! - [`plants`], [`recording`], [`blessing`], [`band_list`], [`file`](mod@file): plants by name, runs in memory, consent
-//!   to a new file, bands as text, files (feature `std`).
+//! - [`plants`], [`recording`]: plants by name; runs in memory (these and what follows: feature `std`).
+//! - [`blessing`], [`band_list`], [`file`](mod@file): consent to a new file, bands as text, files.
+//!
+//! A test, blessing and what bits promise: `docs/golden.md` in the repository. Without `std`, as in a
+//! firmware:
+//!
+//! ```
+//! use dbd_golden::{Comparison, Golden, Head, Recorder, Subject as _, Tolerance};
+//! use dbd_kernel::sketch::{Sketch, Start};
+//! use dbd_kernel::{Leapfrog, Plant, model};
+//!
+//! const SKETCH: Sketch = Sketch::new().gravity([0.0, -9.81, 0.0]).body(1.0, [0.1; 3], Start::at([0.0; 3]));
+//! model!(static BALL: F32 = SKETCH);
+//!
+//! let mut plant = Plant::new(&BALL, Leapfrog, 1e-3)?;
+//! let identity = plant.identity();
+//! let head = Head { scene: "ball", identity, every: 100, bodies: &["ball"], values: &[] };
+//! let mut printed = Recorder::begin(String::new(), &head)?; // or a console
+//! for _ in 0..=300 {
+//!     printed.look(&plant, &[])?; // every hundredth step
+//!     plant.step().ok()?;
+//! }
+//! let text = printed.finish()?;
+//!
+//! plant.reset();
+//! let mut comparison = Comparison::new(Golden::read(&text).unwrap(), head, Tolerance::Bits).unwrap();
+//! while let Some(due) = comparison.due() {
+//!     plant.advance(due - plant.state().step).ok()?;
+//!     comparison.sample(&plant, &[]).unwrap();
+//! }
+//! assert_eq!(comparison.finish().unwrap().samples, 4);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 #![no_std]
 #![allow(
     clippy::result_large_err,
