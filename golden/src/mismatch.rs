@@ -34,7 +34,7 @@ pub enum Damage {
     },
     /// The file ends without its last line.
     Cut,
-    /// The last line counts other samples than there are.
+    /// The last line counts other samples than there are, or has another hash.
     Count,
     /// Something follows the last line.
     Rest,
@@ -57,7 +57,9 @@ impl Display for Damage {
                  on, was edited or is missing"
             ),
             Damage::Cut => f.write_str("the file is cut: its last line is missing"),
-            Damage::Count => f.write_str("the last line counts other samples than there are"),
+            Damage::Count => f.write_str(
+                "the last line does not go with those before: one is missing, or it was edited",
+            ),
             Damage::Rest => f.write_str("something follows the last line"),
         }
     }

@@ -287,6 +287,39 @@ fn a_record_that_does_not_fit_is_refused() {
     refused(recording.sample(&plant, &[1.0]).unwrap_err(), "1 values are given for 0 names");
 }
 
+/// A moment whose numbers are another's and whose hash is not.
+struct Hidden<'p, M>(&'p M);
+
+impl<M: Moment> Moment for Hidden<'_, M> {
+    fn steps_done(&self) -> u64 {
+        self.0.steps_done()
+    }
+    fn state_hash(&self) -> u64 {
+        self.0.state_hash() ^ 1
+    }
+    fn body_numbers(&self, row: usize) -> Option<[f64; 13]> {
+        self.0.body_numbers(row)
+    }
+    fn turn_count(&self, spring: usize) -> Option<i32> {
+        self.0.turn_count(spring)
+    }
+}
+
+/// Of other precisions a state may hold words that no column shows.
+#[test]
+fn what_no_column_shows_is_found_by_the_hash() {
+    let of = scene("four-bar");
+    let plant = plant::<F32>(&of);
+    let mut recording = Recording::of_scene(&of, &plant, 50, &[]).unwrap();
+    recording.sample(&Hidden(&plant), &[]).unwrap();
+    let refused = recording.compare(&TEXT, &Tolerance::Bits).unwrap_err();
+    assert!(refused.to_string().contains("the hash of the stored state differs"), "{refused}");
+    assert_eq!(difference(refused).component, Component::State);
+    // It is none of the bands' business; the run is short all the same.
+    let within = recording.compare(&TEXT, &Tolerance::Within(Bands::all(0.0)));
+    assert_eq!(*within.unwrap_err(), Mismatch::Sample { golden: Some(50), present: None });
+}
+
 /// The words of a state, one bit of them flipped.
 struct Flipped {
     words: Vec<Word>,
