@@ -7,7 +7,7 @@ use crate::bands::{Bands, Tolerance};
 use crate::component::{Component, ENDS, Quantity};
 use crate::head::Head;
 use crate::mismatch::{Difference, Furthest, Mismatch};
-use crate::number::same;
+use crate::number::{Digits, same};
 use crate::subject::{BodyNumbers, Moment};
 use crate::text::{Expected, Golden, Row, Rows};
 
@@ -273,7 +273,13 @@ impl<'t, 'a> Tally<'t, 'a> {
     ) -> Found<'a> {
         let ulps = match component {
             Component::Turns { .. } => None,
-            _ => self.golden.digits(place).ulps(pair[0], pair[1]),
+            _ => {
+                let digits = self.golden.digits(place);
+                // Of another precision is counted in numbers of the golden run's.
+                let rounded = beyond.is_some() && digits == Digits::Single;
+                let present = if rounded { f64::from(pair[1] as f32) } else { pair[1] };
+                digits.ulps(pair[0], present)
+            }
         };
         Found { component, pair, ulps, beyond }
     }

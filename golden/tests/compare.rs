@@ -188,6 +188,10 @@ fn other_methods_are_compared_within_bands() {
     let found = difference(any(1e-9).unwrap_err());
     let (off, band) = found.beyond.unwrap();
     assert!(off > 1e-9 && band == 1e-9 && found.differing > 1);
+    // Counted in the golden run's numbers, not in those of the run.
+    let single = |x: f64| i64::from((x as f32).to_bits());
+    let between = (single(found.golden) - single(found.present)).unsigned_abs();
+    assert_eq!(found.ulps, Some(between));
     let words = any(1e-9).unwrap_err().to_string();
     assert!(words.contains("beyond its band") && words.contains("its band is 1e-9"), "{words}");
     let within = double.compare(&TEXT, &Tolerance::Within(Bands::all(1e-3))).unwrap_err();

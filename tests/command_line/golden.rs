@@ -154,6 +154,7 @@ fn bands_are_for_other_methods() {
         done.err.contains("the position is off by ") && done.err.contains("its band is 1e-9 m")
     );
     assert!(folder.path("a.golden.leapfrog-f32.new").exists());
+    assert!(!done.err.contains("help:") && done.out.contains("a.golden: the run differs\n"));
     for (band, part) in [
         ("-1", "`-1` is no band"),
         ("position=1", "the orientation has no band"),

@@ -124,6 +124,10 @@ impl GoldenWatch<'_> {
 fn finer(error: &GoldenError, plan: &Plan, called: &str) -> Option<String> {
     let GoldenError::Different { mismatch, .. } = error else { return None };
     let Mismatch::Difference(found) = &**mismatch else { return None };
+    if found.beyond.is_some() {
+        // By another method every step differs.
+        return None;
+    }
     let equal = found.equal.filter(|equal| equal + 1 < found.step)?;
     let mut help = format!("the first step that differs is one of {} to {}", equal + 1, found.step);
     let (every, duration) = (display(plan.step), display(plan.time(found.step)));

@@ -189,8 +189,11 @@ impl Summary {
             rows.push(("energy, watched", format!("{of} ≤ {largest} J, {limit} J allowed")));
         }
         if let Some(golden) = &self.golden {
-            // Only the first line: the others are said of a failure.
-            let words = golden.words.lines().next().unwrap_or_default();
+            // Of a difference the message says more.
+            let words = match &golden.failure {
+                Some(_) => "the run differs",
+                None => golden.words.lines().next().unwrap_or_default(),
+            };
             rows.push(("golden", format!("{}: {words}", golden.file)));
         }
         rows.push(("status", self.status.clone()));
