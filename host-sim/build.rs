@@ -11,7 +11,8 @@ use std::path::Path;
 
 fn main() -> io::Result<()> {
     let variable = |name| env::var_os(name).ok_or_else(|| io::Error::other("cargo runs this"));
-    let folder = Path::new(&variable("CARGO_MANIFEST_DIR")?).join("../scenes").canonicalize()?;
+    // A link to those of the repository, and theirs in what is published.
+    let folder = Path::new(&variable("CARGO_MANIFEST_DIR")?).join("scenes").canonicalize()?;
     println!("cargo::rerun-if-changed={}", folder.display());
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {

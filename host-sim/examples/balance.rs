@@ -6,7 +6,7 @@ use dbd_kernel::{Leapfrog, Plant};
 use dbd_scene::Scene;
 
 /// The scene, found from any folder.
-const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/cart-pendulum.toml");
+const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/cart-pendulum.toml");
 
 /// State feedback on cart [N/m], angle [N/rad] and their rates: the linear regulator of the ideal cart
 /// and pendulum for weights 20, 50, 1, 1 on these and 0.05 on the force.

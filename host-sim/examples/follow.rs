@@ -22,7 +22,7 @@ fn arm(p: Vec3<f64>, azimuth: f64) -> f64 {
 }
 
 /// The scene, found from any folder.
-const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/delta-pick-and-place.toml");
+const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/delta-pick-and-place.toml");
 
 /// Follows the path for `looks` of 1/4 ms; the largest distance from it [m] after the first second.
 pub fn follow(looks: u32) -> Result<f64, Box<dyn Error>> {

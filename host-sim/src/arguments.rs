@@ -1,8 +1,9 @@
 //! Arguments that several commands take.
 //!
-//! `words => choice by its name`.
+//! `words => scene's name, choice by its name`.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Args, ValueHint};
 use dbd_plant::Named;
 
 /// Takes a choice by its name; what it is shows in the help.
@@ -11,4 +12,12 @@ pub fn names<N: Named + Send + Sync>() -> impl TypedValueParser<Value = N> {
         N::ALL.iter().map(|choice| PossibleValue::new(choice.name()).help(choice.summary()));
     PossibleValuesParser::new(values)
         .try_map(|name| N::of_name(&name).ok_or("there is no such name"))
+}
+
+/// What names a scene.
+#[derive(Clone, Debug, Args)]
+pub struct SceneArgument {
+    /// A scene by name (see list), a path to a .toml file, or - for standard input
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub scene: String,
 }

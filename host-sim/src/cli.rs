@@ -14,14 +14,14 @@ use dbd_plant::time::Time;
 use dbd_plant::{DampingName, Method, Named as _, OrientationName, PrecisionName, SchemeName};
 use dbd_study::{Phase, files};
 
-use crate::arguments::names;
+use crate::arguments::{SceneArgument, names};
 use crate::commands::check::check;
 use crate::commands::completions::script;
 use crate::commands::export::{self, ExportArguments};
 use crate::commands::folder::Destination;
 use crate::commands::golden::GoldenOptions;
 use crate::commands::list::list;
-use crate::commands::new::{self, NewCommand};
+use crate::commands::new::{FirmwareArguments, NewCommand, firmware};
 use crate::commands::run::{Outcome, RunOptions, run};
 use crate::commands::stability::StabilityCheck;
 use crate::commands::trade::{TradeRequest, json as survey_json, trade};
@@ -64,13 +64,6 @@ enum Command {
         /// The shell
         shell: Shell,
     },
-}
-
-#[derive(Debug, Args)]
-struct SceneArgument {
-    /// A scene by name (see list), a path to a .toml file, or - for standard input
-    #[arg(value_hint = ValueHint::FilePath)]
-    scene: String,
 }
 
 #[derive(Debug, Args)]
@@ -203,8 +196,7 @@ where
         Command::Trade(arguments) => trade_scene(&catalogue, &arguments, console),
         Command::Export(arguments) => export_scene(&catalogue, &arguments, console),
         Command::New(NewCommand::Firmware(arguments)) => {
-            let said = new::firmware(&arguments, |scene| catalogue.load(scene));
-            said.and_then(|said| Ok(console.print(&said).map(|()| Exit::Done)?))
+            new_firmware(&catalogue, &arguments, console)
         }
         Command::Completions { shell } => complete(&catalogue, shell, console),
     };
@@ -371,11 +363,21 @@ fn export_scene(
     arguments: &ExportArguments,
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
-    let text = export::export(&catalogue.load(&arguments.scene)?.scene, &arguments.options)?;
+    let text = export::export(&catalogue.load(&arguments.scene.scene)?.scene, &arguments.options)?;
     match &arguments.out {
         Some(file) => export::write(file, &text)?,
         None => console.print(&text)?,
     }
+    Ok(Exit::Done)
+}
+
+fn new_firmware(
+    catalogue: &Catalogue,
+    arguments: &FirmwareArguments,
+    console: &mut Console<'_>,
+) -> Result<Exit, Error> {
+    let found = catalogue.load(&arguments.scene)?;
+    console.print(&firmware(arguments, &found)?)?;
     Ok(Exit::Done)
 }
 

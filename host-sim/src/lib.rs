@@ -11,6 +11,8 @@
 //! - [`commands`]: `list`, `check`, `run`, `trade`, `export`, `new`, `completions`.
 //! - [`error`]: what ends a command early.
 //! - [`cli`]: arguments in, exit code out.
+//!
+//! The feature `comparison` brings methods that are there for comparison only, see `dbd-plant`.
 
 pub mod arguments;
 pub mod cli;

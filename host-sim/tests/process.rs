@@ -46,7 +46,7 @@ fn an_installed_program_brings_its_scenes() {
     let listed = call(here.path(), &["list", "--json"]);
     assert_eq!(listed.status.code(), Some(0));
     let scenes: Vec<Value> = serde_json::from_slice(&listed.stdout).unwrap();
-    let ships = fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes")).unwrap().count();
+    let ships = fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes")).unwrap().count();
     assert_eq!(scenes.len(), ships);
     assert!(scenes.iter().all(|scene| scene["from"] == "built in"));
     let ran = call(here.path(), &["run", "four-bar", "--duration", "1ms"]);

@@ -43,7 +43,19 @@
 //! assert!((x - 1.0 - 0.1 * 5.0_f64.cos()).abs() < 1e-5);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # Features
+//!
+//! None is on by default.
+//!
+//! | feature | brings |
+//! |---|---|
+//! | `defmt` | `defmt::Format` on every public type |
+//! | `heapless` | [`builder`]: models of fixed capacity, assembled at run time |
+//! | `nalgebra` | `From` and `Into` between the vectors and quaternions of both |
+//! | `micromath` | [`loose`]: single precision with micromath's square root, for comparison |
 #![no_std]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 #[cfg(test)]
 extern crate std;

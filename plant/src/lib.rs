@@ -36,6 +36,12 @@
 //! # assert_eq!(plant.steps(), 25_000);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # Features
+//!
+//! | feature | brings |
+//! |---|---|
+//! | `comparison` | what is there for comparison only, micromath's square root and Euler angles: seven of nine precisions, which take as much longer to compile |
 
 pub mod any;
 mod budget;

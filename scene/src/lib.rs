@@ -307,6 +307,11 @@ impl Scene {
     }
 }
 
+/// The page's programs compile.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod page {}
+
 #[cfg(test)]
 mod example {
     use super::Scene;

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 /// The table as shipped.
-const TABLE: &str = include_str!("../../docs/costs.csv");
+const TABLE: &str = include_str!("../costs.csv");
 
 /// The only way of storing orientations that is counted.
 const ORIENTATION: &str = "quaternion";

@@ -11,7 +11,9 @@ mod built;
 mod command;
 mod cost;
 mod fuzz;
+mod packages;
 mod prove;
+mod semver;
 mod steps;
 mod target;
 mod tests;
@@ -20,7 +22,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use target::{firmware, setup};
+use target::{firmware, project, setup};
 
 /// Commands for people who work on this repository.
 #[derive(Parser)]
@@ -106,6 +108,15 @@ enum Command {
         /// `plain`, `rtic`, `embassy`; all of them where none is named.
         names: Vec<String>,
     },
+    /// Writes a new firmware project, runs it in QEMU and tests it on the host.
+    Project,
+    /// Looks whether the crates that are published can be packaged, and what their metadata lacks.
+    Packages,
+    /// Compares the published crates' interfaces with those of a revision, by cargo-semver-checks.
+    Semver {
+        /// A revision of this repository, e.g. the tag of a version.
+        revision: String,
+    },
     /// Looks into the linked steps and calls for panics, allocation, fused and soft floating point.
     Audit,
 }
@@ -126,6 +137,9 @@ fn main() -> ExitCode {
         Command::Prove { names } => prove::run(&names),
         Command::Plant { ticks } => bits::closed_loop::run(ticks),
         Command::Boards { names } => boards::run(&names),
+        Command::Project => setup::complete().and_then(|toolchain| project::check(&toolchain)),
+        Command::Packages => packages::check(),
+        Command::Semver { revision } => semver::run_against(&revision),
         Command::Audit => audit::run(),
     });
     match outcome {

@@ -20,14 +20,14 @@ use dbd_scene::export::{self as source, ExportScheme, HEAD, SchemeError};
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::arguments::names;
+use crate::arguments::{SceneArgument, names};
 
 /// What is exported, and where to.
 #[derive(Clone, Debug, Args)]
 pub struct ExportArguments {
-    /// A scene by name (see list), a path to a .toml file, or - for standard input
-    #[arg(value_hint = ValueHint::FilePath)]
-    pub scene: String,
+    /// The scene
+    #[command(flatten)]
+    pub scene: SceneArgument,
     /// What is exported of it
     #[command(flatten)]
     pub options: ExportOptions,

@@ -3,6 +3,7 @@
 pub mod debian;
 mod emulator;
 pub mod firmware;
+pub mod project;
 pub mod serial;
 pub mod setup;
 mod toolchain;

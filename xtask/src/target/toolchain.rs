@@ -142,6 +142,24 @@ impl Toolchain {
         command
     }
 
+    /// `cargo SUBCOMMAND` for the machine that it runs on, with the same compiler.
+    pub fn host_cargo(&self, subcommand: &str) -> Command {
+        let mut command = match self.way {
+            Way::Debian => program(DEBIAN_CARGO),
+            Way::Prebuilt | Way::RustSrc => cargo(),
+        };
+        self.clean(&mut command);
+        command.arg(subcommand).env("CARGO_TARGET_DIR", self.target_dir());
+        if self.way == Way::Debian {
+            command.env("RUSTC", DEBIAN_RUSTC);
+        }
+        if self.way != Way::Prebuilt {
+            // As for the target: what a variable changes would be built twice.
+            command.env("RUSTC_BOOTSTRAP", "1");
+        }
+        command
+    }
+
     /// Debian's compiler must not see what rustup set for the host's.
     fn clean<'c>(&self, command: &'c mut Command) -> &'c mut Command {
         if self.way == Way::Debian {

@@ -14,8 +14,8 @@ use crate::bits::{closed_loop, hashes, host::Host, relay};
 use crate::built::{Program, build};
 use crate::command::{cargo, run as run_command, succeeds};
 use crate::steps::Steps;
-use crate::target::{Toolchain, firmware, setup};
-use crate::{audit, boards, cost};
+use crate::target::{Toolchain, firmware, project, setup};
+use crate::{audit, boards, cost, packages};
 
 use cases::{Case, Selection};
 
@@ -42,6 +42,7 @@ pub fn run(long: bool, write_times: bool) -> Result<()> {
     let toolchain = setup::complete()?;
     let (mut steps, mut cases) = (Steps::default(), Vec::new());
     steps.step("rustfmt", || run_command(cargo().args(["fmt", "--all", "--check"])));
+    steps.step("packages of what is published", packages::check);
     linter_and_documentation(&mut steps);
     tests(&mut steps, Selection::All, &mut cases);
     documentation_tests(&mut steps);
@@ -227,6 +228,7 @@ fn on_target(toolchain: &Toolchain, host: Option<&Host>, long: bool, steps: &mut
         boards::check_format()?;
         boards::execute(toolchain, if long { &boards::PROGRAMS } else { &[boards::PLAIN] })
     });
+    steps.step("a new firmware project", || project::check(toolchain));
     steps.step("costs on the target", || cost::baseline::check(toolchain));
 }
 

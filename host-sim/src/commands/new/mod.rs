@@ -128,18 +128,13 @@ impl<'p> Place<'p> {
     }
 }
 
-/// Writes a project and says what to type next.
+/// Writes a project of a scene and says what to type next.
 ///
 /// # Errors
 /// [`NewError`]; nothing is written then.
-pub fn firmware(
-    arguments: &FirmwareArguments,
-    load: impl FnOnce(&str) -> Result<Found, crate::terminal::LoadError>,
-) -> Result<String, crate::error::Error> {
-    let place = Place::of(&arguments.name).map_err(NewError::from)?;
-    let found = load(&arguments.scene)?;
-    let dependencies = Dependencies::of(arguments.registry);
-    Ok(project(&place, &found, &dependencies)?)
+pub fn firmware(arguments: &FirmwareArguments, found: &Found) -> Result<String, NewError> {
+    let place = Place::of(&arguments.name)?;
+    project(&place, found, &Dependencies::of(arguments.registry))
 }
 
 fn project(

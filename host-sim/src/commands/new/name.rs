@@ -145,7 +145,7 @@ fn problem(name: &str) -> Option<String> {
         return Some("Rust, cargo or an operating system keeps this name".into());
     }
     let same = |used: &&str| used.replace('-', "_") == lower.replace('-', "_");
-    USED.iter().any(|used| same(used)).then(|| "a crate that it uses has this name".into())
+    USED.iter().any(same).then(|| "a crate that it uses has this name".into())
 }
 
 /// The nearest right name.
