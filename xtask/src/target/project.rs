@@ -4,7 +4,7 @@
 //! profile and its lock file, so that what both depend on is compiled once.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context as _, Result, bail};
@@ -29,15 +29,22 @@ pub fn check(toolchain: &Toolchain) -> Result<()> {
     command.args(["build", "--workspace", "--all-features", "--bin", COMMAND_LINE]);
     let built = build(&mut command)?;
     let host_sim = built.first().context("cargo names no program")?;
-    let project = toolchain.target_dir().join(NAME);
-    if project.exists() {
-        fs::remove_dir_all(&project)?;
-    }
-    fs::create_dir_all(toolchain.target_dir())?;
-    run(program(&host_sim.path).args(["new", "firmware"]).arg(&project))?;
+    // Not below the repository, whose .cargo/config.toml cargo would add to the project's.
+    let folder = std::env::temp_dir().join(format!("dbd-{NAME}-{}", std::process::id()));
+    fs::create_dir_all(&folder)?;
+    let checked = written(&host_sim.path, &folder.join(NAME)).and_then(|project| {
+        on_the_target(toolchain, &project)?;
+        on_the_pc(toolchain, &project)
+    });
+    fs::remove_dir_all(&folder)?;
+    checked
+}
+
+/// A project in a folder, with the versions that the repository's lock file names.
+fn written(host_sim: &Path, project: &Path) -> Result<PathBuf> {
+    run(program(host_sim).args(["new", "firmware"]).arg(project))?;
     fs::copy(root().join("Cargo.lock"), project.join("Cargo.lock"))?;
-    on_the_target(toolchain, &project)?;
-    on_the_pc(toolchain, &project)
+    Ok(project.to_owned())
 }
 
 /// In the project's folder, with the artefacts of the firmware.
