@@ -5,8 +5,8 @@ use std::error::Error;
 use dbd_kernel::{Leapfrog, Plant};
 use dbd_scene::Scene;
 
-/// The scene, found from any folder.
-const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/cart-pendulum.toml");
+/// The scene's text.
+const SCENE: &str = include_str!("../scenes/cart-pendulum.toml");
 
 /// State feedback on cart [N/m], angle [N/rad] and their rates: the linear regulator of the ideal cart
 /// and pendulum for weights 20, 50, 1, 1 on these and 0.05 on the force.
@@ -20,7 +20,7 @@ pub fn force(state: [f64; 4]) -> f64 {
 
 /// Balances for so many milliseconds; cart position and angle from upright, furthest in each second.
 pub fn balance(milliseconds: u64) -> Result<Vec<[f64; 2]>, Box<dyn Error>> {
-    let scene = Scene::load(SCENE)?;
+    let scene = Scene::parse(SCENE, "cart-pendulum.toml")?;
     let drive = scene.input("drive")?;
     let (cart, speed) = (scene.readout("cart_point")?, scene.readout("cart_velocity")?);
     let (angle, rate) = (scene.readout("angle")?, scene.readout("rate")?);

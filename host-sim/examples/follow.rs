@@ -21,13 +21,13 @@ fn arm(p: Vec3<f64>, azimuth: f64) -> f64 {
     p.z.atan2(x) + ((1.27296 - x * x - y * y - p.z * p.z) / (1.048 * x.hypot(p.z))).acos()
 }
 
-/// The scene, found from any folder.
-const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/delta-pick-and-place.toml");
+/// The scene's text.
+const SCENE: &str = include_str!("../scenes/delta-pick-and-place.toml");
 
 /// Follows the path for `looks` of 1/4 ms; the largest distance from it [m] after the first second.
 pub fn follow(looks: u32) -> Result<f64, Box<dyn Error>> {
     const H: f64 = 2.5e-4;
-    let mut scene = Scene::load(SCENE)?;
+    let mut scene = Scene::parse(SCENE, "delta-pick-and-place.toml")?;
     scene.inputs.iter().for_each(|drive| scene.model.release(drive.index));
     let (tool, mut last, mut furthest) = (scene.readout("tool_point")?, [0.0; 3], 0.0_f64);
     let mut plant = Plant::new(&scene.model, Leapfrog, 5e-5)?;

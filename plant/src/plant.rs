@@ -1,15 +1,16 @@
 //! A plant of any method behind one type: where the names of a method become the kernel's types.
 //!
 //! `(model, method, step) => plant`. Every scheme is compiled here for every precision, once for
-//! all that steps scenes on a host. A plant owns its model and can be sent to another thread.
+//! all that steps scenes on a host. A plant owns its model and can be sent to another thread. The unit
+//! tests of this crate do without what is for comparison, which would be compiled for them once more.
 
 use std::sync::Arc;
 
 use dbd_kernel::energy::energy;
-#[cfg(feature = "comparison")]
+#[cfg(all(feature = "comparison", not(test)))]
 use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
 use dbd_kernel::index::InputIndex;
-#[cfg(feature = "comparison")]
+#[cfg(all(feature = "comparison", not(test)))]
 use dbd_kernel::loose::{Loose32, LooseEuler32, LooseSingleEuler32};
 use dbd_kernel::plant::{InputError, Plant, StateError};
 use dbd_kernel::readouts::{Reading, Readout};
@@ -39,42 +40,42 @@ macro_rules! with_precision {
                 type $P = F32;
                 $body
             }
-            #[cfg(feature = "comparison")]
+            #[cfg(all(feature = "comparison", not(test)))]
             (PrecisionName::F64, OrientationName::Euler321) => {
                 type $P = EulerF64;
                 $body
             }
-            #[cfg(feature = "comparison")]
+            #[cfg(all(feature = "comparison", not(test)))]
             (PrecisionName::F32, OrientationName::Euler321) => {
                 type $P = EulerF32;
                 $body
             }
-            #[cfg(feature = "comparison")]
+            #[cfg(all(feature = "comparison", not(test)))]
             (PrecisionName::F64, OrientationName::Euler321Single) => {
                 type $P = SingleEulerF64;
                 $body
             }
-            #[cfg(feature = "comparison")]
+            #[cfg(all(feature = "comparison", not(test)))]
             (PrecisionName::F32, OrientationName::Euler321Single) => {
                 type $P = SingleEulerF32;
                 $body
             }
-            #[cfg(feature = "comparison")]
+            #[cfg(all(feature = "comparison", not(test)))]
             (PrecisionName::F32Micromath, OrientationName::Quaternion) => {
                 type $P = Loose32;
                 $body
             }
-            #[cfg(feature = "comparison")]
+            #[cfg(all(feature = "comparison", not(test)))]
             (PrecisionName::F32Micromath, OrientationName::Euler321) => {
                 type $P = LooseEuler32;
                 $body
             }
-            #[cfg(feature = "comparison")]
+            #[cfg(all(feature = "comparison", not(test)))]
             (PrecisionName::F32Micromath, OrientationName::Euler321Single) => {
                 type $P = LooseSingleEuler32;
                 $body
             }
-            #[cfg(not(feature = "comparison"))]
+            #[cfg(not(all(feature = "comparison", not(test))))]
             (_, _) => Err($method.not_built().into()),
         }
     };
