@@ -20,4 +20,8 @@ pub struct SceneArgument {
     /// A scene by name (see list), a path to a .toml file, or - for standard input
     #[arg(value_hint = ValueHint::FilePath)]
     pub scene: String,
+    /// Changes one value of the scene by its path, as often as wanted; * and ? stand for letters of a
+    /// name: body.cart.mass=1.2, joint.*.stiffness=1e6, gravity[1]=-1.62
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
 }

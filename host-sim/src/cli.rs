@@ -230,6 +230,10 @@ fn complete(catalogue: &Catalogue, shell: Shell, console: &mut Console<'_>) -> R
     Ok(Exit::Done)
 }
 
+fn load(catalogue: &Catalogue, argument: &SceneArgument) -> Result<Found, Error> {
+    Ok(catalogue.load_with(&argument.scene, &argument.set)?)
+}
+
 fn run_scene(
     catalogue: &Catalogue,
     arguments: &RunArguments,
@@ -238,7 +242,7 @@ fn run_scene(
     let method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
     let method = damped(method, arguments.damping)?.with_orientation(arguments.orientation);
     method.check_built()?;
-    let Found { scene, file, .. } = catalogue.load(&arguments.scene.scene)?;
+    let Found { scene, file, .. } = load(catalogue, &arguments.scene)?;
     let options = RunOptions {
         method,
         step: arguments.step.map(Time::seconds),
@@ -308,7 +312,7 @@ fn check_scene(
     let method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
     let method = damped(method, arguments.damping)?;
     method.check_built()?;
-    let Found { scene, .. } = catalogue.load(&arguments.scene.scene)?;
+    let Found { scene, .. } = load(catalogue, &arguments.scene)?;
     let mut check = check(&scene);
     if arguments.stability {
         check.stability = Some(StabilityCheck::of(&scene, &method)?);
@@ -323,7 +327,7 @@ fn trade_scene(
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
     let called = &arguments.scene.scene;
-    let Found { scene, file, .. } = catalogue.load(called)?;
+    let Found { scene, file, .. } = load(catalogue, &arguments.scene)?;
     of_scene(&scene).iter().filter(|_| !arguments.quiet).for_each(|w| console.warn(w));
     let destination = arguments.results.destination(&file);
     let request = TradeRequest {
@@ -363,7 +367,7 @@ fn export_scene(
     arguments: &ExportArguments,
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
-    let text = export::export(&catalogue.load(&arguments.scene.scene)?.scene, &arguments.options)?;
+    let text = export::export(&load(catalogue, &arguments.scene)?.scene, &arguments.options)?;
     match &arguments.out {
         Some(file) => export::write(file, &text)?,
         None => console.print(&text)?,

@@ -107,7 +107,9 @@ pub struct Scene {
     pub inputs: Vec<InputInfo>,
     /// The read-outs in scene order.
     pub readouts: Vec<ReadoutInfo>,
-    /// What was changed of the file's values before it was read.
+    /// The changes of the file's values as they were given, each `PATH=VALUE`.
+    pub changes: Vec<String>,
+    /// What they changed.
     pub changed: Vec<Changed>,
     /// The assembled model in double precision; every other precision is a rounding of it.
     pub model: SceneModel<F64>,
@@ -205,6 +207,7 @@ impl Scene {
         file: &str,
         changes: &[impl AsRef<str>],
     ) -> Result<Self, SceneError> {
+        let given = changes.iter().map(|change| change.as_ref().to_owned()).collect();
         let changes = Changes::read(text, changes)?;
         let source = changes.source(file);
         let mut document = text::parse(source)?;
@@ -246,6 +249,7 @@ impl Scene {
             file_lines: FileLines::of(&root)?,
             origin: Origin::of(source, &root),
             written_angles: written::angles(&root)?,
+            changes: given,
             changed,
             raw_names,
         })

@@ -19,7 +19,9 @@ impl Command {
     /// Commands for a scene that the user calls by a name or a path.
     #[must_use]
     pub fn new(scene: &Scene, called: &str) -> Self {
-        Self { scene: quoted(called), every: every(scene) }
+        let set = scene.changes.iter().map(|change| format!(" --set {}", quoted(change)));
+        let scene_and_changes = [quoted(called)].into_iter().chain(set).collect();
+        Self { scene: scene_and_changes, every: every(scene) }
     }
 
     /// The command for a point; `None` for a reference, which no command runs.

@@ -6,6 +6,7 @@ mod new;
 mod refusal;
 mod results;
 mod run;
+mod set;
 mod warnings;
 mod watch;
 

@@ -21,7 +21,9 @@ use thiserror::Error;
 use crate::commands::folder::{Destination, FolderError};
 use crate::commands::golden::{GoldenOptions, GoldenRefusal, GoldenWatch};
 use crate::commands::warnings::{of_run, of_scene, of_step};
-use crate::report::{Curves, JointOpening, Report, Statistics, Summary, TraceWriter, html};
+use crate::report::{
+    Curves, JointOpening, Report, SetValue, Statistics, Summary, TraceWriter, html,
+};
 use crate::simulate::{
     Ending, EnergyLimit, EnergyStop, EnergyWatch, FailedRun, Observer, Sample, SimulationError,
     simulate,
@@ -327,6 +329,7 @@ fn summarise(
         status,
         scene_file: None,
         scene_hash: None,
+        set: SetValue::of(scene),
         watch_energy: None,
         golden: None,
         widest_joint: widest(scene, &ending.openings),

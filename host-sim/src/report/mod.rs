@@ -16,5 +16,5 @@ pub use curves::Curves;
 pub use golden::{GoldenOutcome, NotGolden};
 pub use page::{Report, html};
 pub use statistics::Statistics;
-pub use summary::{JointOpening, Summary};
+pub use summary::{JointOpening, SetValue, Summary};
 pub use trace::TraceWriter;

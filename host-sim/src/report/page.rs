@@ -127,10 +127,12 @@ fn quantity(kind: &str, unit: &str) -> &'static str {
 
 /// The command line of the run, with all that was chosen for it spelled out.
 fn command(report: &Report<'_>) -> String {
-    let Report { plan, summary, .. } = report;
+    let Report { plan, summary, scene, .. } = report;
+    let set: String =
+        scene.changes.iter().map(|change| format!(" --set {}", argument(change))).collect();
     let newton = summary.newton.map(|n| format!(" --newton {n}")).unwrap_or_default();
     format!(
-        "host-sim run {} --scheme {}{newton} --precision {} --step {} --duration {} --every {}",
+        "host-sim run {}{set} --scheme {}{newton} --precision {} --step {} --duration {} --every {}",
         argument(report.called),
         summary.scheme,
         summary.precision,

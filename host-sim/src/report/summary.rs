@@ -6,6 +6,8 @@
 use dbd_plant::digits::significant;
 use dbd_plant::frequencies::advised_text;
 use dbd_plant::time::{display, rounded};
+use dbd_scene::Scene;
+use dbd_scene::parameters::Changed;
 use serde::Serialize;
 
 use crate::report::golden::GoldenOutcome;
@@ -70,6 +72,9 @@ pub struct Summary {
     /// FNV-1a 64 of the file's text, 16 hexadecimal digits.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scene_hash: Option<String>,
+    /// The values of the file that were changed for this run.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub set: Vec<SetValue>,
     /// The joint that opened by the largest share of its free length; `None` without joints.
     pub widest_joint: Option<JointOpening>,
     /// The watch over the energy, where there was one.
@@ -93,6 +98,35 @@ pub struct JointOpening {
     pub free_length: f64,
     /// \[s\] when.
     pub time: f64,
+}
+
+/// A value of the scene's file that was changed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct SetValue {
+    /// Its path, `body.cart.mass`.
+    pub path: String,
+    /// As the file has it; `None` where it has none.
+    pub before: Option<String>,
+    /// As it was for this run.
+    pub now: String,
+}
+
+impl SetValue {
+    /// All that were changed of a scene.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Vec<Self> {
+        let value = |changed: &Changed| {
+            let Changed { path, before, now } = changed.clone();
+            Self { path, before, now }
+        };
+        scene.changed.iter().map(value).collect()
+    }
+
+    /// What people read.
+    fn text(&self) -> String {
+        let before = self.before.as_deref().unwrap_or("none");
+        format!("{} = {} (in the file: {before})", self.path, self.now)
+    }
 }
 
 impl Summary {
@@ -196,6 +230,7 @@ impl Summary {
             };
             rows.push(("golden", format!("{}: {words}", golden.file)));
         }
+        rows.extend(self.set.iter().map(|value| ("set", value.text())));
         rows.push(("status", self.status.clone()));
         rows.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
         rows

@@ -165,19 +165,27 @@ impl Catalogue {
     /// # Errors
     /// Where there is no such scene, it cannot be read, or it is refused.
     pub fn load(&self, called: &str) -> Result<Found, LoadError> {
+        self.load_with(called, &[])
+    }
+
+    /// Loads what a user names, with values changed: `PATH=VALUE`.
+    ///
+    /// # Errors
+    /// As [`Self::load`]; where a change leads nowhere.
+    pub fn load_with(&self, called: &str, changes: &[String]) -> Result<Found, LoadError> {
         if called == STANDARD_INPUT {
-            return from_standard_input();
+            return from_standard_input(changes);
         }
         if is_path(called) {
-            return from_file(Path::new(called));
+            return from_file(Path::new(called), changes);
         }
         if self.file_names().iter().any(|name| name == called) {
-            return from_file(&self.folder.join(format!("{called}.toml")));
+            return from_file(&self.folder.join(format!("{called}.toml")), changes);
         }
         match built_in::SCENES.iter().find(|(name, _)| *name == called) {
             Some((name, text)) => {
                 let file = SceneFile::new((*name).into(), BUILT_IN.into(), text);
-                let scene = Scene::parse(text, &format!("{name}.toml"))?;
+                let scene = Scene::parse_with(text, &format!("{name}.toml"), changes)?;
                 Ok(Found { scene, file, text: (*text).into() })
             }
             None => Err(UnknownScene { name: called.into(), known: self.names() }.into()),
@@ -185,26 +193,26 @@ impl Catalogue {
     }
 }
 
-fn from_file(path: &Path) -> Result<Found, LoadError> {
+fn from_file(path: &Path, changes: &[String]) -> Result<Found, LoadError> {
     let name = path.display().to_string();
     let text = match fs::read_to_string(path) {
         Ok(text) => text,
         Err(reason) => return Err(SceneError::Unreadable { file: name, reason }.into()),
     };
-    let scene = Scene::parse(&text, &name)?;
+    let scene = Scene::parse_with(&text, &name, changes)?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let whole = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let file = SceneFile::new(stem, whole.display().to_string(), &text);
     Ok(Found { scene, file, text })
 }
 
-fn from_standard_input() -> Result<Found, LoadError> {
+fn from_standard_input(changes: &[String]) -> Result<Found, LoadError> {
     let place = "standard input";
     let text = match io::read_to_string(io::stdin()) {
         Ok(text) => text,
         Err(reason) => return Err(SceneError::Unreadable { file: place.into(), reason }.into()),
     };
-    let scene = Scene::parse(&text, place)?;
+    let scene = Scene::parse_with(&text, place, changes)?;
     let file = SceneFile::new(scene.name.clone(), place.into(), &text);
     Ok(Found { scene, file, text })
 }

@@ -1,0 +1,54 @@
+//! `--set`: values of a scene changed by their paths.
+
+use host_sim::terminal::Exit;
+
+use crate::{Folder, PENDULUM, call};
+
+#[test]
+fn a_changed_value_runs_as_a_changed_file_does() {
+    let folder = Folder::new();
+    let scene = folder.scene(PENDULUM);
+    let set = folder.summary(&scene, &["--set", "body.bob.mass=0.75", "--set", "tsda.1.damping=2"]);
+    let changed: Vec<_> = set["set"].as_array().unwrap().iter().collect();
+    assert_eq!(changed.len(), 2);
+    assert_eq!(
+        (&changed[0]["path"], &changed[0]["before"]),
+        (&"body.bob.mass".into(), &"0.5".into())
+    );
+    assert_eq!((&changed[1]["now"], &changed[1]["before"]), (&"2".into(), &().into()));
+    let plain = folder.summary(&scene, &[]);
+    assert!(plain["set"].is_null() && plain["state_hash"] != set["state_hash"]);
+    let text = PENDULUM.replace("mass = 0.5", "mass = 0.75");
+    let edited = folder.scene(&text.replace("stiffness = 2e3", "stiffness = 2e3\ndamping = 2"));
+    assert_eq!(folder.summary(&edited, &[])["state_hash"], set["state_hash"]);
+}
+
+#[test]
+fn the_report_gives_the_command_with_its_changes() {
+    let folder = Folder::new();
+    let scene = folder.scene(PENDULUM);
+    let done = folder.run(&scene, &["--set", "tsda.*.stiffness=3e3"]);
+    assert_eq!(done.exit, Exit::Done, "{}", done.err);
+    assert!(done.out.contains("tsda.1.stiffness = 3e3 (in the file: 2e3)"), "{}", done.out);
+    let report = std::fs::read_to_string(folder.path("out/scene/report.html")).unwrap();
+    assert!(
+        report.contains("--set &#39;tsda.*.stiffness=3e3&#39;")
+            || report.contains("--set 'tsda.*.stiffness=3e3'")
+    );
+}
+
+#[test]
+fn every_command_takes_changes_and_refuses_wrong_ones_in_their_own_words() {
+    for command in ["check", "export"] {
+        let done = call(&[command, "four-bar", "--set", "body.crank.mass=3"]);
+        assert_eq!(done.exit, Exit::Done, "{}", done.err);
+        assert_ne!(done.out, call(&[command, "four-bar"]).out);
+    }
+    for command in ["run", "check", "trade", "export"] {
+        let done = call(&[command, "four-bar", "--set", "body.crnk.mass=3"]);
+        assert_eq!(done.exit, Exit::Refused, "{command}");
+        for part in ["--set:1:6", "no body `crnk`", "did you mean `crank`?"] {
+            assert!(done.err.contains(part), "{command}: {}", done.err);
+        }
+    }
+}
