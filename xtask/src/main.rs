@@ -137,7 +137,9 @@ fn main() -> ExitCode {
         Command::Prove { names } => prove::run(&names),
         Command::Plant { ticks } => bits::closed_loop::run(ticks),
         Command::Boards { names } => boards::run(&names),
-        Command::Project => setup::complete().and_then(|toolchain| project::check(&toolchain)),
+        Command::Project => {
+            setup::complete().and_then(|toolchain| project::check(&toolchain, true))
+        }
         Command::Packages => packages::check(),
         Command::Semver { revision } => semver::run_against(&revision),
         Command::Audit => audit::run(),

@@ -228,7 +228,7 @@ fn on_target(toolchain: &Toolchain, host: Option<&Host>, long: bool, steps: &mut
         boards::check_format()?;
         boards::execute(toolchain, if long { &boards::PROGRAMS } else { &[boards::PLAIN] })
     });
-    steps.step("a new firmware project", || project::check(toolchain));
+    steps.step("a new firmware project", || project::check(toolchain, long));
     steps.step("costs on the target", || cost::baseline::check(toolchain));
 }
 
