@@ -21,7 +21,7 @@ pub struct SceneArgument {
     #[arg(value_hint = ValueHint::FilePath)]
     pub scene: String,
     /// Changes one value of the scene by its path, as often as wanted; * and ? stand for letters of a
-    /// name: body.cart.mass=1.2, joint.*.stiffness=1e6, gravity[1]=-1.62
+    /// name: body.cart.mass=1.2, joint.*.stiffness=1e6, step=20us
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub set: Vec<String>,
 }
