@@ -13,6 +13,7 @@ use dbd_scene::{Scene, SceneModel};
 
 use crate::any::AnyPlant;
 use crate::budget::{Budget, free_length};
+use crate::frequencies::LARGEST_TURN;
 use crate::numerals::{Digits, Numerals};
 
 /// Where energy came from nowhere, a joint's element that is longer than this many times the largest
@@ -74,6 +75,19 @@ impl Opening {
     }
 }
 
+/// The body that turned furthest in a step, in the states that were judged.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Turning {
+    /// The row of the body.
+    pub body: usize,
+    /// \[rad\] by so much.
+    pub turn: f64,
+    /// \[s\] when.
+    pub time: f64,
+    /// \[s\] when a body first turned by more than [`LARGEST_TURN`] in a step.
+    pub since: Option<f64>,
+}
+
 /// What a state holds.
 pub struct Verdict {
     /// \[J\] its energy.
@@ -95,6 +109,7 @@ pub struct Judge {
     /// what is beyond its clearance.
     present: Vec<[f64; 2]>,
     openings: Vec<Opening>,
+    turning: Turning,
     /// \[m\] the extension of a joint's element at which it counts as torn.
     torn: f64,
     step_size: f64,
@@ -133,14 +148,31 @@ impl Judge {
         let start = State::initial(model);
         let budget = Budget::new(model, &start, &energy(model, &start, step_size), unit(plant));
         let present = vec![[0.0; 2]; scene.joints.len()];
-        let model = model.clone();
-        Self { model, joints, owners, clearances, present, openings, torn, step_size, budget }
+        let (model, turning) = (model.clone(), Turning::default());
+        Self {
+            model,
+            joints,
+            owners,
+            clearances,
+            present,
+            openings,
+            turning,
+            torn,
+            step_size,
+            budget,
+        }
     }
 
     /// How far each joint opened in the states so far, in scene order.
     #[must_use]
     pub fn openings(&self) -> &[Opening] {
         &self.openings
+    }
+
+    /// The body that turned furthest in a step so far.
+    #[must_use]
+    pub fn turning(&self) -> Turning {
+        self.turning
     }
 
     /// What a state holds.
@@ -153,6 +185,7 @@ impl Judge {
             return Err(Trouble::Energy { body: fastest(state) });
         }
         let (joint, extension) = self.look(state);
+        self.look_at_turns(state);
         let time = state.step as f64 * self.step_size;
         if let Some(growth) = self.budget.beyond(&self.model, state, &energy, time) {
             return Err(if self.torn > 0.0 && extension > self.torn {
@@ -162,6 +195,26 @@ impl Judge {
             });
         }
         Ok(Verdict { energy, extension })
+    }
+
+    /// Takes note of the fastest spin.
+    fn look_at_turns(&mut self, state: &State<SceneModel<F64>>) {
+        let squares =
+            state.bodies.iter().map(|body| body.angular_velocity.dot(body.angular_velocity));
+        let fastest = squares.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((body, turn)) =
+            fastest.map(|(body, square)| (body, square.sqrt() * self.step_size))
+        else {
+            return;
+        };
+        let time = state.step as f64 * self.step_size;
+        if turn > self.turning.turn {
+            let since = self.turning.since;
+            self.turning = Turning { body, turn, time, since };
+        }
+        if turn > LARGEST_TURN * (1.0 + 1e-9) {
+            self.turning.since.get_or_insert(time);
+        }
     }
 
     /// Takes note of every joint's extension; the joint with the largest, and that.

@@ -277,3 +277,39 @@ fn a_survey_says_what_check_says_of_the_scene() {
     assert!(done.err.contains(&format!("warning: {}", expected[0])), "{}", done.err);
     assert_eq!(call(&[&survey[..], &["--quiet"]].concat()).err, "");
 }
+
+/// A body that a load spins up: it turns by 0.1 rad in a step of 1 ms from 100 rad/s on, which is at 0.1 s.
+#[test]
+fn a_run_says_when_a_body_came_to_turn_too_far_in_a_step() {
+    let folder = Folder::new();
+    let rotor = "name = \"rotor\"\nduration = 0.3\nstep = 1e-3\n[[body]]\nname = \"disc\"\nmass = 1\n\
+                 inertia = [1, 1, 2]\nposition = [0, 0, 0]\n[[load]]\nbody = \"disc\"\n\
+                 torque = [0, 0, 2000]\n";
+    let scene = folder.scene(rotor);
+    // That nothing holds the body is said, too.
+    let turns = |mut said: Vec<String>| {
+        said.retain(|text| !text.contains("no element holds it"));
+        said
+    };
+    let said = |options: &[&str]| turns(warnings(&folder.summary(&scene, options)));
+    let quaternion = said(&["--every", "1ms"]);
+    let [turned] = &quaternion[..] else { panic!("{quaternion:#?}") };
+    for part in ["body `disc` turned by 0.3 rad in a step at t = 0.3s", "from t = 0.101s on"] {
+        assert!(turned.contains(part), "{part}: {turned}");
+    }
+    assert!(
+        turned.ends_with("a step of at most 333.3us") && !turned.contains("momentum"),
+        "{turned}"
+    );
+    let quiet = said(&["--duration", "0.09s"]);
+    assert_eq!(quiet, [""; 0]);
+    // One that turns so from the start is said of the step alone.
+    let spun = rotor.replace("position", "angular_velocity = [0, 0, 500]\nposition");
+    let spun = folder.scene(&spun.replace("torque = [0, 0, 2000]", "torque = [0, 0, 1]"));
+    for (orientation, lost) in [("quaternion", false), ("euler-321", true)] {
+        let said = turns(warnings(&folder.summary(&spun, &["--orientation", orientation])));
+        let [step] = &said[..] else { panic!("{orientation}: {said:#?}") };
+        assert!(step.contains("turns by 0.5 rad in a step of 1ms at t = 0"), "{step}");
+        assert_eq!(step.contains("angular momentum is lost"), lost, "{orientation}: {step}");
+    }
+}

@@ -20,7 +20,7 @@ use thiserror::Error;
 
 use crate::commands::folder::{Destination, FolderError};
 use crate::commands::golden::{GoldenOptions, GoldenRefusal, GoldenWatch};
-use crate::commands::warnings::{of_run, of_scene, of_step};
+use crate::commands::warnings::{of_run, of_scene, of_step, of_turns};
 use crate::report::{
     Curves, JointOpening, Report, SetValue, Statistics, Summary, TraceWriter, html,
 };
@@ -302,6 +302,7 @@ fn summarise(
     };
     let mut warnings = of_step(scene, frequencies, method, plan.step, "the step");
     warnings.extend(of_run(scene, &ending.openings));
+    warnings.extend(of_turns(scene, method, plan.step, &ending.turning));
     warnings.extend(of_scene(scene));
     Summary {
         scene: scene.name.clone(),

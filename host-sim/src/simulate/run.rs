@@ -7,7 +7,7 @@ use std::io;
 use std::time::{Duration, Instant};
 
 use dbd_kernel::{Energy, F64, State, Status};
-use dbd_plant::judge::{Judge, Opening, Trouble, Verdict};
+use dbd_plant::judge::{Judge, Opening, Trouble, Turning, Verdict};
 use dbd_plant::numerals::Numerals;
 use dbd_plant::readings::append;
 use dbd_plant::{AnyPlant, Method, Plan, PlantError, plant};
@@ -71,6 +71,8 @@ pub struct Ending {
     pub trouble: Option<Trouble>,
     /// How far each joint opened, seen at the samples and about a thousand times over the run.
     pub openings: Vec<Opening>,
+    /// The body that turned furthest in a step, seen likewise.
+    pub turning: Turning,
 }
 
 /// Why a run could not be carried out.
@@ -126,8 +128,8 @@ pub fn simulate(
         }
     };
     let (steps, evaluations) = (plant.steps(), plant.evaluations());
-    let openings = judge.openings().to_vec();
-    Ok(Ending { steps, evaluations, wall, trouble, openings })
+    let (openings, turning) = (judge.openings().to_vec(), judge.turning());
+    Ok(Ending { steps, evaluations, wall, trouble, openings, turning })
 }
 
 /// The scene's read-outs now, one number per column of the trace.
