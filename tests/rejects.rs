@@ -3,6 +3,8 @@
 //! `(base scene, one edit) => line, column, message, help`. A case replaces a text that occurs once
 //! in the base scene; `«` in the replacement marks where the refusal must point.
 
+#[path = "rejects/assemble.rs"]
+mod assemble;
 #[path = "rejects/driven.rs"]
 mod driven;
 #[path = "rejects/joints.rs"]

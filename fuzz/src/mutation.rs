@@ -20,6 +20,7 @@ const WORDS: &[&str] = &[
     "[[tsda]]",
     "[[point_on_line]]",
     "[[torsion_spring]]",
+    "[assemble]",
     "[[load]]",
     "[[input]]",
     "[[readout]]",

@@ -7,6 +7,7 @@
 mod assembly;
 mod body;
 pub mod build;
+mod closure;
 mod columns;
 mod direction;
 mod error;
@@ -24,6 +25,7 @@ mod orientation;
 mod origin;
 mod pair;
 pub mod parameters;
+mod parts;
 mod point_on_line;
 mod readout;
 mod runtime;
@@ -45,6 +47,7 @@ pub use error::{Refusal, SceneError};
 pub use facts::{ElementDamping, ElementFrequency, Facts, Island, JointElement, JointFacts};
 pub use hinge::Hinge;
 pub use input::InputInfo;
+pub use joints::{Assembled, Moved, OpenJoint};
 pub use lint::{Severity, Warning};
 pub use nearest::nearest;
 pub use origin::Setting;
@@ -69,6 +72,7 @@ const KEYS: &[&str] = &[
     "name",
     "description",
     "gravity",
+    "assemble",
     "duration",
     "step",
     "every",
@@ -99,6 +103,8 @@ pub struct Scene {
     pub body_names: Vec<String>,
     /// The joints in scene order.
     pub joints: Vec<JointInfo>,
+    /// What was moved to close its joints, where it has a table `assemble`.
+    pub assembled: Option<Assembled>,
     /// What messages call the torsion springs, in the model's order:
     /// `torsion_spring 1 (world–crank)`; after those of the scene file the ones that count the
     /// turns of a read-out's joint.
@@ -224,6 +230,7 @@ impl Scene {
         let mut assembly = Assembly::default();
         assembly.set_gravity(gravity.unwrap_or_default());
         body::read_all(&root, &mut assembly)?;
+        let assembled = joints::assemble(&root, &mut assembly)?;
         let mut elements = Elements::default();
         let joints = joints::read_all(&root, &mut assembly, &mut elements)?;
         let mut raw_names = tsda::read_all(&root, &mut assembly, &mut elements)?;
@@ -242,6 +249,7 @@ impl Scene {
             every,
             body_names,
             joints,
+            assembled,
             torsion_names,
             inputs,
             readouts,

@@ -4,6 +4,7 @@
 //! bodies by `Rᵀ·(P − x)` with the very rotation that the kernel places them back with.
 
 mod driven;
+mod moved;
 
 pub(crate) use driven::{Drive, NoAnchor};
 
@@ -34,6 +35,9 @@ pub(crate) struct Assembly {
     frames: Vec<<F64 as Geometry>::Frame>,
     names: Vec<String>,
     rows: BTreeMap<String, BodyIndex>,
+    /// The states in which bodies were given that have moved since.
+    given: BTreeMap<usize, BodyState<F64>>,
+    is_assembled: bool,
 }
 
 /// Why an element does not fit the model.

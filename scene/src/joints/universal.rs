@@ -8,6 +8,7 @@ use dbd_kernel::{BodyState, Vec3};
 
 use crate::assembly::Assembly;
 use crate::body::mass_and_inertia;
+use crate::closure::{Place, Turn};
 use crate::direction::normals;
 use crate::error::SceneError;
 use crate::hinge::Hinge;
@@ -22,6 +23,7 @@ pub(super) const TYPE: JointType = JointType {
     name: "universal",
     holds: 10,
     keys: &["axes", "spider", "reference", "span", "ring"],
+    asks: (Place::Point, Turn::Across),
     expand,
 };
 
@@ -33,9 +35,10 @@ fn expand(
     joint: &Joint,
     assembly: &mut Assembly,
 ) -> Result<Vec<Hinge>, SceneError> {
-    let axes = table.required("axes", Axes)?;
+    let axes = orthogonal(table, joint.axes)?;
     let [a1, a2, _] = axes;
-    let triads = [triad::about(table, a1)?, triad::about(table, a2)?];
+    let triads =
+        [triad::about(table, a1, joint.reference)?, triad::about(table, a2, joint.reference)?];
     let size = Size::read(table)?;
     let body = table.required("spider", Spider)?;
 
@@ -69,31 +72,33 @@ fn expand(
 }
 
 /// Two orthogonal axes and the one normal to both.
-struct Axes;
+fn orthogonal(table: &Table<'_>, [a1, a2]: [Vec3<f64>; 2]) -> Result<[Vec3<f64>; 3], SceneError> {
+    let cosine = a1.dot(a2);
+    match normals(a1, a2) {
+        Some([a2, a3]) if cosine.abs() <= ORTHOGONAL => Ok([a1, a2, a3]),
+        _ => {
+            let angle = libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees();
+            let problem = format!("are {angle:.6} degrees apart");
+            let help = "the axes of a universal joint are orthogonal within 1e-6; two \
+                        revolutes and a body between them join axes at another angle";
+            Err(table.refuse_value("axes", &problem, help))
+        }
+    }
+}
+
+/// Two directions, the first of the first body, the second of the second.
+pub(super) struct Axes;
 
 impl Kind for Axes {
-    type Output = [Vec3<f64>; 3];
+    type Output = [Vec3<f64>; 2];
 
     fn expected(&self) -> String {
         "two orthogonal directions in world axes, [[x, y, z], [x, y, z]]".into()
     }
 
-    fn read(&self, value: &Value<'_>) -> Result<[Vec3<f64>; 3], SceneError> {
+    fn read(&self, value: &Value<'_>) -> Result<[Vec3<f64>; 2], SceneError> {
         let entries = value.entries(2, &self.expected())?;
-        let a1 = Direction.read(&entries[0])?;
-        let a2 = Direction.read(&entries[1])?;
-        let cosine = a1.dot(a2);
-        let [a2, a3] = match normals(a1, a2) {
-            Some(normals) if cosine.abs() <= ORTHOGONAL => normals,
-            _ => {
-                let angle = libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees();
-                let problem = format!("are {angle:.6} degrees apart");
-                let help = "the axes of a universal joint are orthogonal within 1e-6; two \
-                            revolutes and a body between them join axes at another angle";
-                return Err(value.refuse_with(&problem, help));
-            }
-        };
-        Ok([a1, a2, a3])
+        Ok([Direction.read(&entries[0])?, Direction.read(&entries[1])?])
     }
 }
 
