@@ -1,5 +1,6 @@
 //! Values with units and names: what scenes come to, and what is refused where.
 
+use dbd_scene::quantity::evaluate;
 use dbd_scene::{Scene, SceneError, Severity};
 
 const HEAD: &str = "name = \"q\"\n";
@@ -283,4 +284,33 @@ fn parameters_and_values_are_changed_by_path() {
     let error = with(&["parameters.k=3 s"]).unwrap_err();
     assert_eq!(error.file(), "q.toml");
     assert!(error.message().contains("`stiffness` of joint `j` is \"k\", a value in s"), "{error}");
+}
+
+/// The section of units in the reference: its table has every unit, each with its dimension, and its
+/// equations hold.
+#[test]
+fn the_page_has_every_unit_and_its_equations_hold() {
+    const PAGE: &str = include_str!("../../docs/scene-reference.md");
+    let section = PAGE.split("\n## ").find(|text| text.starts_with("Values with units")).unwrap();
+    let mut units = Vec::new();
+    for row in section.lines().filter(|line| line.starts_with("| ") && line.contains('`')) {
+        let own: Vec<_> = row.split('`').skip(1).step_by(2).collect();
+        let dimension = |unit: &str| evaluate(&format!("1 {unit}")).map(|one| one.dimension);
+        assert!(own.iter().all(|unit| dimension(unit) == dimension(own[0])), "{row}");
+        units.extend(own);
+    }
+    // Both letters that look like a small mu.
+    let known = dbd_scene::quantity::units().map(|unit| unit.replace('\u{3bc}', "\u{b5}"));
+    let mut known: Vec<_> = known.collect();
+    known.dedup();
+    assert_eq!(units.len(), known.len());
+    assert!(known.iter().all(|unit| units.contains(&unit.as_str())), "{known:?}");
+    let mut equations = 0;
+    let marked: Vec<_> = section.split('`').collect();
+    for three in marked.windows(3).filter(|three| three[1].trim() == "=") {
+        assert_eq!(evaluate(three[0]), evaluate(three[2]), "{three:?}");
+        assert!(evaluate(three[0]).is_ok(), "{three:?}");
+        equations += 1;
+    }
+    assert_eq!(equations, 9);
 }

@@ -37,6 +37,11 @@ pub fn evaluate(text: &str) -> Result<Quantity, Fault> {
     within(text, None)
 }
 
+/// The names of all units.
+pub fn units() -> impl Iterator<Item = &'static str> {
+    unit::UNITS.iter().map(|unit| unit.name)
+}
+
 /// The dimension of a key's unit as messages show it: `kg·m²`, and without what follows a comma.
 pub(crate) fn dimension_of(unit: &str) -> Dimension {
     let unit = unit.split(',').next().unwrap_or_default().trim();
@@ -45,5 +50,7 @@ pub(crate) fn dimension_of(unit: &str) -> Dimension {
     found.map(|quantity| quantity.dimension).unwrap_or_default()
 }
 
+#[cfg(test)]
+mod property;
 #[cfg(test)]
 mod tests;
