@@ -16,6 +16,7 @@ mod file_lines;
 mod hinge;
 mod input;
 mod joints;
+mod links;
 mod lint;
 mod load;
 mod names;
@@ -25,6 +26,8 @@ mod origin;
 mod pair;
 pub mod parameters;
 mod point_on_line;
+mod points;
+mod precise;
 mod readout;
 mod runtime;
 mod shortened;
@@ -72,6 +75,7 @@ const KEYS: &[&str] = &[
     "duration",
     "step",
     "every",
+    "points",
     "body",
     "joint",
     "tsda",

@@ -18,10 +18,11 @@ use crate::assembly::Assembly;
 use crate::error::SceneError;
 use crate::hinge::Hinge;
 use crate::pair::{Between, Pair};
+use crate::points::Place;
 use crate::shortened::shortened;
 use crate::spring::{self, Spring};
 use crate::target::{Elements, Target};
-use crate::text::{Choice, Kind as _, Number, Numbers, Table};
+use crate::text::{Choice, Kind as _, Table};
 
 /// A type of joint.
 struct JointType {
@@ -162,7 +163,7 @@ fn read(
     assembly: &mut Assembly,
 ) -> Result<(Pair, Vec<Hinge>), SceneError> {
     let pair = table.required("between", Between(assembly))?;
-    let at_w = Vec3::from_f64(table.required("at", Numbers(Number::any("m, world")))?);
+    let at_w = table.required("at", Place(assembly))?;
     let spring = spring::read(table, spring::AXIAL)?;
     let joint = Joint { name, pair, at_w, spring };
     let hinges = (kind.expand)(table, &joint, assembly)?;
