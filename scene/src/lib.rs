@@ -17,6 +17,7 @@ mod file_lines;
 mod hinge;
 mod input;
 mod joints;
+mod links;
 mod lint;
 mod load;
 mod names;
@@ -27,6 +28,8 @@ mod pair;
 pub mod parameters;
 mod parts;
 mod point_on_line;
+mod points;
+mod precise;
 pub mod quantity;
 mod readout;
 mod runtime;
@@ -79,6 +82,7 @@ const KEYS: &[&str] = &[
     "step",
     "every",
     "parameters",
+    "points",
     "body",
     "joint",
     "tsda",

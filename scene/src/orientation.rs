@@ -81,7 +81,7 @@ pub(crate) fn of_axes([x, y, z]: [Vec3<f64>; 3]) -> [f64; 4] {
 }
 
 /// A turn by an angle about a unit axis.
-fn about(axis: [f64; 3], angle: f64) -> Quaternion<f64> {
+pub(crate) fn about(axis: [f64; 3], angle: f64) -> Quaternion<f64> {
     let (sine, cosine) = libm::sincos(0.5 * angle);
     let [x, y, z] = axis;
     Quaternion::from_f64(normalised([cosine, sine * x, sine * y, sine * z]))

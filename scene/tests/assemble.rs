@@ -249,3 +249,129 @@ fn an_assembled_pose_has_the_same_bits_everywhere() {
     });
     assert_eq!(hash, 0x5a83_c8cb_9dea_bde7, "{hash:#x}");
 }
+
+#[test]
+fn velocities_are_those_that_the_joints_allow() {
+    let with = |rate: f64| {
+        scene(&four_bar(
+            4.0,
+            &format!("[assemble]\nfixed = [\"crank\"]\nrates = {{ A0 = {rate:?} }}\n"),
+        ))
+    };
+    let scene_at = with(3.0);
+    let states = &scene_at.model.initial;
+    assert_eq!(scene_at.assembled.as_ref().unwrap().set_moving, ["crank", "coupler", "rocker"]);
+    assert!((states[0].angular_velocity.z - 3.0).abs() < 1e-14);
+    let rates = scene_at.facts().joints.into_iter().map(|joint| joint.stretching_rate);
+    let largest = rates.fold(0.0, f64::max);
+    assert!(largest < 1e-13, "{largest:e}");
+    // The second body beside the first: the world beside the rocker turns the other way.
+    let text = four_bar(4.0, "[assemble]\nfixed = [\"crank\"]\nrates = { A0 = \"-3 rad/s\" }\n");
+    let other = scene(&text.replace("[\"world\", \"crank\"]", "[\"crank\", \"world\"]"));
+    assert!((other.model.initial[0].angular_velocity.z - 3.0).abs() < 1e-14);
+
+    // Where the linkage is a little before and after, by the assembly itself.
+    const H: f64 = 1e-5;
+    let (start, half) = (0.45_f64.atan2(0.25), 0.25_f64.hypot(0.45));
+    let at = |t: f64| {
+        let (sine, cosine) = (start + 3.0 * t).sin_cos();
+        let crank = [states[0].position.x, states[0].position.y];
+        assert!((crank[0] - 0.25).abs() < 1e-15 && (crank[1] - 0.45).abs() < 1e-15);
+        // The joint A goes with the crank: both are given anew.
+        let text = four_bar(4.0, "[assemble]\nfixed = [\"crank\"]\n")
+            .replace(
+                "position = [0.25, 0.45, 0]",
+                &format!("position = [{:?}, {:?}, 0]", half * cosine, half * sine),
+            )
+            .replace("angle = 1.06", &format!("angle = {:?}", 1.06 + 3.0 * t))
+            .replace(
+                "at = [0.5, 0.9, 0]",
+                &format!(
+                    "at = {{ first = [{:?}, {:?}, 0], second = [0.5, 0.9, 0] }}",
+                    2.0 * half * cosine,
+                    2.0 * half * sine
+                ),
+            );
+        scene(&text).model.initial
+    };
+    let (before, after) = (at(-H), at(H));
+    for row in 0..3 {
+        let slope = |of: fn(&dbd_kernel::BodyState<dbd_kernel::F64>) -> f64| {
+            (of(&after[row]) - of(&before[row])) / (2.0 * H)
+        };
+        let [vx, vy] = [slope(|state| state.position.x), slope(|state| state.position.y)];
+        let angle = slope(|state| 2.0 * state.orientation.v.z.atan2(state.orientation.w));
+        let gap = (vx - states[row].velocity.x).hypot(vy - states[row].velocity.y);
+        assert!(
+            gap < 1e-8 && (angle - states[row].angular_velocity.z).abs() < 1e-8,
+            "{row}: {gap:e}"
+        );
+    }
+}
+
+#[test]
+fn a_bodys_own_velocity_is_kept_and_the_others_follow() {
+    let text = four_bar(4.0, "[assemble]\n")
+        .replace("angle = 1.27 }", "angle = 1.27 }\nangular_velocity = [0, 0, -0.7]");
+    let moving = scene(&text);
+    assert_eq!(moving.model.initial[2].angular_velocity.to_f64(), [0.0, 0.0, -0.7]);
+    assert_eq!(moving.assembled.as_ref().unwrap().set_moving.len(), 3);
+    let largest =
+        moving.facts().joints.iter().map(|joint| joint.stretching_rate).fold(0.0, f64::max);
+    assert!(
+        largest < 1e-13 && moving.model.initial[0].angular_velocity.z.abs() > 0.1,
+        "{largest:e}"
+    );
+
+    // One freedom bears one rate, and none across its plane.
+    let error = refused(&text.replace("[assemble]\n", "[assemble]\nrates = { A0 = 5 }\n"));
+    assert!(error.message().contains("does not go with"), "{error}");
+    let error = refused(&text.replace("[0, 0, -0.7]", "[0, 0.1, -0.7]"));
+    assert!(error.message().contains("is a motion that the joints do not leave"), "{error}");
+}
+
+/// A spider turns with both of its bodies, and slides and turns are what they are called.
+#[test]
+fn joints_of_every_type_move_together() {
+    let body = |name: &str, x: f64| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nmass = 1\ninertia = [1, 1, 1]\nposition = [{x:?}, 0, 0]\n"
+        )
+    };
+    let text = "name = \"shafts\"\nduration = 1\n[assemble]\n\
+                rates = { drive = \"10 rad/s\", ram = { slide = 0.5, turn = 2 }, gate = -3 }\n"
+        .to_owned()
+        + &body("in", 0.0)
+        + &body("out", 1.0)
+        + &body("rod", 3.0)
+        + &body("door", 4.0)
+        + "[[joint]]\nname = \"drive\"\ntype = \"revolute\"\nbetween = [\"world\", \"in\"]\n\
+           at = [0, 0, 0]\naxis = [1, 0, 0]\nstiffness = 1e6\nspan = 0.1\n\
+           [[joint]]\nname = \"cross\"\ntype = \"universal\"\nbetween = [\"in\", \"out\"]\n\
+           at = [0.5, 0, 0]\naxes = [[0, 0.8, 0.6], [0.5, -0.6, 0.8]]\nstiffness = 1e6\nspan = 0.1\n\
+           spider = { mass = 1, inertia = [1, 1, 1] }\n\
+           [[joint]]\nname = \"bearing\"\ntype = \"revolute\"\nbetween = [\"world\", \"out\"]\n\
+           at = [0.5, 0, 0]\naxis = [1, 0.5, 0]\nstiffness = 1e6\nspan = 0.1\n\
+           [[joint]]\nname = \"ram\"\ntype = \"cylindrical\"\nbetween = [\"world\", \"rod\"]\n\
+           at = [3, 0.2, 0]\naxis = [0, 0, 1]\nstiffness = 1e6\nspan = 0.1\noffset = 0.05\n\
+           [[joint]]\nname = \"gate\"\ntype = \"translational\"\nbetween = [\"door\", \"rod\"]\n\
+           at = [3.5, 0, 0]\naxis = [0, 1, 0]\nstiffness = 1e6\nspan = 0.1\noffset = 0.05\ngauge = 0.1\n";
+    // The second axis of the cross is not normal to the first: the bodies come to where it is.
+    let moving = scene(&text);
+    let facts = moving.facts();
+    let largest = facts.joints.iter().map(|joint| joint.stretching_rate).fold(0.0, f64::max);
+    assert!(largest < 1e-13, "{largest:e}");
+    assert!(facts.joints.iter().all(|joint| joint.assembly_error < 1e-14));
+    let states = &moving.model.initial;
+    assert_eq!(moving.body_names[4], "cross.spider");
+    let spins = [0, 1, 4]
+        .map(|row| states[row].orientation.rotation().to_world(states[row].angular_velocity));
+    assert!((spins[0].x - 10.0).abs() < 1e-12 && spins[1].x.abs() > 1.0 && spins[2] != spins[0]);
+    assert!((states[2].velocity.z - 0.5).abs() < 1e-12);
+    let beside = states[2].velocity.y - states[3].velocity.y;
+    let turned = states[3].orientation.rotation().to_world(dbd_kernel::Vec3::new(0.0, 1.0, 0.0));
+    assert!((turned.y - 1.0).abs() < 1e-12 && (states[3].angular_velocity.z - 2.0).abs() < 1e-12);
+    // Both turn alike, by 2 rad/s about z.
+    let arm = states[2].position.x - states[3].position.x;
+    assert!((beside - 2.0 * arm + 3.0).abs() < 1e-12, "{beside} {arm}");
+}

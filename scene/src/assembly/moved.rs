@@ -21,6 +21,14 @@ impl Assembly {
         }
     }
 
+    /// Gives a body the velocities of a state.
+    pub(crate) fn set_velocities(&mut self, row: usize, state: BodyState<F64>) {
+        if let Some(stored) = self.model.initial.get_mut(row) {
+            stored.velocity = state.velocity;
+            stored.angular_velocity = state.angular_velocity;
+        }
+    }
+
     /// Says that all joints have been closed.
     pub(crate) fn set_assembled(&mut self) {
         self.is_assembled = true;
@@ -29,6 +37,22 @@ impl Assembly {
     /// Whether all joints have been closed.
     pub(crate) fn is_assembled(&self) -> bool {
         self.is_assembled
+    }
+
+    /// Where a point of a body was in the world when the body was given.
+    pub(crate) fn given_place(&self, body: BodyIndex, point_b: Vec3<f64>) -> Vec3<f64> {
+        match self.given.get(&body.row()) {
+            Some(given) => given.position + given.orientation.rotation().to_world(point_b),
+            None => self.place(body, point_b),
+        }
+    }
+
+    /// A point of the world in the axes of its owner when that was given.
+    pub(crate) fn given_point_in(&self, body: BodyIndex, point_w: Vec3<f64>) -> Vec3<f64> {
+        match self.given.get(&body.row()) {
+            Some(given) => given.orientation.rotation().to_body(point_w - given.position),
+            None => self.point_in(body, point_w),
+        }
     }
 
     /// Where a point of a body is now that was given in the world.

@@ -136,6 +136,22 @@ impl Closure {
         Opening { distance, angle }
     }
 
+    /// How the angle about its axis changes, times the length: by shifts and turns times it, as of a row.
+    pub(super) fn turning(&self, all: &[Pose]) -> [[f64; 6]; 2] {
+        let [[_, _, axis], _] = self.world_triads(&self.poses(all));
+        [slopes(Vec3::ZERO, -axis), slopes(Vec3::ZERO, axis)]
+    }
+
+    /// How the place of its second point along its axis changes, likewise.
+    pub(super) fn sliding(&self, all: &[Pose], scale: f64) -> [[f64; 6]; 2] {
+        let poses = self.poses(all);
+        let [[_, _, axis], _] = self.world_triads(&poses);
+        // That point of the first body which is where the second's is.
+        let place = poses[1].place(self.points[1]);
+        let arms = poses.map(|pose| (place - pose.position).cross(axis) * (1.0 / scale));
+        [slopes(-axis, -arms[0]), slopes(axis, arms[1])]
+    }
+
     fn poses(&self, all: &[Pose]) -> [Pose; 2] {
         self.ends.map(|end| all.get(end.row()).copied().unwrap_or(Pose::WORLD))
     }

@@ -46,6 +46,9 @@ pub(super) struct System<'s> {
 /// A joint is as good as closed that has less than this share of the sum of all gaps' squares.
 const ALMOST_CLOSED: f64 = 1e-12;
 
+/// A joint was as good as closed of which the square of the gap at first was less than this share of the largest.
+const SHUT: f64 = 1e-2;
+
 impl Island {
     /// All islands with a joint, in the order of their first bodies.
     pub(super) fn all(closures: &[Closure], movable: &[bool]) -> Vec<Self> {
@@ -105,7 +108,7 @@ impl Island {
         }
     }
 
-    /// How far its joints that were open at first are when all others are closed, from where what cannot be
+    /// How far its joints that were open most at first are when all others are closed, from where what cannot be
     /// closed is spread over all of them: what no motion changes of the residuals r is r·r/|r|, whichever
     /// joints have it.
     pub(super) fn gather(&self, length: f64, first: &[Opening], openings: &mut [Opening]) {
@@ -114,7 +117,10 @@ impl Island {
             opening.distance * opening.distance + angle * angle
         };
         let all = self.closures.iter().fold(0.0, |sum, row| sum + square(&openings[*row]));
-        let was_open = |row: &&usize| square(&first[**row]) > all * ALMOST_CLOSED;
+        let widest =
+            self.closures.iter().fold(0.0, |most: f64, row| most.max(square(&first[*row])));
+        let least = f64::max(all * ALMOST_CLOSED, widest * SHUT);
+        let was_open = |row: &&usize| square(&first[**row]) > least;
         let open = self.closures.iter().filter(was_open);
         let in_open = open.fold(0.0, |sum, row| sum + square(&openings[*row]));
         if in_open <= all * ALMOST_CLOSED {
@@ -127,7 +133,8 @@ impl Island {
         }
     }
 
-    fn system<'s>(&'s self, closures: &'s [Closure], length: f64) -> System<'s> {
+    /// The equations of its joints.
+    pub(super) fn system<'s>(&'s self, closures: &'s [Closure], length: f64) -> System<'s> {
         System { island: self, closures, length }
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! `(joints' halves in body axes, poses) => poses, what stays open, freedoms`. On SE(3), by Gauss and
 //! Newton with steps of least norm ([`newton`]), then along what is free back towards the given poses
-//! ([`nearest`]), each group of bodies that hang together for itself.
-//! Arithmetic, roots and libm's functions in one written order: the same bits on every host.
+//! ([`nearest`]), each group of bodies that hang together for itself. Velocities that the joints allow
+//! are a linear problem more ([`rates`]). Arithmetic, roots and libm's functions in one written order: the same bits on every host.
 
 mod constraint;
 mod island;
@@ -11,9 +11,11 @@ mod least_norm;
 mod nearest;
 mod newton;
 mod pose;
+mod rates;
 
 pub(crate) use constraint::{Closure, Opening, Place, Turn};
 pub(crate) use pose::{Pose, length};
+pub(crate) use rates::{Contradiction, Motion, Prescribed, motions};
 
 use crate::closure::island::Island;
 use crate::closure::newton::Budget;

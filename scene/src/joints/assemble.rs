@@ -7,6 +7,7 @@ use dbd_kernel::{BodyState, F64};
 use crate::assembly::{Assembly, WORLD};
 use crate::closure::{self, Closure, MOST_BODIES, Opening, Outcome, Settings};
 use crate::error::SceneError;
+use crate::joints::rates::{self, Joints};
 use crate::joints::site::{Site, poses, shown};
 use crate::joints::{KEYS as JOINT_KEYS, kind};
 use crate::pair::BodyName;
@@ -14,7 +15,7 @@ use crate::shortened::shortened;
 use crate::spring;
 use crate::text::{Kind, Number, Table, Text, Value};
 
-const KEYS: &[&str] = &["fixed", "length", "tolerance", "iterations"];
+const KEYS: &[&str] = &["fixed", "rates", "length", "tolerance", "iterations"];
 
 /// \[m\] by which a joint may stay open where the scene does not say.
 const TOLERANCE: f64 = 1e-9;
@@ -32,6 +33,8 @@ pub struct Assembled {
     pub moved: Vec<Moved>,
     /// The joints that were open, in the order of the scene.
     pub open: Vec<OpenJoint>,
+    /// The bodies that were given velocities that the joints allow, in the order of the scene.
+    pub set_moving: Vec<String>,
     /// Steps that were computed.
     pub iterations: usize,
     /// Freedoms that the joints leave to the bodies that may be moved.
@@ -123,7 +126,9 @@ pub(crate) fn read(
     let Outcome { iterations, freedoms, held_twice, .. } = outcome;
     let open = open.collect();
     let moved = place(assembly, &given, &outcome);
-    Ok(Some(Assembled { moved, open, iterations, freedoms, held_twice, length }))
+    let joints = Joints { tables: &tables, closures: &closures, length };
+    let set_moving = rates::set(root, &table, &joints, &outcome.poses, assembly)?;
+    Ok(Some(Assembled { moved, open, set_moving, iterations, freedoms, held_twice, length }))
 }
 
 /// Moves the bodies of the assembly to where they have come.

@@ -6,6 +6,7 @@
 mod assemble;
 mod cylindrical;
 mod fixed;
+mod rates;
 mod revolute;
 mod site;
 mod spherical;

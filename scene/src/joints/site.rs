@@ -6,15 +6,16 @@
 use dbd_kernel::Vec3;
 
 use crate::assembly::Assembly;
-use crate::closure::{Closure, Opening, Place, Pose, Turn};
+use crate::closure::{Closure, Opening, Place, Pose, Turn, length};
 use crate::direction::{least_aligned, normals};
 use crate::error::SceneError;
 use crate::joints::universal::Axes;
 use crate::joints::{Joint, JointType};
 use crate::orientation::of_axes;
 use crate::pair::{Between, Pair};
+use crate::points::Place as NamedPlace;
 use crate::spring::Spring;
-use crate::text::{Direction, Kind, Number, Numbers, Table, Value};
+use crate::text::{Direction, Kind, Table, Value};
 
 /// \[m, rad\] by which a joint may be open that nothing closes: what is written has 9 digits at least.
 const CLOSED: f64 = 1e-9;
@@ -26,7 +27,7 @@ pub(super) struct Site {
     at: [Vec3<f64>; 2],
     axes: [Vec3<f64>; 2],
     references: Option<[Vec3<f64>; 2]>,
-    /// Whether any of these is given for each half.
+    /// Whether any of these that have to be the same differ.
     is_double: bool,
 }
 
@@ -38,17 +39,18 @@ impl Site {
         assembly: &Assembly,
     ) -> Result<Self, SceneError> {
         let pair = table.required("between", Between(assembly))?;
-        let at = table.required("at", Halves(Numbers(Number::any("m, world"))))?;
+        let half = |body| PlaceOfHalf { assembly, body };
+        let at = table.required("at", Halves([half(pair.a), half(pair.b)]))?;
         let axes = match () {
             () if kind.keys.contains(&"axes") => table.required("axes", Axes)?,
-            () if kind.keys.contains(&"axis") => table.required("axis", Halves(Direction))?,
+            () if kind.keys.contains(&"axis") => table.required("axis", Halves([Direction; 2]))?,
             () => [Vec3::new(0.0, 0.0, 1.0); 2],
         };
-        let references = table.optional("reference", Halves(Direction))?;
-        let is_double = ["at", "axis", "reference"]
-            .iter()
-            .any(|key| table.value(key).is_some_and(|value| is_halves(&value)));
-        let at = at.map(Vec3::from_f64);
+        let references = table.optional("reference", Halves([Direction; 2]))?;
+        let differ = |[a, b]: [Vec3<f64>; 2]| a != b;
+        let is_double = differ(at)
+            || (kind.keys.contains(&"axis") && differ(axes))
+            || references.is_some_and(differ);
         Ok(Self { pair, asks: kind.asks, at, axes, references, is_double })
     }
 
@@ -144,30 +146,58 @@ pub(super) fn shown(Opening { distance, angle }: Opening) -> String {
 
 /// What both halves of a joint have, or `{ first, second }`.
 #[derive(Clone, Copy)]
-struct Halves<K>(K);
+struct Halves<K>([K; 2]);
 
-impl<K: Kind> Kind for Halves<K>
-where
-    K::Output: Copy,
-{
+impl<K: Kind> Kind for Halves<K> {
     type Output = [K::Output; 2];
 
     fn expected(&self) -> String {
-        let one = self.0.expected();
+        let one = self.0[0].expected();
         format!("{one}, or {{ first = …, second = … }} with one of each body")
     }
 
     fn read(&self, value: &Value<'_>) -> Result<[K::Output; 2], SceneError> {
+        let Self([first, second]) = self;
+        if !(value.get().is_array() || value.get().is_str() || value.get().is_table()) {
+            return Err(value.wrong_type(&self.expected()));
+        }
         if !is_halves(value) {
-            return Ok([self.0.read(value)?; 2]);
+            return Ok([first.read(value)?, second.read(value)?]);
         }
         let table = value.table(&self.expected())?;
         table.only(&[&["first", "second"]])?;
-        let half = |key| match table.value(key) {
-            Some(value) => self.0.read(&value),
-            None => Err(table.missing(key, &self.0.expected())),
+        let half = |key: &str, kind: &K| match table.value(key) {
+            Some(value) => kind.read(&value),
+            None => Err(table.missing(key, &kind.expected())),
         };
-        Ok([half("first")?, half("second")?])
+        Ok([half("first", first)?, half("second", second)?])
+    }
+}
+
+/// Where a half of a joint lies, world at the given poses: a point that the body has as an end of its own
+/// where that is.
+#[derive(Clone, Copy)]
+struct PlaceOfHalf<'a> {
+    assembly: &'a Assembly,
+    body: dbd_kernel::BodyIndex,
+}
+
+impl Kind for PlaceOfHalf<'_> {
+    type Output = Vec3<f64>;
+
+    fn expected(&self) -> String {
+        NamedPlace(self.assembly).expected()
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<Vec3<f64>, SceneError> {
+        /// \[m\] an end that is this near to its point is there.
+        const THERE: f64 = 1e-12;
+        let point = NamedPlace(self.assembly).read(value)?;
+        let end = value.get().as_str().and_then(|name| self.assembly.end(self.body, name));
+        let Some(end) = end else { return Ok(point) };
+        let end = self.assembly.given_place(self.body, end);
+        let is_there = length(end - point) <= THERE * (1.0 + length(point));
+        Ok(if is_there { point } else { end })
     }
 }
 

@@ -1,7 +1,7 @@
 //! Universal joint: a spider between two revolutes (Franco & Degani 2026, section 2.4.2).
 //!
 //! The spider is a body `JOINT.spider` at `at` with the axes (a1, a2, a1 × a2), moving with the
-//! first body. A revolute about a1 joins it to the first body, one about a2 to the second. a2 is
+//! first body or, where [assemble] sets velocities, with both. A revolute about a1 joins it to the first body, one about a2 to the second. a2 is
 //! made normal to a1 to the last bit.
 
 use dbd_kernel::{BodyState, Vec3};
@@ -17,7 +17,7 @@ use crate::joints::triad;
 use crate::joints::{Joint, JointType};
 use crate::orientation::of_axes;
 use crate::pair::Pair;
-use crate::text::{Direction, Kind, Table, Value};
+use crate::text::{Direction, Kind, Number, Numbers, Table, Value};
 
 pub(super) const TYPE: JointType = JointType {
     name: "universal",
@@ -40,7 +40,7 @@ fn expand(
     let triads =
         [triad::about(table, a1, joint.reference)?, triad::about(table, a2, joint.reference)?];
     let size = Size::read(table)?;
-    let body = table.required("spider", Spider)?;
+    let (body, spin) = table.required("spider", Spider)?;
 
     let name = format!("{}.spider", joint.name);
     if assembly.body(&name).is_some() {
@@ -49,15 +49,20 @@ fn expand(
         return Err(table.refuse_key("spider", &problem, help));
     }
     let Pair { a, b, names } = joint.pair.clone();
-    let (velocity, spin_w) = assembly.motion(a, joint.at_w);
+    let (velocity, mut spin_w) = assembly.motion(a, joint.at_w);
+    if assembly.is_assembled() {
+        // Velocities agree with the joints: what the bodies turn beside each other about the first axis the
+        // spider does.
+        let (_, other_w) = assembly.motion(b, joint.at_w);
+        spin_w = spin_w + a1 * a1.dot(other_w - spin_w);
+    }
     let orientation = of_axes(axes);
     let rotation = dbd_kernel::Quaternion::from_f64(orientation).rotation();
-    let state = BodyState::from_f64(
-        joint.at_w.to_f64(),
-        orientation,
-        velocity.to_f64(),
-        rotation.to_body(spin_w).to_f64(),
-    );
+    let turning = match &spin {
+        Some(spin) => *spin,
+        None => rotation.to_body(spin_w).to_f64(),
+    };
+    let state = BodyState::from_f64(joint.at_w.to_f64(), orientation, velocity.to_f64(), turning);
     let [first, second] = names;
     let spider = assembly.add_body(&name, body, state).map_err(|defect| defect.refuse(table))?;
     let pairs = [
@@ -102,11 +107,11 @@ impl Kind for Axes {
     }
 }
 
-/// The spider's mass and inertia.
+/// The spider's mass and inertia, and \[rad/s\] its angular velocity about its own axes where that is given.
 struct Spider;
 
 impl Kind for Spider {
-    type Output = dbd_kernel::Body<f64>;
+    type Output = (dbd_kernel::Body<f64>, Option<[f64; 3]>);
 
     fn expected(&self) -> String {
         "{ mass = kg, inertia = [Ix, Iy, Iz] } of the body between the two axes".into()
@@ -114,8 +119,9 @@ impl Kind for Spider {
 
     fn read(&self, value: &Value<'_>) -> Result<Self::Output, SceneError> {
         let table = value.table(&self.expected())?;
-        table.only(&[&["mass", "inertia"]])?;
-        mass_and_inertia(&table)
+        table.only(&[&["mass", "inertia", "angular_velocity"]])?;
+        let spin = table.optional("angular_velocity", Numbers(Number::any("rad/s")))?;
+        Ok((mass_and_inertia(&table)?, spin))
     }
 }
 

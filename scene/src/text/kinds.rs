@@ -28,7 +28,7 @@ impl Kind for Direction {
 }
 
 /// Bytes of a name in UTF-8: a folder may have it, with room for what systems add; 255 is the end.
-const LONGEST_NAME: usize = 200;
+pub(super) const LONGEST_NAME: usize = 200;
 
 /// A string; with something in it where it is a name.
 #[derive(Clone, Copy)]

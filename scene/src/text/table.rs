@@ -10,7 +10,7 @@ use toml::de::{DeTable, DeValue};
 use crate::error::{SceneError, Source};
 use crate::nearest::nearest;
 use crate::shortened::shortened;
-use crate::text::kinds::is_invisible;
+use crate::text::kinds::{LONGEST_NAME, is_invisible};
 use crate::text::value::{Kind, Value};
 
 /// A table and what messages call it.
@@ -166,6 +166,26 @@ impl<'t> Table<'t> {
             tables.push(Table::new(self.source, entries, entry.span(), label));
         }
         Ok(tables)
+    }
+
+    /// All its values by their keys, which are names, in the order of the file.
+    pub(crate) fn named(&self) -> Result<Vec<(String, Value<'t>)>, SceneError> {
+        let mut entries: Vec<_> = self.entries.iter().collect();
+        entries.sort_by_key(|(key, _)| key.span().start);
+        let mut named = Vec::new();
+        for (key, entry) in entries {
+            let name = key.get_ref().as_ref();
+            let is_name = !name.trim().is_empty() && !name.contains(is_invisible);
+            if !is_name || name.len() > LONGEST_NAME {
+                let problem = format!("{} has a name that is none", self.label);
+                let help = format!("one line of visible text, at most {LONGEST_NAME} bytes");
+                return Err(self.source.refuse(key.span(), problem, help));
+            }
+            let key = format!("`{}`", shortened(name));
+            let owner = self.label.clone();
+            named.push((name.to_owned(), Value { source: self.source, entry, key, owner }));
+        }
+        Ok(named)
     }
 
     /// The lines, from 1, on which the tables of `[[key]]` begin.
