@@ -375,3 +375,45 @@ fn joints_of_every_type_move_together() {
     let arm = states[2].position.x - states[3].position.x;
     assert!((beside - 2.0 * arm + 3.0).abs() < 1e-12, "{beside} {arm}");
 }
+
+/// By lengths and rough points alone: each link keeps its length and comes to where its ends meet.
+#[test]
+fn a_four_bar_of_lengths_and_rough_points_assembles() {
+    let text = r#"
+        name = "four-bar"
+        duration = 0.5
+        points = { A0 = [0, 0, 0], A = [0.6, 0.7, 0], B0 = [3.5, 0, 0], B = [4, 2, 0] }
+        assemble = { rates = { A0 = "2 rad/s" } }
+        body = [
+            { name = "crank", link = { from = "A0", to = "A", length = 1 }, mass = 1, inertia = [1, 1, 1] },
+            { name = "coupler", link = { from = "A", to = "B", length = 4 }, mass = 1, inertia = [1, 1, 1] },
+            { name = "rocker", link = { from = "B0", to = "B", length = 2.5 }, mass = 1, inertia = [1, 1, 1] },
+        ]
+        joint = [
+            { name = "A0", between = ["world", "crank"], at = "A0", type = "revolute", axis = [0, 0, 1], stiffness = 9e6, span = 0.2 },
+            { name = "A", between = ["crank", "coupler"], at = "A", type = "revolute", axis = [0, 0, 1], stiffness = 9e6, span = 0.2 },
+            { name = "B", between = ["coupler", "rocker"], at = "B", type = "revolute", axis = [0, 0, 1], stiffness = 9e6, span = 0.2 },
+            { name = "B0", between = ["world", "rocker"], at = "B0", type = "revolute", axis = [0, 0, 1], stiffness = 9e6, span = 0.2 },
+        ]
+        tsda = [
+            { between = ["crank", "rocker"], points = ["A", "B"], stiffness = 1, free_length = 0.1 },
+        ]
+    "#;
+    let scene = scene(text);
+    assert!(scene.joints.iter().all(|joint| joint.assembly_error < 1e-14));
+    let states = &scene.model.initial;
+    let end = |row: usize, half: f64| {
+        let state = &states[row];
+        let arm = state.orientation.rotation().to_world(dbd_kernel::Vec3::new(half, 0.0, 0.0));
+        (state.position + arm).to_f64()
+    };
+    let near = |p: [f64; 3], q: [f64; 3]| p.iter().zip(q).all(|(p, q)| (p - q).abs() < 1e-13);
+    assert!(near(end(0, -0.5), [0.0; 3]) && near(end(2, -1.25), [3.5, 0.0, 0.0]));
+    assert!(near(end(0, 0.5), end(1, -2.0)) && near(end(1, 2.0), end(2, 1.25)));
+    // And near to where they were drawn.
+    assert!(scene.assembled.unwrap().moved.iter().all(|moved| moved.distance < 0.4));
+    // A raw element at a link's end goes with it.
+    let group = scene.model.groups.last().unwrap();
+    let points = &scene.model.points[usize::from(group.point)..];
+    assert_eq!(points[..2], [[0.5, 0.0, 0.0], [1.25, 0.0, 0.0]].map(dbd_kernel::Vec3::from_f64));
+}
