@@ -25,6 +25,7 @@ pages! {
     development "docs/development.md"
     extremes "docs/extremes.md"
     golden "docs/golden.md"
+    import "docs/import.md"
     joints "docs/joints.md"
     proof "docs/proof.md"
     reference_solvers "docs/reference-solvers.md"

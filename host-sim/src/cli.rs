@@ -10,6 +10,7 @@ use std::path::PathBuf;
 use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 use dbd_golden::{BandList, Blessing};
+use dbd_import::omission;
 use dbd_plant::time::Time;
 use dbd_plant::{DampingName, Method, Named as _, OrientationName, PrecisionName, SchemeName};
 use dbd_study::{Phase, files};
@@ -20,6 +21,7 @@ use crate::commands::completions::script;
 use crate::commands::export::{self, ExportArguments};
 use crate::commands::folder::Destination;
 use crate::commands::golden::GoldenOptions;
+use crate::commands::import::{self, ImportArguments};
 use crate::commands::list::list;
 use crate::commands::new::{FirmwareArguments, NewCommand, firmware};
 use crate::commands::run::{Outcome, RunOptions, run};
@@ -56,6 +58,9 @@ enum Command {
     Trade(TradeArguments),
     /// Prints Rust source of a scene's const model and of its plant, for a firmware
     Export(ExportArguments),
+    /// Makes a scene of MuJoCo's MJCF: each part with the line it comes from; what has no counterpart is
+    /// listed with its size and refused, unless its kind is ignored
+    Import(ImportArguments),
     /// Writes a new project that builds and runs as it is
     #[command(subcommand, disable_help_subcommand = true)]
     New(NewCommand),
@@ -195,6 +200,7 @@ where
         Command::Check(arguments) => check_scene(&catalogue, &arguments, console),
         Command::Trade(arguments) => trade_scene(&catalogue, &arguments, console),
         Command::Export(arguments) => export_scene(&catalogue, &arguments, console),
+        Command::Import(arguments) => import_file(&arguments, console),
         Command::New(NewCommand::Firmware(arguments)) => {
             new_firmware(&catalogue, &arguments, console)
         }
@@ -371,6 +377,23 @@ fn export_scene(
     match &arguments.out {
         Some(file) => export::write(file, &text)?,
         None => console.print(&text)?,
+    }
+    Ok(Exit::Done)
+}
+
+fn import_file(arguments: &ImportArguments, console: &mut Console<'_>) -> Result<Exit, Error> {
+    if arguments.list {
+        console.print(&import::list(arguments)?)?;
+        return Ok(Exit::Done);
+    }
+    let imported = import::import(arguments)?;
+    if !imported.omitted.is_empty() {
+        console.note(&format!("left out:\n{}", omission::table(&imported.omitted).trim_end()));
+    }
+    imported.notes.iter().for_each(|note| console.note(note));
+    match &arguments.out {
+        Some(file) => import::write(file, &imported.scene)?,
+        None => console.print(&imported.scene)?,
     }
     Ok(Exit::Done)
 }

@@ -6,6 +6,7 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::commands::export::ExportError;
+use crate::commands::import::ImportError;
 use crate::commands::new::NewError;
 use crate::commands::run::RunError;
 use crate::commands::trade::TradeError;
@@ -31,6 +32,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Export(#[from] ExportError),
+    /// Nothing was imported.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Import(#[from] ImportError),
     /// There is no new project.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -55,10 +60,10 @@ impl Error {
     pub fn exit(&self) -> Exit {
         match self {
             Self::Load(_) | Self::Method(_) | Self::Plant(_) => Exit::Refused,
-            Self::Export(ExportError::Write { .. }) | Self::New(NewError::Write { .. }) => {
-                Exit::Failed
-            }
-            Self::Export(_) | Self::New(_) => Exit::Refused,
+            Self::Export(ExportError::Write { .. })
+            | Self::Import(ImportError::Write { .. })
+            | Self::New(NewError::Write { .. }) => Exit::Failed,
+            Self::Export(_) | Self::Import(_) | Self::New(_) => Exit::Refused,
             Self::Output(_) => Exit::Failed,
             Self::Run(error) => match error {
                 RunError::Plan(_)

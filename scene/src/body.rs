@@ -1,24 +1,67 @@
 //! `[[body]]`: mass, principal inertia and state at t = 0.
 //!
-//! `table => body in the assembly`.
+//! `tables => bodies in the assembly, places of the points`. A body's pose is given in the world, in the frame of
+//! another body, or by the points between which it lies.
 
-use dbd_kernel::{Body, BodyState, F64};
+use dbd_kernel::{Body, BodyState, F64, Vec3};
 
 use crate::assembly::{Assembly, WORLD};
 use crate::error::SceneError;
+use crate::links::{self, Link};
 use crate::names::Names;
 use crate::orientation::Orientation;
+use crate::points::{self, Frame, Node, Places, PrecisePlace};
 use crate::text::{Number, Numbers, Table, Value};
 
 const KEYS: &[&str] =
-    &["name", "mass", "inertia", "position", "orientation", "velocity", "angular_velocity"];
+    &["name", "mass", "inertia", "position", "orientation", "velocity", "angular_velocity", "link"];
 
 /// Relative slack of the triangle inequality: an inertia computed for a thin plate meets it with
 /// equality but for rounding.
 const TRIANGLE_SLACK: f64 = 1e-9;
 
-/// Reads all bodies in scene order.
+/// A body that was read.
+struct Read {
+    body: Body<f64>,
+    state: BodyState<F64>,
+    link: Option<Link>,
+}
+
+/// Reads all points and bodies; adds the bodies in scene order.
 pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), SceneError> {
+    let tables = named(root)?;
+    let points = points::written(root)?;
+    let point_names = points.iter().map(|(name, _)| name.clone()).collect();
+    let body_names = tables.iter().map(|(name, _)| name.clone()).collect();
+    let mut places = Places::new(point_names, body_names);
+    let mut bodies: Vec<_> = tables.iter().map(|_| None).collect();
+    for node in points::order(&points, &tables)? {
+        match node {
+            Node::Point(row) => {
+                let (name, value) = &points[row];
+                places.read(value, name)?;
+            }
+            Node::Body(row) => {
+                let (name, table) = &tables[row];
+                let body = read(table, &places, root.has("assemble"))?;
+                places.add_frame(name, frame(&body.state));
+                bodies[row] = Some(body);
+            }
+        }
+    }
+    for ((name, table), read) in tables.iter().zip(bodies) {
+        let Some(Read { body, state, link }) = read else { continue };
+        let row = assembly.add_body(name, body, state).map_err(|defect| defect.refuse(table))?;
+        let ends = link.into_iter().flat_map(|link| link.ends);
+        let ends = ends.map(|end| (end.point, Vec3::from_f64(end.place)));
+        assembly.set_ends(row, ends.collect());
+    }
+    assembly.set_points(places.rounded());
+    Ok(())
+}
+
+/// The tables of all bodies with their names.
+fn named<'t>(root: &Table<'t>) -> Result<Vec<(String, Table<'t>)>, SceneError> {
     let tables = root.list("body")?;
     if tables.is_empty() {
         let help = "a scene has at least one [[body]] with a name, a mass and an inertia";
@@ -28,6 +71,7 @@ pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), 
         });
     }
     let mut names = Names::default();
+    let mut named = Vec::new();
     for table in tables {
         table.only(&[KEYS])?;
         let name = names.read(&table, "body", ())?;
@@ -35,21 +79,50 @@ pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), 
             let help = "the world is there without being declared; a body has another name";
             return Err(table.refuse_value("name", "is \"world\"", help));
         }
-        let (body, state) = read(&table)?;
-        assembly.add_body(&name, body, state).map_err(|defect| defect.refuse(&table))?;
+        named.push((name, table));
     }
-    Ok(())
+    Ok(named)
 }
 
-fn read(table: &Table<'_>) -> Result<(Body<f64>, BodyState<F64>), SceneError> {
+/// The frame of a body at its initial pose.
+fn frame(state: &BodyState<F64>) -> Frame {
+    Frame { origin: state.position.into(), axes: links::axes_of(state.orientation.to_f64()) }
+}
+
+fn read(table: &Table<'_>, places: &Places, is_assembled: bool) -> Result<Read, SceneError> {
+    let link = match table.value("link") {
+        Some(value) => {
+            let link =
+                value.table("{ from = \"A\", to = \"B\" }, the points between which it lies")?;
+            link.only(&[links::KEYS])?;
+            Some(links::read(&link, places, is_assembled)?)
+        }
+        None => None,
+    };
     let body = mass_and_inertia(table)?;
-    let position = table.required("position", Numbers(Number::any("m")))?;
-    let orientation = table.optional("orientation", Orientation)?.unwrap_or([1.0, 0.0, 0.0, 0.0]);
+    let (position, orientation) = match &link {
+        Some(link) => {
+            for key in ["position", "orientation"] {
+                if table.has(key) {
+                    let help = "a link gives position and orientation; `centre`, `along` and \
+                                `reference` of the link change them";
+                    return Err(table.refuse_key(key, "contradicts `link`", help));
+                }
+            }
+            (link.position, link.orientation)
+        }
+        None => {
+            let position = table.required("position", PrecisePlace(places))?;
+            let orientation = table.optional("orientation", Orientation)?;
+            (position, orientation.unwrap_or([1.0, 0.0, 0.0, 0.0]))
+        }
+    };
     let velocity = table.optional("velocity", Numbers(Number::any("m/s")))?.unwrap_or_default();
     let angular_velocity =
         table.optional("angular_velocity", Numbers(Number::any("rad/s")))?.unwrap_or_default();
+    let position = position.nearest().to_f64();
     let state = BodyState::from_f64(position, orientation, velocity, angular_velocity);
-    Ok((body, state))
+    Ok(Read { body, state, link })
 }
 
 /// Reads `mass` and `inertia`.

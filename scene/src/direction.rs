@@ -16,6 +16,21 @@ pub(crate) fn unit(v: Vec3<f64>) -> Option<Vec3<f64>> {
     Some(Vec3::new(v.x / length, v.y / length, v.z / length))
 }
 
+/// The vector at unit length, such that it keeps its bits when it is brought there again.
+pub(crate) fn settled(v: Vec3<f64>) -> Option<Vec3<f64>> {
+    // Nearly always the second time changes nothing.
+    const MOST: usize = 8;
+    let mut found = unit(v)?;
+    for _ in 0..MOST {
+        let next = unit(found)?;
+        if next == found {
+            break;
+        }
+        found = next;
+    }
+    Some(found)
+}
+
 /// Unit vectors (e1, e2) normal to the unit vector `axis` with `e1 × e2 = axis`; e1 lies in the
 /// half plane of `reference`. `None` where reference and axis are parallel within 1e-6.
 pub(crate) fn normals(axis: Vec3<f64>, reference: Vec3<f64>) -> Option<[Vec3<f64>; 2]> {

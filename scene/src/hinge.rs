@@ -69,6 +69,7 @@ pub(crate) fn read(table: &Table<'_>, known: &Known<'_>) -> Result<Hinge, SceneE
             let group = known.assembly.groups().get(info.groups.start).copied();
             let (a, b) = group.map_or((BodyIndex::WORLD, BodyIndex::WORLD), |g| (g.a, g.b));
             let pair = Pair { a, b, names: info.between.clone() };
+            let axis = known.assembly.carried_direction(a, axis);
             Ok(known.assembly.hinge(&pair, axis))
         }
         (kind, _) => Err(rigid(table, &name, &format!("{kind} joint"))),

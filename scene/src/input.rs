@@ -12,8 +12,9 @@ use crate::error::SceneError;
 use crate::hinge::{self, Known};
 use crate::names::Names;
 use crate::pair::BodyName;
+use crate::points::PlaceOf;
 use crate::target::{ElementName, Kinds, Target};
-use crate::text::{Choice, Direction, Kind, Number, Numbers, Seconds, Table, Value};
+use crate::text::{Choice, Direction, Kind, Number, Seconds, Table, Value};
 
 /// What is said of an input.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -81,11 +82,12 @@ fn kind(table: &Table<'_>) -> Result<&'static InputType, SceneError> {
 fn force(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {
     let body = BodyName { assembly: known.assembly, world: false };
     let (_, body) = table.required("body", body)?;
-    let point = table.optional("point", Numbers(Number::any("m, body axes")))?.unwrap_or_default();
+    let place = PlaceOf { assembly: known.assembly, body };
+    let point = table.optional("point", place)?.unwrap_or_default();
     let direction = table.required("axis", Direction)?;
     Ok(InputKind::Force {
         body,
-        point: F64::local_from_f64(point),
+        point: F64::local_from_f64(point.to_f64()),
         direction,
         frame: frame(table)?,
     })

@@ -7,6 +7,7 @@
 mod assembly;
 mod body;
 pub mod build;
+mod closure;
 mod columns;
 mod direction;
 mod error;
@@ -16,6 +17,7 @@ mod file_lines;
 mod hinge;
 mod input;
 mod joints;
+mod links;
 mod lint;
 mod load;
 mod names;
@@ -24,7 +26,11 @@ mod orientation;
 mod origin;
 mod pair;
 pub mod parameters;
+mod parts;
 mod point_on_line;
+mod points;
+mod precise;
+pub mod quantity;
 mod readout;
 mod runtime;
 mod shortened;
@@ -45,6 +51,7 @@ pub use error::{Refusal, SceneError};
 pub use facts::{ElementDamping, ElementFrequency, Facts, Island, JointElement, JointFacts};
 pub use hinge::Hinge;
 pub use input::InputInfo;
+pub use joints::{Assembled, Moved, OpenJoint};
 pub use lint::{Severity, Warning};
 pub use nearest::nearest;
 pub use origin::Setting;
@@ -57,10 +64,11 @@ use dbd_kernel::readouts::Readout;
 use dbd_kernel::{F64, Geometry};
 
 use crate::assembly::Assembly;
+use crate::error::Source;
 use crate::file_lines::FileLines;
 use crate::hinge::Known;
 use crate::origin::Origin;
-use crate::parameters::{Changed, Changes};
+use crate::parameters::{Changed, Changes, Parameter};
 use crate::target::Elements;
 use crate::text::{Number, Numbers, Seconds, Text};
 use crate::written::WrittenAngle;
@@ -69,9 +77,12 @@ const KEYS: &[&str] = &[
     "name",
     "description",
     "gravity",
+    "assemble",
     "duration",
     "step",
     "every",
+    "parameters",
+    "points",
     "body",
     "joint",
     "tsda",
@@ -99,6 +110,8 @@ pub struct Scene {
     pub body_names: Vec<String>,
     /// The joints in scene order.
     pub joints: Vec<JointInfo>,
+    /// What was moved to close its joints, where it has a table `assemble`.
+    pub assembled: Option<Assembled>,
     /// What messages call the torsion springs, in the model's order:
     /// `torsion_spring 1 (world–crank)`; after those of the scene file the ones that count the
     /// turns of a read-out's joint.
@@ -107,6 +120,8 @@ pub struct Scene {
     pub inputs: Vec<InputInfo>,
     /// The read-outs in scene order.
     pub readouts: Vec<ReadoutInfo>,
+    /// The values that `[parameters]` names, in the order of the file, as they are with the changes.
+    pub parameters: Vec<Parameter>,
     /// The changes of the file's values as they were given, each `PATH=VALUE`.
     pub changes: Vec<String>,
     /// What they changed.
@@ -211,9 +226,16 @@ impl Scene {
         let changes = Changes::read(text, changes)?;
         let source = changes.source(file);
         let mut document = text::parse(source)?;
+        let before = match &changes.is_empty() {
+            true => None,
+            false => parameters::read(&text::root(source, &document), None).ok(),
+        };
         let changed = changes.apply(file, &mut document)?;
         let root = text::root(source, &document);
         root.only(&[KEYS])?;
+        let scope = parameters::read(&root, before.as_ref())?;
+        let source = Source { scope: Some(&scope), ..source };
+        let root = text::root(source, &document);
         let name = root.required("name", Text::Name)?;
         let description = root.optional("description", Text::Any)?.unwrap_or_default();
         let duration = root.required("duration", Seconds::positive())?;
@@ -224,6 +246,7 @@ impl Scene {
         let mut assembly = Assembly::default();
         assembly.set_gravity(gravity.unwrap_or_default());
         body::read_all(&root, &mut assembly)?;
+        let assembled = joints::assemble(&root, &mut assembly)?;
         let mut elements = Elements::default();
         let joints = joints::read_all(&root, &mut assembly, &mut elements)?;
         let mut raw_names = tsda::read_all(&root, &mut assembly, &mut elements)?;
@@ -242,6 +265,7 @@ impl Scene {
             every,
             body_names,
             joints,
+            assembled,
             torsion_names,
             inputs,
             readouts,
@@ -249,6 +273,7 @@ impl Scene {
             file_lines: FileLines::of(&root)?,
             origin: Origin::of(source, &root),
             written_angles: written::angles(&root)?,
+            parameters: parameters::all(&root, &scope),
             changes: given,
             changed,
             raw_names,

@@ -81,10 +81,25 @@ pub(crate) fn of_axes([x, y, z]: [Vec3<f64>; 3]) -> [f64; 4] {
 }
 
 /// A turn by an angle about a unit axis.
-fn about(axis: [f64; 3], angle: f64) -> Quaternion<f64> {
+pub(crate) fn about(axis: [f64; 3], angle: f64) -> Quaternion<f64> {
     let (sine, cosine) = libm::sincos(0.5 * angle);
     let [x, y, z] = axis;
     Quaternion::from_f64(normalised([cosine, sine * x, sine * y, sine * z]))
+}
+
+/// A quaternion at unit length that keeps its bits when it is brought there again.
+pub(crate) fn settled(q: [f64; 4]) -> [f64; 4] {
+    // Nearly always the second time changes nothing.
+    const MOST: usize = 8;
+    let mut unit = normalised(q);
+    for _ in 0..MOST {
+        let next = normalised(unit);
+        if next == unit {
+            break;
+        }
+        unit = next;
+    }
+    unit
 }
 
 fn norm_squared([w, x, y, z]: [f64; 4]) -> f64 {

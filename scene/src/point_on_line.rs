@@ -5,9 +5,10 @@ use dbd_kernel::Vec3;
 use crate::assembly::{Assembly, Lines, Points};
 use crate::error::SceneError;
 use crate::pair::{Between, Pair};
+use crate::points::PlaceOf;
 use crate::spring;
 use crate::target::{Elements, Target};
-use crate::text::{Direction, Number, Numbers, Table};
+use crate::text::{Direction, Number, Table};
 
 const KEYS: &[&str] =
     &["name", "between", "line_point", "line_direction", "point", "free_length", "clearance"];
@@ -28,10 +29,10 @@ pub(crate) fn read_all(
         let target = Target::PointOnLine(assembly.groups().len());
         elements.read_optional(&table, "point_on_line", target)?;
         let pair = table.required("between", Between(assembly))?;
-        let point = |key| table.required(key, Numbers(Number::any("m"))).map(Vec3::from_f64);
-        let line_point = point("line_point")?;
+        let place = |body| PlaceOf { assembly, body };
+        let line_point = table.required("line_point", place(pair.a))?;
         let direction = table.required("line_direction", Direction)?;
-        let tip = point("point")?;
+        let tip = table.required("point", place(pair.b))?;
         let spring = spring::read(&table, spring::AXIAL)?;
         let free_length = table.required("free_length", Number::not_negative("m"))?;
         if distance(assembly, &pair, (line_point, direction), tip) <= COINCIDENT * free_length

@@ -14,8 +14,9 @@ use crate::hinge::{self, Known};
 use crate::names::Names;
 use crate::nearest::nearest;
 use crate::pair::BodyName;
+use crate::points::PlaceOf;
 use crate::target::{ElementName, Kinds, Target};
-use crate::text::{Choice, Number, Numbers, Table, Text};
+use crate::text::{Choice, Table, Text};
 
 /// A read-out of a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -181,8 +182,9 @@ fn point(
 ) -> Result<(dbd_kernel::BodyIndex, Vec3<f64>), SceneError> {
     let body = BodyName { assembly: known.assembly, world: false };
     let (_, body) = table.required("body", body)?;
-    let point = table.optional("point", Numbers(Number::any("m, body axes")))?.unwrap_or_default();
-    Ok((body, F64::local_from_f64(point)))
+    let place = PlaceOf { assembly: known.assembly, body };
+    let point = table.optional("point", place)?.unwrap_or_default();
+    Ok((body, F64::local_from_f64(point.to_f64())))
 }
 
 fn tsda_force(table: &Table<'_>, known: &Known<'_>) -> Result<Readout<F64>, SceneError> {

@@ -4,10 +4,11 @@ use dbd_kernel::Vec3;
 
 use crate::assembly::{Assembly, Points};
 use crate::error::SceneError;
-use crate::pair::Between;
+use crate::pair::{Between, Pair};
+use crate::points::PlaceOf;
 use crate::spring;
 use crate::target::{Elements, Target};
-use crate::text::{Kind, Number, Numbers, Table, Value};
+use crate::text::{Kind, Number, Table, Value};
 
 const KEYS: &[&str] = &["name", "between", "points", "free_length"];
 
@@ -26,7 +27,7 @@ pub(crate) fn read_all(
         let target = Target::Tsda(assembly.groups().len());
         elements.read_optional(&table, "tsda", target)?;
         let pair = table.required("between", Between(assembly))?;
-        let [a, b] = table.required("points", TwoPoints)?;
+        let [a, b] = table.required("points", TwoPoints { assembly, pair: &pair })?;
         let spring = spring::read(&table, spring::AXIAL)?;
         let free_length = table.required("free_length", Number::not_negative("m"))?;
         if free_length > 0.0 {
@@ -51,19 +52,25 @@ pub(crate) fn read_all(
 }
 
 /// A point of the first body and one of the second.
-struct TwoPoints;
+struct TwoPoints<'a> {
+    assembly: &'a Assembly,
+    pair: &'a Pair,
+}
 
-impl Kind for TwoPoints {
+impl Kind for TwoPoints<'_> {
     type Output = [Vec3<f64>; 2];
 
     fn expected(&self) -> String {
-        "two points in m, [[x, y, z], [x, y, z]], each in the axes of its body".into()
+        "two points in m, [[x, y, z], [x, y, z]], each in the axes of its body, or names of points"
+            .into()
     }
 
     fn read(&self, value: &Value<'_>) -> Result<[Vec3<f64>; 2], SceneError> {
+        let Self { assembly, pair } = *self;
         let mut points = [Vec3::ZERO; 2];
-        for (point, entry) in points.iter_mut().zip(value.entries(2, &self.expected())?) {
-            *point = Vec3::from_f64(Numbers(Number::any("m")).read(&entry)?);
+        let entries = value.entries(2, &self.expected())?;
+        for ((point, entry), body) in points.iter_mut().zip(entries).zip([pair.a, pair.b]) {
+            *point = PlaceOf { assembly, body }.read(&entry)?;
         }
         Ok(points)
     }

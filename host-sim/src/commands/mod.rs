@@ -8,6 +8,7 @@
 //! - [`run`]: a scene becomes a trace, a summary and a report.
 //! - [`trade`]: speed against accuracy.
 //! - [`export`]: Rust source of a scene's const model and its plant.
+//! - [`mod@import`]: another program's file becomes a scene.
 //! - [`new`]: a project with a plant in firmware.
 //! - [`completions`]: a script for a shell.
 
@@ -16,6 +17,7 @@ pub mod completions;
 pub mod export;
 pub mod folder;
 pub mod golden;
+pub mod import;
 pub mod list;
 pub mod new;
 pub mod run;

@@ -74,7 +74,7 @@ impl Assembly {
     }
 
     /// A vector of a body's axes in the world.
-    fn direction_w(&self, body: BodyIndex, vector_b: Vec3<f64>) -> Vec3<f64> {
+    pub(crate) fn direction_w(&self, body: BodyIndex, vector_b: Vec3<f64>) -> Vec3<f64> {
         match self.state(body) {
             Some(state) => state.orientation.rotation().to_world(vector_b),
             None => vector_b,

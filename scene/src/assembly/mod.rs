@@ -4,6 +4,7 @@
 //! bodies by `Rᵀ·(P − x)` with the very rotation that the kernel places them back with.
 
 mod driven;
+mod moved;
 
 pub(crate) use driven::{Drive, NoAnchor};
 
@@ -34,6 +35,12 @@ pub(crate) struct Assembly {
     frames: Vec<<F64 as Geometry>::Frame>,
     names: Vec<String>,
     rows: BTreeMap<String, BodyIndex>,
+    /// The states in which bodies were given that have moved since.
+    given: BTreeMap<usize, BodyState<F64>>,
+    is_assembled: bool,
+    points: BTreeMap<String, Vec3<f64>>,
+    /// Per body where it has points of its own, from its centre of mass, body axes.
+    ends: Vec<Vec<(String, Vec3<f64>)>>,
 }
 
 /// Why an element does not fit the model.
@@ -129,6 +136,29 @@ impl Assembly {
         self.model.initial.get(body.row())
     }
 
+    /// The named points, world, at the initial pose.
+    pub(crate) fn points(&self) -> &BTreeMap<String, Vec3<f64>> {
+        &self.points
+    }
+
+    /// Sets the named points.
+    pub(crate) fn set_points(&mut self, points: BTreeMap<String, Vec3<f64>>) {
+        self.points = points;
+    }
+
+    /// Where a body has a point of that name of its own, from its centre of mass, body axes.
+    pub(crate) fn end(&self, body: BodyIndex, point: &str) -> Option<Vec3<f64>> {
+        let mut ends = self.ends.get(body.row())?.iter();
+        ends.find(|(name, _)| name == point).map(|(_, place)| *place)
+    }
+
+    /// Gives a body points of its own.
+    pub(crate) fn set_ends(&mut self, body: BodyIndex, ends: Vec<(String, Vec3<f64>)>) {
+        if let Some(known) = self.ends.get_mut(body.row()) {
+            *known = ends;
+        }
+    }
+
     /// A world point in the axes of its owner.
     pub(crate) fn point_in(&self, body: BodyIndex, point_w: Vec3<f64>) -> Vec3<f64> {
         match self.state(body) {
@@ -186,6 +216,7 @@ impl Assembly {
         self.model.initial.push(state);
         self.frames.push(F64::frame(&state.position, &state.orientation));
         self.names.push(name.to_owned());
+        self.ends.push(Vec::new());
         self.rows.insert(name.to_owned(), BodyIndex(row));
         Ok(BodyIndex(row))
     }

@@ -11,7 +11,7 @@ use dbd_kernel::Vec3;
 
 use crate::Scene;
 use crate::facts::axis_w;
-use crate::facts::parts::Parts;
+use crate::parts::Parts;
 
 /// Cosine between directions that are across, sine between those that are parallel: the axes of
 /// a mechanism are written with some digits.

@@ -3,7 +3,7 @@
 //! `scene => islands`, sets of bodies joined by elements; the world joins nothing by itself.
 
 use crate::Scene;
-use crate::facts::parts::Parts;
+use crate::parts::Parts;
 
 /// Bodies joined by elements.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -11,8 +11,8 @@ use dbd_kernel::{BodyIndex, F64, Geometry, Vec3};
 use crate::Scene;
 use crate::facts::frames;
 use crate::facts::lengths::{End, along, points};
-use crate::facts::parts::Parts;
 use crate::facts::stiffness::law;
+use crate::parts::Parts;
 
 /// A row that is this near to what others hold holds nothing of its own: the joints' springs give
 /// way more than that, and axes are written with some digits. It errs to the side of freedom.

@@ -8,7 +8,6 @@ mod equations;
 mod islands;
 mod lengths;
 mod mobility;
-mod parts;
 mod stiffness;
 
 use dbd_kernel::{F64, Geometry, Vec3};

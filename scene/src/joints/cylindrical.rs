@@ -7,9 +7,9 @@
 //! that distance.
 
 use crate::assembly::{Assembly, Lines, Points};
+use crate::closure::{Place, Turn};
 use crate::error::SceneError;
 use crate::hinge::Hinge;
-use crate::joints::triad;
 use crate::joints::{Joint, JointType};
 use crate::text::{Number, Table};
 
@@ -17,6 +17,7 @@ pub(super) const TYPE: JointType = JointType {
     name: "cylindrical",
     holds: 4,
     keys: &["axis", "reference", "span", "offset"],
+    asks: (Place::Line, Turn::Axis),
     expand,
 };
 
@@ -25,7 +26,7 @@ fn expand(
     joint: &Joint,
     assembly: &mut Assembly,
 ) -> Result<Vec<Hinge>, SceneError> {
-    let triad = triad::read(table)?;
+    let triad = joint.triad(table)?;
     let span = table.required("span", Number::positive("m"))?;
     let offset = table.required("offset", Number::positive("m"))?;
     let ends = [-0.5 * span, 0.5 * span].map(|s| joint.at_w + triad.axis * s);

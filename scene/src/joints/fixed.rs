@@ -5,21 +5,27 @@
 //! distance `arm` along the reference, axis × reference and the axis.
 
 use crate::assembly::{Assembly, Points};
+use crate::closure::{Place, Turn};
 use crate::error::SceneError;
 use crate::hinge::Hinge;
-use crate::joints::triad::{self, Triad};
+use crate::joints::triad::Triad;
 use crate::joints::{Joint, JointType};
 use crate::text::{Number, Table};
 
-pub(super) const TYPE: JointType =
-    JointType { name: "fixed", holds: 6, keys: &["axis", "reference", "span", "arm"], expand };
+pub(super) const TYPE: JointType = JointType {
+    name: "fixed",
+    holds: 6,
+    keys: &["axis", "reference", "span", "arm"],
+    asks: (Place::Point, Turn::All),
+    expand,
+};
 
 fn expand(
     table: &Table<'_>,
     joint: &Joint,
     assembly: &mut Assembly,
 ) -> Result<Vec<Hinge>, SceneError> {
-    let Triad { e1, e2, axis } = triad::read(table)?;
+    let Triad { e1, e2, axis } = joint.triad(table)?;
     let half = 0.5 * table.required("span", Number::positive("m"))?;
     let arm = table.required("arm", Number::positive("m"))?;
     let places = [axis * -half, axis * half, e1 * half].map(|place| joint.at_w + place);

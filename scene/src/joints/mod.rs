@@ -3,25 +3,34 @@
 //! `table => groups in the assembly, what reports say of the joint`. A type is one file with one
 //! [`JointType`]; its name, its keys and its expansion stand there and nowhere else.
 
+mod assemble;
 mod cylindrical;
 mod fixed;
+mod rates;
 mod revolute;
+mod site;
 mod spherical;
 mod translational;
 mod triad;
 mod universal;
 
+pub(crate) use assemble::read as assemble;
+pub use assemble::{Assembled, Moved, OpenJoint};
+
 use dbd_kernel::Vec3;
 
 use crate::JointInfo;
 use crate::assembly::Assembly;
+use crate::closure::{Place, Turn};
 use crate::error::SceneError;
 use crate::hinge::Hinge;
-use crate::pair::{Between, Pair};
+use crate::joints::site::Site;
+use crate::joints::triad::Triad;
+use crate::pair::Pair;
 use crate::shortened::shortened;
 use crate::spring::{self, Spring};
 use crate::target::{Elements, Target};
-use crate::text::{Choice, Kind as _, Number, Numbers, Table};
+use crate::text::{Choice, Kind as _, Table};
 
 /// A type of joint.
 struct JointType {
@@ -31,6 +40,8 @@ struct JointType {
     holds: u32,
     /// The keys it has besides those of every joint.
     keys: &'static [&'static str],
+    /// What it asks of its points and triads.
+    asks: (Place, Turn),
     /// Adds its elements to the assembly and says about which axes it turns.
     expand: fn(&Table<'_>, &Joint, &mut Assembly) -> Result<Vec<Hinge>, SceneError>,
 }
@@ -41,7 +52,18 @@ struct Joint {
     pair: Pair,
     /// \[m\] its place, world.
     at_w: Vec3<f64>,
+    /// The first body's axis and the second's, world; the same but for a universal joint.
+    axes: [Vec3<f64>; 2],
+    /// World, where there is one.
+    reference: Option<Vec3<f64>>,
     spring: Spring,
+}
+
+impl Joint {
+    /// The triad of its axis and its reference.
+    fn triad(&self, table: &Table<'_>) -> Result<Triad, SceneError> {
+        triad::about(table, self.axes[0], self.reference)
+    }
 }
 
 /// In the order in which messages name them.
@@ -161,10 +183,9 @@ fn read(
     kind: &JointType,
     assembly: &mut Assembly,
 ) -> Result<(Pair, Vec<Hinge>), SceneError> {
-    let pair = table.required("between", Between(assembly))?;
-    let at_w = Vec3::from_f64(table.required("at", Numbers(Number::any("m, world")))?);
+    let site = Site::read(table, kind, assembly)?;
     let spring = spring::read(table, spring::AXIAL)?;
-    let joint = Joint { name, pair, at_w, spring };
+    let joint = site.joint(table, name, spring, assembly)?;
     let hinges = (kind.expand)(table, &joint, assembly)?;
     Ok((joint.pair, hinges))
 }

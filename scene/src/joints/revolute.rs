@@ -8,9 +8,10 @@
 use core::f64::consts::SQRT_2;
 
 use crate::assembly::{Assembly, Defect, Points};
+use crate::closure::{Place, Turn};
 use crate::error::SceneError;
 use crate::hinge::Hinge;
-use crate::joints::triad::{self, Triad};
+use crate::joints::triad::Triad;
 use crate::joints::{Joint, JointType};
 use crate::pair::Pair;
 use crate::text::{Number, Table};
@@ -19,6 +20,7 @@ pub(super) const TYPE: JointType = JointType {
     name: "revolute",
     holds: 5,
     keys: &["axis", "reference", "span", "ring", "clearance"],
+    asks: (Place::Point, Turn::Axis),
     expand,
 };
 
@@ -27,7 +29,7 @@ fn expand(
     joint: &Joint,
     assembly: &mut Assembly,
 ) -> Result<Vec<Hinge>, SceneError> {
-    let triad = triad::read(table)?;
+    let triad = joint.triad(table)?;
     let size = Size::read(table)?;
     add(&joint.pair, joint, triad, size, assembly).map_err(|defect| defect.refuse(table))?;
     Ok(vec![assembly.hinge(&joint.pair, triad.axis)])

@@ -6,13 +6,19 @@
 use dbd_kernel::Vec3;
 
 use crate::assembly::{Assembly, Points};
+use crate::closure::{Place, Turn};
 use crate::error::SceneError;
 use crate::hinge::Hinge;
 use crate::joints::{Joint, JointType};
 use crate::text::{Number, Table};
 
-pub(super) const TYPE: JointType =
-    JointType { name: "spherical", holds: 3, keys: &["arm", "clearance"], expand };
+pub(super) const TYPE: JointType = JointType {
+    name: "spherical",
+    holds: 3,
+    keys: &["arm", "clearance"],
+    asks: (Place::Point, Turn::Free),
+    expand,
+};
 
 fn expand(
     table: &Table<'_>,

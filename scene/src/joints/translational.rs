@@ -9,9 +9,9 @@
 //! first. Two lines are what stops the turning.
 
 use crate::assembly::{Assembly, Lines, Points};
+use crate::closure::{Place, Turn};
 use crate::error::SceneError;
 use crate::hinge::Hinge;
-use crate::joints::triad;
 use crate::joints::{Joint, JointType};
 use crate::text::{Choice, Number, Table};
 
@@ -19,6 +19,7 @@ pub(super) const TYPE: JointType = JointType {
     name: "translational",
     holds: 5,
     keys: &["axis", "reference", "span", "gauge", "offset", "offsets"],
+    asks: (Place::Line, Turn::All),
     expand,
 };
 
@@ -27,7 +28,7 @@ fn expand(
     joint: &Joint,
     assembly: &mut Assembly,
 ) -> Result<Vec<Hinge>, SceneError> {
-    let triad = triad::read(table)?;
+    let triad = joint.triad(table)?;
     let span = table.required("span", Number::positive("m"))?;
     let gauge = table.required("gauge", Number::positive("m"))?;
     let offset = table.required("offset", Number::positive("m"))?;

@@ -8,7 +8,7 @@ use dbd_kernel::Vec3;
 
 use crate::direction::{least_aligned, normals};
 use crate::error::SceneError;
-use crate::text::{Direction, Table};
+use crate::text::Table;
 
 /// Three unit vectors, world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,15 +21,13 @@ pub(super) struct Triad {
     pub(super) axis: Vec3<f64>,
 }
 
-/// Reads `axis` and `reference`.
-pub(super) fn read(table: &Table<'_>) -> Result<Triad, SceneError> {
-    let axis = table.required("axis", Direction)?;
-    about(table, axis)
-}
-
-/// The triad of an axis that is known; reads `reference`.
-pub(super) fn about(table: &Table<'_>, axis: Vec3<f64>) -> Result<Triad, SceneError> {
-    let reference = table.optional("reference", Direction)?.unwrap_or(least_aligned(axis));
+/// The triad of an axis and a reference, which the table has where there is one.
+pub(super) fn about(
+    table: &Table<'_>,
+    axis: Vec3<f64>,
+    reference: Option<Vec3<f64>>,
+) -> Result<Triad, SceneError> {
+    let reference = reference.unwrap_or(least_aligned(axis));
     let [e1, e2] = normals(axis, reference).ok_or_else(|| {
         let help = "a direction across the axis, e.g. one normal to it";
         table.refuse_value("reference", "is parallel to the axis", help)

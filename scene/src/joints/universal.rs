@@ -1,13 +1,14 @@
 //! Universal joint: a spider between two revolutes (Franco & Degani 2026, section 2.4.2).
 //!
 //! The spider is a body `JOINT.spider` at `at` with the axes (a1, a2, a1 × a2), moving with the
-//! first body. A revolute about a1 joins it to the first body, one about a2 to the second. a2 is
+//! first body or, where [assemble] sets velocities, with both. A revolute about a1 joins it to the first body, one about a2 to the second. a2 is
 //! made normal to a1 to the last bit.
 
 use dbd_kernel::{BodyState, Vec3};
 
 use crate::assembly::Assembly;
 use crate::body::mass_and_inertia;
+use crate::closure::{Place, Turn};
 use crate::direction::normals;
 use crate::error::SceneError;
 use crate::hinge::Hinge;
@@ -16,12 +17,13 @@ use crate::joints::triad;
 use crate::joints::{Joint, JointType};
 use crate::orientation::of_axes;
 use crate::pair::Pair;
-use crate::text::{Direction, Kind, Table, Value};
+use crate::text::{Direction, Kind, Number, Numbers, Table, Value};
 
 pub(super) const TYPE: JointType = JointType {
     name: "universal",
     holds: 10,
     keys: &["axes", "spider", "reference", "span", "ring"],
+    asks: (Place::Point, Turn::Across),
     expand,
 };
 
@@ -33,11 +35,12 @@ fn expand(
     joint: &Joint,
     assembly: &mut Assembly,
 ) -> Result<Vec<Hinge>, SceneError> {
-    let axes = table.required("axes", Axes)?;
+    let axes = orthogonal(table, joint.axes)?;
     let [a1, a2, _] = axes;
-    let triads = [triad::about(table, a1)?, triad::about(table, a2)?];
+    let triads =
+        [triad::about(table, a1, joint.reference)?, triad::about(table, a2, joint.reference)?];
     let size = Size::read(table)?;
-    let body = table.required("spider", Spider)?;
+    let (body, spin) = table.required("spider", Spider)?;
 
     let name = format!("{}.spider", joint.name);
     if assembly.body(&name).is_some() {
@@ -46,15 +49,20 @@ fn expand(
         return Err(table.refuse_key("spider", &problem, help));
     }
     let Pair { a, b, names } = joint.pair.clone();
-    let (velocity, spin_w) = assembly.motion(a, joint.at_w);
+    let (velocity, mut spin_w) = assembly.motion(a, joint.at_w);
+    if assembly.is_assembled() {
+        // Velocities agree with the joints: what the bodies turn beside each other about the first axis the
+        // spider does.
+        let (_, other_w) = assembly.motion(b, joint.at_w);
+        spin_w = spin_w + a1 * a1.dot(other_w - spin_w);
+    }
     let orientation = of_axes(axes);
     let rotation = dbd_kernel::Quaternion::from_f64(orientation).rotation();
-    let state = BodyState::from_f64(
-        joint.at_w.to_f64(),
-        orientation,
-        velocity.to_f64(),
-        rotation.to_body(spin_w).to_f64(),
-    );
+    let turning = match &spin {
+        Some(spin) => *spin,
+        None => rotation.to_body(spin_w).to_f64(),
+    };
+    let state = BodyState::from_f64(joint.at_w.to_f64(), orientation, velocity.to_f64(), turning);
     let [first, second] = names;
     let spider = assembly.add_body(&name, body, state).map_err(|defect| defect.refuse(table))?;
     let pairs = [
@@ -69,39 +77,41 @@ fn expand(
 }
 
 /// Two orthogonal axes and the one normal to both.
-struct Axes;
+fn orthogonal(table: &Table<'_>, [a1, a2]: [Vec3<f64>; 2]) -> Result<[Vec3<f64>; 3], SceneError> {
+    let cosine = a1.dot(a2);
+    match normals(a1, a2) {
+        Some([a2, a3]) if cosine.abs() <= ORTHOGONAL => Ok([a1, a2, a3]),
+        _ => {
+            let angle = libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees();
+            let problem = format!("are {angle:.6} degrees apart");
+            let help = "the axes of a universal joint are orthogonal within 1e-6; two \
+                        revolutes and a body between them join axes at another angle";
+            Err(table.refuse_value("axes", &problem, help))
+        }
+    }
+}
+
+/// Two directions, the first of the first body, the second of the second.
+pub(super) struct Axes;
 
 impl Kind for Axes {
-    type Output = [Vec3<f64>; 3];
+    type Output = [Vec3<f64>; 2];
 
     fn expected(&self) -> String {
         "two orthogonal directions in world axes, [[x, y, z], [x, y, z]]".into()
     }
 
-    fn read(&self, value: &Value<'_>) -> Result<[Vec3<f64>; 3], SceneError> {
+    fn read(&self, value: &Value<'_>) -> Result<[Vec3<f64>; 2], SceneError> {
         let entries = value.entries(2, &self.expected())?;
-        let a1 = Direction.read(&entries[0])?;
-        let a2 = Direction.read(&entries[1])?;
-        let cosine = a1.dot(a2);
-        let [a2, a3] = match normals(a1, a2) {
-            Some(normals) if cosine.abs() <= ORTHOGONAL => normals,
-            _ => {
-                let angle = libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees();
-                let problem = format!("are {angle:.6} degrees apart");
-                let help = "the axes of a universal joint are orthogonal within 1e-6; two \
-                            revolutes and a body between them join axes at another angle";
-                return Err(value.refuse_with(&problem, help));
-            }
-        };
-        Ok([a1, a2, a3])
+        Ok([Direction.read(&entries[0])?, Direction.read(&entries[1])?])
     }
 }
 
-/// The spider's mass and inertia.
+/// The spider's mass and inertia, and \[rad/s\] its angular velocity about its own axes where that is given.
 struct Spider;
 
 impl Kind for Spider {
-    type Output = dbd_kernel::Body<f64>;
+    type Output = (dbd_kernel::Body<f64>, Option<[f64; 3]>);
 
     fn expected(&self) -> String {
         "{ mass = kg, inertia = [Ix, Iy, Iz] } of the body between the two axes".into()
@@ -109,8 +119,9 @@ impl Kind for Spider {
 
     fn read(&self, value: &Value<'_>) -> Result<Self::Output, SceneError> {
         let table = value.table(&self.expected())?;
-        table.only(&[&["mass", "inertia"]])?;
-        mass_and_inertia(&table)
+        table.only(&[&["mass", "inertia", "angular_velocity"]])?;
+        let spin = table.optional("angular_velocity", Numbers(Number::any("rad/s")))?;
+        Ok((mass_and_inertia(&table)?, spin))
     }
 }
 

@@ -10,7 +10,7 @@ use toml::de::{DeTable, DeValue};
 use crate::error::{SceneError, Source};
 use crate::nearest::nearest;
 use crate::shortened::shortened;
-use crate::text::kinds::is_invisible;
+use crate::text::kinds::{LONGEST_NAME, is_invisible};
 use crate::text::value::{Kind, Value};
 
 /// A table and what messages call it.
@@ -111,6 +111,15 @@ impl<'t> Table<'t> {
         })
     }
 
+    /// All keys with their places and values, in the order of the file.
+    pub(crate) fn values(&self) -> Vec<(Range<usize>, &'t str, Value<'t>)> {
+        let keys = self.entries.keys().map(|key| (key.span(), key.get_ref().as_ref()));
+        let mut keys: Vec<(Range<usize>, &str)> = keys.collect();
+        keys.sort_by_key(|(place, _)| place.start);
+        let value = |(place, key)| Some((place, key, self.value(key)?));
+        keys.into_iter().filter_map(value).collect()
+    }
+
     /// A key that must be there.
     pub(crate) fn required<K: Kind>(&self, key: &str, kind: K) -> Result<K::Output, SceneError> {
         match self.value(key) {
@@ -159,6 +168,26 @@ impl<'t> Table<'t> {
         Ok(tables)
     }
 
+    /// All its values by their keys, which are names, in the order of the file.
+    pub(crate) fn named(&self) -> Result<Vec<(String, Value<'t>)>, SceneError> {
+        let mut entries: Vec<_> = self.entries.iter().collect();
+        entries.sort_by_key(|(key, _)| key.span().start);
+        let mut named = Vec::new();
+        for (key, entry) in entries {
+            let name = key.get_ref().as_ref();
+            let is_name = !name.trim().is_empty() && !name.contains(is_invisible);
+            if !is_name || name.len() > LONGEST_NAME {
+                let problem = format!("{} has a name that is none", self.label);
+                let help = format!("one line of visible text, at most {LONGEST_NAME} bytes");
+                return Err(self.source.refuse(key.span(), problem, help));
+            }
+            let key = format!("`{}`", shortened(name));
+            let owner = self.label.clone();
+            named.push((name.to_owned(), Value { source: self.source, entry, key, owner }));
+        }
+        Ok(named)
+    }
+
     /// The lines, from 1, on which the tables of `[[key]]` begin.
     pub(crate) fn lines(&self, key: &str) -> Result<Vec<usize>, SceneError> {
         // One pass over the text: a scene may have thousands of tables.
@@ -166,12 +195,16 @@ impl<'t> Table<'t> {
         let mut lines = Vec::new();
         for table in self.list(key)? {
             let start = table.start();
-            let between = self.source.text.get(from..start).unwrap_or_default();
-            line += between.matches('\n').count();
+            line += self.breaks(from..start);
             from = start.max(from);
             lines.push(line);
         }
         Ok(lines)
+    }
+
+    /// The line breaks between two bytes of the text.
+    pub(crate) fn breaks(&self, between: Range<usize>) -> usize {
+        self.source.text.get(between).unwrap_or_default().matches('\n').count()
     }
 
     /// Where the table begins, in bytes.

@@ -1,19 +1,19 @@
 //! Which of a number of things hang together.
 
 /// Things that are apart at first and are joined by pairs.
-pub(super) struct Parts {
+pub(crate) struct Parts {
     /// Leads, in one step or more, to the lowest thing of its part.
     towards: Vec<usize>,
 }
 
 impl Parts {
     /// So many things, all apart.
-    pub(super) fn apart(count: usize) -> Self {
+    pub(crate) fn apart(count: usize) -> Self {
         Self { towards: (0..count).collect() }
     }
 
     /// The lowest thing of a thing's part.
-    pub(super) fn first(&mut self, mut thing: usize) -> usize {
+    pub(crate) fn first(&mut self, mut thing: usize) -> usize {
         while self.towards[thing] != thing {
             self.towards[thing] = self.towards[self.towards[thing]];
             thing = self.towards[thing];
@@ -22,7 +22,7 @@ impl Parts {
     }
 
     /// Joins the parts of two things; whether they were apart.
-    pub(super) fn join(&mut self, a: usize, b: usize) -> bool {
+    pub(crate) fn join(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.first(a), self.first(b));
         self.towards[a.max(b)] = a.min(b);
         a != b

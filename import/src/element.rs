@@ -1,0 +1,292 @@
+//! Elements of XML with their places; files that include each other become one tree.
+//!
+//! `text, folder => tree`. An `<include file="…"/>` stands for what the root of that file holds; its
+//! path goes from the folder of the first file.
+
+use std::path::Path;
+
+use crate::error::{Fault, ImportError};
+use crate::place::{Place, Texts};
+
+/// As deep as elements may stand in each other; MuJoCo's own reader takes as many.
+const DEPTH: usize = 500;
+/// So many elements and texts of one file are read.
+const NODES: u32 = 10_000_000;
+
+/// An element.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Element {
+    /// Its name.
+    pub(crate) name: String,
+    /// Its attributes in their order.
+    pub(crate) attributes: Vec<Attribute>,
+    /// The elements within.
+    pub(crate) children: Vec<Element>,
+    /// Its name in the text.
+    pub(crate) place: Place,
+}
+
+/// An attribute.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Attribute {
+    /// Its name.
+    pub(crate) name: String,
+    /// Its value.
+    pub(crate) value: String,
+    /// The value in the text.
+    pub(crate) place: Place,
+}
+
+impl Element {
+    /// The attribute of a name.
+    pub(crate) fn attribute(&self, name: &str) -> Option<&Attribute> {
+        self.attributes.iter().find(|attribute| attribute.name == name)
+    }
+
+    /// An attribute's value, `None` where it is not there.
+    pub(crate) fn text(&self, name: &str) -> Option<&str> {
+        self.attribute(name).map(|attribute| attribute.value.as_str())
+    }
+
+    /// The value of `name`, or else what it is called by its place.
+    pub(crate) fn called(&self) -> String {
+        match self.text("name") {
+            Some(name) => format!("{} `{name}`", self.name),
+            None => format!("{} without a name", self.name),
+        }
+    }
+
+    /// The elements of all sections of a name, as `<worldbody>` or `<actuator>`: a file may have several.
+    pub(crate) fn sections<'e>(&'e self, name: &'e str) -> impl Iterator<Item = &'e Element> {
+        self.children.iter().filter(move |child| child.name == name)
+    }
+}
+
+/// The texts, and what they hold together.
+pub(crate) struct Document {
+    /// The texts.
+    pub(crate) texts: Texts,
+    /// `<mujoco>`.
+    pub(crate) root: Element,
+}
+
+impl Document {
+    /// Reads a text and what it includes.
+    pub(crate) fn read(text: &str, name: &str, folder: &Path) -> Result<Self, ImportError> {
+        let mut texts = Texts::default();
+        let mut root = parse(text, name, &mut texts)?;
+        if root.name != "mujoco" {
+            let found = format!("begins with <{}>", root.name);
+            let help = match root.name.as_str() {
+                "robot" => {
+                    "MJCF begins with <mujoco>; this is URDF, which MuJoCo converts: `mj_saveLastXML`"
+                }
+                _ => "MJCF begins with <mujoco>",
+            };
+            return Err(Fault::at(root.place, found, help).refuse(&texts));
+        }
+        include(&mut root, folder, &mut texts)?;
+        Ok(Self { texts, root })
+    }
+}
+
+/// Puts what files hold in place of the elements that include them.
+fn include(element: &mut Element, folder: &Path, texts: &mut Texts) -> Result<(), ImportError> {
+    let mut children = Vec::with_capacity(element.children.len());
+    for mut child in std::mem::take(&mut element.children) {
+        if child.name != "include" {
+            include(&mut child, folder, texts)?;
+            children.push(child);
+            continue;
+        }
+        let Some(file) = child.attribute("file") else {
+            let help = "<include file=\"…\"/>, from the folder of the first file";
+            return Err(Fault::at(child.place, "includes no file", help).refuse(texts));
+        };
+        let path = folder.join(&file.value);
+        let name = path.display().to_string();
+        let refuse = |message: String, help: &str, texts: &Texts| {
+            Err(Fault::at(file.place, message, help).refuse(texts))
+        };
+        if texts.knows(&name) {
+            let message = format!("includes {name} a second time");
+            return refuse(message, "a file is included once, and not by itself", texts);
+        }
+        let text = match std::fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(reason) => {
+                let message = format!("cannot read {name}: {reason}");
+                return refuse(message, "a path from the folder of the first file", texts);
+            }
+        };
+        let mut included = parse(&text, &name, texts)?;
+        include(&mut included, folder, texts)?;
+        children.append(&mut included.children);
+    }
+    element.children = children;
+    Ok(())
+}
+
+/// Reads one text.
+fn parse(text: &str, name: &str, texts: &mut Texts) -> Result<Element, ImportError> {
+    let file = texts.add(name, text);
+    if let Some(fault) = too_deep(text, file) {
+        return Err(fault.refuse(texts));
+    }
+    let options = roxmltree::ParsingOptions { nodes_limit: NODES, ..Default::default() };
+    let document = roxmltree::Document::parse_with_options(text, options).map_err(|error| {
+        let place = position(text, file, error.pos());
+        let message = format!("is no XML: {}", error_text(&error));
+        Fault::at(place, message, "MJCF is well-formed XML in UTF-8").refuse(texts)
+    })?;
+    let lines = Lines::of(text);
+    Ok(element(document.root_element(), file, &lines))
+}
+
+/// What the reader says, without the place, which is shown.
+fn error_text(error: &roxmltree::Error) -> String {
+    let text = error.to_string();
+    match text.rsplit_once(" at ") {
+        Some((what, place)) if place.contains(':') => what.to_owned(),
+        _ => text,
+    }
+}
+
+/// The place of a line and a column.
+fn position(text: &str, file: usize, at: roxmltree::TextPos) -> Place {
+    let line = usize::try_from(at.row).unwrap_or(1);
+    let column = usize::try_from(at.col).unwrap_or(1).saturating_sub(1);
+    let start: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+    let rest = &text[start.min(text.len())..];
+    let start = start + rest.chars().take(column).map(char::len_utf8).sum::<usize>();
+    let end = start + text.get(start..).and_then(|t| t.chars().next()).map_or(0, char::len_utf8);
+    Place { file, start, end, line }
+}
+
+/// Where elements stand deeper in each other than [`DEPTH`]: found before the text is read as XML, for
+/// readers of XML call themselves at each level.
+fn too_deep(text: &str, file: usize) -> Option<Fault> {
+    let (mut depth, mut byte) = (0_usize, 0);
+    let ends = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>"), ("<!", ">")];
+    while let Some(found) = text[byte..].find('<') {
+        let start = byte + found;
+        let rest = &text[start..];
+        if let Some((_, end)) = ends.iter().find(|(begin, _)| rest.starts_with(begin)) {
+            byte = start + rest.find(end).map_or(rest.len(), |length| length + end.len());
+            continue;
+        }
+        let length = tag_length(rest);
+        let tag = &rest[..length];
+        if tag.starts_with("</") {
+            depth = depth.saturating_sub(1);
+        } else if !tag.ends_with("/>") {
+            depth += 1;
+        }
+        if depth > DEPTH {
+            let line = text[..start].matches('\n').count() + 1;
+            let place = Place { file, start, end: start + length, line };
+            let message = format!("stands in more than {DEPTH} elements");
+            return Some(Fault::at(place, message, "bodies in bodies, no deeper than that"));
+        }
+        byte = start + length;
+    }
+    None
+}
+
+/// The bytes of a tag, quotes with `>` in them included.
+fn tag_length(text: &str) -> usize {
+    let mut quote = None;
+    for (byte, letter) in text.char_indices() {
+        match (quote, letter) {
+            (None, '"' | '\'') => quote = Some(letter),
+            (Some(open), _) if open == letter => quote = None,
+            (None, '>') => return byte + 1,
+            _ => {}
+        }
+    }
+    text.len()
+}
+
+/// Where lines begin.
+struct Lines(Vec<usize>);
+
+impl Lines {
+    fn of(text: &str) -> Self {
+        let after = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(i, _)| i + 1);
+        Self(after.collect())
+    }
+
+    fn line(&self, byte: usize) -> usize {
+        self.0.partition_point(|start| *start <= byte) + 1
+    }
+}
+
+fn element(node: roxmltree::Node<'_, '_>, file: usize, lines: &Lines) -> Element {
+    let place = |start: usize, end: usize| Place { file, start, end, line: lines.line(start) };
+    let name = node.tag_name().name().to_owned();
+    let start = node.range().start;
+    let attributes = node.attributes().map(|attribute| {
+        let value = attribute.range_value();
+        Attribute {
+            name: attribute.name().to_owned(),
+            value: attribute.value().to_owned(),
+            place: place(value.start, value.end),
+        }
+    });
+    let attributes = attributes.collect();
+    let within = node.children().filter(roxmltree::Node::is_element);
+    let children = within.map(|child| element(child, file, lines)).collect();
+    Element { place: place(start, start + 1 + name.len()), name, attributes, children }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_those_of_the_text() {
+        let text = "<mujoco>\n <!-- <deep> -->\n <option a='ü>' timestep=\"0.1\"/>\n</mujoco>";
+        let document = Document::read(text, "a.xml", Path::new("")).unwrap();
+        let option = &document.root.children[0];
+        assert_eq!((option.name.as_str(), option.place.line), ("option", 3));
+        let value = option.attribute("timestep").unwrap();
+        assert_eq!(&text[value.place.start..value.place.end], "0.1");
+        assert_eq!(document.texts.shown(value.place), "line 3");
+    }
+
+    #[test]
+    fn what_is_no_xml_is_refused_where_it_breaks() {
+        let refused = |text: &str| {
+            let Err(ImportError::Refused(refusal)) = Document::read(text, "a.xml", Path::new(""))
+            else {
+                panic!("{text}");
+            };
+            assert!(refusal.message.starts_with("is no XML: "), "{refusal}");
+            (refusal.line, refusal.column)
+        };
+        let places = [
+            "<mujoco>\n<body",
+            "<mujoco>\n <a></b>\n</mujoco>",
+            "",
+            "<mujoco a='1' a='2'/>",
+            "<!DOCTYPE x [<!ENTITY a 'b'>]><mujoco>&a;</mujoco>",
+        ];
+        assert_eq!(places.map(refused), [(1, 1), (2, 5), (1, 1), (1, 15), (1, 1)]);
+    }
+
+    #[test]
+    fn deep_nests_are_refused_before_anything_calls_itself_as_often() {
+        let nest = |depth: usize| {
+            format!("<mujoco>{}{}</mujoco>", "<a>\n".repeat(depth), "</a>".repeat(depth))
+        };
+        assert!(Document::read(&nest(DEPTH - 1), "a", Path::new("")).is_ok());
+        for depth in [DEPTH, 1_000_000] {
+            let Err(ImportError::Refused(refusal)) =
+                Document::read(&nest(depth), "a", Path::new(""))
+            else {
+                panic!("{depth}");
+            };
+            assert_eq!((refusal.line, refusal.column), (DEPTH, 1));
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! What a joint has that a scene has no counterpart for, with its size.
+//!
+//! `attributes, joint => omissions`.
+
+use crate::body::{Freedom, Joint};
+use crate::defaults::Attributes;
+use crate::error::Fault;
+use crate::omission::{Kind, Omissions};
+use crate::settings::Settings;
+
+/// Lists what has no counterpart in a joint that is taken.
+pub(crate) fn of_joint(
+    given: &Attributes<'_>,
+    joint: &Joint,
+    name: &str,
+    settings: &Settings,
+    omissions: &mut Omissions,
+) -> Result<(), Fault> {
+    let place = given.element.place;
+    let word = joint.freedom.word();
+    let [coordinate, force, inertia] = joint.freedom.units();
+    if given.limited("limited", "range", settings.automatic_limits)?
+        && !settings.is_off("limit")
+        && let Some([from, to]) = joint.range
+    {
+        let degrees = match joint.freedom {
+            Freedom::Slide => String::new(),
+            _ => format!(", {:.4}° to {:.4}°", from.to_degrees(), to.to_degrees()),
+        };
+        let what = format!("{word} `{name}`: {from:.6} to {to:.6} {coordinate}{degrees}");
+        omissions.add(Kind::Limit, place, what);
+    }
+    if given.limited("actuatorfrclimited", "actuatorfrcrange", settings.automatic_limits)?
+        && let Some(range) = given.numbers("actuatorfrcrange", 2, 2)?
+    {
+        let what = format!("{word} `{name}`: actuators {} to {} {force}", range[0], range[1]);
+        omissions.add(Kind::Limit, place, what);
+    }
+    let armature = given.magnitude("armature", 0.0)?;
+    if armature > 0.0 {
+        let what = format!("{word} `{name}`: armature {armature} {inertia}");
+        omissions.add(Kind::Armature, place, what);
+    }
+    let friction = given.magnitude("frictionloss", 0.0)?;
+    if friction > 0.0 && !settings.is_off("frictionloss") {
+        let what = format!("{word} `{name}`: dry friction {friction} {force}");
+        omissions.add(Kind::FrictionLoss, place, what);
+    }
+    springs(given, joint, name, omissions)
+}
+
+/// Springs and dampers that are no torsion spring about an axis and no line.
+fn springs(
+    given: &Attributes<'_>,
+    joint: &Joint,
+    name: &str,
+    omissions: &mut Omissions,
+) -> Result<(), Fault> {
+    let place = given.element.place;
+    let word = joint.freedom.word();
+    if let Some(values) = given.numbers("springdamper", 2, 2)?
+        && values.iter().all(|value| *value > 0.0)
+    {
+        let what = format!(
+            "{word} `{name}`: spring and damper of time constant {} s, damping ratio {}",
+            values[0], values[1]
+        );
+        omissions.add(Kind::Spring, place, what);
+    }
+    if matches!(joint.freedom, Freedom::Ball | Freedom::Free) {
+        let turning =
+            [("stiffness", joint.stiffness, "N·m/rad"), ("damping", joint.damping, "N·m·s/rad")];
+        for (what, size, unit) in turning.into_iter().filter(|(_, size, _)| *size > 0.0) {
+            let unit = if joint.freedom == Freedom::Free { "in SI units" } else { unit };
+            omissions.add(Kind::Spring, place, format!("{word} `{name}`: {what} {size} {unit}"));
+        }
+    }
+    for what in ["stiffness", "damping", "springyield"] {
+        let least = if what == "springyield" { 0 } else { 1 };
+        let numbers = given.numbers(what, 1, 3)?.unwrap_or_default();
+        let higher = numbers.get(least..).unwrap_or_default();
+        if higher.iter().any(|number| *number != 0.0) {
+            let what = format!("{word} `{name}`: {what} {numbers:?}, which is not linear");
+            omissions.add(Kind::Spring, place, what);
+        }
+    }
+    Ok(())
+}

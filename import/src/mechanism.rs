@@ -1,0 +1,239 @@
+//! Joints, springs, inputs and read-outs between parts, in the world where the scene begins.
+//!
+//! `parts, poses => what a scene is written of`.
+
+use std::collections::BTreeSet;
+
+use nalgebra::{Isometry3, Vector3};
+
+use crate::options::Options;
+use crate::part::Parts;
+use crate::place::Place;
+use crate::pose::Pose;
+use crate::tree::{Tree, moved};
+
+/// A part, or the world.
+pub(crate) type Side = Option<usize>;
+
+/// Where something comes from: words and place.
+pub(crate) type Source = (String, Place);
+
+/// Two points of a joint count as one that are not farther apart than this share of its span.
+const CLOSED: f64 = 1e-9;
+
+/// A type of joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Type {
+    /// About an axis.
+    Revolute(Vector3<f64>),
+    /// About a point.
+    Spherical,
+    /// Along an axis.
+    Translational(Vector3<f64>),
+    /// None.
+    Fixed,
+}
+
+/// A joint.
+#[derive(Clone, Debug)]
+pub(crate) struct Link {
+    /// Its name.
+    pub(crate) name: String,
+    /// Its type, axes in the world.
+    pub(crate) kind: Type,
+    /// What it joins.
+    pub(crate) between: [Side; 2],
+    /// \[m\] its place on each, world.
+    pub(crate) at: [Vector3<f64>; 2],
+    /// \[m\]
+    pub(crate) span: f64,
+    /// Where it comes from.
+    pub(crate) source: Source,
+}
+
+impl Link {
+    /// \[m\] how far it is open.
+    pub(crate) fn gap(&self) -> f64 {
+        (self.at[1] - self.at[0]).norm()
+    }
+
+    /// Whether its two places are one but for rounding.
+    pub(crate) fn is_closed(&self) -> bool {
+        let size = self.span + self.at[0].norm();
+        self.gap() <= CLOSED * size
+    }
+}
+
+/// A torsion spring.
+#[derive(Clone, Debug)]
+pub(crate) struct Torsion {
+    /// Its name.
+    pub(crate) name: String,
+    /// What it turns.
+    pub(crate) between: [Side; 2],
+    /// Its axis, world.
+    pub(crate) axis: Vector3<f64>,
+    /// \[N·m/rad\]
+    pub(crate) stiffness: f64,
+    /// \[N·m·s/rad\]
+    pub(crate) damping: f64,
+    /// \[N·m\]
+    pub(crate) preload: f64,
+    /// Where it comes from.
+    pub(crate) source: Source,
+}
+
+/// A spring along the axis of a slide.
+#[derive(Clone, Debug)]
+pub(crate) struct Line {
+    /// Its name.
+    pub(crate) name: String,
+    /// What it pulls.
+    pub(crate) between: [Side; 2],
+    /// \[m\] its ends, world.
+    pub(crate) points: [Vector3<f64>; 2],
+    /// \[m\]
+    pub(crate) free_length: f64,
+    /// \[N/m\]
+    pub(crate) stiffness: f64,
+    /// \[N·s/m\]
+    pub(crate) damping: f64,
+    /// Where it comes from.
+    pub(crate) source: Source,
+}
+
+/// A constant force at a centre of mass.
+#[derive(Clone, Debug)]
+pub(crate) struct Load {
+    /// On what.
+    pub(crate) part: usize,
+    /// \[N\] world.
+    pub(crate) force: Vector3<f64>,
+    /// Where it comes from.
+    pub(crate) source: Source,
+}
+
+/// An input or a read-out: its name, its type and further keys as they are written.
+#[derive(Clone, Debug)]
+pub(crate) struct Signal {
+    /// Its name.
+    pub(crate) name: String,
+    /// Its type.
+    pub(crate) kind: &'static str,
+    /// Further keys, each `key = value`.
+    pub(crate) keys: Vec<String>,
+    /// Where it comes from.
+    pub(crate) source: Source,
+}
+
+/// What a scene is written of.
+pub(crate) struct Mechanism<'m> {
+    /// The bodies.
+    pub(crate) tree: &'m Tree,
+    /// What is rigid with each other.
+    pub(crate) parts: &'m Parts,
+    /// Where all is.
+    pub(crate) pose: &'m Pose,
+    /// What is stated.
+    pub(crate) options: &'m Options,
+    /// Joints.
+    pub(crate) links: Vec<Link>,
+    /// Torsion springs.
+    pub(crate) torsions: Vec<Torsion>,
+    /// Springs along slides.
+    pub(crate) lines: Vec<Line>,
+    /// Loads.
+    pub(crate) loads: Vec<Load>,
+    /// Inputs.
+    pub(crate) inputs: Vec<Signal>,
+    /// Read-outs.
+    pub(crate) readouts: Vec<Signal>,
+    /// What is good to know.
+    pub(crate) notes: Vec<String>,
+    names: BTreeSet<String>,
+}
+
+impl<'m> Mechanism<'m> {
+    /// Parts in their places, nothing between them.
+    pub(crate) fn new(
+        tree: &'m Tree,
+        parts: &'m Parts,
+        pose: &'m Pose,
+        options: &'m Options,
+    ) -> Self {
+        Self {
+            tree,
+            parts,
+            pose,
+            options,
+            links: Vec::new(),
+            torsions: Vec::new(),
+            lines: Vec::new(),
+            loads: Vec::new(),
+            inputs: Vec::new(),
+            readouts: Vec::new(),
+            notes: Vec::new(),
+            names: BTreeSet::new(),
+        }
+    }
+
+    /// A name that no joint or element has yet: the one wanted, or that with a number.
+    pub(crate) fn own_name(&mut self, wanted: &str) -> String {
+        let numbered = (2..).map(|number| format!("{wanted}-{number}"));
+        let mut names = std::iter::once(wanted.to_owned()).chain(numbered);
+        let name = names.find(|name| !self.names.contains(name)).unwrap_or_default();
+        self.names.insert(name.clone());
+        name
+    }
+
+    /// The name of a part, that of its first body.
+    pub(crate) fn name(&self, side: Side) -> &str {
+        side.map_or("world", |part| &self.tree.bodies[self.parts.parts[part].lead].name)
+    }
+
+    /// The pose of a part's principal axes where the scene begins.
+    pub(crate) fn placed(&self, part: usize) -> Isometry3<f64> {
+        let part = &self.parts.parts[part];
+        self.pose.start[part.lead] * part.frame
+    }
+
+    /// The part that a body belongs to.
+    pub(crate) fn side(&self, body: usize) -> Side {
+        self.parts.of[body].0
+    }
+
+    /// A point of a body's frame, world, where the scene begins.
+    pub(crate) fn point(&self, body: usize, point: Vector3<f64>) -> Vector3<f64> {
+        moved(&self.pose.start[body], point)
+    }
+
+    /// A point of the world in the axes of a part, from its centre of mass.
+    pub(crate) fn within(&self, side: Side, point: Vector3<f64>) -> Vector3<f64> {
+        side.map_or(point, |part| moved(&self.placed(part).inverse(), point))
+    }
+
+    /// \[m\] the span of a joint: as stated, else twice the radius of gyration of the smaller side, so
+    /// that it holds turns about as fast as it holds shifts.
+    pub(crate) fn span(&self, between: [Side; 2]) -> f64 {
+        let of = |part: usize| self.parts.parts[part].mass.gyration();
+        let least = between.into_iter().flatten().map(of).fold(f64::INFINITY, f64::min);
+        let chosen = rounded(2.0 * least);
+        self.options.span.unwrap_or(if chosen.is_finite() && chosen > 0.0 { chosen } else { 1.0 })
+    }
+
+    /// \[m\] how far the parts lie apart at most, at least the span of the largest.
+    pub(crate) fn size(&self) -> f64 {
+        let places: Vec<Vector3<f64>> =
+            (0..self.parts.parts.len()).map(|part| self.placed(part).translation.vector).collect();
+        let low = places.iter().fold(Vector3::repeat(f64::INFINITY), |low, p| low.inf(p));
+        let high = places.iter().fold(Vector3::repeat(f64::NEG_INFINITY), |high, p| high.sup(p));
+        let spread = (high - low).norm();
+        let gyration = self.parts.parts.iter().map(|part| part.mass.gyration()).fold(0.0, f64::max);
+        rounded(spread.max(2.0 * gyration))
+    }
+}
+
+/// A size to two digits: where it was chosen, more would only look exact.
+pub(crate) fn rounded(size: f64) -> f64 {
+    format!("{size:.1e}").parse().unwrap_or(size)
+}

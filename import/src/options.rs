@@ -1,0 +1,51 @@
+//! What is stated rather than read: stiffness and size of joints, what is left out.
+//!
+//! `arguments => options`.
+
+use crate::omission::Kind;
+
+/// What becomes of a body without a joint.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Weld {
+    /// It is one with its parent: no joint, no stiffness, as rigid as in MuJoCo.
+    #[default]
+    Merge,
+    /// It is a body of its own with a fixed joint, whose force can be read.
+    Fixed,
+}
+
+/// What is stated rather than read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// The name of the scene; else that of the model, else of the file.
+    pub name: Option<String>,
+    /// \[N/m\] stiffness of each TSDA of a joint, > 0.
+    pub stiffness: f64,
+    /// \[N·s/m\] its damping, ≥ 0.
+    pub damping: f64,
+    /// \[m\] span of each joint, > 0; else twice the radius of gyration of the smaller of its bodies.
+    pub span: Option<f64>,
+    /// \[s\] simulated time, > 0.
+    pub duration: f64,
+    /// What becomes of bodies without joints.
+    pub weld: Weld,
+    /// The keyframe at which the scene begins; else the file's pose.
+    pub keyframe: Option<String>,
+    /// Kinds of things that are left out.
+    pub ignored: Vec<Kind>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            name: None,
+            stiffness: 1e7,
+            damping: 0.0,
+            span: None,
+            duration: 1.0,
+            weld: Weld::Merge,
+            keyframe: None,
+            ignored: Vec::new(),
+        }
+    }
+}

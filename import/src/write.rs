@@ -1,0 +1,260 @@
+//! The scene's text.
+//!
+//! `mechanism => TOML with a comment on each part: from which element, on which line`.
+
+use std::fmt::Write as _;
+
+use nalgebra::Vector3;
+
+use crate::mechanism::{Mechanism, Side, Signal, Source, Type};
+use crate::omission::Kind;
+use crate::options::Weld;
+use crate::place::{Place, Texts};
+use crate::settings::Settings;
+
+/// How an imported scene begins.
+pub(crate) const HEAD: &str = "# Imported by `host-sim import` from ";
+
+/// Coordinates below this share of the mechanism's size are rounding.
+const ROUNDING: f64 = 1e-15;
+
+/// A name is at most so many bytes long.
+const LONGEST: usize = 200;
+
+/// What is written at the top.
+pub(crate) struct Head<'h> {
+    /// What it says of itself.
+    pub(crate) settings: &'h Settings,
+    /// The texts, to show places.
+    pub(crate) texts: &'h Texts,
+}
+
+/// The scene's text; `file` is what it was made of.
+pub(crate) fn scene(
+    mechanism: &Mechanism<'_>,
+    head: &Head<'_>,
+    omissions: &[(Kind, Place, String)],
+    file: &str,
+) -> String {
+    let mut out = String::new();
+    top(&mut out, mechanism, head, omissions, file);
+    bodies(&mut out, mechanism, head.texts);
+    joints(&mut out, mechanism, head.texts);
+    springs(&mut out, mechanism, head.texts);
+    let signals = [("input", &mechanism.inputs), ("readout", &mechanism.readouts)];
+    for (table, signals) in signals {
+        for signal in signals {
+            write_signal(&mut out, table, signal, head.texts);
+        }
+    }
+    out
+}
+
+fn top(
+    out: &mut String,
+    mechanism: &Mechanism<'_>,
+    head: &Head<'_>,
+    omissions: &[(Kind, Place, String)],
+    file: &str,
+) {
+    let (settings, options) = (head.settings, mechanism.options);
+    let short = file.rsplit(['/', '\\']).next().unwrap_or(file);
+    let _ = writeln!(out, "{HEAD}{}", line(short));
+    let stated = match options.span {
+        Some(span) => format!("span {} m", number(span)),
+        None => "span: twice the radius of gyration of the smaller body".to_owned(),
+    };
+    let k = number(options.stiffness);
+    let c = number(options.damping);
+    let _ = writeln!(out, "# Joints, stated: stiffness {k} N/m, damping {c} N·s/m, {stated}.");
+    if options.weld == Weld::Merge {
+        out.push_str("# Bodies without joints are one with their parents.\n");
+    }
+    let step = settings.timestep;
+    let _ = writeln!(
+        out,
+        "# The file's own step was {step} s; without `step` here a run chooses one that is stable."
+    );
+    for (kind, place, what) in omissions {
+        let _ = writeln!(
+            out,
+            "# Left out, {} ({}): {}",
+            kind.name(),
+            head.texts.shown(*place),
+            line(what)
+        );
+    }
+    let stem = short.rsplit_once('.').map_or(short, |(stem, _)| stem);
+    let name = options.name.as_deref().or(settings.model.as_deref()).unwrap_or(stem);
+    let _ = writeln!(out, "\nname = {}", text(name));
+    let _ = writeln!(out, "description = {}", text(&format!("imported from {short}")));
+    let _ = writeln!(out, "duration = {}", number(options.duration));
+    if settings.gravity != Vector3::zeros() {
+        let _ = writeln!(out, "gravity = {}", vector(settings.gravity, 0.0));
+    }
+    if mechanism.links.iter().any(|link| !link.is_closed()) {
+        out.push_str("\n# Closes the joints that have two places.\n[assemble]\n");
+    }
+}
+
+fn bodies(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
+    let size = mechanism.size();
+    for (number_of, part) in mechanism.parts.parts.iter().enumerate() {
+        out.push('\n');
+        for body in &part.bodies {
+            let body = &mechanism.tree.bodies[*body];
+            let masses = body.mass_words.iter();
+            let masses: Vec<String> =
+                masses.map(|(words, place)| format!("{words}, {}", texts.shown(*place))).collect();
+            let masses = if masses.is_empty() { "no mass".into() } else { masses.join("; ") };
+            let words = format!("<body name=\"{}\">", body.name);
+            comment(out, &(words, body.place), texts);
+            let _ = writeln!(out, "#   mass: {}", line(&masses));
+        }
+        let pose = mechanism.placed(number_of);
+        let turn = pose.rotation;
+        let _ = writeln!(out, "[[body]]\nname = {}", text(mechanism.name(Some(number_of))));
+        let _ = writeln!(out, "mass = {}", number(part.mass.mass));
+        let _ = writeln!(out, "inertia = {}", vector(Vector3::from(part.moments), 0.0));
+        let _ = writeln!(out, "position = {}", vector(pose.translation.vector, size));
+        if turn.w != 1.0 {
+            let parts = [turn.w, turn.i, turn.j, turn.k].map(|q| number(snapped(q, 1.0)));
+            let _ = writeln!(out, "orientation = {{ quaternion = [{}] }}", parts.join(", "));
+        }
+    }
+}
+
+fn joints(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
+    let (size, options) = (mechanism.size(), mechanism.options);
+    for link in &mechanism.links {
+        out.push('\n');
+        comment(out, &link.source, texts);
+        let _ = writeln!(out, "[[joint]]\nname = {}", text(&link.name));
+        let kind = match link.kind {
+            Type::Revolute(_) => "revolute",
+            Type::Spherical => "spherical",
+            Type::Translational(_) => "translational",
+            Type::Fixed => "fixed",
+        };
+        let _ = writeln!(out, "type = \"{kind}\"\nbetween = {}", between(mechanism, link.between));
+        let [first, second] = link.at.map(|at| vector(at, size));
+        if link.is_closed() {
+            let _ = writeln!(out, "at = {first}");
+        } else {
+            let gap = link.gap();
+            let _ = writeln!(out, "# Open by {gap:.3e} m at the file's pose.");
+            let _ = writeln!(out, "at = {{ first = {first}, second = {second} }}");
+        }
+        let span = number(link.span);
+        match link.kind {
+            Type::Revolute(axis) => {
+                let _ = writeln!(out, "axis = {}\nspan = {span}", vector(axis, 1.0));
+            }
+            Type::Spherical => {
+                let _ = writeln!(out, "arm = {span}");
+            }
+            Type::Translational(axis) => {
+                let _ = writeln!(
+                    out,
+                    "axis = {}\nspan = {span}\ngauge = {span}\noffset = {}\noffsets = \"outward\"",
+                    vector(axis, 1.0),
+                    number(link.span * 0.25),
+                );
+            }
+            Type::Fixed => {
+                let _ = writeln!(out, "axis = [0.0, 0.0, 1.0]\nspan = {span}\narm = {span}");
+            }
+        }
+        let _ = writeln!(out, "stiffness = {}", number(options.stiffness));
+        if options.damping > 0.0 {
+            let _ = writeln!(out, "damping = {}", number(options.damping));
+        }
+    }
+}
+
+fn springs(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
+    let size = mechanism.size();
+    for line in &mechanism.lines {
+        out.push('\n');
+        comment(out, &line.source, texts);
+        let _ = writeln!(out, "[[tsda]]\nname = {}", text(&line.name));
+        let _ = writeln!(out, "between = {}", between(mechanism, line.between));
+        let [first, second] =
+            [0, 1].map(|i| vector(mechanism.within(line.between[i], line.points[i]), size));
+        let _ = writeln!(out, "points = [{first}, {second}]");
+        let _ = writeln!(out, "free_length = {}", number(line.free_length));
+        let _ = writeln!(out, "stiffness = {}", number(line.stiffness));
+        let _ = writeln!(out, "damping = {}", number(line.damping));
+    }
+    for spring in &mechanism.torsions {
+        out.push('\n');
+        comment(out, &spring.source, texts);
+        let _ = writeln!(out, "[[torsion_spring]]\nname = {}", text(&spring.name));
+        let _ = writeln!(out, "between = {}", between(mechanism, spring.between));
+        let _ = writeln!(out, "axis = {}", vector(spring.axis, 1.0));
+        let _ = writeln!(out, "stiffness = {}", number(spring.stiffness));
+        let _ = writeln!(out, "damping = {}", number(spring.damping));
+        let _ = writeln!(out, "preload = {}", number(spring.preload));
+    }
+    for load in &mechanism.loads {
+        out.push('\n');
+        comment(out, &load.source, texts);
+        let _ = writeln!(out, "[[load]]\nbody = {}", text(mechanism.name(Some(load.part))));
+        let _ = writeln!(out, "force = {}", vector(load.force, 0.0));
+    }
+}
+
+fn write_signal(out: &mut String, table: &str, signal: &Signal, texts: &Texts) {
+    out.push('\n');
+    comment(out, &signal.source, texts);
+    let _ = writeln!(out, "[[{table}]]\nname = {}\ntype = \"{}\"", text(&signal.name), signal.kind);
+    for key in &signal.keys {
+        let _ = writeln!(out, "{key}");
+    }
+}
+
+fn comment(out: &mut String, (words, place): &Source, texts: &Texts) {
+    let _ = writeln!(out, "# {}: {}", texts.shown(*place), line(words));
+}
+
+fn between(mechanism: &Mechanism<'_>, sides: [Side; 2]) -> String {
+    let [first, second] = sides.map(|side| text(mechanism.name(side)));
+    format!("[{first}, {second}]")
+}
+
+/// A text on one line without marks that no comment and no name can hold.
+fn line(text: &str) -> String {
+    text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
+}
+
+/// A text in quotes, no longer than a name may be.
+pub(crate) fn text(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for letter in line(text).chars() {
+        if quoted.len() + letter.len_utf8() > LONGEST {
+            break;
+        }
+        if matches!(letter, '"' | '\\') {
+            quoted.push('\\');
+        }
+        quoted.push(letter);
+    }
+    quoted.push('"');
+    quoted
+}
+
+/// A number as TOML has it.
+fn number(value: f64) -> String {
+    format!("{:?}", value + 0.0)
+}
+
+/// 0 instead of what only rounding has left of a coordinate.
+fn snapped(value: f64, size: f64) -> f64 {
+    if value.abs() < ROUNDING * size { 0.0 } else { value }
+}
+
+/// Three numbers as TOML has them.
+pub(crate) fn vector(vector: Vector3<f64>, size: f64) -> String {
+    let parts = [vector.x, vector.y, vector.z].map(|part| number(snapped(part, size)));
+    format!("[{}]", parts.join(", "))
+}

@@ -1,0 +1,239 @@
+//! `[assemble]`: bodies are moved until all joints are closed.
+//!
+//! `table, joints at the given poses => states in the assembly, what was moved and by how much`.
+
+use dbd_kernel::{BodyState, F64};
+
+use crate::assembly::{Assembly, WORLD};
+use crate::closure::{self, Closure, MOST_BODIES, Opening, Outcome, Settings};
+use crate::error::SceneError;
+use crate::joints::rates::{self, Joints};
+use crate::joints::site::{Site, poses, shown};
+use crate::joints::{KEYS as JOINT_KEYS, kind};
+use crate::pair::BodyName;
+use crate::shortened::shortened;
+use crate::spring;
+use crate::text::{Kind, Number, Table, Text, Value};
+
+const KEYS: &[&str] = &["fixed", "rates", "length", "tolerance", "iterations"];
+
+/// \[m\] by which a joint may stay open where the scene does not say.
+const TOLERANCE: f64 = 1e-9;
+
+/// Most steps where the scene does not say.
+const ITERATIONS: usize = 200;
+
+/// \[m, rad\] less than this is rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// What was moved to close the joints of a scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Assembled {
+    /// The bodies that were moved, in the order of the scene.
+    pub moved: Vec<Moved>,
+    /// The joints that were open, in the order of the scene.
+    pub open: Vec<OpenJoint>,
+    /// The bodies that were given velocities that the joints allow, in the order of the scene.
+    pub set_moving: Vec<String>,
+    /// Steps that were computed.
+    pub iterations: usize,
+    /// Freedoms that the joints leave to the bodies that may be moved.
+    pub freedoms: usize,
+    /// Constraints that others imply.
+    pub held_twice: usize,
+    /// \[m\] the length at which a radian counted as a metre.
+    pub length: f64,
+}
+
+/// A body that was moved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moved {
+    /// Its name.
+    pub body: String,
+    /// \[m\] by which its centre of mass was moved.
+    pub distance: f64,
+    /// \[rad\] by which it was turned.
+    pub angle: f64,
+}
+
+/// A joint that was open at the given poses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OpenJoint {
+    /// Its name.
+    pub joint: String,
+    /// \[m\].
+    pub distance: f64,
+    /// \[rad\].
+    pub angle: f64,
+}
+
+/// Moves the bodies of a scene that has a table `assemble`.
+pub(crate) fn read(
+    root: &Table<'_>,
+    assembly: &mut Assembly,
+) -> Result<Option<Assembled>, SceneError> {
+    let Some(value) = root.value("assemble") else { return Ok(None) };
+    if !value.get().is_table() {
+        return Err(value.wrong_type("a table, opened by [assemble]"));
+    }
+    let table = value.table("a table, opened by [assemble]")?;
+    table.only(&[KEYS])?;
+    let tolerance = table.optional("tolerance", Number::positive("m"))?.unwrap_or(TOLERANCE);
+    let iterations = table.optional("iterations", Steps)?.unwrap_or(ITERATIONS);
+    let fixed = match table.value("fixed") {
+        Some(value) => fixed(&value, assembly)?,
+        None => Vec::new(),
+    };
+    let mut movable = vec![true; assembly.states().len()];
+    fixed.iter().for_each(|row| movable[*row] = false);
+
+    let tables = root.list("joint")?;
+    let sites = tables.iter().map(|table| {
+        let kind = kind(table)?;
+        table.only(&[JOINT_KEYS, kind.keys, spring::KEYS])?;
+        Site::read(table, kind, assembly)
+    });
+    let sites = sites.collect::<Result<Vec<_>, _>>()?;
+    let closures: Vec<_> = sites.iter().map(|site| site.closure(assembly)).collect();
+    let length = match table.optional("length", Number::positive("m"))? {
+        Some(length) => length,
+        None => arm(&closures, &movable),
+    };
+    let largest = closure::largest_island(&closures, &movable);
+    if largest > MOST_BODIES {
+        let problem = format!("is to move {largest} bodies that hang together");
+        let help = format!(
+            "at most {MOST_BODIES} can be assembled at once: `fixed` parts them, or poses that are \
+             written need no [assemble]"
+        );
+        return Err(value.refuse_with(&problem, help));
+    }
+    let settings = Settings { length, iterations };
+    let given = poses(assembly);
+    let outcome = closure::close(&closures, &given, &movable, settings);
+    // What is no number is open.
+    let is_closed = |opening: &Opening| opening.distance + length * opening.angle <= tolerance;
+    if !outcome.openings.iter().all(is_closed) {
+        let gaps = closure::gaps(&closures, &given, &movable, length, &outcome);
+        let spent = outcome.iterations >= iterations;
+        return Err(open(&tables, &gaps, (&sites, &movable), (length, spent), assembly));
+    }
+    let open = tables.iter().zip(&closures).filter_map(|(table, closure)| {
+        let Opening { distance, angle } = closure.opening(&given);
+        let name = table.optional("name", Text::Any).ok().flatten().unwrap_or_default();
+        (distance + length * angle > ROUNDING).then_some(OpenJoint { joint: name, distance, angle })
+    });
+    let Outcome { iterations, freedoms, held_twice, .. } = outcome;
+    let open = open.collect();
+    let moved = place(assembly, &given, &outcome);
+    let joints = Joints { tables: &tables, closures: &closures, length };
+    let set_moving = rates::set(root, &table, &joints, &outcome.poses, assembly)?;
+    Ok(Some(Assembled { moved, open, set_moving, iterations, freedoms, held_twice, length }))
+}
+
+/// Moves the bodies of the assembly to where they have come.
+fn place(assembly: &mut Assembly, given: &[closure::Pose], outcome: &Outcome) -> Vec<Moved> {
+    let mut moved = Vec::new();
+    for (row, (pose, given)) in outcome.poses.iter().zip(given).enumerate() {
+        if pose == given {
+            continue;
+        }
+        let old = assembly.states()[row];
+        let state =
+            BodyState::<F64> { position: pose.position, orientation: pose.orientation, ..old };
+        assembly.set_state(row, state);
+        let [shift, turn] = pose.since(given).map(closure::length);
+        if shift > ROUNDING || turn > ROUNDING {
+            let body = assembly.body_names()[row].clone();
+            moved.push(Moved { body, distance: shift, angle: turn });
+        }
+    }
+    assembly.set_assembled();
+    moved
+}
+
+/// \[m\] root mean square of the arms from centres of mass to joints of the bodies that may move; 1
+/// where there are none.
+fn arm(closures: &[Closure], movable: &[bool]) -> f64 {
+    let mut sum = 0.0;
+    let mut count = 0.0;
+    for closure in closures {
+        for (end, point) in closure.ends.iter().zip(closure.points) {
+            if movable.get(end.row()).copied().unwrap_or(false) {
+                sum += point.dot(point);
+                count += 1.0;
+            }
+        }
+    }
+    let mean = if count > 0.0 { libm::sqrt(sum / count) } else { 0.0 };
+    if mean > f64::MIN_POSITIVE && mean.is_finite() { mean } else { 1.0 }
+}
+
+/// The refusal of joints that do not close, at the one that is open most.
+fn open(
+    tables: &[Table<'_>],
+    gaps: &[Opening],
+    (sites, movable): (&[Site], &[bool]),
+    (length, spent): (f64, bool),
+    assembly: &Assembly,
+) -> SceneError {
+    let size = |row: &usize| gaps[*row].distance + length * gaps[*row].angle;
+    let mut rows: Vec<usize> = (0..tables.len()).collect();
+    // Of equal ones the first.
+    rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
+    let worst = rows[0];
+    let others = rows[1..].iter().filter(|row| size(row) > 1e-2 * size(&worst));
+    let others = others.map(|row| format!("{} by {}", tables[*row].label(), shown(gaps[*row])));
+    let others: Vec<String> = others.collect();
+    let pair = &sites[worst].pair;
+    let stands =
+        [pair.a, pair.b].iter().all(|end| !movable.get(end.row()).copied().unwrap_or(false));
+    let problem = format!("stays open by {}, wherever the bodies are moved", shown(gaps[worst]));
+    let mut help = if stands {
+        let [a, b] = &pair.names;
+        format!("neither `{a}` nor `{b}` may be moved: take one of them out of `fixed`")
+    } else {
+        let all = assembly.states().len() == movable.iter().filter(|free| **free).count();
+        format!(
+            "the bodies between do not reach: other lengths, {}{}or poses nearer to where the joints \
+             close; `tolerance` in [assemble] allows a gap",
+            if all { "" } else { "fewer bodies that are `fixed`, " },
+            if spent { "more `iterations`, " } else { "" },
+        )
+    };
+    if !others.is_empty() {
+        let more = others.len().saturating_sub(4);
+        help += &format!("; open stay also {}", others[..others.len() - more].join(", "));
+        if more > 0 {
+            help += &format!(" and {more} more");
+        }
+    }
+    tables[worst].refuse(&problem, help)
+}
+
+/// A number of steps.
+struct Steps;
+
+impl Kind for Steps {
+    type Output = usize;
+
+    fn expected(&self) -> String {
+        "a whole number from 1 to 10000".into()
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<usize, SceneError> {
+        let number = Number::any("").read(value)?;
+        if !(1.0..=10_000.0).contains(&number) || number.fract() != 0.0 {
+            let written = shortened(value.written());
+            return Err(value.refuse(&format!("is {written}"), &self.expected()));
+        }
+        Ok(number as usize)
+    }
+}
+
+/// The rows of the bodies that are not moved.
+fn fixed(value: &Value<'_>, assembly: &Assembly) -> Result<Vec<usize>, SceneError> {
+    let name = BodyName { assembly, world: false };
+    let entries = value.array(&format!("an array of names of bodies; `{WORLD}` is never moved"))?;
+    entries.iter().map(|entry| Ok(name.read(entry)?.1.row())).collect()
+}

@@ -1,0 +1,189 @@
+//! `rates` of `[assemble]` and velocities of bodies: what is prescribed, and the velocities of all bodies that go with
+//! it.
+//!
+//! `tables, joints at their assembled poses => velocities in the assembly`. A body whose table has `velocity` or
+//! `angular_velocity` keeps them; a joint's rate is that of its second body beside its first about the axis,
+//! or along it.
+
+use dbd_kernel::{BodyState, F64, Geometry};
+
+use crate::assembly::Assembly;
+use crate::closure::{Closure, Contradiction, Motion, Pose, Prescribed, motions};
+use crate::error::SceneError;
+use crate::nearest::nearest;
+use crate::shortened::shortened;
+use crate::text::{Kind, Number, Table, Text, Value};
+
+const TURN: Number = Number::any("rad/s");
+const SLIDE: Number = Number::any("m/s");
+
+/// Something prescribed and where that stands.
+struct Source<'t> {
+    prescribed: Prescribed,
+    value: Value<'t>,
+}
+
+/// What is needed of a scene that is assembled.
+pub(super) struct Joints<'j, 't> {
+    pub(super) tables: &'j [Table<'t>],
+    pub(super) closures: &'j [Closure],
+    /// \[m\] the length at which a radian counts as a metre.
+    pub(super) length: f64,
+}
+
+/// Gives all bodies velocities that their joints allow. The names of those whose velocities were not prescribed and
+/// are not 0.
+pub(super) fn set(
+    root: &Table<'_>,
+    table: &Table<'_>,
+    joints: &Joints<'_, '_>,
+    poses: &[Pose],
+    assembly: &mut Assembly,
+) -> Result<Vec<String>, SceneError> {
+    let mut sources = of_bodies(root, assembly)?;
+    if let Some(value) = table.value("rates") {
+        of_joints(&value, joints, &mut sources)?;
+    }
+    let prescribed: Vec<_> = sources.iter().map(|source| source.prescribed).collect();
+    let motions = motions(joints.closures, poses, &prescribed, joints.length)
+        .map_err(|found| refuse(&found, &sources))?;
+    let mut names = Vec::new();
+    for (row, Motion { velocity, spin }) in motions.into_iter().enumerate() {
+        let has = |test: fn(&Prescribed) -> Option<usize>| {
+            prescribed.iter().any(|given| test(given) == Some(row))
+        };
+        let has_velocity = has(|given| match given {
+            Prescribed::Velocity(body, _) => Some(*body),
+            _ => None,
+        });
+        let has_spin = has(|given| match given {
+            Prescribed::Spin(body, _) => Some(*body),
+            _ => None,
+        });
+        let mut state = assembly.states()[row];
+        let frame = F64::frame(&state.position, &state.orientation);
+        if !has_velocity {
+            state.velocity = velocity;
+        }
+        if !has_spin {
+            state.angular_velocity = F64::to_body(&frame, spin);
+        }
+        if state != assembly.states()[row] {
+            names.push(assembly.body_names()[row].clone());
+            assembly.set_velocities(row, state);
+        }
+    }
+    Ok(names)
+}
+
+/// What bodies prescribe by themselves.
+fn of_bodies<'t>(root: &Table<'t>, assembly: &Assembly) -> Result<Vec<Source<'t>>, SceneError> {
+    let mut sources = Vec::new();
+    for (row, (table, state)) in root.list("body")?.iter().zip(assembly.states()).enumerate() {
+        let BodyState::<F64> { velocity, angular_velocity, .. } = *state;
+        if let Some(value) = table.value("velocity") {
+            sources.push(Source { prescribed: Prescribed::Velocity(row, velocity), value });
+        }
+        if let Some(value) = table.value("angular_velocity") {
+            let frame = F64::frame(&state.position, &state.orientation);
+            let spin = F64::to_world(&frame, angular_velocity);
+            sources.push(Source { prescribed: Prescribed::Spin(row, spin), value });
+        }
+    }
+    Ok(sources)
+}
+
+/// The rates of joints.
+fn of_joints<'t>(
+    value: &Value<'t>,
+    joints: &Joints<'_, '_>,
+    sources: &mut Vec<Source<'t>>,
+) -> Result<(), SceneError> {
+    let table = value.table("{ JOINT = rate }: rad/s about a joint's axis or m/s along it")?;
+    let name = |table: &Table<'_>| table.optional("name", Text::Any).ok().flatten();
+    let names: Vec<_> = joints.tables.iter().map(|table| name(table).unwrap_or_default()).collect();
+    for (joint, value) in table.named()? {
+        let Some(row) = names.iter().position(|name| *name == joint) else {
+            let help = match nearest(&joint, names.iter().map(String::as_str)) {
+                Some(meant) => format!("did you mean `{meant}`? `rates` are those of joints"),
+                None => "`rates` are those of joints by their names".into(),
+            };
+            return Err(value.refuse_with(&format!("is no joint: \"{}\"", shortened(&joint)), help));
+        };
+        let kind = super::kind(&joints.tables[row])?.name;
+        let mut push = |prescribed, value| sources.push(Source { prescribed, value });
+        match kind {
+            "revolute" => {
+                let rate = TURN.read(&value)?;
+                push(Prescribed::Turn(row, rate), value);
+            }
+            "translational" => {
+                let rate = SLIDE.read(&value)?;
+                push(Prescribed::Slide(row, rate), value);
+            }
+            "cylindrical" if value.get().is_table() => {
+                let table = value.table("{ turn = rad/s, slide = m/s }")?;
+                table.only(&[&["turn", "slide"]])?;
+                if let (Some(rate), Some(value)) =
+                    (table.optional("turn", TURN)?, table.value("turn"))
+                {
+                    push(Prescribed::Turn(row, rate), value);
+                }
+                if let (Some(rate), Some(value)) =
+                    (table.optional("slide", SLIDE)?, table.value("slide"))
+                {
+                    push(Prescribed::Slide(row, rate), value);
+                }
+            }
+            "cylindrical" => {
+                let help = "a cylindrical joint turns and slides: { turn = rad/s, slide = m/s }, or \
+                            one of the two";
+                return Err(value.refuse_with("does not say which rate it is", help));
+            }
+            kind => {
+                let problem = format!("is the rate of a {kind} joint");
+                let help = "rates are those of revolute, cylindrical and translational joints; a \
+                            body's `velocity` and `angular_velocity` prescribe other motions";
+                return Err(value.refuse_with(&problem, help));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The refusal of what is prescribed and cannot be.
+fn refuse(found: &Contradiction, sources: &[Source<'_>]) -> SceneError {
+    let Source { prescribed, value } = &sources[found.row];
+    let near = short(found.nearest);
+    let problem = match (found.is_held, prescribed) {
+        (true, _) => "is a motion that the joints do not leave".to_owned(),
+        (_, Prescribed::Turn(..)) => format!("does not go with the others: {near} rad/s would"),
+        (_, Prescribed::Slide(..)) => format!("does not go with the others: {near} m/s would"),
+        (_, Prescribed::Velocity(..)) => {
+            format!("does not go with the joints and the others: it is off by {near} m/s")
+        }
+        (_, Prescribed::Spin(..)) => {
+            format!("does not go with the joints and the others: it is off by {near} rad/s")
+        }
+    };
+    let help = match found.is_held {
+        true => {
+            "the loops of joints hold that: another joint's rate, or none; `host-sim check` says \
+                 what is free"
+        }
+        false => {
+            "with [assemble] velocities agree with the joints: as many as there are freedoms may be \
+             prescribed, by `rates` and by the bodies' own; the other bodies need none"
+        }
+    };
+    value.refuse_with(&problem, help)
+}
+
+/// With four digits.
+fn short(value: f64) -> String {
+    let text = format!("{value:.3e}");
+    text.parse::<f64>().map_or(text, |rounded| match rounded.abs() {
+        size if size == 0.0 || (1e-3..1e5).contains(&size) => format!("{rounded}"),
+        _ => format!("{rounded:e}"),
+    })
+}

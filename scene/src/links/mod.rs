@@ -1,0 +1,107 @@
+//! `link`: a body that lies between two points.
+//!
+//! `table, places => centre of mass, orientation, ends`. One axis of the body points from the first point
+//! to the second; about it the body is turned as little as possible, or as a reference says.
+
+mod attitude;
+
+pub(crate) use attitude::axes_of;
+
+use crate::error::SceneError;
+use crate::points::{Places, PrecisePlace, precise_direction};
+use crate::precise::{Precise, PreciseVector};
+use crate::text::{Choice, Number, Table, Value};
+
+/// The keys of a link.
+pub(crate) const KEYS: &[&str] = &["from", "to", "along", "reference", "centre", "length"];
+
+/// Two points closer than this share of their coordinates are one.
+const COINCIDENT: f64 = 1e-12;
+
+/// A length that misses the points' distance by less than this share of it fits.
+const FITTING: f64 = 1e-9;
+
+/// A body between two points.
+#[derive(Clone, Debug)]
+pub(crate) struct Link {
+    /// \[m\] centre of mass, world.
+    pub(crate) position: PreciseVector,
+    /// Body → world, scalar first.
+    pub(crate) orientation: [f64; 4],
+    /// Its ends that have names.
+    pub(crate) ends: Vec<End>,
+}
+
+/// An end of a link.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct End {
+    /// The point that it is at, or is to come to.
+    pub(crate) point: String,
+    /// \[m\] where it is, from the centre of mass, body axes.
+    pub(crate) place: [f64; 3],
+}
+
+/// Reads a link. `is_assembled` says whether an end may lie off its point, to be brought there.
+pub(crate) fn read(
+    table: &Table<'_>,
+    places: &Places,
+    is_assembled: bool,
+) -> Result<Link, SceneError> {
+    let from = table.required("from", PrecisePlace(places))?;
+    let to = table.required("to", PrecisePlace(places))?;
+    let along = table.optional("along", Choice(&["x", "y", "z"]))?.unwrap_or(0);
+    let share = table.optional("centre", Number::any(""))?.unwrap_or(0.5);
+
+    let arm = to - from;
+    let apart = arm.length().nearest();
+    let coordinates = [from, to].map(|place| place.nearest().to_f64());
+    let largest = coordinates.as_flattened().iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+    let Some(direction) = arm.unit().filter(|_| apart > COINCIDENT * largest) else {
+        let problem = format!("is where `from` is, {largest:?} m from the origin or nearer");
+        let help = "a link lies between two different points";
+        return Err(table.refuse_value("to", &problem, help));
+    };
+    let own = own_length(table, apart, is_assembled)?;
+    let whole = own.map_or(arm, |length| direction * length.into());
+    let length = own.unwrap_or(apart);
+
+    let orientation = match table.has("reference") {
+        true => {
+            let reference = precise_direction(table, "reference")?;
+            attitude::with_reference(direction, along, reference).ok_or_else(|| {
+                let help = "a direction across the link, e.g. one normal to it";
+                table.refuse_value("reference", "is parallel to the link", help)
+            })?
+        }
+        false => attitude::nearest(direction, along),
+    };
+    let end = |key: &str, share: f64| {
+        let point = table.value(key).and_then(|value: Value<'_>| value.get().as_str());
+        let mut place = [0.0; 3];
+        place[along] = (Precise::from(length) * Precise::from(share)).nearest();
+        point.map(|point| End { point: point.to_owned(), place })
+    };
+    let ends = [end("from", -share), end("to", 1.0 - share)].into_iter().flatten().collect();
+    let position = (from + whole * share.into()).unsigned();
+    Ok(Link { position, orientation, ends })
+}
+
+/// The link's own length, where it is given and is not that between the points.
+fn own_length(
+    table: &Table<'_>,
+    apart: f64,
+    is_assembled: bool,
+) -> Result<Option<f64>, SceneError> {
+    let Some(length) = table.optional("length", Number::positive("m"))? else { return Ok(None) };
+    let gap = (length - apart).abs();
+    if gap <= FITTING * apart {
+        return Ok(None);
+    }
+    if !is_assembled {
+        let problem = format!("is {length:?} m, but its points are {apart:?} m apart");
+        let help = "no `length`, and it is the distance of the points; or points that far apart; or \
+                    [assemble], which moves bodies so that joints close";
+        return Err(table.refuse_value("length", &problem, help));
+    }
+    Ok(Some(length))
+}

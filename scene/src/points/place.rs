@@ -1,0 +1,125 @@
+//! What stands where a place is wanted: three coordinates, or the name of a point.
+
+use std::collections::BTreeMap;
+
+use dbd_kernel::{BodyIndex, Vec3};
+
+use crate::assembly::Assembly;
+use crate::error::SceneError;
+use crate::nearest::nearest;
+use crate::points::Places;
+use crate::precise::PreciseVector;
+use crate::shortened::shortened;
+use crate::text::{Kind, Number, Numbers, Value};
+
+/// Names that a refusal shows: more say less.
+const SHOWN: usize = 12;
+
+/// A place, world, while bodies and points are still read.
+#[derive(Clone, Copy)]
+pub(crate) struct PrecisePlace<'p>(pub(crate) &'p Places);
+
+impl Kind for PrecisePlace<'_> {
+    type Output = PreciseVector;
+
+    fn expected(&self) -> String {
+        format!("{}, or the name of a point", Numbers::<3>(Number::any("m")).expected())
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<PreciseVector, SceneError> {
+        match value.get().as_str() {
+            Some(name) => {
+                let place = self.0.points.get(name).copied();
+                place.ok_or_else(|| unknown(value, "point", name, &self.0.names[0]))
+            }
+            None if value.get().is_array() => {
+                Numbers(Number::any("m")).read(value).map(|at: [f64; 3]| at.into())
+            }
+            None => Err(value.wrong_type(&self.expected())),
+        }
+    }
+}
+
+/// A place, world.
+#[derive(Clone, Copy)]
+pub(crate) struct Place<'a>(pub(crate) &'a Assembly);
+
+impl Kind for Place<'_> {
+    type Output = Vec3<f64>;
+
+    fn expected(&self) -> String {
+        format!("{}, or the name of a point", Numbers::<3>(Number::any("m, world")).expected())
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<Vec3<f64>, SceneError> {
+        match value.get().as_str() {
+            Some(name) => named(self.0.points(), name, value),
+            None if value.get().is_array() => {
+                Numbers(Number::any("m, world")).read(value).map(Vec3::from_f64)
+            }
+            None => Err(value.wrong_type(&self.expected())),
+        }
+    }
+}
+
+/// A place of a body: coordinates in its axes, or a point as the body has it, one of its own ends or a
+/// place in the world at the initial pose.
+#[derive(Clone, Copy)]
+pub(crate) struct PlaceOf<'a> {
+    pub(crate) assembly: &'a Assembly,
+    pub(crate) body: BodyIndex,
+}
+
+impl Kind for PlaceOf<'_> {
+    type Output = Vec3<f64>;
+
+    fn expected(&self) -> String {
+        let numbers = Numbers::<3>(Number::any("m, body axes")).expected();
+        format!("{numbers}, or the name of a point")
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<Vec3<f64>, SceneError> {
+        let Self { assembly, body } = *self;
+        match value.get().as_str() {
+            Some(name) => {
+                let place = named(assembly.points(), name, value)?;
+                let end = assembly.end(body, name);
+                Ok(end.unwrap_or_else(|| assembly.given_point_in(body, place)))
+            }
+            None if value.get().is_array() => {
+                Numbers(Number::any("m, body axes")).read(value).map(Vec3::from_f64)
+            }
+            None => Err(value.wrong_type(&self.expected())),
+        }
+    }
+}
+
+/// What a name names.
+fn named(
+    points: &BTreeMap<String, Vec3<f64>>,
+    name: &str,
+    value: &Value<'_>,
+) -> Result<Vec3<f64>, SceneError> {
+    points.get(name).copied().ok_or_else(|| unknown(value, "point", name, points.keys()))
+}
+
+/// The refusal of a name of nothing.
+pub(super) fn unknown<'n>(
+    value: &Value<'_>,
+    what: &str,
+    name: &str,
+    known: impl IntoIterator<Item = &'n String>,
+) -> SceneError {
+    let known: Vec<&str> = known.into_iter().map(String::as_str).collect();
+    let mut help = match nearest(name, known.iter().copied()) {
+        Some(meant) => format!("did you mean \"{meant}\"? there are "),
+        None if known.is_empty() => format!("the scene has no {what}"),
+        None => "there are ".to_owned(),
+    };
+    let shown: Vec<_> = known.iter().take(SHOWN).map(|name| format!("\"{name}\"")).collect();
+    help += &shown.join(", ");
+    if known.len() > SHOWN {
+        help += &format!(" and {} more", known.len() - SHOWN);
+    }
+    value.refuse_with(&format!("names no {what}: \"{}\"", shortened(name)), help)
+}

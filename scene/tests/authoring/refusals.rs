@@ -1,0 +1,119 @@
+//! What points and links are refused for: place, reason, remedy.
+
+use dbd_scene::Scene;
+
+const BASE: &str = r#"name = "base"
+duration = 1
+[points]
+A = [0, 0, 0]
+B = [1, 0, 0]
+C = { from = "B", distance = 2, angle = 0.5 }
+D = { from = ["A", "B"], distances = [1, 1], side = "left" }
+E = { frame = "box", at = [0, 0, 1] }
+F = { from = "C", axis = [0, 0, 1], angle = 0.5 }
+[[body]]
+name = "bar"
+mass = 1
+inertia = [1, 1, 1]
+link = { from = "A", to = "B" } # link
+[[body]]
+name = "box"
+mass = 1
+inertia = [1, 1, 1]
+position = "C" # place
+[[joint]]
+name = "pin"
+type = "revolute"
+between = ["bar", "world"]
+at = "B" # joint
+axis = [0, 0, 1]
+stiffness = 1e6
+span = 0.1
+"#;
+
+/// An edit of the base scene, `«` before what must be named; what is wrong, what would be right.
+type Case = (&'static str, &'static str, &'static str, &'static str);
+
+fn check(cases: &[Case]) {
+    let mut failures = String::new();
+    for (from, to, message, help) in cases {
+        assert_eq!(BASE.matches(from).count(), 1, "{from:?} occurs once");
+        let marked = BASE.replacen(from, to, 1);
+        let byte = marked.find('«').unwrap();
+        let line = marked[..byte].matches('\n').count() + 1;
+        let column = marked[..byte].rsplit('\n').next().unwrap().chars().count() + 1;
+        let text = marked.replacen('«', "", 1);
+        let error = match Scene::parse(&text, "base.toml") {
+            Ok(_) => {
+                failures += &format!("{from:?} => {to:?} is taken\n");
+                continue;
+            }
+            Err(error) => error,
+        };
+        let place = error.line().zip(error.column());
+        let is_right = error.message().contains(message) && error.help().contains(help);
+        if !is_right || place != Some((line, column)) {
+            failures += &format!(
+                "{from:?} => {to:?}\n  at {place:?}, should be {:?}\n  {}\n  {}\n",
+                (line, column),
+                error.message(),
+                error.help()
+            );
+        }
+    }
+    assert!(failures.is_empty(), "{failures}");
+}
+
+#[test]
+fn the_base_scene_is_taken() {
+    Scene::parse(BASE, "base.toml").unwrap();
+}
+
+#[rustfmt::skip]
+#[test]
+fn points_are_refused_at_their_place() {
+    check(&[
+        ("duration = 1\n[points]", "duration = 1\npoints = «3\n[[tsda]]", "`points` of the scene is an integer", "A = [x, y, z]"),
+        ("A = [0, 0, 0]", "A = «0", "`A` of [points] is an integer", "[x, y, z] in m"),
+        ("A = [0, 0, 0]", "A = «[0, 0]", "`A` of [points] has 2 entries", "3 finite numbers in m"),
+        ("A = [0, 0, 0]", "A = [0, «true, 0]", "`A`[1] of [points] is a boolean", "a finite number in m"),
+        ("A = [0, 0, 0]", "A = «[0, 1e151, 0]", "`A` of [points] is out of reach", "at most 1e150 m"),
+        ("A = [0, 0, 0]", "A = [0, 0, 0]\n«\" \" = [0, 0, 0]", "[points] has a name that is none", "one line of visible text"),
+        ("A = [0, 0, 0]", "A = «\"B2\"", "`A` of [points] names no point: \"B2\"", "did you mean"),
+        ("B = [1, 0, 0]", "B = «{ from = \"C\", offset = [1, 0, 0] }", "`B` of [points] stands on itself: point `B` on point `C` on point `B`", "does not depend on the others"),
+        ("B = [1, 0, 0]", "B = «{ frame = \"bar\", at = [1, 0, 0] }", "`B` of [points] stands on itself: point `B` on body `bar` on point `B`", "does not depend on the others"),
+        ("C = { from = \"B\"", "C = { «form = \"B\"", "`C` of [points] has no key `form`", "did you mean `from`?"),
+        ("C = { from = \"B\"", "C = { from = «\"Q\"", "`from` of `C` of [points] names no point: \"Q\"", "there are \"A\", \"B\""),
+        ("C = { from = \"B\", ", "C = «{ ", "`C` of [points] has no `from`", "distance = m, angle = rad"),
+        ("distance = 2, ", "«share = 2, ", "`C` of [points] has no key `share`", "`distance`"),
+        ("C = { from = \"B\", distance = 2, angle = 0.5 }", "C = «{ from = \"B\", distance = 2 }", "does not say where it lies", "`offset`, or `distance` with"),
+        ("angle = 0.5 }\nD", "angle = 0.5, reference = «[0, 0, 2] }\nD", "is parallel to the normal", "a direction across the normal"),
+        ("distances = [1, 1]", "distances = «[0.2, 0.3]", "do not meet: the points are 1.0 m apart", "whose sum is at least that, 0.5 m"),
+        ("distances = [1, 1]", "distances = «[5, 1]", "do not meet: the points are 1.0 m apart", "whose difference is at most that"),
+        ("distances = [1, 1]", "distances = [1, «0]", "`distances`[1] of `D` of [points] is 0", "> 0 in m"),
+        ("from = [\"A\", \"B\"]", "from = «[\"A\", \"A\"]", "names one place twice", "two different points"),
+        ("side = \"left\"", "side = «\"above\"", "`side` of `D` of [points] is \"above\"", "\"left\" or \"right\""),
+        ("side = \"left\"", "side = \"left\", normal = «[1, 0, 0]", "lies along that line", "across the line"),
+        ("frame = \"box\"", "frame = «\"bax\"", "names no body: \"bax\"", "there are \"bar\", \"box\""),
+        ("frame = \"box\"", "frame = «[\"A\", \"B\", [2, 0, 0]]", "spans no plane", "not on a line"),
+        ("at = [0, 0, 1] }", "at = «\"A\" }", "is a string", "3 finite numbers in m"),
+        ("axis = [0, 0, 1], angle", "axis = «[0, 0, 0], angle", "has no direction", "not all 0"),
+    ]);
+}
+
+#[rustfmt::skip]
+#[test]
+fn links_and_names_are_refused_at_their_place() {
+    check(&[
+        ("link = { from = \"A\", to = \"B\" }", "link = «3", "`link` of body `bar` is an integer", "{ from = \"A\", to = \"B\" }"),
+        ("from = \"A\", to = \"B\" } #", "from = \"A\", «too = \"B\" } #", "`link` of body `bar` has no key `too`", "did you mean `to`?"),
+        ("from = \"A\", to = \"B\" } #", "from = \"A\", to = «\"A\" } #", "`to` of `link` of body `bar` is where `from` is", "two different points"),
+        ("to = \"B\" } #", "to = \"B\", length = «2 } #", "`length` of `link` of body `bar` is 2.0 m, but its points are 1.0 m apart", "[assemble]"),
+        ("to = \"B\" } #", "to = \"B\", along = «\"w\" } #", "is \"w\"", "\"x\", \"y\" or \"z\""),
+        ("to = \"B\" } #", "to = \"B\", reference = «[1, 0, 0] } #", "is parallel to the link", "across the link"),
+        ("link = {", "«position = [0, 0, 0]\nlink = {", "`position` of body `bar` contradicts `link`", "`centre`"),
+        ("link = {", "«orientation = { quaternion = [1, 0, 0, 0] }\nlink = {", "`orientation` of body `bar` contradicts `link`", "`along`"),
+        ("position = \"C\"", "position = «\"Ca\"", "`position` of body `box` names no point: \"Ca\"", "there are \"A\", \"B\", \"C\", \"D\""),
+        ("at = \"B\"", "at = «\"G\"", "`at` of joint `pin` names no point: \"G\"", "there are \"A\""),
+    ]);
+}
