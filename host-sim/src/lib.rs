@@ -8,7 +8,7 @@
 //! - [`compliance`]: how far joints give way under the forces at t = 0.
 //! - [`report`]: what is left of a run: trace, summary, page.
 //! - [`arguments`]: what several commands take.
-//! - [`commands`]: `list`, `check`, `run`, `trade`, `export`, `new`, `completions`.
+//! - [`commands`]: `list`, `check`, `run`, `sweep`, `trade`, `export`, `new`, `completions`.
 //! - [`error`]: what ends a command early.
 //! - [`cli`]: arguments in, exit code out.
 //!
