@@ -377,7 +377,7 @@ fn sweep_scene(
     let mut silence = std::io::sink();
     let lines = if arguments.quiet { &mut silence as &mut dyn Write } else { &mut *console.err };
     let bars = console.terminal && !arguments.quiet;
-    let mut progress = Progress::of(bars, "cases", lines);
+    let mut progress = Progress::of_many(bars, "cases", lines);
     let done = sweep(catalogue, arguments, &mut |done, all| progress.update(done, all));
     progress.finish();
     let outcome = done?;

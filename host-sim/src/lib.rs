@@ -12,7 +12,8 @@
 //! - [`error`]: what ends a command early.
 //! - [`cli`]: arguments in, exit code out.
 //!
-//! The feature `comparison` brings methods that are there for comparison only, see `dbd-plant`.
+//! The feature `comparison` brings methods that are there for comparison only, see `dbd-plant`; `parquet` the table
+//! of a sweep as a Parquet file, too.
 
 pub mod arguments;
 pub mod cli;

@@ -21,6 +21,10 @@
 //! - [`row`]: what a case came to.
 //! - [`store`]: rows of finished cases, kept in a folder.
 //! - [`table`]: rows in the order of the cases, as CSV.
+//! - `parquet`: the same as a Parquet file.
+//! - [`plot`]: drawings of a figure over one axis or two.
+//! - `coordinates`: values of an axis as places in a drawing.
+//! - [`page`]: what people look at.
 //!
 //! # Features
 //!
@@ -32,7 +36,12 @@ pub mod axis;
 pub mod cases;
 pub mod check;
 pub mod columns;
+mod coordinates;
 pub mod key;
+pub mod page;
+#[cfg(feature = "parquet")]
+pub mod parquet;
+pub mod plot;
 pub mod random;
 mod range;
 mod read;

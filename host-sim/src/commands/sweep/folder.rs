@@ -22,7 +22,8 @@ use crate::terminal::SceneFile;
 use crate::terminal::text::json;
 
 /// Names of the results; the last says that the others are there, and whose they are.
-const RESULTS: [&str; 3] = ["sweep.csv", "sweep.html", SEAL];
+const RESULTS: [&str; 4] = ["sweep.csv", PARQUET, "sweep.html", SEAL];
+const PARQUET: &str = "sweep.parquet";
 const SEAL: &str = "sweep.json";
 
 /// Where a sweep's results lie.
@@ -93,13 +94,28 @@ impl SweepFolder {
     ///
     /// # Errors
     /// Where they cannot be written; then those of before are there, or none.
-    pub fn write(&self, table: &Table, outcome: &SweepOutcome) -> Result<(), SweepError> {
+    pub fn write(
+        &self,
+        table: &Table,
+        page: &str,
+        outcome: &SweepOutcome,
+    ) -> Result<(), SweepError> {
         self.make()?;
         let mut files = FileSet::new(&self.place);
         let add = |files: &mut FileSet| {
             let mut file = files.begin("sweep.csv")?;
             table.csv(&mut file)?;
             files.add(file);
+            #[cfg(feature = "parquet")]
+            {
+                let mut file = files.begin(PARQUET)?;
+                dbd_sweep::parquet::write(table, &mut file)?;
+                files.add(file);
+            }
+            // One of another build is not of this table.
+            #[cfg(not(feature = "parquet"))]
+            files.without(PARQUET);
+            files.write("sweep.html", page)?;
             files.write(SEAL, &json(outcome))?;
             Ok(())
         };

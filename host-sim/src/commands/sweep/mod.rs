@@ -19,6 +19,7 @@ use dbd_sweep::cases::Cases;
 use dbd_sweep::check::{CheckError, Trial as _, check};
 use dbd_sweep::columns::{Column, columns};
 use dbd_sweep::key::{Digest, Key};
+use dbd_sweep::page::{Page, html};
 use dbd_sweep::row::{self, Row};
 use dbd_sweep::shard::Shard;
 use dbd_sweep::store::Store;
@@ -31,6 +32,7 @@ use crate::commands::sweep::error::SweepError;
 use crate::commands::sweep::folder::SweepFolder;
 use crate::commands::sweep::outcome::SweepOutcome;
 use crate::commands::sweep::workers::on_all;
+use crate::report::page::argument;
 use crate::terminal::catalogue::is_path;
 use crate::terminal::{Catalogue, Found, LoadError, SceneFile};
 
@@ -155,6 +157,27 @@ impl Sweep {
         }
     }
 
+    /// Command lines: the sweep, and its first case alone.
+    fn commands(&self, spec: &Path) -> Vec<String> {
+        let cases = Cases::new(&self.spec);
+        let changes = cases.changes(0);
+        let set: String = changes.iter().map(|one| format!(" --set {}", argument(one))).collect();
+        let method = cases.method(0).unwrap_or_default();
+        let options: [(&str, Option<String>); 5] = [
+            ("scheme", Some(method.scheme_name().into())),
+            ("newton", method.newton().filter(|n| *n > 0).map(|n| n.to_string())),
+            ("damping", method.foreign_damping().map(|damping| damping.name().into())),
+            ("precision", Some(method.precision_name().into())),
+            ("orientation", Some(method.orientation_name().into())),
+        ];
+        let given = options.into_iter().filter_map(|(name, value)| Some((name, value?)));
+        let options: String = given.map(|(name, value)| format!(" --{name} {value}")).collect();
+        vec![
+            format!("host-sim sweep {}", argument(&spec.display().to_string())),
+            format!("host-sim run {}{set}{options}", argument(&self.called)),
+        ]
+    }
+
     /// The key of a case.
     fn key(&self, case: usize) -> Key {
         let cases = Cases::new(&self.spec);
@@ -229,7 +252,16 @@ pub fn sweep(
         return Err(outcome.incomplete());
     }
     let table = Table::new(&sweep.spec, &sweep.columns, &cells);
-    folder.write(&table, &outcome)?;
+    let page = html(&Page {
+        name: &sweep.file.stem,
+        scene: &sweep.found.scene.name,
+        spec: &sweep.spec,
+        columns: &sweep.columns,
+        table: &table,
+        summary: &outcome.rows_of_page(),
+        commands: &sweep.commands(&arguments.spec),
+    });
+    folder.write(&table, &page, &outcome)?;
     outcome.written = Some(format!("{}/sweep.{{csv,html,json}}", folder.place.display()));
     Ok(outcome)
 }

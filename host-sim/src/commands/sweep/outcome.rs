@@ -160,6 +160,19 @@ impl SweepOutcome {
         }
     }
 
+    /// What a page says: nothing of who ran which case.
+    #[must_use]
+    pub fn rows_of_page(&self) -> Vec<(&'static str, String)> {
+        let mut rows = self.rows();
+        for (name, text) in &mut rows {
+            if *name == "cases" {
+                *text = format!("{}: {} ok", self.cases, self.ok);
+            }
+        }
+        rows.push(("version", self.version.to_owned()));
+        rows
+    }
+
     /// What people read.
     #[must_use]
     pub fn rows(&self) -> Vec<(&'static str, String)> {
