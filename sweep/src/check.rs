@@ -160,7 +160,7 @@ fn line_of(error: &SceneError) -> Option<String> {
         return None;
     }
     let label = error.labels()?.next()?;
-    let shown = error.source_code()?.read_span(label.inner(), 0, 0).ok()?;
+    let shown = error.source_code()?.read_span(label.inner(), 1, 1).ok()?;
     Some(String::from_utf8_lossy(shown.data()).trim_end_matches('\n').to_owned())
 }
 

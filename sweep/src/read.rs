@@ -29,23 +29,30 @@ pub(crate) struct Axes<'s> {
 }
 
 impl Axes<'_> {
-    /// All axes of a table and of those within it; `above` is the path so far.
+    /// All axes of a table and of those within it; `above` is the path so far, and where it begins.
     pub(crate) fn read(
         &self,
         table: &DeTable<'_>,
-        above: &str,
+        above: Option<(&str, usize)>,
         into: &mut Vec<Axis>,
     ) -> Result<(), Box<Refusal>> {
         for Entry { key, place, value } in entries(table) {
-            let path = match above {
+            let (path, place) = match above {
                 // As a change has it.
-                "" => key.to_owned(),
-                above if key.contains(['.', '[', '=', '"']) => format!("{above}.\"{key}\""),
-                above => format!("{above}.{key}"),
+                None => (key.to_owned(), place),
+                Some((above, start)) => {
+                    let quoted = key.contains(['.', '[', '=', '"']);
+                    let key = if quoted { format!("\"{key}\"") } else { key.to_owned() };
+                    // Keys on one line are one path; below a header of its own a key stands for itself.
+                    let on_one_line =
+                        !self.source.written(start..place.start).contains(['\n', ']']);
+                    let start = if on_one_line { start } else { place.start };
+                    (format!("{above}.{key}"), start..place.end)
+                }
             };
             match value.get_ref() {
                 DeValue::Table(inner) if !self.is_range(value, inner) => {
-                    self.read(inner, &path, into)?;
+                    self.read(inner, Some((&path, place.start)), into)?;
                 }
                 _ => into.push(self.axis(path, place, value)?),
             }

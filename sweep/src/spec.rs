@@ -110,7 +110,7 @@ impl Spec {
                     return Err(wrong_type(&source, value, "`axes`", expected));
                 };
                 let most = MOST_CASES;
-                Axes { source: &source, sample, most }.read(of_axes, "", &mut axes)?;
+                Axes { source: &source, sample, most }.read(of_axes, None, &mut axes)?;
             }
             None => {
                 let help =
