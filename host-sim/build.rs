@@ -1,13 +1,25 @@
-//! Puts the scenes that ship into the program.
+//! Puts the scenes that ship into the program, and what its rows of a sweep depend on.
 //!
 //! `scenes/*.toml => OUT_DIR/scenes.rs`: an array of names and texts, by name. `include_dir` would do
-//! it as well but for a scene that is added later: cargo would not hear of it.
+//! it as well but for a scene that is added later: cargo would not hear of it. `sources => DBD_SOURCES`: a hash of
+//! all that computes, in the repository; a published crate's version says as much, and it is empty.
 
 use std::env;
 use std::fmt::Write as _;
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// Folders of the repository whose sources compute what a row of a sweep holds.
+const COMPUTING: [&str; 7] = [
+    "kernel/src",
+    "scene/src",
+    "plant/src",
+    "sweep/src",
+    "host-sim/src/simulate",
+    "host-sim/src/report",
+    "host-sim/src/commands/sweep",
+];
 
 fn main() -> io::Result<()> {
     let variable = |name| env::var_os(name).ok_or_else(|| io::Error::other("cargo runs this"));
@@ -27,5 +39,38 @@ fn main() -> io::Result<()> {
     }
     let source =
         format!("/// Names and texts of the scenes that ship.\npub static SCENES: {text}];\n");
-    fs::write(Path::new(&variable("OUT_DIR")?).join("scenes.rs"), source)
+    fs::write(Path::new(&variable("OUT_DIR")?).join("scenes.rs"), source)?;
+    println!(
+        "cargo::rustc-env=DBD_SOURCES={}",
+        sources(Path::new(&variable("CARGO_MANIFEST_DIR")?))?
+    );
+    Ok(())
+}
+
+/// FNV-1a 64 of all sources that compute; empty outside of the repository.
+fn sources(own: &Path) -> io::Result<String> {
+    let Some(root) = own.parent().filter(|root| root.join("kernel/src/lib.rs").exists()) else {
+        return Ok(String::new());
+    };
+    let mut files = Vec::new();
+    for folder in COMPUTING {
+        println!("cargo::rerun-if-changed={}", root.join(folder).display());
+        list(&root.join(folder), &mut files)?;
+    }
+    files.sort();
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    for file in files {
+        for byte in fs::read(file)? {
+            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+    Ok(format!("+{hash:016x}"))
+}
+
+fn list(folder: &Path, into: &mut Vec<PathBuf>) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.is_dir() { list(&path, into)? } else { into.push(path) }
+    }
+    Ok(())
 }

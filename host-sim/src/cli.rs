@@ -26,6 +26,7 @@ use crate::commands::list::list;
 use crate::commands::new::{FirmwareArguments, NewCommand, firmware};
 use crate::commands::run::{Outcome, RunOptions, run};
 use crate::commands::stability::StabilityCheck;
+use crate::commands::sweep::{SweepArguments, sweep};
 use crate::commands::trade::{TradeRequest, json as survey_json, trade};
 use crate::commands::warnings::of_scene;
 use crate::error::Error;
@@ -56,6 +57,9 @@ enum Command {
     /// Surveys speed against accuracy: writes OUT/SCENE/trade.{csv,svg,html,json}, trade-cortex-m4f.svg
     /// where steps were counted, and trade-*.cache; prints what to choose
     Trade(TradeArguments),
+    /// Runs a scene with many values: writes OUT/SPEC/sweep.{csv,html,json}, a row per case; finished cases
+    /// never run again
+    Sweep(SweepArguments),
     /// Prints Rust source of a scene's const model and of its plant, for a firmware
     Export(ExportArguments),
     /// Makes a scene of MuJoCo's MJCF: each part with the line it comes from; what has no counterpart is
@@ -151,6 +155,9 @@ struct RunArguments {
     /// position=1e-6,orientation=1e-6,velocity=1e-3,angular-velocity=1e-3,READOUT=1e-3
     #[arg(long, value_name = "BANDS", requires = "golden", allow_hyphen_values = true)]
     golden_band: Option<BandList>,
+    /// Write no report.html
+    #[arg(long)]
+    no_report: bool,
     #[command(flatten)]
     results: ResultsArguments,
     /// Print nothing but errors
@@ -199,6 +206,7 @@ where
         Command::Run(arguments) => run_scene(&catalogue, &arguments, console),
         Command::Check(arguments) => check_scene(&catalogue, &arguments, console),
         Command::Trade(arguments) => trade_scene(&catalogue, &arguments, console),
+        Command::Sweep(arguments) => sweep_scene(&catalogue, &arguments, console),
         Command::Export(arguments) => export_scene(&catalogue, &arguments, console),
         Command::Import(arguments) => import_file(&arguments, console),
         Command::New(NewCommand::Firmware(arguments)) => {
@@ -261,6 +269,7 @@ fn run_scene(
             blessing: Blessing::from_environment(),
         }),
         out: Some(arguments.results.destination(&file)),
+        report: !arguments.no_report,
         called: Some(arguments.scene.scene.clone()),
     };
     let mut progress = Progress::new(console.terminal && !arguments.quiet);
@@ -270,7 +279,7 @@ fn run_scene(
     let printed = if arguments.json {
         console.print(&outcome.summary.json())
     } else if !arguments.quiet {
-        console.print(&summary_table(&outcome))
+        console.print(&summary_table(&outcome, options.report))
     } else {
         Ok(())
     };
@@ -292,13 +301,11 @@ fn run_scene(
     Ok(if ended_by.is_some() { Exit::Failed } else { Exit::Done })
 }
 
-fn summary_table(outcome: &Outcome) -> String {
+fn summary_table(outcome: &Outcome, report: bool) -> String {
     let mut rows = outcome.summary.rows();
     if let Some(folder) = &outcome.folder {
-        rows.push((
-            "written",
-            format!("{}/{{trace.csv,summary.json,report.html}}", folder.display()),
-        ));
+        let page = if report { ",report.html" } else { "" };
+        rows.push(("written", format!("{}/{{trace.csv,summary.json{page}}}", folder.display())));
     }
     table(&rows)
 }
@@ -364,6 +371,27 @@ fn trade_scene(
     } else if !arguments.quiet {
         let written = format!("{}/trade.{{csv,svg,html,json}}", folder.display());
         console.print(&format!("{}\nwritten  {written}\n", report.text()))?;
+    }
+    Ok(Exit::Done)
+}
+
+fn sweep_scene(
+    catalogue: &Catalogue,
+    arguments: &SweepArguments,
+    console: &mut Console<'_>,
+) -> Result<Exit, Error> {
+    let mut silence = std::io::sink();
+    let lines = if arguments.quiet { &mut silence as &mut dyn Write } else { &mut *console.err };
+    let bars = console.terminal && !arguments.quiet;
+    let mut progress = Progress::of_many(bars, "cases", lines);
+    let done = sweep(catalogue, arguments, &mut |done, all| progress.update(done, all));
+    progress.finish();
+    let outcome = done?;
+    outcome.damages.iter().filter(|_| !arguments.quiet).for_each(|damage| console.warn(damage));
+    if arguments.json {
+        console.print(&json(&outcome))?;
+    } else if !arguments.quiet {
+        console.print(&table(&outcome.rows()))?;
     }
     Ok(Exit::Done)
 }

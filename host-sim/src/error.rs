@@ -9,6 +9,7 @@ use crate::commands::export::ExportError;
 use crate::commands::import::ImportError;
 use crate::commands::new::NewError;
 use crate::commands::run::RunError;
+use crate::commands::sweep::error::SweepError;
 use crate::commands::trade::TradeError;
 use crate::terminal::console::OutputError;
 use crate::terminal::{Exit, LoadError};
@@ -48,6 +49,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Trade(#[from] TradeError),
+    /// A sweep was refused, or not brought to its end.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Sweep(#[from] SweepError),
     /// Standard output does not take the results.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -72,6 +77,14 @@ impl Error {
                 | RunError::Golden(_)
                 | RunError::Folder(_) => Exit::Refused,
                 RunError::Write(_) => Exit::Failed,
+            },
+            Self::Sweep(error) => match error {
+                SweepError::Spec(_) | SweepError::Load(_) | SweepError::Folder(_) => Exit::Refused,
+                SweepError::Report(RunError::Folder(_)) => Exit::Refused,
+                SweepError::Busy { .. }
+                | SweepError::Incomplete { .. }
+                | SweepError::Report(_)
+                | SweepError::Write(_) => Exit::Failed,
             },
             Self::Trade(error) => match error {
                 TradeError::Folder(_) | TradeError::Survey(SurveyError::Window(_)) => Exit::Refused,

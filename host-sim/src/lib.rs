@@ -8,11 +8,12 @@
 //! - [`compliance`]: how far joints give way under the forces at t = 0.
 //! - [`report`]: what is left of a run: trace, summary, page.
 //! - [`arguments`]: what several commands take.
-//! - [`commands`]: `list`, `check`, `run`, `trade`, `export`, `import`, `new`, `completions`.
+//! - [`commands`]: `list`, `check`, `run`, `sweep`, `trade`, `export`, `import`, `new`, `completions`.
 //! - [`error`]: what ends a command early.
 //! - [`cli`]: arguments in, exit code out.
 //!
-//! The feature `comparison` brings methods that are there for comparison only, see `dbd-plant`.
+//! The feature `comparison` brings methods that are there for comparison only, see `dbd-plant`; `parquet` the table
+//! of a sweep as a Parquet file, too.
 
 pub mod arguments;
 pub mod cli;

@@ -7,6 +7,7 @@ mod refusal;
 mod results;
 mod run;
 mod set;
+mod sweep;
 mod warnings;
 mod watch;
 
@@ -82,7 +83,9 @@ struct Trace {
 impl Trace {
     fn read(path: &Path) -> Self {
         let text = fs::read_to_string(path).unwrap();
-        let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect());
+        // What was set stands before the header.
+        let lines = text.lines().filter(|line| !line.starts_with('#'));
+        let mut lines = lines.map(|line| line.split(',').map(str::to_owned).collect());
         Self { header: lines.next().unwrap(), rows: lines.collect() }
     }
 

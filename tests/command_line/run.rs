@@ -96,6 +96,7 @@ fn the_summary_has_its_keys_in_order_and_is_the_file() {
         "scene_hash",
         "widest_joint",
         "warnings",
+        "readouts",
     ];
     let found: Vec<&str> = done
         .out
@@ -328,4 +329,50 @@ fn orientations_are_stored_as_asked() {
     hashes.sort_by_key(ToString::to_string);
     hashes.dedup();
     assert_eq!(hashes.len(), 6);
+}
+
+#[test]
+fn without_a_report_there_is_none_of_an_earlier_run_either() {
+    let folder = Folder::new();
+    let scene = folder.scene(PENDULUM);
+    let page = folder.path("out/scene/report.html");
+    let done = folder.run(&scene, &["--no-report"]);
+    assert!(done.out.contains("{trace.csv,summary.json}"), "{}", done.out);
+    assert!(!page.exists() && folder.path("out/scene/summary.json").exists());
+    let trace = folder.trace("scene").rows;
+    folder.run(&scene, &[]);
+    assert!(page.exists() && folder.trace("scene").rows == trace);
+    folder.run(&scene, &["--no-report"]);
+    assert!(!page.exists() && folder.trace("scene").rows == trace);
+}
+
+/// The figures of a read-out are those of its column in the trace.
+#[test]
+fn the_summary_says_what_read_outs_showed() {
+    let folder = Folder::new();
+    let readouts = "[[readout]]\nname = \"tip\"\ntype = \"point\"\nbody = \"bob\"\npoint = [0, 0.1, 0]\n\
+                    [[readout]]\nname = \"drop\"\ntype = \"point_velocity\"\nbody = \"bob\"\npoint = [0, 0, 0]\n";
+    let scene = folder.scene(&format!("{PENDULUM}{readouts}"));
+    let summary = folder.summary(&scene, &["--every", "10ms"]);
+    let figures = summary["readouts"].as_array().unwrap();
+    let names: Vec<_> = figures.iter().map(|one| one["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["tip.x", "tip.y", "tip.z", "drop.x", "drop.y", "drop.z"]);
+    assert_eq!((&figures[0]["unit"], &figures[5]["unit"]), (&"m".into(), &"m/s".into()));
+    let trace = folder.trace("scene");
+    for (figures, name) in figures.iter().zip(names) {
+        let place = trace.header.iter().position(|header| header == name).unwrap();
+        let values: Vec<f64> = trace.rows.iter().map(|row| row[place].parse().unwrap()).collect();
+        let most = values.iter().copied().fold(f64::MIN, f64::max);
+        let least = values.iter().copied().fold(f64::MAX, f64::min);
+        let rms = (values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64).sqrt();
+        let at = trace.times()[values.iter().position(|value| *value == most).unwrap()];
+        let of =
+            ["min", "max", "rms", "final", "time_of_max"].map(|key| figures[key].as_f64().unwrap());
+        assert_eq!(of, [least, most, rms, values[values.len() - 1], at], "{name}");
+    }
+    let table = folder.run(&scene, &["--every", "10ms"]).out;
+    assert!(
+        table.contains("read-out ") && table.contains("`drop.z`: 0 to 0 m/s, RMS 0, at the end 0"),
+        "{table}"
+    );
 }

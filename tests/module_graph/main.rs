@@ -18,6 +18,7 @@ const CRATES: &[&str] = &[
     "plant",
     "reference",
     "study",
+    "sweep",
     "output",
     "golden",
     "import",

@@ -6,6 +6,7 @@
 //! - [`folder`]: where results go.
 //! - [`golden`]: a run beside a golden file.
 //! - [`run`]: a scene becomes a trace, a summary and a report.
+//! - [`sweep`]: many values of a scene, a row per case.
 //! - [`trade`]: speed against accuracy.
 //! - [`export`]: Rust source of a scene's const model and its plant.
 //! - [`mod@import`]: another program's file becomes a scene.
@@ -22,5 +23,6 @@ pub mod list;
 pub mod new;
 pub mod run;
 pub mod stability;
+pub mod sweep;
 pub mod trade;
 pub mod warnings;

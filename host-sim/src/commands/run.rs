@@ -2,7 +2,7 @@
 //!
 //! `(scene, options) => plan => samples => OUT/SCENE/{trace.csv,report.html,summary.json}`. The
 //! folder is made once the input is known to be good; the files appear together when they are complete,
-//! the summary last. A run that fails keeps its trace up to there.
+//! the summary last. A run that fails keeps its trace up to there. The report may be left out.
 
 use std::io;
 use std::path::PathBuf;
@@ -22,7 +22,7 @@ use crate::commands::folder::{Destination, FolderError};
 use crate::commands::golden::{GoldenOptions, GoldenRefusal, GoldenWatch};
 use crate::commands::warnings::{of_run, of_scene, of_step, of_turns};
 use crate::report::{
-    Curves, JointOpening, Report, SetValue, Statistics, Summary, TraceWriter, html,
+    Curves, JointOpening, ReadoutFigures, Report, SetValue, Statistics, Summary, TraceWriter, html,
 };
 use crate::simulate::{
     Ending, EnergyLimit, EnergyStop, EnergyWatch, FailedRun, Observer, Sample, SimulationError,
@@ -47,6 +47,8 @@ pub struct RunOptions {
     pub golden: Option<GoldenOptions>,
     /// Where results go; `None` writes nothing.
     pub out: Option<Destination>,
+    /// Whether a report is among them.
+    pub report: bool,
     /// What a command line calls the scene; its name where `None`.
     pub called: Option<String>,
 }
@@ -63,6 +65,7 @@ impl RunOptions {
             watch_energy: None,
             golden: None,
             out: None,
+            report: true,
             called: None,
         }
     }
@@ -143,10 +146,22 @@ pub fn plan_of(
     options: &RunOptions,
     frequencies: &Frequencies,
 ) -> Result<Plan, PlanError> {
+    plan_within(scene, options, |duration| frequencies.default_limit(duration))
+}
+
+/// The same with the longest step \[s\] of our own for a duration, which is asked for where none is given.
+///
+/// # Errors
+/// As [`plan_of`].
+pub fn plan_within(
+    scene: &Scene,
+    options: &RunOptions,
+    longest: impl FnOnce(f64) -> f64,
+) -> Result<Plan, PlanError> {
     let duration = options.duration.unwrap_or(scene.duration);
     let step = match options.step.or(scene.step) {
         Some(step) => StepRequest::Given(step),
-        None => StepRequest::AtMost(frequencies.default_limit(duration)),
+        None => StepRequest::AtMost(longest(duration)),
     };
     plan(&Request { step, duration, every: options.every.or(scene.every) })
 }
@@ -202,8 +217,8 @@ pub fn run(
         None => None,
     };
     let columns = scene.readouts.iter().map(|readout| readout.columns.len()).sum();
-    let curves =
-        folder.as_ref().map(|_| Curves::new(scene.body_names.len(), columns, plan.samples()));
+    let curves = folder.as_ref().filter(|_| options.report);
+    let curves = curves.map(|_| Curves::new(scene.body_names.len(), columns, plan.samples()));
     let mut recorder = Recorder {
         trace,
         curves,
@@ -230,10 +245,20 @@ pub fn run(
     // What did not come to its end is neither compared nor blessed.
     let golden = golden.filter(|_| failure.is_none() && stop.is_none());
     summary.golden = golden.map(|golden| golden.finish(&plan, called));
-    if let (Some(mut files), Some(mut curves), Some(out)) = (files, curves, &options.out) {
-        curves.close();
-        let report = Report { scene, plan: &plan, summary: &summary, curves: &curves, called };
-        let written = files.write("report.html", &html(&report));
+    if let (Some(mut files), Some(out)) = (files, &options.out) {
+        let written = match curves {
+            Some(mut curves) => {
+                curves.close();
+                let report =
+                    Report { scene, plan: &plan, summary: &summary, curves: &curves, called };
+                files.write("report.html", &html(&report))
+            }
+            // That of an earlier run is not this one's.
+            None => {
+                files.without("report.html");
+                Ok(())
+            }
+        };
         let written = written.and_then(|()| files.write("summary.json", &summary.json()));
         let place = files.folder().to_owned();
         let whole = written.and_then(|()| files.finish()).map_err(RunError::Write)?;
@@ -335,6 +360,7 @@ fn summarise(
         golden: None,
         widest_joint: widest(scene, &ending.openings),
         warnings,
+        readouts: ReadoutFigures::of(scene, statistics.readings()),
     }
 }
 

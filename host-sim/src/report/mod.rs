@@ -15,6 +15,6 @@ pub mod trace;
 pub use curves::Curves;
 pub use golden::{GoldenOutcome, NotGolden};
 pub use page::{Report, html};
-pub use statistics::Statistics;
+pub use statistics::{Figures, ReadoutFigures, Statistics};
 pub use summary::{JointOpening, SetValue, Summary};
 pub use trace::TraceWriter;

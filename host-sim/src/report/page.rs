@@ -143,7 +143,7 @@ fn command(report: &Report<'_>) -> String {
 }
 
 /// A word as a shell takes it.
-fn argument(word: &str) -> String {
+pub(crate) fn argument(word: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "-_./\\:".contains(c);
     if word.chars().all(plain) { word.into() } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }

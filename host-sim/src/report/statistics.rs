@@ -1,6 +1,10 @@
 //! What the samples of a run amount to.
 //!
-//! `samples => energies, drift, RMS error, largest extension, last hash`, one pass, nothing kept.
+//! `samples => energies, drift, RMS error, largest extension, last hash; figures of a column`, one pass,
+//! nothing kept.
+
+use dbd_scene::Scene;
+use serde::Serialize;
 
 use crate::simulate::Sample;
 
@@ -43,11 +47,16 @@ pub struct Statistics {
     squares: f64,
     extension: f64,
     hash: Option<u64>,
+    readings: Vec<Figures>,
 }
 
 impl Statistics {
     /// Takes the next sample.
     pub fn push(&mut self, sample: &Sample<'_>) {
+        self.readings.resize(sample.readings.len(), Figures::default());
+        for (figures, value) in self.readings.iter_mut().zip(sample.readings) {
+            figures.push(sample.time, *value);
+        }
         self.push_energy(sample.time, sample.energy.total());
         if sample.extension > self.extension {
             self.extension = sample.extension;
@@ -100,10 +109,93 @@ impl Statistics {
         self.last_time
     }
 
+    /// The figures of each column of the read-outs; none without samples.
+    #[must_use]
+    pub fn readings(&self) -> &[Figures] {
+        &self.readings
+    }
+
     /// The hash of the last sample's state; `None` without samples.
     #[must_use]
     pub fn hash(&self) -> Option<u64> {
         self.hash
+    }
+}
+
+/// Figures of one column over the samples of a run; samples without a number do not count.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Figures {
+    count: f64,
+    squares: f64,
+    least: f64,
+    most: f64,
+    time_of_most: f64,
+    last: f64,
+}
+
+impl Figures {
+    /// Takes the value of the next sample.
+    pub fn push(&mut self, time: f64, value: f64) {
+        if value.is_nan() {
+            return;
+        }
+        let first = self.count == 0.0;
+        if first || value < self.least {
+            self.least = value;
+        }
+        if first || value > self.most {
+            (self.most, self.time_of_most) = (value, time);
+        }
+        self.count += 1.0;
+        self.squares += value * value;
+        self.last = value;
+    }
+
+    fn of(&self, figure: f64) -> Option<f64> {
+        (self.count > 0.0 && figure.is_finite()).then_some(figure)
+    }
+
+    /// Least, largest, root of the mean square, last, and the time \[s\] of the first sample with the
+    /// largest; `None` where no sample had a number.
+    #[must_use]
+    pub fn all(&self) -> [Option<f64>; 5] {
+        let rms = (self.squares / self.count).sqrt();
+        [self.least, self.most, rms, self.last, self.time_of_most].map(|figure| self.of(figure))
+    }
+}
+
+/// What a column of a read-out showed, SI units.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ReadoutFigures {
+    /// The column's name.
+    pub name: String,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Its least value.
+    pub min: Option<f64>,
+    /// Its largest value.
+    pub max: Option<f64>,
+    /// The root of its mean square.
+    pub rms: Option<f64>,
+    /// Its last value.
+    #[serde(rename = "final")]
+    pub last: Option<f64>,
+    /// \[s\] the time of the first sample with the largest value.
+    pub time_of_max: Option<f64>,
+}
+
+impl ReadoutFigures {
+    /// Of every column of a scene's read-outs, in their order.
+    #[must_use]
+    pub fn of(scene: &Scene, figures: &[Figures]) -> Vec<Self> {
+        let columns = scene.readouts.iter().flat_map(|readout| {
+            readout.columns.iter().map(|(end, unit)| (readout.name.clone() + end, *unit))
+        });
+        let with_figures = |((name, unit), figures): ((String, &'static str), &Figures)| {
+            let [min, max, rms, last, time_of_max] = figures.all();
+            Self { name, unit, min, max, rms, last, time_of_max }
+        };
+        columns.zip(figures).map(with_figures).collect()
     }
 }
 
@@ -144,5 +236,18 @@ mod tests {
         let statistics = of([(0.0, 10.0), (1.0, 13.0), (2.0, 6.0), (3.0, 10.0)]);
         assert_eq!(statistics.energy_rms_error(), 2.5);
         assert_eq!(of([(0.0, 10.0), (1.0, 10.0)]).energy_rms_error(), 0.0);
+    }
+
+    #[test]
+    fn figures_are_of_the_samples_that_have_a_number() {
+        let mut figures = Figures::default();
+        assert_eq!(figures.all(), [None; 5]);
+        for (time, value) in [(0.0, -3.0), (1.0, 4.0), (2.0, f64::NAN), (3.0, 4.0), (4.0, 0.0)] {
+            figures.push(time, value);
+        }
+        let rms = (41.0_f64 / 4.0).sqrt();
+        assert_eq!(figures.all(), [-3.0, 4.0, rms, 0.0, 1.0].map(Some));
+        figures.push(5.0, f64::INFINITY);
+        assert_eq!(figures.all(), [Some(-3.0), None, None, None, Some(5.0)]);
     }
 }

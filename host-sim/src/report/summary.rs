@@ -11,6 +11,7 @@ use dbd_scene::parameters::Changed;
 use serde::Serialize;
 
 use crate::report::golden::GoldenOutcome;
+use crate::report::statistics::ReadoutFigures;
 use crate::simulate::watch::{EnergyStop, EnergyWatch, Watched};
 use crate::terminal::SceneFile;
 use crate::terminal::text::json;
@@ -85,6 +86,8 @@ pub struct Summary {
     pub golden: Option<GoldenOutcome>,
     /// What is probably not meant.
     pub warnings: Vec<String>,
+    /// What the read-outs showed, a list entry per column.
+    pub readouts: Vec<ReadoutFigures>,
 }
 
 /// How far a joint opened, seen at the samples and about a thousand times over the run.
@@ -123,7 +126,8 @@ impl SetValue {
     }
 
     /// What people read.
-    fn text(&self) -> String {
+    #[must_use]
+    pub fn text(&self) -> String {
         let before = self.before.as_deref().unwrap_or("none");
         format!("{} = {} (in the file: {before})", self.path, self.now)
     }
@@ -230,9 +234,24 @@ impl Summary {
             };
             rows.push(("golden", format!("{}: {words}", golden.file)));
         }
+        rows.extend(self.readouts.iter().map(|figures| ("read-out", readout(figures))));
         rows.extend(self.set.iter().map(|value| ("set", value.text())));
         rows.push(("status", self.status.clone()));
         rows.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
         rows
     }
+}
+
+/// What people read of a column of a read-out.
+fn readout(figures: &ReadoutFigures) -> String {
+    let ReadoutFigures { name, unit, min, max, rms, last, time_of_max } = figures;
+    let shown = |figure: &Option<f64>| figure.map_or("–".into(), |value| significant(value, 4));
+    let time = time_of_max.map_or("–".into(), |time| display(rounded(time, 6)));
+    format!(
+        "`{name}`: {} to {} {unit}, RMS {}, at the end {}, largest at t = {time}",
+        shown(min),
+        shown(max),
+        shown(rms),
+        shown(last),
+    )
 }

@@ -1,6 +1,7 @@
-//! `trace.csv`: a header, then one row per sample.
+//! `trace.csv`: the values of the scene that were changed, a header, then one row per sample.
 //!
-//! `samples => rows`, streamed. Columns: time, per body position, quaternion, velocity and angular
+//! `samples => rows`, streamed. A changed value is a line of its own that begins with `#`; without changes
+//! the header is the first line. Columns: time, per body position, quaternion, velocity and angular
 //! velocity, then the energies, then the read-outs ([`Scene::columns`]). Every number is the
 //! shortest text that reads back to its bits.
 
@@ -9,6 +10,7 @@ use std::io::{self, Write};
 use dbd_plant::numerals::Digits;
 use dbd_scene::Scene;
 
+use crate::report::summary::SetValue;
 use crate::simulate::Sample;
 
 /// Writes a trace.
@@ -22,7 +24,10 @@ impl<W: Write> TraceWriter<W> {
     ///
     /// # Errors
     /// Where the writer cannot take it.
-    pub fn new(to: W, scene: &Scene) -> io::Result<Self> {
+    pub fn new(mut to: W, scene: &Scene) -> io::Result<Self> {
+        for value in SetValue::of(scene) {
+            writeln!(to, "# set {}", value.text())?;
+        }
         let mut rows = csv::Writer::from_writer(to);
         for column in scene.columns() {
             rows.write_field(column)?;

@@ -55,6 +55,8 @@ pub enum Remedy {
     NoneOf(Vec<f64>),
     /// \[s\] a step that takes too long to try.
     Untried(f64),
+    /// No step was looked for.
+    Unsought,
 }
 
 impl FailedRun {
@@ -70,14 +72,21 @@ impl FailedRun {
         trouble: Trouble,
     ) -> Self {
         let remedy = find_remedy(scene, method, run, every);
+        let cause = cause(scene, method, run.step, &remedy);
+        Self { cause, remedy, ..Self::untried(scene, run, ending, trouble) }
+    }
+
+    /// Describes the failure; no step is looked for, which takes further runs.
+    #[must_use]
+    pub fn untried(scene: &Scene, run: &Plan, ending: &Ending, trouble: Trouble) -> Self {
         Self {
-            cause: cause(scene, method, run.step, &remedy),
+            cause: None,
             what: describe(scene, trouble),
             step: ending.steps,
             steps: run.steps,
             step_size: run.step,
             time: run.time(ending.steps),
-            remedy,
+            remedy: Remedy::Unsought,
         }
     }
 
@@ -99,6 +108,7 @@ impl FailedRun {
             Remedy::Untried(step) => {
                 format!("--step {} is advised; it takes too long to be tried here", display(*step))
             }
+            Remedy::Unsought => "a run of this case alone looks for a step that works".to_owned(),
         }
     }
 }

@@ -107,7 +107,9 @@ impl UnknownScene {
 }
 
 impl SceneFile {
-    fn new(stem: String, place: String, text: &str) -> Self {
+    /// The origin of a text.
+    #[must_use]
+    pub fn new(stem: String, place: String, text: &str) -> Self {
         let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
             (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
         });
@@ -217,7 +219,9 @@ fn from_standard_input(changes: &[String]) -> Result<Found, LoadError> {
     Ok(Found { scene, file, text })
 }
 
-fn is_path(scene: &str) -> bool {
+/// Whether what a user names is a path rather than a name.
+#[must_use]
+pub fn is_path(scene: &str) -> bool {
     scene.ends_with(".toml") || scene.contains(['/', '\\'])
 }
 

@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::time::{Duration, Instant};
 
+use dbd_plant::digits::significant;
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// Runs that are shorter show nothing.
@@ -20,6 +21,8 @@ pub struct Progress<'p> {
     bar: Option<ProgressBar>,
     waiting: Option<ProgressBar>,
     lines: Option<Lines<'p>>,
+    /// Whether counted work is all there is, so that its pace is known from the beginning.
+    counts_alone: bool,
 }
 
 /// Lines in place of a bar.
@@ -34,7 +37,8 @@ impl<'p> Progress<'p> {
     #[must_use]
     pub fn new(shown: bool) -> Self {
         let start = Instant::now();
-        Self { start, shown, unit: "steps", bar: None, waiting: None, lines: None }
+        let (bar, waiting, lines) = (None, None, None);
+        Self { start, shown, unit: "steps", bar, waiting, lines, counts_alone: true }
     }
 
     /// Work in several parts begins, one of which is counted in a unit: with bars where there is a
@@ -42,6 +46,14 @@ impl<'p> Progress<'p> {
     #[must_use]
     pub fn of(terminal: bool, unit: &'static str, lines: &'p mut dyn Write) -> Self {
         let lines = (!terminal).then_some(Lines { to: lines, last: None });
+        Self { unit, lines, counts_alone: false, ..Self::new(terminal) }
+    }
+
+    /// Counted work alone, with its pace; without a terminal nothing is said of what is done soon.
+    #[must_use]
+    pub fn of_many(terminal: bool, unit: &'static str, lines: &'p mut dyn Write) -> Self {
+        let last = Some(Instant::now());
+        let lines = (!terminal).then_some(Lines { to: lines, last });
         Self { unit, lines, ..Self::new(terminal) }
     }
 
@@ -65,13 +77,22 @@ impl<'p> Progress<'p> {
         }
     }
 
+    /// How fast counted work that began with all of this goes, and how long it takes yet.
+    fn pace(&self, done: u64, all: u64) -> Option<String> {
+        let rate = done as f64 / self.start.elapsed().as_secs_f64();
+        let left = all.saturating_sub(done) as f64 / rate;
+        let known = rate > 0.0 && left.is_finite() && self.counts_alone;
+        known.then(|| format!(", {} a second, {left:.0} s left", significant(rate, 3)))
+    }
+
     /// So many steps of all are done.
     pub fn update(&mut self, steps: u64, all: u64) {
         if let Some(lines) = &mut self.lines {
             if lines.last.is_none_or(|last| last.elapsed() >= SILENCE) {
                 lines.last = Some(Instant::now());
                 let percent = (100 * u128::from(steps)) / u128::from(all.max(1));
-                self.say(&format!("{percent} % of {all} {}", self.unit));
+                let pace = self.pace(steps, all).unwrap_or_default();
+                self.say(&format!("{percent} % of {all} {}{pace}", self.unit));
             }
             return;
         }
@@ -83,8 +104,9 @@ impl<'p> Progress<'p> {
         }
         let bar = self.bar.get_or_insert_with(|| {
             let unit = self.unit;
+            let pace = if self.counts_alone { "{per_sec}  " } else { "" };
             let template = format!(
-                "{{bar:40}} {{percent:>3}} %  {{human_pos}} of {{human_len}} {unit}  {{eta}} left"
+                "{{bar:40}} {{percent:>3}} %  {{human_pos}} of {{human_len}} {unit}  {pace}{{eta}} left"
             );
             let bar = ProgressBar::new(all).with_elapsed(self.start.elapsed());
             match ProgressStyle::with_template(&template) {

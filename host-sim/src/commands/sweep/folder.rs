@@ -1,0 +1,125 @@
+//! The folder of a sweep's results.
+//!
+//! `(--out, SPEC.toml) => OUT/SPEC/{cases/, sweep.csv, sweep.html, sweep.json, reports/}`. Finished cases may be those
+//! of any sweep; the table of another sweep is not replaced unasked. The files appear together, `sweep.json`
+//! last.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use dbd_output::file;
+use dbd_output::set::FileSet;
+use dbd_sweep::shard::Shard;
+use dbd_sweep::store::Store;
+use dbd_sweep::table::Table;
+use serde::Deserialize;
+
+use crate::commands::folder::FolderError;
+use crate::commands::sweep::error::SweepError;
+use crate::commands::sweep::outcome::SweepOutcome;
+use crate::terminal::SceneFile;
+use crate::terminal::text::json;
+
+/// Names of the results; the last says that the others are there, and whose they are.
+const RESULTS: [&str; 4] = ["sweep.csv", PARQUET, "sweep.html", SEAL];
+const PARQUET: &str = "sweep.parquet";
+const SEAL: &str = "sweep.json";
+
+/// Where a sweep's results lie.
+#[derive(Clone, Debug)]
+pub struct SweepFolder {
+    out: PathBuf,
+    stem: String,
+    /// The folder of the table.
+    pub place: PathBuf,
+    /// The folder of finished cases.
+    pub cases: PathBuf,
+}
+
+/// What a table says of its sweep.
+#[derive(Deserialize)]
+struct Owner {
+    sweep_file: String,
+    sweep_hash: String,
+}
+
+impl SweepFolder {
+    /// The folder of a sweep; nothing is made yet.
+    ///
+    /// # Errors
+    /// Where it holds the table of another sweep, which is not to be replaced.
+    pub fn of(out: &Path, file: &SceneFile, overwrite: bool) -> Result<Self, FolderError> {
+        let place = out.join(&file.stem);
+        let owner = fs::read_to_string(place.join(SEAL)).ok();
+        let owner: Option<Owner> = owner.and_then(|text| serde_json::from_str(&text).ok());
+        if let Some(Owner { sweep_file, sweep_hash }) = owner.filter(|_| !overwrite) {
+            // A copy is the same sweep, and so is a file that was moved with its results.
+            let is_this = sweep_file == file.place
+                || sweep_hash == file.hash
+                || !Path::new(&sweep_file).exists();
+            if !is_this {
+                return Err(FolderError::Taken { folder: place, other: sweep_file });
+            }
+        }
+        let cases = place.join("cases");
+        Ok(Self { out: out.to_owned(), stem: file.stem.clone(), place, cases })
+    }
+
+    /// Makes the folder and opens a share's file of finished cases. What killed programs left is removed.
+    ///
+    /// # Errors
+    /// Where they cannot be written to, or another program has the share.
+    pub fn open(&self, shard: Shard) -> Result<Store, SweepError> {
+        self.make()?;
+        let reason = |reason| FolderError::Unwritable { folder: self.cases.clone(), reason };
+        fs::create_dir_all(&self.cases).map_err(reason)?;
+        file::sweep(&self.cases, &[&format!("{}.rows", shard.name())]);
+        Store::open(&self.cases, shard).map_err(|error| match error.kind() {
+            io::ErrorKind::WouldBlock => {
+                SweepError::Busy { file: self.cases.join(format!("{}.rows", shard.name())) }
+            }
+            _ => SweepError::Write(error),
+        })
+    }
+
+    fn make(&self) -> Result<(), FolderError> {
+        let failed = |reason| FolderError::Unwritable { folder: self.place.clone(), reason };
+        let folder = file::folder(&self.out, &self.stem).map_err(failed)?;
+        file::sweep(&folder, &[&RESULTS[..], &["writable"]].concat());
+        Ok(())
+    }
+
+    /// Writes the table, its page and what it is.
+    ///
+    /// # Errors
+    /// Where they cannot be written; then those of before are there, or none.
+    pub fn write(
+        &self,
+        table: &Table,
+        page: &str,
+        outcome: &SweepOutcome,
+    ) -> Result<(), SweepError> {
+        self.make()?;
+        let mut files = FileSet::new(&self.place);
+        let add = |files: &mut FileSet| {
+            let mut file = files.begin("sweep.csv")?;
+            table.csv(&mut file)?;
+            files.add(file);
+            #[cfg(feature = "parquet")]
+            {
+                let mut file = files.begin(PARQUET)?;
+                dbd_sweep::parquet::write(table, &mut file)?;
+                files.add(file);
+            }
+            // One of another build is not of this table.
+            #[cfg(not(feature = "parquet"))]
+            files.without(PARQUET);
+            files.write("sweep.html", page)?;
+            files.write(SEAL, &json(outcome))?;
+            Ok(())
+        };
+        let written = add(&mut files).and_then(|()| files.finish());
+        written.and_then(|whole| whole.publish()).map_err(SweepError::Write)
+    }
+}

@@ -1,0 +1,134 @@
+//! Curves and points over a scale.
+//!
+//! `(scales, series) => SVG`. A curve goes from a case to the next; one that did not come to its end is a gap and
+//! a mark at the bottom.
+
+use std::fmt::Write as _;
+
+use dbd_output::markup::escape;
+use dbd_output::svg::{joined, label};
+
+use crate::plot::{COLOURS, FAILED, FRAME, GRID, INK, Scale};
+
+/// What belongs together: a value of another axis, or a figure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// What it is called.
+    pub name: String,
+    /// Along and up; up is `None` where the case did not come to its end.
+    pub points: Vec<(f64, Option<f64>)>,
+}
+
+/// What is drawn.
+pub struct Drawing<'d> {
+    /// \[pixels\] width and height.
+    pub size: (f64, f64),
+    /// Along.
+    pub x: &'d Scale,
+    /// Up.
+    pub y: &'d Scale,
+    /// The series in the order of the colours.
+    pub series: &'d [Series],
+    /// Whether points are joined.
+    pub joined: bool,
+}
+
+/// \[pixels\] left, top, right and bottom of the axes within a drawing.
+const MARGINS: [f64; 4] = [74.0, 10.0, 18.0, 50.0];
+
+/// Points up to which each is marked.
+const MARKED: usize = 60;
+
+/// The SVG.
+#[must_use]
+pub fn svg(drawing: &Drawing<'_>) -> String {
+    let Drawing { size: (width, height), x, y, series, .. } = *drawing;
+    let [left, top] = [MARGINS[0], MARGINS[1]];
+    let [right, bottom] = [width - MARGINS[2], height - MARGINS[3]];
+    let across = |share: f64| left + share * (right - left);
+    let up = |share: f64| bottom - share * (bottom - top);
+    let mut text = begin(width, height);
+    for (at, words) in x.ticks(5) {
+        let at = across(at);
+        let _ = writeln!(text, "<path d=\"M{at:.1} {top}V{bottom}\" stroke=\"{GRID}\"/>");
+        label(&mut text, (at, bottom + 18.0), "middle", INK, &words);
+    }
+    for (at, words) in y.ticks(6) {
+        let at = up(at);
+        let _ = writeln!(text, "<path d=\"M{left} {at:.1}H{right}\" stroke=\"{GRID}\"/>");
+        label(&mut text, (left - 7.0, at + 4.5), "end", INK, &words);
+    }
+    let _ = writeln!(
+        text,
+        "<path d=\"M{left} {top}V{bottom}H{right}\" fill=\"none\" stroke=\"{FRAME}\"/>"
+    );
+    sides(&mut text, (x, y), [left, top, right, bottom], height);
+    for (row, one) in series.iter().enumerate() {
+        let colour = COLOURS[row % COLOURS.len()];
+        let placed = |(along, value): &(f64, Option<f64>)| {
+            Some((across(x.at(*along)?), up(y.at((*value)?)?)))
+        };
+        let places: Vec<Option<(f64, f64)>> = one.points.iter().map(placed).collect();
+        if drawing.joined {
+            for run in places.split(Option::is_none).filter(|run| run.len() > 1) {
+                let corners: Vec<(f64, f64)> = run.iter().flatten().copied().collect();
+                let _ = writeln!(
+                    text,
+                    "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\" \
+                     stroke-linejoin=\"round\"/>",
+                    joined(&corners)
+                );
+            }
+        }
+        let alone = |at: usize| {
+            let there = |at: Option<usize>| at.and_then(|at| places.get(at)?.as_ref()).is_some();
+            !there(at.checked_sub(1)) && !there(at.checked_add(1))
+        };
+        for (at, place) in places.iter().enumerate() {
+            let Some((px, py)) = place else { continue };
+            if !drawing.joined || places.len() <= MARKED || alone(at) {
+                let _ = writeln!(
+                    text,
+                    "<circle cx=\"{px:.1}\" cy=\"{py:.1}\" r=\"2.6\" fill=\"{colour}\"/>"
+                );
+            }
+        }
+        for (along, _) in one.points.iter().filter(|(_, value)| value.is_none()) {
+            let Some(share) = x.at(*along) else { continue };
+            let at = across(share);
+            let _ = writeln!(
+                text,
+                "<path d=\"M{:.1} {:.1}l7 -7m0 7l-7 -7\" stroke=\"{FAILED}\" stroke-width=\"1.6\"/>",
+                at - 3.5,
+                bottom - 4.0
+            );
+        }
+    }
+    text.push_str("</svg>\n");
+    text
+}
+
+/// The beginning of a drawing.
+pub(super) fn begin(width: f64, height: f64) -> String {
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"13\" \
+         fill=\"{INK}\">\n"
+    )
+}
+
+/// What the sides are called.
+pub(super) fn sides(
+    text: &mut String,
+    (x, y): (&Scale, &Scale),
+    [left, top, right, bottom]: [f64; 4],
+    height: f64,
+) {
+    label(text, (0.5 * (left + right), height - 10.0), "middle", INK, &x.label);
+    let _ = writeln!(
+        text,
+        "<text transform=\"translate(14 {:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+        0.5 * (top + bottom),
+        escape(&y.label)
+    );
+}
