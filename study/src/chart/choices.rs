@@ -7,7 +7,7 @@ use dbd_output::svg::label;
 
 use crate::advice::choice;
 use crate::chart::drawing::{Drawing, LABEL, RIGHT, STRIP, WIDTH};
-use crate::chart::label_spots::LabelSpots;
+use dbd_output::label_spots::LabelSpots;
 use crate::chart::style::{FAINT, INK};
 use crate::words::shown;
 

@@ -6,7 +6,7 @@ use dbd_output::svg::label;
 use dbd_plant::digits::significant;
 
 use crate::chart::drawing::{BOTTOM, Drawing, LABEL, LEFT, Line, MARK, RIGHT, STRIP, TOP, WIDTH};
-use crate::chart::label_spots::{LabelSpots, Rectangle};
+use dbd_output::label_spots::{LabelSpots, Rectangle};
 use crate::chart::style::{FAINT, GRID, INK};
 use crate::point::{Machine, Stepper};
 

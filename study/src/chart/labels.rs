@@ -6,7 +6,7 @@ use dbd_output::markup::escape;
 
 use crate::chart::choices::Choice;
 use crate::chart::drawing::{BOTTOM, Drawing, LABEL, LEFT, Line, RIGHT, TOP};
-use crate::chart::label_spots::{LabelSpots, Rectangle};
+use dbd_output::label_spots::{LabelSpots, Rectangle};
 use crate::words::shown;
 
 impl Drawing<'_> {
