@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use crate::commands::export::ExportError;
 use crate::commands::new::NewError;
+use crate::commands::picture::PictureError;
 use crate::commands::run::RunError;
 use crate::commands::trade::TradeError;
 use crate::terminal::console::OutputError;
@@ -31,6 +32,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Export(#[from] ExportError),
+    /// There is no picture.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Picture(#[from] PictureError),
     /// There is no new project.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -55,10 +60,10 @@ impl Error {
     pub fn exit(&self) -> Exit {
         match self {
             Self::Load(_) | Self::Method(_) | Self::Plant(_) => Exit::Refused,
-            Self::Export(ExportError::Write { .. }) | Self::New(NewError::Write { .. }) => {
-                Exit::Failed
-            }
-            Self::Export(_) | Self::New(_) => Exit::Refused,
+            Self::Export(ExportError::Write { .. })
+            | Self::New(NewError::Write { .. })
+            | Self::Picture(PictureError::Write { .. }) => Exit::Failed,
+            Self::Export(_) | Self::New(_) | Self::Picture(_) => Exit::Refused,
             Self::Output(_) => Exit::Failed,
             Self::Run(error) => match error {
                 RunError::Plan(_)

@@ -25,11 +25,11 @@ pub(crate) fn colours(mechanism: &Mechanism) -> Vec<usize> {
     let mut colours: Vec<usize> = Vec::with_capacity(count);
     for row in 0..count {
         let first = colours.len() % COLOURS;
-        let free = |colour: &usize| {
-            joined[row].iter().all(|other| colours.get(*other) != Some(colour))
-        };
+        let free =
+            |colour: &usize| joined[row].iter().all(|other| colours.get(*other) != Some(colour));
         let wheel = (0..COLOURS).map(|step| (first + step) % COLOURS);
-        let colour = if mechanism.is_spider(row) { Some(first) } else { wheel.into_iter().find(free) };
+        let colour =
+            if mechanism.is_spider(row) { Some(first) } else { wheel.into_iter().find(free) };
         colours.push(colour.unwrap_or(first));
     }
     colours
@@ -140,8 +140,7 @@ pub(crate) fn centre_of_mass(text: &mut String, (x, y): Point, radius: f64) {
     let (left, right) = (crate::ink::xy((x - radius, y)), crate::ink::xy((x + radius, y)));
     let (top, bottom) = (crate::ink::xy((x, y - radius)), crate::ink::xy((x, y + radius)));
     let (middle, r) = (crate::ink::xy((x, y)), crate::ink::number(radius));
-    let quarters = format!(
-        "M{middle}L{top}A{r} {r} 0 0 1 {right}ZM{middle}L{bottom}A{r} {r} 0 0 1 {left}Z"
-    );
+    let quarters =
+        format!("M{middle}L{top}A{r} {r} 0 0 1 {right}ZM{middle}L{bottom}A{r} {r} 0 0 1 {left}Z");
     path(text, "full", &quarters);
 }

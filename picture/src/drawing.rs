@@ -1,10 +1,11 @@
 //! One view of a mechanism, what is far first.
 //!
-//! `(mechanism, frame) => SVG`: ground, then bodies and springs by their depth, then joints, forces
-//! and centres of mass, names at last. A mechanism of many parts is drawn in thin lines without
+//! `(mechanism, frame) => SVG`: bodies and springs by their depth, then ground, centres of mass,
+//! joints and forces, names at last. A mechanism of many parts is drawn in thin lines without
 //! symbols, so many of its parts, evenly picked, that the file stays small.
 
 use std::collections::BTreeSet;
+use std::fmt::Write as _;
 
 use dbd_output::label_spots::{LabelSpots, Rectangle};
 
@@ -85,16 +86,25 @@ impl Drawing<'_> {
 
     /// Draws a view with symbols; with names within `room`, where there is one. Returns how many
     /// names were left out.
-    pub(crate) fn symbols(&self, text: &mut String, room: Option<(&Rectangle, &[Rectangle])>) -> usize {
+    pub(crate) fn symbols(
+        &self,
+        text: &mut String,
+        room: Option<(&Rectangle, &[Rectangle])>,
+    ) -> usize {
         let mechanism = self.mechanism;
         let symbols = Symbols { mechanism, frame: self.frame };
         let bodies: Vec<Option<Drawn>> =
             (0..mechanism.bodies.len()).map(|row| body(mechanism, row, self.frame)).collect();
+        let strokes = match self.frame.symbols {
+            0.8.. => "",
+            0.6..0.8 => "small",
+            _ => "tiny",
+        };
+        let _ = writeln!(text, "<g class=\"{strokes}\">");
         let mut layer = Layer::new(text);
         // Sliders and blocks before what may stand on them.
         let mut joints: Vec<_> = mechanism.joints.iter().collect();
         joints.sort_by_key(|joint| joint.kind);
-        joints.iter().for_each(|joint| layer.add(|text| symbols.beneath(text, joint)));
         for part in self.by_depth(&bodies) {
             layer.add(|text| match part {
                 Part::Body(row) => {
@@ -105,12 +115,14 @@ impl Drawing<'_> {
                 Part::Guide(row) => symbols.guide(text, &mechanism.guides[row]),
             });
         }
+        joints.iter().for_each(|joint| layer.add(|text| symbols.beneath(text, joint)));
         mechanism.torsions.iter().for_each(|t| layer.add(|text| symbols.torsion(text, t)));
         for drawn in bodies.iter().flatten() {
             layer.add(|text| drawn.centre_of_mass(text, self.frame.symbols));
         }
         joints.iter().for_each(|joint| layer.add(|text| symbols.joint(text, joint)));
         mechanism.forces.iter().for_each(|force| layer.add(|text| symbols.force(text, force)));
+        text.push_str("</g>\n");
         match room {
             Some((room, taken)) => self.names(text, &bodies, room, taken),
             None => 0,

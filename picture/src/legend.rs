@@ -99,13 +99,24 @@ fn entries(mechanism: &Mechanism) -> Vec<Entry> {
         line(text, "force", &[(x - 14.0, y), (x + 8.0, y)]);
         path(text, "head", &through(&head((x + 14.0, y), (1.0, 0.0), 9.0), true));
     };
-    if mechanism.springs.iter().any(|spring| spring.driven) || !mechanism.forces.is_empty() {
-        let words = match (pushes(ForceKind::Force), pushes(ForceKind::Torque)) {
-            (_, false) => "load or input",
-            (false, true) => "torque, load or input",
-            (true, true) => "force or torque, load or input",
-        };
-        entries.push(Entry { words: words.into(), draw: arrow });
+    let turning: fn(&mut String, Point) = |text, (x, y)| {
+        let arc = (0..=18).map(|n| 0.4 + 4.4 * f64::from(n) / 18.0);
+        let arc: Vec<Point> =
+            arc.map(|a| (x + 10.0 * libm::cos(a), y - 10.0 * libm::sin(a))).collect();
+        line(text, "force", &arc);
+        path(text, "head", &through(&head((x + 5.0, y + 10.5), (1.0, 0.15), 8.0), true));
+    };
+    let driven: fn(&mut String, Point) = |text, (x, y)| {
+        line(text, "force", &zigzag((x - 15.0, y), (x + 15.0, y), 0.8).unwrap_or_default());
+    };
+    if pushes(ForceKind::Force) || pushes(ForceKind::Shift) {
+        entries.push(Entry { words: "load or input".into(), draw: arrow });
+    }
+    if pushes(ForceKind::Torque) {
+        entries.push(Entry { words: "torque, load or input".into(), draw: turning });
+    }
+    if mechanism.springs.iter().any(|spring| spring.driven) {
+        entries.push(Entry { words: "driven TSDA".into(), draw: driven });
     }
     if !mechanism.bodies.is_empty() {
         entries.push(Entry {
@@ -117,7 +128,12 @@ fn entries(mechanism: &Mechanism) -> Vec<Entry> {
 }
 
 /// Writes the entries in rows from a corner on; returns their height \[pixels\].
-pub(crate) fn write(text: &mut String, mechanism: &Mechanism, (left, top): Point, room: f64) -> f64 {
+pub(crate) fn write(
+    text: &mut String,
+    mechanism: &Mechanism,
+    (left, top): Point,
+    room: f64,
+) -> f64 {
     let (mut x, mut y) = (left, top);
     for entry in entries(mechanism) {
         let size = SYMBOL + 6.0 + width(&entry.words, LETTERS);

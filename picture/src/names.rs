@@ -26,8 +26,7 @@ pub(crate) struct Label {
 
 /// A name as labels have it.
 pub(crate) fn short(name: &str) -> String {
-    let letters: Vec<char> =
-        name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let letters: Vec<char> = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     if letters.len() <= LONGEST {
         return letters.into_iter().collect();
     }

@@ -40,8 +40,8 @@ pub(crate) fn zigzag(from: Point, to: Point, symbols: f64) -> Option<Vec<Point>>
     if length < 12.0 * symbols {
         return None;
     }
-    let lead = (0.18 * length).min(14.0 * symbols);
-    let teeth = ((length - 2.0 * lead) / (4.5 * symbols)).clamp(5.0, 14.0) as usize;
+    let lead = (0.2 * length).min(40.0 * symbols);
+    let teeth = ((length - 2.0 * lead) / (5.0 * symbols)).clamp(5.0, 40.0) as usize;
     let pitch = (length - 2.0 * lead) / teeth as f64;
     let mut points = vec![from, offset(from, frame, lead, 0.0)];
     for tooth in 0..teeth {

@@ -3,15 +3,15 @@
 //! `mechanism => SVG`. Every number is rounded to a tenth of a pixel and every order is the
 //! scene's, so the same scene gives the same text.
 
+use dbd_kernel::Vec3;
 use dbd_output::label_spots::Rectangle;
 use dbd_output::markup::escape;
-use dbd_kernel::Vec3;
 
 use crate::bodies::colours;
 use crate::drawing::{Drawing, LINES, crowded};
 use crate::ink::{Point, line, width, words};
 use crate::legend;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Bounds, Mechanism};
 use crate::style::{LETTERS, ROOT, sheet};
 use crate::symbols::Symbols;
 use crate::view::{Frame, View, Views, extent, reach};
@@ -98,7 +98,7 @@ impl Sheet<'_> {
         let title = match views.main.seen_along() {
             Some(axis) => format!("{} view, seen along {axis}", views.main.name),
             None if views.planar => "in its plane, seen along its hinges".into(),
-            None => "oblique view from the front, the right and above".into(),
+            None => format!("oblique view {}", views.main.name),
         };
         self.write("", &title);
         let ((across, up), middle) = extent(&views.main, &self.reach);
@@ -106,25 +106,39 @@ impl Sheet<'_> {
         let scale = fitting(across, up, room);
         let height = (up * scale).clamp(HEIGHT_MAIN.0, HEIGHT_MAIN.1) + 2.0 * ROUND_MAIN.1;
         let centre = (0.5 * WIDTH, self.y + 0.5 * height);
-        let frame = Frame { view: views.main.clone(), middle, centre, scale, symbols: 1.0 };
-        let drawing =
-            Drawing { mechanism: self.mechanism, frame: &frame, colours: &self.colours };
+        let mut frame = Frame { view: views.main.clone(), middle, centre, scale, symbols: 1.0 };
+        frame.symbols = self.symbols(&frame, 1.0);
+        let drawing = Drawing { mechanism: self.mechanism, frame: &frame, colours: &self.colours };
         let left_out = if self.crowded {
             drawing.lines(&mut self.text);
             0
         } else {
-            let room = Rectangle {
-                x: MARGIN,
-                y: self.y,
-                width: WIDTH - 2.0 * MARGIN,
-                height,
-            };
+            let room = Rectangle { x: MARGIN, y: self.y, width: WIDTH - 2.0 * MARGIN, height };
             drawing.symbols(&mut self.text, Some((&room, &[])))
         };
         self.y += height;
         self.strip(&frame, (MARGIN, WIDTH - 2.0 * MARGIN), views.main.seen_along().is_some());
         self.y += STRIP;
         left_out
+    }
+
+    /// How large symbols are, so that bodies are not hidden by those of their joints.
+    fn symbols(&self, frame: &Frame, most: f64) -> f64 {
+        /// \[pixels\] of a body whose symbols have their full size.
+        const ROOMY: f64 = 60.0;
+        let size = |row: usize| {
+            let corners = self.mechanism.corners(row);
+            let mut bounds = Bounds::default();
+            corners.iter().for_each(|corner| {
+                let (x, y) = frame.at(*corner);
+                bounds.add(Vec3::new(x, y, 0.0));
+            });
+            (!corners.is_empty()).then(|| bounds.longest())
+        };
+        let mut sizes: Vec<f64> = (0..self.mechanism.bodies.len()).filter_map(size).collect();
+        sizes.sort_by(f64::total_cmp);
+        let usual = sizes.get(sizes.len() / 3).copied().unwrap_or(ROOMY);
+        (usual / ROOMY).clamp(0.45 * most, most)
     }
 
     /// The small views side by side, at one scale.
@@ -144,16 +158,15 @@ impl Sheet<'_> {
             let title = format!("{}, along {along}", view.name);
             words(&mut self.text, "", (left, self.y + 16.0), "start", &title);
             let centre = (left + 0.5 * cell, self.y + LINE + 0.5 * height);
-            let frame = Frame { view: view.clone(), middle, centre, scale, symbols: 0.72 };
+            let mut frame = Frame { view: view.clone(), middle, centre, scale, symbols: 0.72 };
+            frame.symbols = self.symbols(&frame, 0.72);
             let drawing =
                 Drawing { mechanism: self.mechanism, frame: &frame, colours: &self.colours };
-            self.text.push_str("<g class=\"small\">\n");
             if self.crowded {
                 drawing.lines(&mut self.text);
             } else {
                 drawing.symbols(&mut self.text, None);
             }
-            self.text.push_str("</g>\n");
             let y = self.y;
             self.y += LINE + height;
             self.strip(&frame, (left, cell - 8.0), true);
@@ -181,7 +194,9 @@ impl Sheet<'_> {
             let down = Vec3::from_f64(gravity);
             let length = libm::sqrt(down.dot(down));
             if length.is_normal() {
-                arrow_with_name(text, &symbols, (x, self.y + 38.0), down * (1.0 / length), "g");
+                let down = down * (1.0 / length);
+                let begin = frame.off((x, self.y + 36.0), down, -16.0);
+                arrow_with_name(text, &symbols, begin, down, "g");
                 x += 30.0;
             }
         }
@@ -220,7 +235,9 @@ impl Sheet<'_> {
             let other = guides.len() + self.mechanism.torsions.len() + self.mechanism.forces.len();
             let left = match other {
                 0 => "Left out: names, symbols.".into(),
-                n => format!("Left out: names, symbols, {n} points on lines, torsion springs, loads, inputs."),
+                n => format!(
+                    "Left out: names, symbols, {n} points on lines, torsion springs, loads, inputs."
+                ),
             };
             format!("Drawn:{}. {left}", parts.trim_end_matches(','))
         } else if left_out > 0 {
@@ -236,7 +253,10 @@ impl Sheet<'_> {
         let far = libm::sqrt(middle.dot(middle)) > 3.0 * size.0.max(size.1) && size != (0.0, 0.0);
         if far {
             let [x, y, z] = middle.to_f64().map(|value| format!("{value:.6e}"));
-            self.write("quiet", &format!("Far from the origin: its middle lies at ({x}, {y}, {z}) m."));
+            self.write(
+                "quiet",
+                &format!("Far from the origin: its middle lies at ({x}, {y}, {z}) m."),
+            );
         }
         self.write(
             "quiet",
@@ -247,7 +267,8 @@ impl Sheet<'_> {
 
     fn finish(self, paper: Paper) -> String {
         let height = self.y.ceil();
-        let name = escape(&dbd_scene::shortened(&self.mechanism.name).replace(char::is_control, " "));
+        let name =
+            escape(&dbd_scene::shortened(&self.mechanism.name).replace(char::is_control, " "));
         let background = match paper {
             Paper::File => {
                 format!("<rect class=\"paper\" width=\"{WIDTH}\" height=\"{height}\"/>\n")

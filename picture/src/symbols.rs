@@ -126,7 +126,7 @@ impl Symbols<'_> {
         let centre = self.frame.at(self.mechanism.place(&torsion.at));
         let axis = self.mechanism.along(&torsion.axis);
         let s = self.size();
-        let points = self.around(centre, axis, 0.6, 2.1 * TAU, &|share| (8.0 + 7.0 * share) * s);
+        let points = self.around(centre, axis, 0.6, 2.1 * TAU, &|share| (7.0 + 5.0 * share) * s);
         line(text, "ink", &points);
     }
 
@@ -164,7 +164,7 @@ impl Symbols<'_> {
                 self.arrow(text, below, -direction, (0.0, 18.0 * s), "force");
             }
             ForceKind::Torque => {
-                let points = self.around(at, direction, 0.3, 0.75 * TAU, &|_| 19.0 * s);
+                let points = self.around(at, direction, 0.3, 0.75 * TAU, &|_| 18.5 * s);
                 line(text, "force", &points);
                 let last = points.len() - 1;
                 let back = points[last.saturating_sub(2)];
@@ -252,8 +252,12 @@ pub(crate) fn joint_symbol(
         (JointKind::Fixed, _) => {
             let half = 5.5 * s;
             let (x, y) = at;
-            let corners =
-                [(x - half, y - half), (x + half, y - half), (x + half, y + half), (x - half, y + half)];
+            let corners = [
+                (x - half, y - half),
+                (x + half, y - half),
+                (x + half, y + half),
+                (x - half, y + half),
+            ];
             path(text, "full", &through(&corners, true));
         }
         (JointKind::Translational, axis) => {

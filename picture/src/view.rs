@@ -3,7 +3,7 @@
 //! `mechanism => views => points on paper, depth`. Up on paper is against gravity where that lies
 //! along an axis of the world, else y, without gravity too. Front, top and side are seen from the
 //! front, from above and from the right (third-angle projection). A mechanism that lies in a plane
-//! is shown in it; any other obliquely from the front, the right and above.
+//! is shown in it; any other obliquely from the front, above, and the side that shows more.
 
 use dbd_kernel::Vec3;
 
@@ -37,9 +37,12 @@ pub struct Views {
 const THIN: f64 = 0.02;
 /// Sine of the angle within which directions count as one.
 const PARALLEL: f64 = 1e-3;
-/// Azimuth from the front to the right and elevation \[rad\] of the oblique view: off the angles at
-/// which the edges of a cube hide each other.
-const OBLIQUE: (f64, f64) = (0.62, 0.42);
+/// \[rad\] elevation of the oblique view: off the angle at which edges of a cube hide each other.
+const ELEVATION: f64 = 0.42;
+/// \[rad\] azimuths of the oblique view from the front to the right, the usual one first.
+const AZIMUTHS: [f64; 6] = [0.62, 0.95, 0.3, -0.62, -0.95, -0.3];
+/// Another azimuth has to be so much better than the usual one.
+const BETTER: f64 = 1.15;
 
 impl View {
     /// The axis of the world along which it looks, `−z`; `None` where it looks along none.
@@ -84,13 +87,7 @@ impl Views {
         let side = View { name: "side", right: -out, up, toward: right };
         let all = [front, top, side];
         let Some(normal) = normal(mechanism) else {
-            let (azimuth, elevation) = OBLIQUE;
-            let (sine, cosine) = (libm::sin(azimuth), libm::cos(azimuth));
-            let level = right * sine + out * cosine;
-            let toward = level * libm::cos(elevation) + up * libm::sin(elevation);
-            let right = right * cosine - out * sine;
-            let main = View { name: "oblique", right, up: toward.cross(right), toward };
-            return Self { main, small: all.into(), planar: false };
+            return Self { main: oblique(mechanism, &all[0]), small: all.into(), planar: false };
         };
         if let Some(row) = all.iter().position(|view| parallel(view.toward, normal)) {
             let mut small = Vec::from(all);
@@ -99,13 +96,71 @@ impl Views {
         }
         // From the side that is nearer to the front, to above or to the right.
         let shares = [out, up, right].map(|side| normal.dot(side));
-        let largest = shares.into_iter().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+        let largest =
+            shares.into_iter().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
         let toward = if largest < 0.0 { -normal } else { normal };
         let up = unit(up - toward * up.dot(toward)).unwrap_or(up);
         let main = View { name: "in its plane", right: up.cross(toward), up, toward };
         let [front, top, _] = all;
         Self { main, small: vec![front, top], planar: true }
     }
+}
+
+/// The view from an azimuth, beside the front, and from above.
+fn turned(front: &View, azimuth: f64) -> View {
+    let (sine, cosine) = (libm::sin(azimuth), libm::cos(azimuth));
+    let level = front.right * sine + front.toward * cosine;
+    let toward = level * libm::cos(ELEVATION) + front.up * libm::sin(ELEVATION);
+    let right = front.right * cosine - front.toward * sine;
+    let name = match azimuth > 0.0 {
+        true => "from the front, the right and above",
+        false => "from the front, the left and above",
+    };
+    View { name, right, up: toward.cross(right), toward }
+}
+
+/// The oblique view in which joints hide each other least.
+fn oblique(mechanism: &Mechanism, front: &View) -> View {
+    /// Of more joints no angle shows each.
+    const MOST: usize = 150;
+    /// Shares of the view's size: what is farther apart is apart enough.
+    const APART: f64 = 0.08;
+    let usual = turned(front, AZIMUTHS[0]);
+    let mut places: Vec<Vec3<f64>> = Vec::new();
+    for joint in &mechanism.joints {
+        let place = mechanism.place(&joint.places[0]);
+        if !places.contains(&place) {
+            places.push(place);
+        }
+    }
+    if places.len() < 2 || places.len() > MOST {
+        return usual;
+    }
+    let reach = reach(mechanism);
+    let clear = |view: &View| {
+        let ((across, up), middle) = extent(view, &reach);
+        let size = across.max(1.2 * up);
+        let on_paper = |place: &Vec3<f64>| {
+            let from = *place - middle;
+            (from.dot(view.right) / size, from.dot(view.up) / size)
+        };
+        let points: Vec<(f64, f64)> = places.iter().map(on_paper).collect();
+        let nearest = |(i, (x, y)): (usize, &(f64, f64))| {
+            let others = points.iter().enumerate().filter(|(j, _)| *j != i);
+            let gaps = others.map(|(_, other)| libm::hypot(other.0 - x, other.1 - y));
+            gaps.fold(APART, f64::min)
+        };
+        points.iter().enumerate().map(nearest).sum::<f64>()
+    };
+    let mut best = (BETTER * clear(&usual), usual);
+    for azimuth in &AZIMUTHS[1..] {
+        let view = turned(front, *azimuth);
+        let clear = clear(&view);
+        if clear > best.0 {
+            best = (clear, view);
+        }
+    }
+    best.1
 }
 
 /// The points of a mechanism that say how far it reaches; boxes of bodies are not among them.

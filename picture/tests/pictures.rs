@@ -46,9 +46,8 @@ fn is_sound(scene: &str, text: &str) {
         assert!(!body.contains(word), "{scene}: {word}");
     }
     let root = document.root_element();
-    let [width, height] = ["width", "height"].map(|name| {
-        root.attribute(name).unwrap().parse::<f64>().unwrap()
-    });
+    let [width, height] =
+        ["width", "height"].map(|name| root.attribute(name).unwrap().parse::<f64>().unwrap());
     assert_eq!(root.attribute("viewBox").unwrap(), format!("0 0 {width} {height}"));
     let inside = |x: f64, y: f64| {
         assert!((0.0..=width).contains(&x) && (0.0..=height).contains(&y), "{scene}: {x} {y}");
@@ -74,7 +73,8 @@ fn is_sound(scene: &str, text: &str) {
         inside(*left, *top);
         inside(*right, *bottom);
         for (j, other) in boxes[..i].iter().enumerate() {
-            let apart = *left >= other[2] || other[0] >= *right || *top >= other[3] || other[1] >= *bottom;
+            let apart =
+                *left >= other[2] || other[0] >= *right || *top >= other[3] || other[1] >= *bottom;
             assert!(apart, "{scene}: {:?} on {:?}", texts[i].text(), texts[j].text());
         }
     }

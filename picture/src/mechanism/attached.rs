@@ -116,11 +116,7 @@ pub(super) fn centres<'s>(scene: &'s Scene, group: &Group) -> &'s [Vec3<f64>] {
 /// The second body's points of a group.
 pub(super) fn tips<'s>(scene: &'s Scene, group: &Group) -> &'s [Vec3<f64>] {
     let first = usize::from(group.point);
-    scene
-        .model
-        .points
-        .get(first + usize::from(group.stars)..first + group.points())
-        .unwrap_or(&[])
+    scene.model.points.get(first + usize::from(group.stars)..first + group.points()).unwrap_or(&[])
 }
 
 /// The middle of points, by halves first: sums of far points stay finite.

@@ -8,10 +8,7 @@ use super::attached::{Pivots, centres, row, tips};
 use super::{Along, GuideMark, Mechanism, Place, SpringMark, TorsionMark};
 
 /// Springs and guides of a scene, in the order of their groups.
-pub(super) fn raw(
-    scene: &Scene,
-    mechanism: &Mechanism,
-) -> (Vec<SpringMark>, Vec<GuideMark>) {
+pub(super) fn raw(scene: &Scene, mechanism: &Mechanism) -> (Vec<SpringMark>, Vec<GuideMark>) {
     let model = &scene.model;
     let driven: Vec<usize> = model
         .inputs
@@ -71,11 +68,7 @@ fn named(label: &str) -> Option<String> {
 }
 
 /// Torsion springs, without those that only count turns.
-pub(super) fn torsions(
-    scene: &Scene,
-    mechanism: &Mechanism,
-    pivots: &Pivots,
-) -> Vec<TorsionMark> {
+pub(super) fn torsions(scene: &Scene, mechanism: &Mechanism, pivots: &Pivots) -> Vec<TorsionMark> {
     let springs = scene.model.torsions.iter().take(scene.torsion_springs());
     springs
         .zip(&scene.torsion_names)

@@ -268,7 +268,8 @@ impl Mechanism {
             Some(Outline::Plate { points }) => points.iter().map(place).collect(),
             Some(Outline::Block { half: [x, y, z] }) => (0..8)
                 .map(|corner| {
-                    let side = |bit: usize, half: f64| if corner >> bit & 1 == 1 { half } else { -half };
+                    let side =
+                        |bit: usize, half: f64| if corner >> bit & 1 == 1 { half } else { -half };
                     place(&[side(0, *x), side(1, *y), side(2, *z)])
                 })
                 .collect(),
