@@ -10,8 +10,8 @@ use std::fmt::Write as _;
 use dbd_output::label_spots::{LabelSpots, Rectangle};
 
 use crate::bodies::{Drawn, body};
-use crate::ink::{Point, path, through};
-use crate::mechanism::{ForceKind, Mechanism};
+use crate::ink::{Point, begin, end, path, through};
+use crate::mechanism::{Bounds, ForceKind, Mechanism, Outline};
 use crate::names::{self, Label};
 use crate::paths::between;
 use crate::symbols::Symbols;
@@ -19,6 +19,8 @@ use crate::view::Frame;
 
 /// Parts that are drawn with symbols.
 const SYMBOLS: usize = 220;
+/// A body longer than this share of the whole goes around others.
+const AROUND: f64 = 0.6;
 /// Bodies, joints and springs, of each so many at most, in thin lines.
 pub(crate) const LINES: usize = 2000;
 
@@ -86,11 +88,7 @@ impl Drawing<'_> {
 
     /// Draws a view with symbols; with names within `room`, where there is one. Returns how many
     /// names were left out.
-    pub(crate) fn symbols(
-        &self,
-        text: &mut String,
-        room: Option<(&Rectangle, &[Rectangle])>,
-    ) -> usize {
+    pub(crate) fn symbols(&self, text: &mut String, room: Option<&Rectangle>) -> usize {
         let mechanism = self.mechanism;
         let symbols = Symbols { mechanism, frame: self.frame };
         let bodies: Vec<Option<Drawn>> =
@@ -105,14 +103,23 @@ impl Drawing<'_> {
         // Sliders and blocks before what may stand on them.
         let mut joints: Vec<_> = mechanism.joints.iter().collect();
         joints.sort_by_key(|joint| joint.kind);
+        let named = room.is_some();
         for part in self.by_depth(&bodies) {
             layer.add(|text| match part {
                 Part::Body(row) => {
                     let Some(drawn) = &bodies[row] else { return };
                     drawn.draw(text, self.colours[row], &title(mechanism, row));
                 }
-                Part::Spring(row) => symbols.spring(text, &mechanism.springs[row]),
-                Part::Guide(row) => symbols.guide(text, &mechanism.guides[row]),
+                Part::Spring(row) => {
+                    let spring = &mechanism.springs[row];
+                    let name = spring.name.as_deref().unwrap_or_default();
+                    titled(text, named, name, |text| symbols.spring(text, spring));
+                }
+                Part::Guide(row) => {
+                    let guide = &mechanism.guides[row];
+                    let name = guide.name.as_deref().unwrap_or_default();
+                    titled(text, named, name, |text| symbols.guide(text, guide));
+                }
             });
         }
         joints.iter().for_each(|joint| layer.add(|text| symbols.beneath(text, joint)));
@@ -120,11 +127,13 @@ impl Drawing<'_> {
         for drawn in bodies.iter().flatten() {
             layer.add(|text| drawn.centre_of_mass(text, self.frame.symbols));
         }
-        joints.iter().for_each(|joint| layer.add(|text| symbols.joint(text, joint)));
+        for joint in &joints {
+            layer.add(|text| titled(text, named, &joint.name, |text| symbols.joint(text, joint)));
+        }
         mechanism.forces.iter().for_each(|force| layer.add(|text| symbols.force(text, force)));
         text.push_str("</g>\n");
         match room {
-            Some((room, taken)) => self.names(text, &bodies, room, taken),
+            Some(room) => self.names(text, &bodies, room),
             None => 0,
         }
     }
@@ -134,39 +143,40 @@ impl Drawing<'_> {
         let mechanism = self.mechanism;
         let far = |place| self.frame.depth(mechanism.place(place));
         // Rounding of what lies in one plane orders nothing.
-        let step = 1e-3 / self.frame.scale.max(1e-300);
-        let mut parts: Vec<(f64, usize, Part)> = Vec::new();
-        let mut add = |depth: f64, layer, part| {
-            parts.push((libm::round(depth / step / 1e3), layer, part));
+        let step = 0.1 / self.frame.scale.max(1e-300);
+        let mut parts: Vec<(bool, f64, usize, Part)> = Vec::new();
+        let mut add = |near: bool, depth: f64, layer, part| {
+            parts.push((near, libm::round(depth / step), layer, part));
+        };
+        // What goes around the others hides none of them.
+        let mut reach = Bounds::default();
+        let corners = (0..bodies.len()).flat_map(|row| mechanism.corners(row));
+        corners.for_each(|corner| reach.add(corner));
+        let around = |row: usize| {
+            let bar = matches!(mechanism.bodies[row].outline, Outline::Bar { .. });
+            !bar && mechanism.size(row).is_some_and(|size| size > AROUND * reach.longest())
         };
         for (row, drawn) in bodies.iter().enumerate() {
             if let Some(drawn) = drawn {
-                add(drawn.depth, 0, Part::Body(row));
+                add(!around(row), drawn.depth, 0, Part::Body(row));
             }
         }
         for (row, guide) in mechanism.guides.iter().enumerate() {
-            add(far(&guide.point), 1, Part::Guide(row));
+            add(true, far(&guide.point), 1, Part::Guide(row));
         }
         for (row, spring) in mechanism.springs.iter().enumerate() {
             let [a, b] = [far(&spring.ends[0]), far(&spring.ends[1])];
-            add(0.5 * (a + b), 2, Part::Spring(row));
+            add(true, 0.5 * (a + b), 2, Part::Spring(row));
         }
-        parts.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        parts.into_iter().map(|(_, _, part)| part).collect()
+        parts.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+        parts.into_iter().map(|(.., part)| part).collect()
     }
 
     /// Names of bodies, inputs, joints and springs.
-    fn names(
-        &self,
-        text: &mut String,
-        bodies: &[Option<Drawn>],
-        room: &Rectangle,
-        taken: &[Rectangle],
-    ) -> usize {
+    fn names(&self, text: &mut String, bodies: &[Option<Drawn>], room: &Rectangle) -> usize {
         let mechanism = self.mechanism;
         let at = |place| self.frame.at(mechanism.place(place));
         let mut spots = LabelSpots::new(*room);
-        taken.iter().for_each(|taken| spots.reserve(*taken));
         let mut labels = Vec::new();
         for (row, drawn) in bodies.iter().enumerate() {
             let Some(drawn) = drawn else { continue };
@@ -264,6 +274,16 @@ impl<'t> Layer<'t> {
             self.seen.insert(part);
         }
     }
+}
+
+/// What pointing at a part with a name shows, in the view that has names.
+fn titled(text: &mut String, named: bool, name: &str, draw: impl FnOnce(&mut String)) {
+    if !named || name.is_empty() {
+        return draw(text);
+    }
+    begin(text, &dbd_scene::shortened(name).replace(char::is_control, " "));
+    draw(text);
+    end(text);
 }
 
 /// What pointing at a body shows.

@@ -11,7 +11,7 @@ use crate::bodies::colours;
 use crate::drawing::{Drawing, LINES, crowded};
 use crate::ink::{Point, line, width, words};
 use crate::legend;
-use crate::mechanism::{Bounds, Mechanism};
+use crate::mechanism::Mechanism;
 use crate::style::{LETTERS, ROOT, sheet};
 use crate::symbols::Symbols;
 use crate::view::{Frame, View, Views, extent, reach};
@@ -35,7 +35,9 @@ const ROUND_SMALL: (f64, f64) = (30.0, 30.0);
 const HEIGHT_MAIN: (f64, f64) = (90.0, 420.0);
 const HEIGHT_SMALL: (f64, f64) = (20.0, 190.0);
 /// \[pixels\] of the strip below a view: axes, gravity, scale.
-const STRIP: f64 = 74.0;
+const STRIP: f64 = 72.0;
+/// \[pixels\] of letters in lines of many: their widths average out.
+const PROSE: f64 = 0.92 * LETTERS;
 /// \[pixels\] of a line of text.
 const LINE: f64 = 24.0;
 
@@ -78,7 +80,7 @@ impl Sheet<'_> {
         let mut rest = String::new();
         for word in line.split(' ') {
             let longer = if rest.is_empty() { word.into() } else { format!("{rest} {word}") };
-            if !rest.is_empty() && width(&longer, LETTERS) > WIDTH - 2.0 * MARGIN {
+            if !rest.is_empty() && width(&longer, PROSE) > WIDTH - 2.0 * MARGIN {
                 self.put(class, &rest);
                 rest = word.into();
             } else {
@@ -113,8 +115,10 @@ impl Sheet<'_> {
             drawing.lines(&mut self.text);
             0
         } else {
-            let room = Rectangle { x: MARGIN, y: self.y, width: WIDTH - 2.0 * MARGIN, height };
-            drawing.symbols(&mut self.text, Some((&room, &[])))
+            // The letters of the axes below reach up a little.
+            let (x, y) = (MARGIN, self.y);
+            let room = Rectangle { x, y, width: WIDTH - 2.0 * MARGIN, height: height - 10.0 };
+            drawing.symbols(&mut self.text, Some(&room))
         };
         self.y += height;
         self.strip(&frame, (MARGIN, WIDTH - 2.0 * MARGIN), views.main.seen_along().is_some());
@@ -122,19 +126,11 @@ impl Sheet<'_> {
         left_out
     }
 
-    /// How large symbols are, so that bodies are not hidden by those of their joints.
+    /// How large symbols are, so that those of joints do not hide bodies.
     fn symbols(&self, frame: &Frame, most: f64) -> f64 {
         /// \[pixels\] of a body whose symbols have their full size.
         const ROOMY: f64 = 60.0;
-        let size = |row: usize| {
-            let corners = self.mechanism.corners(row);
-            let mut bounds = Bounds::default();
-            corners.iter().for_each(|corner| {
-                let (x, y) = frame.at(*corner);
-                bounds.add(Vec3::new(x, y, 0.0));
-            });
-            (!corners.is_empty()).then(|| bounds.longest())
-        };
+        let size = |row: usize| self.mechanism.size(row).map(|size| size * frame.scale);
         let mut sizes: Vec<f64> = (0..self.mechanism.bodies.len()).filter_map(size).collect();
         sizes.sort_by(f64::total_cmp);
         let usual = sizes.get(sizes.len() / 3).copied().unwrap_or(ROOMY);
@@ -180,7 +176,7 @@ impl Sheet<'_> {
         let frame = &Frame { symbols: 0.8, ..frame.clone() };
         let symbols = Symbols { mechanism: self.mechanism, frame };
         let text = &mut self.text;
-        let centre = (left + 34.0, self.y + 38.0);
+        let centre = (left + 34.0, self.y + 34.0);
         let mut axes: Vec<_> = Vec3::<f64>::axes().into_iter().zip(["x", "y", "z"]).collect();
         // What leads out of the paper is drawn above the others.
         axes.sort_by(|(a, _), (b, _)| {
@@ -195,7 +191,7 @@ impl Sheet<'_> {
             let length = libm::sqrt(down.dot(down));
             if length.is_normal() {
                 let down = down * (1.0 / length);
-                let begin = frame.off((x, self.y + 36.0), down, -16.0);
+                let begin = frame.off((x, self.y + 32.0), down, -16.0);
                 arrow_with_name(text, &symbols, begin, down, "g");
                 x += 30.0;
             }
@@ -207,7 +203,7 @@ impl Sheet<'_> {
         if pixels.is_finite() && pixels > 1.0 {
             let fits = x + 0.5 * (pixels + width(&name, LETTERS)) < left + room;
             let x = if fits { x.max(x + 0.5 * (width(&name, LETTERS) - pixels)) } else { x };
-            legend::scale_bar(text, (x, self.y + 44.0), (pixels, &name));
+            legend::scale_bar(text, (x, self.y + 40.0), (pixels, &name));
         }
     }
 
@@ -241,7 +237,8 @@ impl Sheet<'_> {
             };
             format!("Drawn:{}. {left}", parts.trim_end_matches(','))
         } else if left_out > 0 {
-            format!("{left_out} name{} found no room.", if left_out == 1 { "" } else { "s" })
+            let names = if left_out == 1 { "name" } else { "names" };
+            format!("{left_out} {names} found no room: pointing at a part shows its name.")
         } else {
             String::new()
         };
@@ -260,7 +257,7 @@ impl Sheet<'_> {
         }
         self.write(
             "quiet",
-            "Initial pose in parallel projection: the top is seen from above, the side from the right.",
+            "Initial pose, parallel projection; top seen from above, side from the right.",
         );
         self.y += MARGIN - 4.0;
     }
@@ -301,7 +298,7 @@ fn arrow_with_name(
     direction: Vec3<f64>,
     name: &str,
 ) {
-    const LENGTH: f64 = 27.0;
+    const LENGTH: f64 = 24.0;
     symbols.arrow(text, at, direction, (0.0, LENGTH), "ink");
     let (x, y) = symbols.frame.on_paper(direction);
     let length = libm::hypot(x, y);

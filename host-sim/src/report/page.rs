@@ -36,7 +36,7 @@ const WIDE: (f64, f64) = (1000.0, 280.0);
 const HALF: (f64, f64) = (490.0, 250.0);
 
 /// The picture's letters are as large as the page's, a little larger at most.
-const PICTURE: &str = "max-width:44rem;margin-top:1.5rem";
+const PICTURE: &str = "max-width:40rem;margin-top:1.5rem";
 
 /// The page.
 #[must_use]

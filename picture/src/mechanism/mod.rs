@@ -277,6 +277,16 @@ impl Mechanism {
         }
     }
 
+    /// \[m\] how long a body is, along the axis of the world along which it is longest; `None` of a
+    /// spider.
+    #[must_use]
+    pub fn size(&self, row: usize) -> Option<f64> {
+        let mut bounds = Bounds::default();
+        let corners = self.corners(row);
+        corners.iter().for_each(|corner| bounds.add(*corner));
+        (!corners.is_empty()).then(|| bounds.longest())
+    }
+
     /// Whether a body is the spider of a universal joint.
     #[must_use]
     pub fn is_spider(&self, row: usize) -> bool {
