@@ -1,6 +1,7 @@
 //! Pictures of every scene that ships and of odd ones: well-formed, within their paper, names apart,
 //! the same bytes each time. `DBD_DRAW=folder` leaves them there to look at.
 
+use std::fmt::Write as _;
 use std::path::Path;
 
 use dbd_picture::{Mechanism, Paper, svg};
@@ -87,5 +88,165 @@ fn every_scene_that_ships_has_a_sound_picture() {
         is_sound(&scene.name, &text);
         assert!(text.len() < 300_000, "{}: {} bytes", scene.name, text.len());
         assert_eq!(text, svg(&Mechanism::of(&scene), Paper::File), "{}", scene.name);
+    }
+}
+
+/// A scene of no gravity, of these tables.
+fn scene(tables: &str) -> Scene {
+    let text = format!("name = \"odd\"\nduration = 1\n{tables}");
+    Scene::parse(&text, "odd.toml").unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+/// A body of 1 kg.
+fn body(name: &str, position: [f64; 3]) -> String {
+    format!(
+        "[[body]]\nname = {name:?}\nmass = 1\ninertia = [0.1, 0.1, 0.1]\nposition = {position:?}\n"
+    )
+}
+
+fn joint(kind: &str, between: [&str; 2], at: [f64; 3], keys: &str) -> String {
+    format!(
+        "[[joint]]\nname = \"{kind} of {}\"\ntype = \"{kind}\"\nbetween = {between:?}\nat = {at:?}\n\
+         stiffness = 1e5\n{keys}\n",
+        between[1]
+    )
+}
+
+#[test]
+fn odd_mechanisms_have_sound_pictures() {
+    let hinge =
+        |between: [&str; 2], at| joint("revolute", between, at, "axis = [0, 0, 1]\nspan = 0.1");
+    let ball = |between: [&str; 2], at| joint("spherical", between, at, "arm = 0.1");
+    let far = 1e6;
+    let chain: String = (0..6)
+        .map(|n| {
+            let (name, x) = (format!("link {n}"), f64::from(n));
+            let at = [x, (0.7 * x).sin(), (1.3 * x).cos()];
+            let before = if n == 0 { "world".into() } else { format!("link {}", n - 1) };
+            body(&name, [x + 0.5, at[1], at[2]]) + &ball([&before, &name], at)
+        })
+        .collect();
+    let odd = [
+        ("one body, nothing else", body("stone", [0.0; 3])),
+        ("one body on a hinge at its centre", body("disc", [0.0; 3]) + &hinge(["world", "disc"], [0.0; 3])),
+        (
+            "all in one point",
+            body("a", [1.0; 3])
+                + &body("b", [1.0; 3])
+                + &hinge(["world", "a"], [1.0; 3])
+                + &ball(["a", "b"], [1.0; 3]),
+        ),
+        (
+            "far from the origin",
+            body("a", [far + 0.5, far, -far])
+                + &body("b", [far + 1.5, far, -far])
+                + &hinge(["world", "a"], [far, far, -far])
+                + &hinge(["a", "b"], [far + 1.0, far, -far]),
+        ),
+        ("a chain in space", chain),
+        ("bodies without any joint", (0..4).map(|n| body(&format!("b{n}"), [f64::from(n), 0.0, 0.0])).collect()),
+        ("tiny", body("a", [1e-9, 0.0, 0.0]) + &joint("spherical", ["world", "a"], [0.0; 3], "arm = 1e-10")),
+        ("huge", body("a", [1e12, 0.0, 0.0]) + &joint("spherical", ["world", "a"], [0.0; 3], "arm = 1e11")),
+        (
+            "all types of joint",
+            [
+                ("fixed", "axis = [0, 1, 1]\nspan = 0.1\narm = 0.1"),
+                ("translational", "axis = [1, 0, 1]\nspan = 0.1\ngauge = 0.1\noffset = 0.05"),
+                ("cylindrical", "axis = [0, 1, 0]\nspan = 0.1\noffset = 0.05"),
+                ("universal", "axes = [[1, 0, 0], [0, 1, 0]]\nspan = 0.1\nspider = { mass = 1, inertia = [1, 1, 1] }"),
+            ]
+            .iter()
+            .enumerate()
+            .map(|(n, (kind, keys))| {
+                let x = n as f64;
+                let name = format!("body {n}");
+                body(&name, [x, 0.5, 0.2 * x]) + &joint(kind, ["world", &name], [x, 0.0, 0.0], keys)
+            })
+            .collect(),
+        ),
+        (
+            "all elements, loads and inputs",
+            body("a", [0.0, -1.0, 0.0])
+                + &body("b", [1.0, -1.0, 0.3])
+                + "[[tsda]]\nname = \"spring\"\nbetween = [\"world\", \"a\"]\npoints = [[0, 0, 0], [0, 0.2, 0]]\n\
+                   stiffness = 1\nfree_length = 1\n\
+                   [[tsda]]\nbetween = [\"a\", \"b\"]\npoints = [[0.5, 0, 0], [-0.5, 0, 0]]\nstiffness = 1\n\
+                   free_length = 0\n\
+                   [[point_on_line]]\nbetween = [\"world\", \"b\"]\nline_point = [0, -1, 0.3]\n\
+                   line_direction = [1, 0, 0]\npoint = [0.2, 0, 0]\nstiffness = 1\nfree_length = 0\n\
+                   [[torsion_spring]]\nbetween = [\"a\", \"b\"]\naxis = [0, 0, 1]\nstiffness = 1\n\
+                   [[load]]\nbody = \"a\"\nforce = [0, 0, 1]\ntorque = [1, 0, 0]\n\
+                   [[input]]\nname = \"pull\"\ntype = \"actuator\"\ntarget = \"spring\"\n\
+                   [[input]]\nname = \"push\"\ntype = \"force\"\nbody = \"b\"\naxis = [0, 1, 0]\n\
+                   [[input]]\nname = \"shake\"\ntype = \"anchor\"\ntarget = \"spring\"\naxis = [1, 0, 0]\n",
+        ),
+    ];
+    for (what, tables) in odd {
+        let scene = scene(&tables);
+        let mechanism = Mechanism::of(&scene);
+        for paper in [Paper::File, Paper::Page] {
+            is_sound(what, &svg(&mechanism, paper));
+        }
+        if let Ok(folder) = std::env::var("DBD_DRAW") {
+            std::fs::write(format!("{folder}/odd {what}.svg"), svg(&mechanism, Paper::File))
+                .unwrap();
+        }
+    }
+}
+
+#[test]
+fn names_are_escaped_and_long_ones_shortened() {
+    let long = "<a> & \"quoted\" 'name' that nobody would write on a drawing, 梁の長い名前";
+    let scene = scene(&body(long, [0.0; 3]));
+    let text = svg(&Mechanism::of(&scene), Paper::File);
+    is_sound("escaped", &text);
+    let document = Document::parse(&text).unwrap();
+    let titles: Vec<_> = document.descendants().filter(|node| node.has_tag_name("title")).collect();
+    assert!(titles.iter().any(|title| title.text() == Some(&format!("{long}, 1 kg"))));
+    let labels = document.descendants().filter(|node| node.has_tag_name("text"));
+    let label = labels.filter_map(|node| node.text()).find(|text| text.contains('…')).unwrap();
+    assert!(label.starts_with("<a> &") && label.ends_with("名前") && label.chars().count() < 24);
+}
+
+/// Universal joints are crosses: their spiders are neither drawn nor named.
+#[test]
+fn spiders_are_no_bodies_of_a_picture() {
+    let scene = shipped().into_iter().find(|scene| scene.name == "3ruu").unwrap();
+    let text = drawn(&scene);
+    assert_eq!(scene.model.bodies.len(), 13);
+    assert!(!text.contains("spider"));
+    let document = Document::parse(&text).unwrap();
+    let bars = |node: &Node<'_, '_>| {
+        node.attribute("class").is_some_and(|c| c.starts_with("bar ") || c.starts_with("plate "))
+    };
+    let main = document.descendants().find(|node| node.has_tag_name("g")).unwrap();
+    assert_eq!(main.descendants().filter(bars).count(), 7);
+}
+
+#[test]
+fn ten_thousand_bodies_fit_into_a_small_file_that_says_what_is_left_out() {
+    let mut tables = String::new();
+    for n in 0..10_000 {
+        let (x, y) = (f64::from(n % 100), f64::from(n / 100));
+        tables += &body(&format!("b{n}"), [x + 0.4, y, 0.001 * x * y]);
+        if n < 4000 {
+            let (a, b) = (format!("b{n}"), format!("b{}", n + 1));
+            tables += &joint("spherical", [&a, &b], [x + 0.9, y, 0.001 * x * y], "arm = 0.05");
+        } else {
+            let _ = write!(
+                tables,
+                "[[tsda]]\nbetween = [\"world\", \"b{n}\"]\npoints = [[{x}, {y}, 0], [0, 0, 0]]\n\
+                 stiffness = 1\nfree_length = 1\n"
+            );
+        }
+    }
+    let scene = scene(&tables);
+    let text = svg(&Mechanism::of(&scene), Paper::File);
+    is_sound("ten thousand", &text);
+    assert!(text.len() < 500_000, "{}", text.len());
+    for words in
+        ["2000 of 10000 bodies", "2000 of 4000 joints", "2000 of 6000 TSDAs", "Left out: names"]
+    {
+        assert!(text.contains(words), "{words}");
     }
 }

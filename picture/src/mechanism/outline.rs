@@ -16,7 +16,7 @@ const SAME: f64 = 1e-6;
 /// bearing.
 const WITHIN: f64 = 0.25;
 /// Sides of a block: at most this share of what else there is, at least this one of its longest.
-const LARGEST: f64 = 0.35;
+const LARGEST: f64 = 0.5;
 const THINNEST: f64 = 0.04;
 
 /// The outline of each body.
