@@ -47,7 +47,8 @@ pub(crate) struct Drawn {
     corners: Vec<Point>,
     /// Edges that its outline does not have.
     edges: Vec<[Point; 2]>,
-    centre: Point,
+    /// Its centre of mass.
+    pub(crate) centre: Point,
 }
 
 /// A body in a view; `None` of a spider.

@@ -31,10 +31,16 @@ pub(crate) fn crowded(mechanism: &Mechanism) -> bool {
     bodies.len() + joints.len() + elements > SYMBOLS
 }
 
-/// Rows of so many, evenly picked where they are too many.
+/// Rows of so many, evenly picked where they are too many: one out of each run of them, not always
+/// the same of a run, for a grid would lose whole columns.
 pub(crate) fn picked(count: usize, most: usize) -> impl Iterator<Item = usize> {
     let shown = count.min(most);
-    (0..shown).map(move |n| n * count / shown.max(1))
+    (0..shown).map(move |n| {
+        let (first, next) = (n * count / shown, (n + 1) * count / shown);
+        // Multiples of the golden ratio, modulo 2^32: Knuth's multiplicative hash.
+        let mixed = (n as u32).wrapping_mul(2_654_435_769) >> 16;
+        first + mixed as usize % (next - first)
+    })
 }
 
 /// A view: what is drawn of which mechanism.
@@ -94,7 +100,7 @@ impl Drawing<'_> {
         let bodies: Vec<Option<Drawn>> =
             (0..mechanism.bodies.len()).map(|row| body(mechanism, row, self.frame)).collect();
         let strokes = match self.frame.symbols {
-            0.8.. => "",
+            0.8.. => "large",
             0.6..0.8 => "small",
             _ => "tiny",
         };
@@ -138,7 +144,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// Bodies, springs and guides, the farthest first; of what is equally far bodies first.
+    /// Bodies, springs and guides, the farthest first; of what is equally far blocks, plates, bars.
     fn by_depth(&self, bodies: &[Option<Drawn>]) -> Vec<Part> {
         let mechanism = self.mechanism;
         let far = |place| self.frame.depth(mechanism.place(place));
@@ -158,15 +164,20 @@ impl Drawing<'_> {
         };
         for (row, drawn) in bodies.iter().enumerate() {
             if let Some(drawn) = drawn {
-                add(!around(row), drawn.depth, 0, Part::Body(row));
+                let layer = match mechanism.bodies[row].outline {
+                    Outline::Block { .. } => 0,
+                    Outline::Plate { .. } => 1,
+                    Outline::Bar { .. } | Outline::Spider => 2,
+                };
+                add(!around(row), drawn.depth, layer, Part::Body(row));
             }
         }
         for (row, guide) in mechanism.guides.iter().enumerate() {
-            add(true, far(&guide.point), 1, Part::Guide(row));
+            add(true, far(&guide.point), 3, Part::Guide(row));
         }
         for (row, spring) in mechanism.springs.iter().enumerate() {
             let [a, b] = [far(&spring.ends[0]), far(&spring.ends[1])];
-            add(true, 0.5 * (a + b), 2, Part::Spring(row));
+            add(true, 0.5 * (a + b), 4, Part::Spring(row));
         }
         parts.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
         parts.into_iter().map(|(.., part)| part).collect()
@@ -181,6 +192,7 @@ impl Drawing<'_> {
         for (row, drawn) in bodies.iter().enumerate() {
             let Some(drawn) = drawn else { continue };
             drawn.strokes.iter().for_each(|[from, to]| spots.stroke(*from, *to));
+            spots.mark(drawn.centre);
             labels.push(Label {
                 name: mechanism.bodies[row].name.clone(),
                 anchor: drawn.anchor,

@@ -10,7 +10,7 @@ use crate::style::LETTERS;
 use crate::symbols::{bushing, joint_symbol};
 
 /// \[pixels\] from row to row.
-const ROW: f64 = 24.0;
+const ROW: f64 = 26.0;
 /// \[pixels\] of a symbol's room.
 const SYMBOL: f64 = 34.0;
 

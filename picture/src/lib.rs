@@ -6,8 +6,8 @@
 //!   their axes, springs, ground, loads; in the axes of their bodies, so that it can be moved.
 //! - [`view`]: from which sides it is seen, and how large.
 //! - `style`: colours, light and dark.
-//! - `paths`: lines of symbols: springs, hatching, arrows.
 //! - `ink`: SVG elements as text.
+//! - `paths`: lines of symbols: springs, hatching, arrows.
 //! - `symbols`: joints, springs, ground, forces in a view.
 //! - `bodies`: bodies in a view.
 //! - `names`: what is written beside what, in the room that there is.

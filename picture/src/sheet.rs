@@ -32,14 +32,14 @@ const MARGIN: f64 = 12.0;
 const ROUND_MAIN: (f64, f64) = (70.0, 52.0);
 const ROUND_SMALL: (f64, f64) = (30.0, 30.0);
 /// \[pixels\] least and greatest height of the drawn part of a view.
-const HEIGHT_MAIN: (f64, f64) = (90.0, 420.0);
+const HEIGHT_MAIN: (f64, f64) = (90.0, 400.0);
 const HEIGHT_SMALL: (f64, f64) = (20.0, 190.0);
 /// \[pixels\] of the strip below a view: axes, gravity, scale.
-const STRIP: f64 = 72.0;
+const STRIP: f64 = 76.0;
 /// \[pixels\] of letters in lines of many: their widths average out.
 const PROSE: f64 = 0.92 * LETTERS;
 /// \[pixels\] of a line of text.
-const LINE: f64 = 24.0;
+const LINE: f64 = 26.0;
 
 /// The picture of a mechanism.
 #[must_use]
@@ -105,7 +105,7 @@ impl Sheet<'_> {
         self.write("", &title);
         let ((across, up), middle) = extent(&views.main, &self.reach);
         let room = (WIDTH - 2.0 * (MARGIN + ROUND_MAIN.0), HEIGHT_MAIN.1);
-        let scale = fitting(across, up, room);
+        let scale = scale(fitting(across, up, room));
         let height = (up * scale).clamp(HEIGHT_MAIN.0, HEIGHT_MAIN.1) + 2.0 * ROUND_MAIN.1;
         let centre = (0.5 * WIDTH, self.y + 0.5 * height);
         let mut frame = Frame { view: views.main.clone(), middle, centre, scale, symbols: 1.0 };
@@ -145,7 +145,7 @@ impl Sheet<'_> {
         let extents: Vec<_> = views.iter().map(|view| extent(view, &self.reach)).collect();
         let room = (cell - 2.0 * ROUND_SMALL.0, HEIGHT_SMALL.1);
         let scales = extents.iter().map(|((across, up), _)| fitting(*across, *up, room));
-        let scale = scales.fold(f64::INFINITY, f64::min);
+        let scale = scale(scales.fold(f64::INFINITY, f64::min));
         let highest = extents.iter().map(|((_, up), _)| up * scale).fold(0.0, f64::max);
         let height = highest.clamp(HEIGHT_SMALL.0, HEIGHT_SMALL.1) + 2.0 * ROUND_SMALL.1;
         for (n, (view, (_, middle))) in views.iter().zip(extents).enumerate() {
@@ -176,7 +176,7 @@ impl Sheet<'_> {
         let frame = &Frame { symbols: 0.8, ..frame.clone() };
         let symbols = Symbols { mechanism: self.mechanism, frame };
         let text = &mut self.text;
-        let centre = (left + 34.0, self.y + 34.0);
+        let centre = (left + 36.0, self.y + 36.0);
         let mut axes: Vec<_> = Vec3::<f64>::axes().into_iter().zip(["x", "y", "z"]).collect();
         // What leads out of the paper is drawn above the others.
         axes.sort_by(|(a, _), (b, _)| {
@@ -185,15 +185,15 @@ impl Sheet<'_> {
         for (axis, name) in axes {
             arrow_with_name(text, &symbols, centre, axis, name);
         }
-        let mut x = left + 100.0;
+        let mut x = left + 98.0;
         if let Some(gravity) = self.mechanism.gravity {
             let down = Vec3::from_f64(gravity);
             let length = libm::sqrt(down.dot(down));
             if length.is_normal() {
                 let down = down * (1.0 / length);
-                let begin = frame.off((x, self.y + 32.0), down, -16.0);
+                let begin = frame.off((x, self.y + 34.0), down, -16.0);
                 arrow_with_name(text, &symbols, begin, down, "g");
-                x += 30.0;
+                x += 24.0;
             }
         }
         let most = (left + room - x - 6.0).min(150.0);
@@ -203,7 +203,7 @@ impl Sheet<'_> {
         if pixels.is_finite() && pixels > 1.0 {
             let fits = x + 0.5 * (pixels + width(&name, LETTERS)) < left + room;
             let x = if fits { x.max(x + 0.5 * (width(&name, LETTERS) - pixels)) } else { x };
-            legend::scale_bar(text, (x, self.y + 40.0), (pixels, &name));
+            legend::scale_bar(text, (x, self.y + 42.0), (pixels, &name));
         }
     }
 
@@ -282,12 +282,15 @@ impl Sheet<'_> {
     }
 }
 
-/// \[pixels/m\] at which a width and a height \[m\] fit into a room \[pixels\].
+/// \[pixels/m\] at which a width and a height \[m\] fit into a room \[pixels\]; infinite of a point.
 fn fitting(across: f64, up: f64, room: (f64, f64)) -> f64 {
     let fits = |size: f64, room: f64| if size > 0.0 { room / size } else { f64::INFINITY };
-    let scale = fits(across, room.0).min(fits(up, room.1));
-    // A point, or what is too small or too large for a scale.
-    if scale.is_finite() && scale > 0.0 { scale } else { 100.0 }
+    fits(across, room.0).min(fits(up, room.1))
+}
+
+/// A scale, where there is none some.
+fn scale(fitting: f64) -> f64 {
+    if fitting.is_finite() && fitting > 0.0 { fitting } else { 100.0 }
 }
 
 /// An arrow from a point along a direction, with a letter at its tip.
@@ -298,16 +301,16 @@ fn arrow_with_name(
     direction: Vec3<f64>,
     name: &str,
 ) {
-    const LENGTH: f64 = 24.0;
+    const LENGTH: f64 = 22.0;
     symbols.arrow(text, at, direction, (0.0, LENGTH), "ink");
     let (x, y) = symbols.frame.on_paper(direction);
     let length = libm::hypot(x, y);
     // Beside the circle of an axis that leads out of the paper.
     let tip = if length > 0.12 {
-        let reach = LENGTH * length.max(0.35) / length + 9.0 / length;
+        let reach = LENGTH * length.max(0.35) / length + 10.0 / length;
         (at.0 + reach * x, at.1 + reach * y)
     } else {
-        (at.0 - 13.0, at.1 + 13.0)
+        (at.0 - 14.0, at.1 + 14.0)
     };
     words(text, "", (tip.0, tip.1 + 5.0), "middle", name);
 }
@@ -325,6 +328,7 @@ fn round_length(most: f64) -> (f64, String) {
         -2..3 => ("m", 0),
         -3 => ("mm", -3),
         -6..-3 => ("µm", -6),
+        -9..-6 => ("nm", -9),
         _ => return (digit * power, format!("{digit}e{exponent} m")),
     };
     let (unit, shift) = if exponent == -2 { ("mm", -3) } else { (unit, shift) };

@@ -10,8 +10,8 @@ pub(crate) const ROOT: &str = "mechanism";
 /// Colours of bodies.
 pub(crate) const COLOURS: usize = 5;
 
-/// \[pixels\] of letters.
-pub(crate) const LETTERS: f64 = 15.0;
+/// \[pixels\] of letters: they can be read where the sheet is scaled down to a narrow screen.
+pub(crate) const LETTERS: f64 = 17.0;
 
 /// Shapes, in light colours.
 const SHEET: &str = include_str!("picture.css");

@@ -117,6 +117,10 @@ impl Symbols<'_> {
         let s = self.size();
         let ends = [-34.0, 34.0].map(|pixels| self.frame.off(foot, direction, pixels * s));
         line(text, "guide", &ends);
+        if let Some((along, _)) = directions(ends[1], ends[0]).filter(|_| guide.line.body.is_none())
+        {
+            hatched(text, &ground(ends[0], (along.1, -along.0), 9.0 * s, s));
+        }
         line(text, "thin", &[foot, point]);
         path(text, "joint", &through(&diamond(point, 4.5 * s), true));
     }

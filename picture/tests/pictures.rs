@@ -29,14 +29,14 @@ fn drawn(scene: &Scene) -> String {
 fn room(text: &Node<'_, '_>) -> [f64; 4] {
     let number = |name| text.attribute(name).unwrap().parse::<f64>().unwrap();
     let (x, y) = (number("x"), number("y"));
-    let wide = |c: char| if c >= '\u{1100}' { 15.0 } else { 8.0 };
+    let wide = |c: char| if c >= '\u{1100}' { 17.0 } else { 9.0 };
     let width: f64 = text.text().unwrap().chars().map(wide).sum();
     let left = match text.attribute("text-anchor") {
         Some("middle") => x - 0.5 * width,
         Some("end") => x - width,
         _ => x,
     };
-    [left, y - 11.0, left + width, y + 3.0]
+    [left, y - 12.0, left + width, y + 4.0]
 }
 
 /// What holds of every picture.
@@ -147,6 +147,19 @@ fn odd_mechanisms_have_sound_pictures() {
         ("bodies without any joint", (0..4).map(|n| body(&format!("b{n}"), [f64::from(n), 0.0, 0.0])).collect()),
         ("tiny", body("a", [1e-9, 0.0, 0.0]) + &joint("spherical", ["world", "a"], [0.0; 3], "arm = 1e-10")),
         ("huge", body("a", [1e12, 0.0, 0.0]) + &joint("spherical", ["world", "a"], [0.0; 3], "arm = 1e11")),
+        (
+            "numbers at their ends",
+            [1e-300, 1e-160, 1e160, 1e300]
+                .iter()
+                .enumerate()
+                .map(|(n, size)| {
+                    let at = [1e149 * n as f64, -1e149, 1e-149];
+                    body(&format!("body {n}"), at)
+                        .replace("mass = 1", &format!("mass = {size:e}"))
+                        .replace("0.1, 0.1, 0.1", &format!("{size:e}, {size:e}, {size:e}"))
+                })
+                .collect(),
+        ),
         (
             "all types of joint",
             [

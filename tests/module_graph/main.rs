@@ -12,8 +12,18 @@ use rules::{breaches, floors};
 use sources::Sources;
 
 /// The crates that are held to it: all that keep to it.
-const CRATES: &[&str] =
-    &["kernel", "node", "plant", "reference", "study", "output", "golden", "host-sim", "fuzz"];
+const CRATES: &[&str] = &[
+    "kernel",
+    "node",
+    "plant",
+    "reference",
+    "study",
+    "output",
+    "picture",
+    "golden",
+    "host-sim",
+    "fuzz",
+];
 
 fn sources(name: &str) -> Sources {
     Sources::of_crate(&Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name))

@@ -61,7 +61,8 @@ pub fn is_output(file: &Path) -> bool {
 /// # Errors
 /// [`PictureError::Taken`] where the file is no SVG, [`PictureError::Write`].
 pub fn write(scene: &Scene, file: &Path) -> Result<(), PictureError> {
-    if file.exists() && !is_svg(file) {
+    // A device takes no other file's name either.
+    if file.exists() && !(file.is_file() && is_svg(file)) {
         return Err(PictureError::Taken { file: file.to_owned() });
     }
     let written = || {

@@ -9,7 +9,7 @@ use dbd_kernel::model::Group;
 use dbd_kernel::{BodyIndex, Vec3};
 use dbd_scene::{JointInfo, Scene};
 
-use super::{Along, JointKind, JointMark, Mechanism, Place};
+use super::parts::{Along, JointKind, JointMark, Mechanism, Place};
 
 /// A body's row, `None` for the ground, moved by an input or not.
 pub(super) fn row(body: BodyIndex) -> Option<usize> {

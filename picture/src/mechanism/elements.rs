@@ -5,7 +5,7 @@ use dbd_kernel::model::{Group, Law};
 use dbd_scene::Scene;
 
 use super::attached::{Pivots, centres, row, tips};
-use super::{Along, GuideMark, Mechanism, Place, SpringMark, TorsionMark};
+use super::parts::{Along, GuideMark, Mechanism, Place, SpringMark, TorsionMark};
 
 /// Springs and guides of a scene, in the order of their groups.
 pub(super) fn raw(scene: &Scene, mechanism: &Mechanism) -> (Vec<SpringMark>, Vec<GuideMark>) {

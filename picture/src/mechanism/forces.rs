@@ -5,7 +5,7 @@ use dbd_kernel::{BodyIndex, LoadFrame, Vec3};
 use dbd_scene::Scene;
 
 use super::attached::{Pivots, centres, row, tips};
-use super::{Along, ForceKind, ForceMark, Place, length};
+use super::parts::{Along, ForceKind, ForceMark, Place, length};
 
 /// The loads in scene order, then the inputs; of a load that pushes and turns two.
 pub(super) fn forces(scene: &Scene, pivots: &Pivots) -> Vec<ForceMark> {

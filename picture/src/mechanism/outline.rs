@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use dbd_kernel::Vec3;
 use dbd_scene::Scene;
 
-use super::{Mechanism, Outline, Place, length};
+use super::parts::{Bounds, Mechanism, Outline, Place, length};
 
 /// Points nearer than this share of the mechanism's size are one.
 const SAME: f64 = 1e-6;
@@ -85,7 +85,7 @@ fn held(mechanism: &Mechanism) -> Vec<Vec<Vec3<f64>>> {
 
 /// \[m\] the longest side of the box about all points and centres of mass.
 fn size(mechanism: &Mechanism, held: &[Vec<Vec3<f64>>]) -> f64 {
-    let mut bounds = super::Bounds::default();
+    let mut bounds = Bounds::default();
     for (row, points) in held.iter().enumerate() {
         let centre = Place { body: Some(row), point: [0.0; 3] };
         bounds.add(mechanism.place(&centre));
