@@ -23,14 +23,12 @@ pub(crate) fn colours(mechanism: &Mechanism) -> Vec<usize> {
         }
     }
     let mut colours: Vec<usize> = Vec::with_capacity(count);
-    for row in 0..count {
-        let first = colours.len() % COLOURS;
-        let free =
-            |colour: &usize| joined[row].iter().all(|other| colours.get(*other) != Some(colour));
-        let wheel = (0..COLOURS).map(|step| (first + step) % COLOURS);
-        let colour =
-            if mechanism.is_spider(row) { Some(first) } else { wheel.into_iter().find(free) };
-        colours.push(colour.unwrap_or(first));
+    for (row, others) in joined.iter().enumerate() {
+        let first = row % COLOURS;
+        let free = |colour: &usize| others.iter().all(|other| colours.get(*other) != Some(colour));
+        let mut wheel = (0..COLOURS).map(|step| (first + step) % COLOURS);
+        let found = if mechanism.is_spider(row) { None } else { wheel.find(free) };
+        colours.push(found.unwrap_or(first));
     }
     colours
 }

@@ -226,7 +226,7 @@ impl Drawing<'_> {
             name: name.into(),
             anchor,
             class: "quiet".into(),
-            worst: 130.0,
+            worst: 170.0,
         };
         for joint in &mechanism.joints {
             let at = at(&joint.places[0]);

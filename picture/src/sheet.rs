@@ -255,10 +255,7 @@ impl Sheet<'_> {
                 &format!("Far from the origin: its middle lies at ({x}, {y}, {z}) m."),
             );
         }
-        self.write(
-            "quiet",
-            "Initial pose, parallel projection; top seen from above, side from the right.",
-        );
+        self.write("quiet", "Parallel projection at t = 0: top from above, side from the right.");
         self.y += MARGIN - 4.0;
     }
 

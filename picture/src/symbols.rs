@@ -205,7 +205,7 @@ impl Symbols<'_> {
     }
 }
 
-/// Whether a force's arrow is drawn as a circle: names keep off it either way.
+/// An arrow that leads out of the paper, by its tip, or into it, by its feathers.
 pub(crate) fn out_of_paper(text: &mut String, at: Point, toward: bool, class: &str, radius: f64) {
     let fill = if class == "force" { "head" } else { "full" };
     circle(text, class, at, radius);
