@@ -263,3 +263,85 @@ fn ten_thousand_bodies_fit_into_a_small_file_that_says_what_is_left_out() {
         assert!(text.contains(words), "{words}");
     }
 }
+
+/// Numbers from a seed (Knuth's linear congruence), for mechanisms that nobody would think of.
+struct Dice(u64);
+
+impl Dice {
+    fn below(&mut self, count: u64) -> u64 {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) % count
+    }
+
+    /// From −1 to 1, of few values, so that points coincide.
+    fn share(&mut self) -> f64 {
+        self.below(9) as f64 / 4.0 - 1.0
+    }
+
+    fn point(&mut self, scale: f64) -> [f64; 3] {
+        [self.share() * scale, self.share() * scale, self.share() * scale]
+    }
+}
+
+#[test]
+fn any_mechanism_has_a_sound_picture() {
+    for seed in 0..60 {
+        let mut dice = Dice(seed);
+        let scale = [1e-6, 1e-2, 1.0, 1e4][dice.below(4) as usize];
+        let count = 1 + dice.below(9);
+        let gravity = dice.point(9.81);
+        let mut tables = format!("gravity = {gravity:?}\n");
+        for n in 0..count {
+            let turn = dice.share();
+            let name = format!(
+                "{} {n}",
+                ["a", "a rather long name of a body", "梁"][dice.below(3) as usize]
+            );
+            tables += &body(&name, dice.point(scale)).replace(
+                "[[body]]",
+                &format!("[[body]]\norientation = {{ axis = [1, 2, -1], angle = {turn} }}"),
+            );
+            for _ in 0..dice.below(3) {
+                let size = 0.1 * scale;
+                let (kind, keys) = match dice.below(6) {
+                    0 => ("spherical", format!("arm = {size:?}")),
+                    1 => ("revolute", format!("axis = [0, 0, 1]\nspan = {size:?}")),
+                    2 => ("fixed", format!("axis = [0, 1, 1]\nspan = {size:?}\narm = {size:?}")),
+                    3 => (
+                        "cylindrical",
+                        format!("axis = [1, 0, 0]\nspan = {size:?}\noffset = {size:?}"),
+                    ),
+                    4 => (
+                        "translational",
+                        format!(
+                            "axis = [0, 1, 0]\nspan = {size:?}\ngauge = {size:?}\noffset = {size:?}"
+                        ),
+                    ),
+                    _ => (
+                        "universal",
+                        format!(
+                            "axes = [[1, 0, 0], [0, 1, 0]]\nspan = {size:?}\n\
+                             spider = {{ mass = 1, inertia = [1, 1, 1] }}"
+                        ),
+                    ),
+                };
+                let number = tables.len();
+                tables += &joint(kind, ["world", &name], dice.point(scale), &keys)
+                    .replace("name = \"", &format!("name = \"{number} "));
+            }
+            let axis = [[1, 0, 0], [0, 1, 0], [0, 0, 1]][dice.below(3) as usize];
+            let _ = write!(
+                tables,
+                "[[tsda]]\nbetween = [\"world\", {name:?}]\npoints = [{:?}, {:?}]\nstiffness = 1\nfree_length = 0\n\
+                 [[torsion_spring]]\nbetween = [\"world\", {name:?}]\naxis = {axis:?}\nstiffness = 1\n\
+                 [[input]]\nname = \"input {n}\"\ntype = \"torque\"\nbody = {name:?}\naxis = {axis:?}\n",
+                dice.point(scale),
+                dice.point(scale),
+            );
+        }
+        let scene = scene(&tables);
+        let text = svg(&Mechanism::of(&scene), Paper::File);
+        is_sound(&format!("seed {seed}"), &text);
+    }
+}
