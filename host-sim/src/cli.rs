@@ -11,6 +11,7 @@ use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 use dbd_golden::{BandList, Blessing};
 use dbd_import::omission;
+use dbd_picture::Paper;
 use dbd_plant::time::Time;
 use dbd_plant::{DampingName, Method, Named as _, OrientationName, PrecisionName, SchemeName};
 use dbd_study::{Phase, files};
@@ -24,6 +25,8 @@ use crate::commands::golden::GoldenOptions;
 use crate::commands::import::{self, ImportArguments};
 use crate::commands::list::list;
 use crate::commands::new::{FirmwareArguments, NewCommand, firmware};
+use crate::commands::picture;
+use crate::commands::picture::PictureError;
 use crate::commands::run::{Outcome, RunOptions, run};
 use crate::commands::stability::StabilityCheck;
 use crate::commands::sweep::{SweepArguments, sweep};
@@ -99,6 +102,10 @@ struct CheckArguments {
     /// As JSON
     #[arg(long)]
     json: bool,
+    /// Write a picture of the mechanism at its initial pose, an SVG; - for standard output, in place
+    /// of the table
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    svg: Option<PathBuf>,
     /// Look for the largest stable step about the pose at t = 0; takes seconds
     #[arg(long)]
     stability: bool,
@@ -325,12 +332,27 @@ fn check_scene(
     let method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
     let method = damped(method, arguments.damping)?;
     method.check_built()?;
+    let printed = arguments.svg.as_ref().is_some_and(|file| picture::is_output(file));
+    if printed && arguments.json {
+        return Err(PictureError::Both.into());
+    }
     let Found { scene, .. } = load(catalogue, &arguments.scene)?;
+    if printed {
+        console.print(&picture::picture(&scene, Paper::File))?;
+        return Ok(Exit::Done);
+    }
     let mut check = check(&scene);
     if arguments.stability {
         check.stability = Some(StabilityCheck::of(&scene, &method)?);
     }
-    console.print(&if arguments.json { json(&check) } else { check.text() })?;
+    let mut text = if arguments.json { json(&check) } else { check.text() };
+    if let Some(file) = &arguments.svg {
+        picture::write(&scene, file)?;
+        if !arguments.json {
+            text += &format!("\nwritten  {}\n", file.display());
+        }
+    }
+    console.print(&text)?;
     Ok(Exit::Done)
 }
 

@@ -8,6 +8,7 @@ use thiserror::Error;
 use crate::commands::export::ExportError;
 use crate::commands::import::ImportError;
 use crate::commands::new::NewError;
+use crate::commands::picture::PictureError;
 use crate::commands::run::RunError;
 use crate::commands::sweep::error::SweepError;
 use crate::commands::trade::TradeError;
@@ -37,6 +38,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Import(#[from] ImportError),
+    /// There is no picture.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Picture(#[from] PictureError),
     /// There is no new project.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -67,8 +72,9 @@ impl Error {
             Self::Load(_) | Self::Method(_) | Self::Plant(_) => Exit::Refused,
             Self::Export(ExportError::Write { .. })
             | Self::Import(ImportError::Write { .. })
-            | Self::New(NewError::Write { .. }) => Exit::Failed,
-            Self::Export(_) | Self::Import(_) | Self::New(_) => Exit::Refused,
+            | Self::New(NewError::Write { .. })
+            | Self::Picture(PictureError::Write { .. }) => Exit::Failed,
+            Self::Export(_) | Self::Import(_) | Self::New(_) | Self::Picture(_) => Exit::Refused,
             Self::Output(_) => Exit::Failed,
             Self::Run(error) => match error {
                 RunError::Plan(_)

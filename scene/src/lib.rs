@@ -329,6 +329,13 @@ impl Scene {
         self.origin.refuse(setting, message, help)
     }
 
+    /// What messages call the raw TSDAs, then the points on lines, in the order of their groups:
+    /// "tsda `strut` (shell–knuckle)".
+    #[must_use]
+    pub fn raw_names(&self) -> &[String] {
+        &self.raw_names
+    }
+
     /// Torsion springs of the scene file, without those that only count turns.
     #[must_use]
     pub fn torsion_springs(&self) -> usize {

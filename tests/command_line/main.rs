@@ -3,6 +3,7 @@
 mod check;
 mod golden;
 mod new;
+mod picture;
 mod refusal;
 mod results;
 mod run;

@@ -20,6 +20,7 @@ const CRATES: &[&str] = &[
     "study",
     "sweep",
     "output",
+    "picture",
     "golden",
     "import",
     "host-sim",

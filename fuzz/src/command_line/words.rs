@@ -66,6 +66,7 @@ const COMMANDS: &[(&str, &[usize], &[&str])] = &[
     ("run", &[1, 6, 8], &["--json", "--quiet"]),
     ("check", &[], &["--json"]),
     ("check", &[5, 6, 7, 8], &["--stability", "--json"]),
+    ("check", &[11], &["--json"]),
     ("export", &[8], &[]),
     ("trade", &[3, 4, 10], &["--json", "--quiet", "--overwrite"]),
     ("list", &[], &["--json"]),
@@ -119,6 +120,7 @@ const OPTIONS: &[(&str, &[&str])] = &[
             "CON",
         ],
     ),
+    ("--svg", &["-"]),
 ];
 
 const FLAGS: &[&str] = &[

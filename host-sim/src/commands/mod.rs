@@ -3,6 +3,7 @@
 //! - [`list`]: the scenes that ship.
 //! - [`warnings`]: what is probably not meant, in one place for all.
 //! - [`stability`], [`check`]: what a scene is, without running it.
+//! - [`picture`]: the mechanism as an SVG.
 //! - [`folder`]: where results go.
 //! - [`golden`]: a run beside a golden file.
 //! - [`run`]: a scene becomes a trace, a summary and a report.
@@ -21,6 +22,7 @@ pub mod golden;
 pub mod import;
 pub mod list;
 pub mod new;
+pub mod picture;
 pub mod run;
 pub mod stability;
 pub mod sweep;

@@ -1,12 +1,13 @@
 //! `report.html`: one page that needs no other file.
 //!
-//! `(scene, summary, curves) => HTML` with the summary, the energies, the read-outs and the path of
-//! every body, and what it takes to run it again.
+//! `(scene, summary, curves) => HTML` with a picture of the mechanism, the summary, the energies, the
+//! read-outs and the path of every body, and what it takes to run it again.
 
 use std::fmt::Write as _;
 
 use dbd_output::markup::{PAGE_STYLE, escape};
 use dbd_output::panel::{Line, Panel, svg};
+use dbd_picture::{Mechanism, Paper};
 use dbd_plant::Plan;
 use dbd_plant::time::display;
 use dbd_scene::Scene;
@@ -34,6 +35,9 @@ const COLOURS: [&str; 3] = ["#0072b2", "#d55e00", "#009e73"];
 const WIDE: (f64, f64) = (1000.0, 280.0);
 const HALF: (f64, f64) = (490.0, 250.0);
 
+/// The picture's letters are as large as the page's, a little larger at most.
+const PICTURE: &str = "max-width:40rem;margin-top:1.5rem";
+
 /// The page.
 #[must_use]
 pub fn html(report: &Report<'_>) -> String {
@@ -52,6 +56,8 @@ pub fn html(report: &Report<'_>) -> String {
         let status = escape(&summary.status);
         let _ = writeln!(page, "<p class=\"failed\"><strong>Failed:</strong> {status}.</p>");
     }
+    let picture = dbd_picture::svg(&Mechanism::of(scene), Paper::Page);
+    let _ = writeln!(page, "<figure style=\"{PICTURE}\">\n{picture}</figure>");
     page.push_str("<h2>Summary</h2>\n<table>\n");
     for (row, text) in summary.rows() {
         let _ = writeln!(page, "<tr><th>{row}</th><td>{}</td></tr>", escape(&text));

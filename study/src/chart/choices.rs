@@ -7,9 +7,9 @@ use dbd_output::svg::label;
 
 use crate::advice::choice;
 use crate::chart::drawing::{Drawing, LABEL, RIGHT, STRIP, WIDTH};
-use crate::chart::label_spots::LabelSpots;
 use crate::chart::style::{FAINT, INK};
 use crate::words::shown;
+use dbd_output::label_spots::LabelSpots;
 
 /// The cheapest point for an accuracy.
 pub(super) struct Choice {

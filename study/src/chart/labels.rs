@@ -6,8 +6,8 @@ use dbd_output::markup::escape;
 
 use crate::chart::choices::Choice;
 use crate::chart::drawing::{BOTTOM, Drawing, LABEL, LEFT, Line, RIGHT, TOP};
-use crate::chart::label_spots::{LabelSpots, Rectangle};
 use crate::words::shown;
+use dbd_output::label_spots::{LabelSpots, Rectangle};
 
 impl Drawing<'_> {
     /// Numbers of the choices, then names: of the front's other points, of the lines where they end.

@@ -4,7 +4,7 @@
 //! stepper through its steps, the front as a band, to the right of each power of ten what to choose
 //! for it, what is unstable in a strip at the top.
 //!
-//! - `axis`, `style`, `label_spots`: where a value lies, what a stepper looks like, where names go.
+//! - `axis`, `style`: where a value lies, what a stepper looks like.
 //! - `drawing`: measures, lines and marks.
 //! - `choices`, `frame`, `labels`: what lies beside, around and beneath them, and their names.
 
@@ -12,7 +12,6 @@ mod axis;
 mod choices;
 mod drawing;
 mod frame;
-mod label_spots;
 mod labels;
 mod style;
 

@@ -1,0 +1,85 @@
+//! `host-sim check --svg`: the mechanism's picture in a file or on standard output.
+//!
+//! `(scene, file) => SVG`. A file that is no SVG is not replaced.
+
+use std::fmt;
+use std::io::{self, Read as _, Write as _};
+use std::path::{Path, PathBuf};
+
+use dbd_output::file::PendingFile;
+use dbd_picture::{Mechanism, Paper, svg};
+use dbd_scene::Scene;
+use miette::Diagnostic;
+use thiserror::Error;
+
+/// Why there is no picture.
+#[derive(Debug, Error)]
+pub enum PictureError {
+    /// Standard output cannot take both.
+    #[error("--svg - and --json both write to standard output")]
+    Both,
+    /// The file holds something else.
+    #[error("{} holds no SVG", file.display())]
+    Taken {
+        /// The file.
+        file: PathBuf,
+    },
+    /// The file cannot be written.
+    #[error("cannot write {}: {reason}", file.display())]
+    Write {
+        /// The file.
+        file: PathBuf,
+        /// Why; part of the message and therefore not a source, which would say it twice.
+        reason: io::Error,
+    },
+}
+
+impl Diagnostic for PictureError {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        match self {
+            Self::Both => Some(Box::new("--svg FILE writes the picture to a file")),
+            Self::Taken { .. } => Some(Box::new("--svg takes another name, or remove that file")),
+            Self::Write { .. } => None,
+        }
+    }
+}
+
+/// The picture of a scene at its initial pose.
+#[must_use]
+pub fn picture(scene: &Scene, paper: Paper) -> String {
+    svg(&Mechanism::of(scene), paper)
+}
+
+/// Whether a picture goes to standard output.
+#[must_use]
+pub fn is_output(file: &Path) -> bool {
+    file == Path::new("-")
+}
+
+/// Writes the picture of a scene to a file, whole or not at all, in place of an older one.
+///
+/// # Errors
+/// [`PictureError::Taken`] where the file is no SVG, [`PictureError::Write`].
+pub fn write(scene: &Scene, file: &Path) -> Result<(), PictureError> {
+    // A device takes no other file's name either.
+    if file.exists() && !(file.is_file() && is_svg(file)) {
+        return Err(PictureError::Taken { file: file.to_owned() });
+    }
+    let written = || {
+        let name = file.file_name().and_then(|name| name.to_str());
+        let name = name.ok_or_else(|| io::Error::other("it is no file's name"))?;
+        let folder = file.parent().filter(|folder| *folder != Path::new(""));
+        let mut pending = PendingFile::create(folder.unwrap_or(Path::new(".")), name)?;
+        pending.write_all(picture(scene, Paper::File).as_bytes())?;
+        pending.complete()
+    };
+    written().map_err(|reason| PictureError::Write { file: file.to_owned(), reason })
+}
+
+/// Whether a file begins as a picture does; an empty one holds nothing to lose.
+fn is_svg(file: &Path) -> bool {
+    let Ok(content) = std::fs::File::open(file) else { return false };
+    let mut head = Vec::new();
+    let read = content.take(4).read_to_end(&mut head);
+    read.is_ok_and(|count| count == 0 || head == b"<svg")
+}

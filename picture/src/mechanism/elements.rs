@@ -1,0 +1,100 @@
+//! Raw elements: springs between points, points on lines, torsion springs.
+
+use dbd_kernel::elements::input::InputKind;
+use dbd_kernel::model::{Group, Law};
+use dbd_scene::Scene;
+
+use super::attached::{Pivots, centres, row, tips};
+use super::parts::{Along, GuideMark, Mechanism, Place, SpringMark, TorsionMark};
+
+/// Springs and guides of a scene, in the order of their groups.
+pub(super) fn raw(scene: &Scene, mechanism: &Mechanism) -> (Vec<SpringMark>, Vec<GuideMark>) {
+    let model = &scene.model;
+    let driven: Vec<usize> = model
+        .inputs
+        .iter()
+        .filter_map(|input| match input.kind {
+            InputKind::Actuator { group, .. } => Some(usize::from(group)),
+            _ => None,
+        })
+        .collect();
+    let (mut springs, mut guides) = (Vec::new(), Vec::new());
+    let first = scene.joints.iter().map(|joint| joint.groups.end).max().unwrap_or(0);
+    let raw = model.groups.iter().enumerate().skip(first);
+    for ((number, group), label) in raw.zip(scene.raw_names()) {
+        let (Some(centre), Some(tip)) = (centres(scene, group).first(), tips(scene, group).first())
+        else {
+            continue;
+        };
+        let name = named(label);
+        let ends = [
+            Place { body: row(group.a), point: centre.to_f64() },
+            Place { body: row(group.b), point: tip.to_f64() },
+        ];
+        match group.law {
+            Law::PointOnLine => {
+                let Some(line) = model.lines.get(usize::from(group.element)) else { continue };
+                let direction = Along { body: row(group.a), vector: line.direction.to_f64() };
+                let [from, point] = [ends[0], ends[1]].map(|end| mechanism.place(&end));
+                let n = mechanism.along(&direction);
+                let foot = mechanism.local(ends[0].body, from + n * (point - from).dot(n));
+                guides.push(GuideMark { name, line: foot, direction, point: ends[1] });
+            }
+            Law::Tsda | Law::PointBushing => springs.push(SpringMark {
+                name,
+                ends,
+                free_length: free_length(scene, group),
+                driven: driven.contains(&number),
+            }),
+        }
+    }
+    (springs, guides)
+}
+
+fn free_length(scene: &Scene, group: &Group) -> f64 {
+    match group.law {
+        Law::Tsda => {
+            let tsda = scene.model.tsdas.get(usize::from(group.element));
+            tsda.map_or(0.0, |tsda| tsda.free_length)
+        }
+        Law::PointBushing | Law::PointOnLine => 0.0,
+    }
+}
+
+/// The name in what messages call an element: "tsda `strut` (shell–knuckle)".
+fn named(label: &str) -> Option<String> {
+    let (_, rest) = label.split_once(" `")?;
+    rest.rsplit_once("` (").map(|(name, _)| name.to_owned())
+}
+
+/// Torsion springs, without those that only count turns.
+pub(super) fn torsions(scene: &Scene, mechanism: &Mechanism, pivots: &Pivots) -> Vec<TorsionMark> {
+    let springs = scene.model.torsions.iter().take(scene.torsion_springs());
+    springs
+        .zip(&scene.torsion_names)
+        .map(|(spring, label)| {
+            let (a, b) = (row(spring.a), row(spring.b));
+            let centre = |body| Place { body, point: [0.0; 3] };
+            let at = pivots.between(a, b).unwrap_or_else(|| match (a, b) {
+                (Some(_), Some(_)) => {
+                    let [from, to] = [a, b].map(|body| mechanism.place(&centre(body)));
+                    mechanism.local(a, from + (to - from) * 0.5)
+                }
+                _ => centre(b.or(a)),
+            });
+            let axis = Along { body: a, vector: spring.axis.to_f64() };
+            TorsionMark { name: named(label), at, axis }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::named;
+
+    #[test]
+    fn only_what_has_a_name_is_named() {
+        assert_eq!(named("tsda `a `b` (x)` (world–c)").as_deref(), Some("a `b` (x)"));
+        assert_eq!(named("tsda 3 (world–c)"), None);
+    }
+}

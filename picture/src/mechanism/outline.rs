@@ -1,0 +1,110 @@
+//! What bodies look like: a bar, a plate or a block, by where joints and elements hold them.
+//!
+//! `(points of joints and elements, mass, inertia) => outline`. A box of mass m has the sides
+//! `a² = 6·(I₂ + I₃ − I₁)/m`.
+
+use std::collections::BTreeSet;
+
+use dbd_kernel::Vec3;
+use dbd_scene::Scene;
+
+use super::parts::{Bounds, Mechanism, Outline, Place, length};
+
+/// Points nearer than this share of the mechanism's size are one.
+const SAME: f64 = 1e-6;
+/// A body whose points span less than this share of its box is drawn as the box: a wheel on its
+/// bearing.
+const WITHIN: f64 = 0.25;
+/// Sides of a block: at most this share of what else there is, at least this one of its longest.
+const LARGEST: f64 = 0.5;
+const THINNEST: f64 = 0.04;
+
+/// The outline of each body.
+pub(super) fn outlines(
+    scene: &Scene,
+    mechanism: &Mechanism,
+    spiders: &BTreeSet<usize>,
+) -> Vec<Outline> {
+    let held = held(mechanism);
+    let size = size(mechanism, &held);
+    let bodies = held.into_iter().zip(&scene.model.bodies).enumerate();
+    bodies
+        .map(|(row, (points, body))| {
+            if spiders.contains(&row) {
+                return Outline::Spider;
+            }
+            outline(distinct(points, SAME * size), body.mass, body.inertia.to_f64(), size)
+        })
+        .collect()
+}
+
+fn outline(points: Vec<Vec3<f64>>, mass: f64, inertia: [f64; 3], size: f64) -> Outline {
+    let half = half_sides(mass, inertia, size);
+    let longest = 2.0 * half.into_iter().fold(0.0, f64::max);
+    let reach = points.iter().map(|point| length(*point)).fold(0.0, f64::max);
+    if reach <= WITHIN * longest {
+        return Outline::Block { half };
+    }
+    match points[..] {
+        [] => Outline::Block { half },
+        [point] => Outline::Bar { ends: [point.to_f64(), [0.0; 3]] },
+        [a, b] => Outline::Bar { ends: [a.to_f64(), b.to_f64()] },
+        _ => Outline::Plate { points: points.into_iter().map(Vec3::to_f64).collect() },
+    }
+}
+
+/// Half of each side \[m\] of the box of a mass and inertia.
+fn half_sides(mass: f64, inertia: [f64; 3], size: f64) -> [f64; 3] {
+    let [x, y, z] = inertia;
+    let most = if size > 0.0 { LARGEST * size } else { f64::INFINITY };
+    let side = |square: f64| libm::sqrt(6.0 * (square / mass).max(0.0));
+    let sides = [y + z - x, z + x - y, x + y - z].map(side).map(|side| {
+        // Of numbers that no box has.
+        if side.is_finite() { side.min(most) } else { most.min(1.0) }
+    });
+    let longest = sides.into_iter().fold(0.0, f64::max);
+    sides.map(|side| 0.5 * side.max(THINNEST * longest))
+}
+
+/// The points of each body where joints and elements hold it.
+fn held(mechanism: &Mechanism) -> Vec<Vec<Vec3<f64>>> {
+    let mut held = vec![Vec::new(); mechanism.bodies.len()];
+    let mut hold = |place: &Place| {
+        if let Some(points) = place.body.and_then(|row| held.get_mut(row)) {
+            points.push(Vec3::from_f64(place.point));
+        }
+    };
+    mechanism.joints.iter().flat_map(|joint| &joint.places).for_each(&mut hold);
+    mechanism.springs.iter().flat_map(|spring| &spring.ends).for_each(&mut hold);
+    for guide in &mechanism.guides {
+        hold(&guide.line);
+        hold(&guide.point);
+    }
+    held
+}
+
+/// \[m\] the longest side of the box about all points and centres of mass.
+fn size(mechanism: &Mechanism, held: &[Vec<Vec3<f64>>]) -> f64 {
+    let mut bounds = Bounds::default();
+    for (row, points) in held.iter().enumerate() {
+        let centre = Place { body: Some(row), point: [0.0; 3] };
+        bounds.add(mechanism.place(&centre));
+        for point in points {
+            bounds.add(mechanism.place(&Place { point: point.to_f64(), ..centre }));
+        }
+    }
+    bounds.longest()
+}
+
+/// Points that are apart, each the first of those near it.
+fn distinct(points: Vec<Vec3<f64>>, near: f64) -> Vec<Vec3<f64>> {
+    /// A body that more hold is not looked through.
+    const MOST: usize = 200;
+    let mut apart: Vec<Vec3<f64>> = Vec::new();
+    for point in points {
+        if apart.len() > MOST || apart.iter().all(|other| length(point - *other) > near) {
+            apart.push(point);
+        }
+    }
+    apart
+}

@@ -1,0 +1,28 @@
+//! Colours and widths, light and dark, as a style sheet within the SVG.
+//!
+//! Bodies in colours of Okabe & Ito (2008), distinct for people who see few; forces and inputs in
+//! their vermilion. Every rule is bound to the picture's own class, so that a page that holds the
+//! picture keeps its style.
+
+/// The class of the picture's root.
+pub(crate) const ROOT: &str = "mechanism";
+
+/// Colours of bodies.
+pub(crate) const COLOURS: usize = 5;
+
+/// \[pixels\] of letters: they can be read where the sheet is scaled down to a narrow screen.
+pub(crate) const LETTERS: f64 = 17.0;
+
+/// Shapes, in light colours.
+const SHEET: &str = include_str!("picture.css");
+
+/// What changes where the reader's screen is dark.
+const DARK: &str = include_str!("dark.css");
+
+/// The style sheet; `dark` where it may follow the reader's screen.
+pub(crate) fn sheet(dark: bool) -> String {
+    if !dark {
+        return SHEET.into();
+    }
+    format!("{SHEET}@media (prefers-color-scheme: dark) {{\n{DARK}}}\n")
+}
