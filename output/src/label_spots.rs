@@ -3,7 +3,7 @@
 //! `(obstacles, anchor, text) => box`. Candidates lie in rings around the anchor; the one that
 //! hides least is taken, the nearer of equals. Labels that come first are obstacles to the next.
 
-/// A rectangle [pixels].
+/// A rectangle \[pixels\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rectangle {
     /// Left.
@@ -50,9 +50,9 @@ pub struct LabelSpots {
     strokes: Vec<(f64, f64)>,
 }
 
-/// [pixels] between the samples of a stroke.
+/// \[pixels\] between the samples of a stroke.
 const SAMPLING: f64 = 4.0;
-/// [pixels] from a label's anchor to its box: further away nobody sees what it names.
+/// \[pixels\] from a label's anchor to its box: further away nobody sees what it names.
 const RINGS: [f64; 5] = [8.0, 14.0, 22.0, 32.0, 44.0];
 const DIRECTIONS: u32 = 24;
 
@@ -88,7 +88,7 @@ impl LabelSpots {
     }
 
     /// Finds the spot of a label of a size, best in a direction (unit vector, y down); `None` where every
-    /// spot is worse than `worst` [pixels].
+    /// spot is worse than `worst` \[pixels\].
     pub fn find(
         &mut self,
         anchor: (f64, f64),

@@ -100,6 +100,8 @@ impl Symbols<'_> {
                 let outward = directions(other, end).map_or((0.0, 1.0), |(along, _)| along);
                 // The hatching lies to the right of the line's direction.
                 hatched(text, &ground(end, (outward.1, -outward.0), 12.0 * s, s));
+            } else {
+                circle(text, "full", end, 2.4 * s);
             }
         }
         match zigzag(from, to, s) {
