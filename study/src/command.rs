@@ -19,9 +19,7 @@ impl Command {
     /// Commands for a scene that the user calls by a name or a path.
     #[must_use]
     pub fn new(scene: &Scene, called: &str) -> Self {
-        let set = scene.changes.iter().map(|change| format!(" --set {}", quoted(change)));
-        let scene_and_changes = [quoted(called)].into_iter().chain(set).collect();
-        Self { scene: scene_and_changes, every: every(scene) }
+        Self { scene: with_changes(scene, called), every: every(scene) }
     }
 
     /// The command for a point; `None` for a reference, which no command runs.
@@ -36,9 +34,17 @@ impl Command {
     }
 }
 
+/// A scene that the user calls by a name or a path, with the changes of its values.
+#[must_use]
+pub fn with_changes(scene: &Scene, called: &str) -> String {
+    let set = scene.changes.iter().map(|change| format!(" --set {}", quoted(change)));
+    [quoted(called)].into_iter().chain(set).collect()
+}
+
 /// A word as a shell takes it.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_alphanumeric() || "-_./".contains(c);
+#[must_use]
+pub fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./\\:".contains(c);
     if word.chars().all(plain) { word.into() } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }
 

@@ -87,6 +87,13 @@ fn a_difference_is_an_error_with_step_body_and_component() {
     ] {
         assert!(done.err.contains(part), "{part}: {}", done.err);
     }
+    // How the very step is found is told with the changes that the run has.
+    let set = compared(&folder, &scene, &file, &["--set", "description=as it was"]);
+    assert!(
+        set.err.contains("scene.toml --set 'description=as it was' … --every 1ms"),
+        "{}",
+        set.err
+    );
     // The run's own record lies beside, its results where they always lie.
     let new = PathBuf::from(format!("{file}.new"));
     assert!(fs::read_to_string(&new).unwrap().starts_with("# dbd golden 1\n"));

@@ -69,3 +69,34 @@ fn every_command_takes_changes_and_refuses_wrong_ones_in_their_own_words() {
         }
     }
 }
+
+/// The line with which a report is made again has all that was chosen; it comes to the same hash.
+#[test]
+fn a_report_says_how_to_run_it_again() {
+    let folder = Folder::new();
+    let scene = folder.scene(PENDULUM);
+    let options = [
+        "--set",
+        "tsda.*.stiffness=3e3",
+        "--damping",
+        "explicit",
+        "--orientation",
+        "euler-321",
+        "--precision",
+        "f32",
+        "--step",
+        "1ms",
+        "--duration",
+        "20ms",
+    ];
+    let hash = folder.summary(&scene, &options)["state_hash"].clone();
+    let page = std::fs::read_to_string(folder.path("out/scene/report.html")).unwrap();
+    let line = page.split("<pre>host-sim run ").nth(1).unwrap().split("</pre>").next().unwrap();
+    let words: Vec<String> =
+        line.replace("&#39;", "'").split(' ').map(|word| word.trim_matches('\'').into()).collect();
+    let again: Vec<&str> = words.iter().skip(1).map(String::as_str).collect();
+    for option in ["--damping", "--orientation", "--set"] {
+        assert!(again.contains(&option), "{line}");
+    }
+    assert_eq!(folder.summary(&scene, &again)["state_hash"], hash, "{line}");
+}

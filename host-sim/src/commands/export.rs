@@ -118,7 +118,8 @@ pub fn export(scene: &Scene, options: &ExportOptions) -> Result<String, ExportEr
 /// # Errors
 /// [`ExportError::Taken`] where the file is none that was exported, [`ExportError::Write`].
 pub fn write(file: &Path, text: &str) -> Result<(), ExportError> {
-    if file.exists() && !is_exported(file) {
+    // A device, which looks empty, takes no other file's name either.
+    if file.exists() && !(file.is_file() && is_exported(file)) {
         return Err(ExportError::Taken { file: file.to_owned() });
     }
     let written = || {

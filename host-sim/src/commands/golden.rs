@@ -96,7 +96,8 @@ impl GoldenWatch<'_> {
         self.recording.sample(&Seen(sample), sample.readings)
     }
 
-    /// Compares the whole run, or writes the file. `called` is what a command line calls the scene.
+    /// Compares the whole run, or writes the file. `called` is the scene on a command
+    /// line, with the changes of its values.
     #[must_use]
     pub fn finish(self, plan: &Plan, called: &str) -> GoldenOutcome {
         let Self { options, recording, opened } = self;

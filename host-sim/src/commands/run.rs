@@ -15,6 +15,7 @@ use dbd_plant::plan::{Request, StepRequest, plan};
 use dbd_plant::plant::{check_inputs, check_step};
 use dbd_plant::{Frequencies, Method, Plan, PlanError, PlantError};
 use dbd_scene::{Scene, Setting};
+use dbd_study::command::with_changes;
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -244,7 +245,7 @@ pub fn run(
     let called = options.called.as_deref().unwrap_or(&scene.name);
     // What did not come to its end is neither compared nor blessed.
     let golden = golden.filter(|_| failure.is_none() && stop.is_none());
-    summary.golden = golden.map(|golden| golden.finish(&plan, called));
+    summary.golden = golden.map(|golden| golden.finish(&plan, &with_changes(scene, called)));
     if let (Some(mut files), Some(out)) = (files, &options.out) {
         let written = match curves {
             Some(mut curves) => {

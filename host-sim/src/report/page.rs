@@ -11,6 +11,7 @@ use dbd_picture::{Mechanism, Paper};
 use dbd_plant::Plan;
 use dbd_plant::time::display;
 use dbd_scene::Scene;
+use dbd_study::command::with_changes;
 
 use crate::report::curves::{Curve, Curves};
 use crate::report::summary::Summary;
@@ -133,25 +134,23 @@ fn quantity(kind: &str, unit: &str) -> &'static str {
 
 /// The command line of the run, with all that was chosen for it spelled out.
 fn command(report: &Report<'_>) -> String {
-    let Report { plan, summary, scene, .. } = report;
-    let set: String =
-        scene.changes.iter().map(|change| format!(" --set {}", argument(change))).collect();
+    let Report { plan, summary, scene, called, .. } = report;
     let newton = summary.newton.map(|n| format!(" --newton {n}")).unwrap_or_default();
+    let damping = summary.damping.map(|way| format!(" --damping {way}")).unwrap_or_default();
+    let orientation = match summary.orientation {
+        "quaternion" => String::new(),
+        other => format!(" --orientation {other}"),
+    };
     format!(
-        "host-sim run {}{set} --scheme {}{newton} --precision {} --step {} --duration {} --every {}",
-        argument(report.called),
+        "host-sim run {} --scheme {}{newton}{damping} --precision {}{orientation} --step {} \
+         --duration {} --every {}",
+        with_changes(scene, called),
         summary.scheme,
         summary.precision,
         display(plan.step),
         display(plan.duration),
         display(plan.time(plan.stride).min(plan.duration)),
     )
-}
-
-/// A word as a shell takes it.
-pub(crate) fn argument(word: &str) -> String {
-    let plain = |c: char| c.is_alphanumeric() || "-_./\\:".contains(c);
-    if word.chars().all(plain) { word.into() } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }
 
 fn figure(
@@ -174,15 +173,4 @@ fn figure(
             write!(page, "<span class=\"key\"><i style=\"background:{colour}\"></i>{name}</span>");
     }
     let _ = writeln!(page, "</figcaption>\n{}</figure>", drawing.trim_start());
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_scene_is_one_word_of_a_command() {
-        assert_eq!(argument("scenes/four-bar.toml"), "scenes/four-bar.toml");
-        assert_eq!(argument("my scene's.toml"), "'my scene'\\''s.toml'");
-    }
 }

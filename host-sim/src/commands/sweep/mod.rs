@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 use std::thread;
 
 use clap::{Args, ValueHint};
+use dbd_study::command::quoted;
 use dbd_sweep::Spec;
 use dbd_sweep::cases::Cases;
 use dbd_sweep::check::{CheckError, Trial as _, check};
@@ -32,7 +33,6 @@ use crate::commands::sweep::error::SweepError;
 use crate::commands::sweep::folder::SweepFolder;
 use crate::commands::sweep::outcome::SweepOutcome;
 use crate::commands::sweep::workers::on_all;
-use crate::report::page::argument;
 use crate::terminal::catalogue::is_path;
 use crate::terminal::{Catalogue, Found, LoadError, SceneFile};
 
@@ -161,7 +161,7 @@ impl Sweep {
     fn commands(&self, spec: &Path) -> Vec<String> {
         let cases = Cases::new(&self.spec);
         let changes = cases.changes(0);
-        let set: String = changes.iter().map(|one| format!(" --set {}", argument(one))).collect();
+        let set: String = changes.iter().map(|one| format!(" --set {}", quoted(one))).collect();
         let method = cases.method(0).unwrap_or_default();
         let options: [(&str, Option<String>); 5] = [
             ("scheme", Some(method.scheme_name().into())),
@@ -173,8 +173,8 @@ impl Sweep {
         let given = options.into_iter().filter_map(|(name, value)| Some((name, value?)));
         let options: String = given.map(|(name, value)| format!(" --{name} {value}")).collect();
         vec![
-            format!("host-sim sweep {}", argument(&spec.display().to_string())),
-            format!("host-sim run {}{set}{options}", argument(&self.called)),
+            format!("host-sim sweep {}", quoted(&spec.display().to_string())),
+            format!("host-sim run {}{set}{options}", quoted(&self.called)),
         ]
     }
 
