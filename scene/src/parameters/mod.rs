@@ -1,4 +1,5 @@
-//! Changes of single values of a scene by their paths, before it is checked: `body.cart.mass=1.2`.
+//! Changes of single values of a scene by their paths, before it is checked: `body.cart.mass=1.2`; and the
+//! values that a scene names itself in `[parameters]` (`named.rs`).
 //!
 //! `(text, changes) => tables with other values`. A changed value is checked as one in the file is; a refusal
 //! of it names the change. Of a kind of which there are many, the second step of a path is a name, or

@@ -3,13 +3,14 @@
 //! `(text, names) => SI value and dimension, or a fault with its place in the text`. Lengths, masses, times
 //! and angles are dimensions of their own; a number without a unit has none. `*` and `/` go before `+`
 //! and `-`, each from left to right, and a unit right behind a number goes before all: `5 N / 2 mm`
-//! is 2500 N/m. A number with its units is converted at once ([`decimal`]); every further operation
+//! is 2500 N/m. A number with its units is converted at once; every further operation
 //! rounds once. Nothing here knows of files or scenes.
 
 mod decimal;
 mod dimension;
 mod expression;
 mod fault;
+mod operand;
 mod scope;
 mod unit;
 mod word;
@@ -30,6 +31,12 @@ pub struct Quantity {
 }
 
 /// The value of a text of numbers and units: `20us`, `9 kN/mm`, `(1 + 2) / 3 * m`.
+///
+/// ```
+/// let stiffness = dbd_scene::quantity::evaluate("9 kN/mm")?;
+/// assert_eq!((stiffness.value, stiffness.dimension.to_string().as_str()), (9e6, "N/m"));
+/// # Ok::<(), dbd_scene::quantity::Fault>(())
+/// ```
 ///
 /// # Errors
 /// Where it is none; a name that is no unit is at fault, too.

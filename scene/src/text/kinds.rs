@@ -5,8 +5,9 @@ use dbd_kernel::Vec3;
 use crate::direction::unit;
 use crate::error::SceneError;
 use crate::nearest::nearest;
+use crate::quantity::{Dimension, Quantity};
 use crate::shortened::shortened;
-use crate::text::number::{Number, Numbers};
+use crate::text::number::Measure;
 use crate::text::value::{Kind, Value};
 
 /// A unit vector along an array of three numbers.
@@ -21,10 +22,29 @@ impl Kind for Direction {
     }
 
     fn read(&self, value: &Value<'_>) -> Result<Vec3<f64>, SceneError> {
-        let vector = Numbers::<3>(Number::any("")).read(value)?;
+        let mut vector = [0.0; 3];
+        let mut common = None;
+        for (component, entry) in vector.iter_mut().zip(value.entries(3, &self.expected())?) {
+            let Quantity { value: number, dimension } = Measure.read(&entry)?;
+            *component = number;
+            // A 0 is one of any dimension.
+            if number == 0.0 && dimension.is_none() {
+                continue;
+            }
+            let common = *common.get_or_insert(dimension);
+            if common != dimension {
+                let help = "the components of a direction are of one dimension, or plain numbers";
+                let problem = format!("is {}, others {}", called(dimension), called(common));
+                return Err(entry.refuse_with(&problem, help));
+            }
+        }
         unit(Vec3::from_f64(vector))
             .ok_or_else(|| value.refuse("has no direction", &self.expected()))
     }
+}
+
+fn called(dimension: Dimension) -> String {
+    if dimension.is_none() { "a plain number".into() } else { format!("a value in {dimension}") }
 }
 
 /// Bytes of a name in UTF-8: a folder may have it, with room for what systems add; 255 is the end.
