@@ -6,8 +6,8 @@
 //! before it alone:
 //!
 //! - [`mod@place`]: texts and places in them.
-//! - [`error`]: what is refused, and where.
 //! - [`omission`]: what has no counterpart, by kinds.
+//! - [`error`]: what is refused, and where.
 //! - `element`: elements of XML, files that include each other as one.
 //! - `schema`: names of elements and attributes.
 //! - `defaults`: classes of attributes, and attributes as numbers.
@@ -18,8 +18,9 @@
 //! - `tree`: all of them, in their frames.
 //! - `contact`: which geoms can touch.
 //! - `pose`: joint coordinates become poses.
-//! - `part`: bodies without joints become one with their parents.
 //! - [`options`]: what is stated rather than read.
+//! - `part`: bodies without joints become one with their parents.
+//! - `notation`: numbers and texts as TOML has them.
 //! - `mechanism`: joints, springs, inputs, read-outs between parts.
 //! - `joints`, `loops`, `signals`: what brings them in, from the tree, equalities, actuators and sensors.
 //! - `write`: the scene's text.
@@ -40,6 +41,7 @@ mod lacks;
 mod loops;
 mod mass;
 mod mechanism;
+mod notation;
 mod part;
 mod pose;
 mod schema;

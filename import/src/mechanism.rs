@@ -186,6 +186,17 @@ impl<'m> Mechanism<'m> {
         name
     }
 
+    /// A name that no body and no signal among `others` has: the one wanted, or that with its kind.
+    pub(crate) fn signal_name(&self, wanted: &str, kind: &str, others: &[Signal]) -> String {
+        let taken = |name: &String| {
+            let body = self.tree.bodies.iter().any(|body| body.name == *name);
+            body || others.iter().any(|signal| signal.name == *name)
+        };
+        let numbered = (2..).map(|number| format!("{wanted}-{kind}-{number}"));
+        let mut names = [wanted.to_owned(), format!("{wanted}-{kind}")].into_iter().chain(numbered);
+        names.find(|name| !taken(name)).unwrap_or_default()
+    }
+
     /// The name of a part, that of its first body.
     pub(crate) fn name(&self, side: Side) -> &str {
         side.map_or("world", |part| &self.tree.bodies[self.parts.parts[part].lead].name)

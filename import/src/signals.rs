@@ -9,10 +9,10 @@ use crate::element::Element;
 use crate::error::Fault;
 use crate::joints::spring_along;
 use crate::mechanism::{Mechanism, Signal, Type};
+use crate::notation::{text, vector};
 use crate::omission::{Kind, Omissions};
 use crate::settings::Settings;
 use crate::tree::Tree;
-use crate::write::{text, vector};
 
 /// Adds inputs and read-outs in the order of the file.
 pub(crate) fn add(
@@ -125,7 +125,8 @@ fn actuator(
         }
     }
     let gear = given.numbers("gear", 1, 6)?.map_or(1.0, |gear| gear[0]);
-    let name = element.text("name").map_or_else(|| format!("{}-motor", named.value), str::to_owned);
+    let wanted = element.text("name").unwrap_or(&named.value);
+    let name = mechanism.signal_name(wanted, "motor", &mechanism.inputs);
     let source = (format!("<motor>: {force} = {gear} × its control"), element.place);
     mechanism.inputs.push(Signal {
         name,
@@ -139,8 +140,8 @@ fn actuator(
 /// Adds a sensor's read-out, if it has one.
 fn sensor(mechanism: &mut Mechanism<'_>, element: &Element) -> Result<bool, Fault> {
     let kind = element.name.as_str();
-    let name =
-        |of: &str| element.text("name").map_or_else(|| format!("{of}-{kind}"), str::to_owned);
+    let wanted = element.text("name").or(element.text("joint")).or(element.text("objname"));
+    let name = mechanism.signal_name(wanted.unwrap_or(kind), kind, &mechanism.readouts);
     if let ("jointpos" | "jointvel", Some(joint)) = (kind, element.text("joint")) {
         let Some((lead, link, Freedom::Hinge)) = target(mechanism, joint) else { return Ok(false) };
         let held = mechanism.links.iter().find(|one| one.name == link);
@@ -153,12 +154,7 @@ fn sensor(mechanism: &mut Mechanism<'_>, element: &Element) -> Result<bool, Faul
             _ => ("joint_rate", "<jointvel>".to_owned()),
         };
         let keys = vec![format!("target = {}", text(&link))];
-        mechanism.readouts.push(Signal {
-            name: name(joint),
-            kind,
-            keys,
-            source: (words, element.place),
-        });
+        mechanism.readouts.push(Signal { name, kind, keys, source: (words, element.place) });
         return Ok(true);
     }
     let (Some(of), Some(named)) = (element.text("objtype"), element.attribute("objname")) else {
@@ -186,6 +182,6 @@ fn sensor(mechanism: &mut Mechanism<'_>, element: &Element) -> Result<bool, Faul
         format!("point = {}", vector(at, mechanism.size())),
     ];
     let source = (format!("<framepos> of {of} `{}`", named.value), element.place);
-    mechanism.readouts.push(Signal { name: name(&named.value), kind: "point", keys, source });
+    mechanism.readouts.push(Signal { name, kind: "point", keys, source });
     Ok(true)
 }

@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 use nalgebra::Vector3;
 
 use crate::mechanism::{Mechanism, Side, Signal, Source, Type};
+use crate::notation::{line, number, snapped, text, vector};
 use crate::omission::Kind;
 use crate::options::Weld;
 use crate::place::{Place, Texts};
@@ -14,12 +15,6 @@ use crate::settings::Settings;
 
 /// How an imported scene begins.
 pub(crate) const HEAD: &str = "# Imported by `host-sim import` from ";
-
-/// Coordinates below this share of the mechanism's size are rounding.
-const ROUNDING: f64 = 1e-15;
-
-/// A name is at most so many bytes long.
-const LONGEST: usize = 200;
 
 /// What is written at the top.
 pub(crate) struct Head<'h> {
@@ -220,41 +215,4 @@ fn comment(out: &mut String, (words, place): &Source, texts: &Texts) {
 fn between(mechanism: &Mechanism<'_>, sides: [Side; 2]) -> String {
     let [first, second] = sides.map(|side| text(mechanism.name(side)));
     format!("[{first}, {second}]")
-}
-
-/// A text on one line without marks that no comment and no name can hold.
-fn line(text: &str) -> String {
-    text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
-}
-
-/// A text in quotes, no longer than a name may be.
-pub(crate) fn text(text: &str) -> String {
-    let mut quoted = String::from("\"");
-    for letter in line(text).chars() {
-        if quoted.len() + letter.len_utf8() > LONGEST {
-            break;
-        }
-        if matches!(letter, '"' | '\\') {
-            quoted.push('\\');
-        }
-        quoted.push(letter);
-    }
-    quoted.push('"');
-    quoted
-}
-
-/// A number as TOML has it.
-fn number(value: f64) -> String {
-    format!("{:?}", value + 0.0)
-}
-
-/// 0 instead of what only rounding has left of a coordinate.
-fn snapped(value: f64, size: f64) -> f64 {
-    if value.abs() < ROUNDING * size { 0.0 } else { value }
-}
-
-/// Three numbers as TOML has them.
-pub(crate) fn vector(vector: Vector3<f64>, size: f64) -> String {
-    let parts = [vector.x, vector.y, vector.z].map(|part| number(snapped(part, size)));
-    format!("[{}]", parts.join(", "))
 }

@@ -1,0 +1,233 @@
+//! What is refused, where, and how it looks on the command line.
+
+use std::fs;
+use std::path::Path;
+
+use dbd_import::{ImportError, Kind, Options, import_text};
+use host_sim::cli::main_with;
+use host_sim::terminal::{Console, Exit};
+
+/// A text's refusal: line, column, what is wrong, what would be right.
+fn refusal(text: &str) -> (usize, usize, String, String) {
+    match import_text(text, "test.xml", Path::new(""), &Options::default()) {
+        Err(ImportError::Refused(refusal)) => {
+            (refusal.line, refusal.column, refusal.message.clone(), refusal.help.clone())
+        }
+        other => panic!("{text}: {other:?}"),
+    }
+}
+
+/// A text with a hinged body, beside which these stand: in the body, in the world, in `<mujoco>`.
+fn with(in_body: &str, in_world: &str, beside: &str) -> String {
+    format!(
+        "<mujoco>\n<worldbody>\n<body name='a'>\n<joint name='h'/>\n\
+         <inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>\n{in_body}\n</body>\n{in_world}\n\
+         </worldbody>\n{beside}\n</mujoco>"
+    )
+}
+
+#[test]
+fn what_is_wrong_is_named_with_its_place() {
+    let body = |inner: &str| {
+        format!("<mujoco><worldbody><body name='a'>{inner}</body></worldbody></mujoco>")
+    };
+    for (text, line, message, help) in [
+        ("<robot/>".into(), 1, "begins with <robot>", "URDF"),
+        (with("", "", "<actuators/>"), 10, "<actuators> is no section", "<actuator>"),
+        (with("<geom size='x'/>", "", ""), 6, "`size` holds \"x\"", "numbers"),
+        (with("<geom size='nan'/>", "", ""), 6, "`size` holds \"nan\"", "numbers"),
+        (with("<geom type='bx'/>", "", ""), 6, "`type` is \"bx\"", "\"box\""),
+        (with("<geom type='box' size='1 1'/>", "", ""), 6, "`size` of a box is", "3 numbers > 0"),
+        (with("<geom class='bar'/>", "", ""), 6, "there is no class \"bar\"", "<default>"),
+        (with("", "<body name='a'/>", ""), 8, "a body `a` is there already, line 3", "its own"),
+        (with("<body><joint name='h'/></body>", "", ""), 6, "is there already, line 4", "its own"),
+        (with("<body name='b'><freejoint/></body>", "", ""), 6, "free joint", "world"),
+        (with("<body quat='0 0 0 0'/>", "", ""), 6, "`quat` is 0", "length"),
+        (with("<body quat='1 0 0 0' euler='0 0 0'/>", "", ""), 6, "two ways", "one of"),
+        (with("", "<joint/>", ""), 8, "stands in the world", "<body>"),
+        (with("", "", "<include file='none.xml'/>"), 10, "cannot read none.xml", "folder"),
+        (with("", "", "<include/>"), 10, "includes no file", "file"),
+        (with("", "", "<compiler coordinate='global'/>"), 10, "global", "local"),
+        (with("", "", "<compiler eulerseq='xyw'/>"), 10, "`eulerseq` is \"xyw\"", "three of"),
+        (
+            with("", "", "<equality><connect body1='b' anchor='0 0 0'/></equality>"),
+            10,
+            "no body `b`",
+            "`a`",
+        ),
+        (with("", "", "<equality><connect body1='a'/></equality>"), 10, "no `anchor`", "site1"),
+        (with("", "", "<actuator><motor joint='g'/></actuator>"), 10, "no joint `g`", "`h`"),
+        (body(""), 1, "nothing moves", "<joint>"),
+        (body("<joint/>"), 1, "moves and has no mass", "<inertial>"),
+        (
+            body("<joint/><inertial pos='0 0 0' mass='1'/>"),
+            1,
+            "principal moments 0",
+            "boundinertia",
+        ),
+        (
+            body("<joint/><inertial pos='0 0 0' mass='1' diaginertia='1 1 3'/>"),
+            1,
+            "exceeds",
+            "balance",
+        ),
+        (body("<joint axis='0 0 0'/>"), 1, "`axis` is 0", "length"),
+        (body("<joint stiffness='-1'/>"), 1, "`stiffness` is -1", "≥ 0"),
+        (
+            body("<inertial pos='0 0 0' mass='1' euler='1 0 0' fullinertia='1 1 1 0 0 0'/>"),
+            1,
+            "`fullinertia`",
+            "one",
+        ),
+        ("<mujoco><default><default/></default></mujoco>".into(), 1, "has no class", "name"),
+        ("<mujoco/>".into(), 1, "has no bodies", "<worldbody>"),
+    ] {
+        let (found, _, said, remedy) = refusal(&text);
+        assert_eq!(found, line, "{text}: {said}");
+        assert!(said.contains(message), "{text}: {said}");
+        assert!(remedy.contains(help), "{text}: {remedy}");
+    }
+}
+
+/// Each thing that has no counterpart, with its line and its size.
+#[test]
+fn what_has_no_counterpart_is_listed_by_line_with_its_size() {
+    let text = with(
+        "<joint name='second' type='slide'/>\n\
+         <geom name='ball' size='0.1'/>\n\
+         <body name='b' gravcomp='1'><joint name='j' type='ball' damping='0.3'/><geom size='0.2' contype='0' conaffinity='0'/>\
+         <body name='tip' gravcomp='1' mass='3'><geom type='mesh' mesh='m'/></body></body>\n\
+         <body name='d'><joint name='k' stiffness='1 0.5' armature='0.01' frictionloss='0.2' range='-45 45'/>\
+         <geom size='0.1' contype='0' conaffinity='0' fluidshape='ellipsoid'/></body>",
+        "<geom name='floor' type='plane' size='1 1 1'/>\n<body name='hand' mocap='true'/>\n<replicate count='3'/>",
+        "<option viscosity='0.002'/>\n\
+         <tendon><spatial name='cord' stiffness='7'><site site='x'/></spatial></tendon>\n\
+         <equality><joint name='mimic' joint1='h' joint2='k' polycoef='0 2 0 0 0'/></equality>\n\
+         <actuator><motor name='m' joint='h' ctrlrange='-1 1'/><position name='p' joint='h' kp='9'/></actuator>",
+    );
+    let Err(ImportError::Omitted { omissions, .. }) =
+        import_text(&text, "test.xml", Path::new(""), &Options::default())
+    else {
+        panic!();
+    };
+    let found: Vec<(usize, Kind, &str)> =
+        omissions.iter().map(|o| (o.line, o.kind, o.what.as_str())).collect();
+    let expected = [
+        (6, Kind::Joints, "slide `second` of body `a` beside h: one joint per body is taken"),
+        (7, Kind::Contact, "geom `ball`, sphere, radius 0.1 m: may touch 1 other"),
+        (
+            8,
+            Kind::GravityCompensation,
+            "gravcomp=1 of body `b`, whose centre of mass is not that of all that is rigid with it",
+        ),
+        (8, Kind::Spring, "ball `j`: damping 0.3 N·m·s/rad"),
+        (
+            8,
+            Kind::GravityCompensation,
+            "gravcomp=1 of body `tip`, whose centre of mass is not that of all that is rigid with it",
+        ),
+        (8, Kind::Unknown, "`mass` of body `tip`"),
+        (8, Kind::Mesh, "geom, mesh: its mass and inertia in body `tip`"),
+        (8, Kind::Contact, "geom, mesh: may touch 1 other"),
+        (9, Kind::Limit, "hinge `k`: -0.785398 to 0.785398 rad, -45.0000° to 45.0000°"),
+        (9, Kind::Armature, "hinge `k`: armature 0.01 kg·m²"),
+        (9, Kind::FrictionLoss, "hinge `k`: dry friction 0.2 N·m"),
+        (9, Kind::Spring, "hinge `k`: stiffness [1.0, 0.5], which is not linear"),
+        (9, Kind::Fluid, "geom, sphere, radius 0.1 m: resistance of a medium"),
+        (11, Kind::Contact, "geom `floor`, plane: may touch 2 others"),
+        (12, Kind::Mocap, "body `hand`, which is moved from outside, stands still"),
+        (13, Kind::Generated, "<replicate>, which makes parts that are not in the file"),
+        (15, Kind::Fluid, "viscosity 0.002 Pa·s of the medium"),
+        (16, Kind::Tendon, "spatial `cord`: 1 points or joints stiffness 7"),
+        (17, Kind::Equality, "joint `mimic`: joint1 h, joint2 k, polycoef 0 2 0 0 0"),
+        (18, Kind::Limit, "motor `m`: ctrlrange -1 to 1"),
+        (18, Kind::Actuator, "position `p`, joint h, kp 9"),
+    ];
+    assert_eq!(found, expected);
+    // All of them together can be left out.
+    let ignored = Kind::ALL.to_vec();
+    let all = Options { ignored, ..Options::default() };
+    assert_eq!(import_text(&text, "test.xml", Path::new(""), &all).unwrap().omitted.len(), 21);
+}
+
+/// What is turned off in the file is not missed.
+#[test]
+fn what_the_file_turns_off_is_not_listed() {
+    let text = with(
+        "<body><joint range='-1 1' frictionloss='1' stiffness='3'/><geom size='0.1'/></body>",
+        "<geom size='1'/>",
+        "<option><flag contact='disable' limit='disable' frictionloss='disable' spring='disable'/></option>",
+    );
+    let made = import_text(&text, "test.xml", Path::new(""), &Options::default()).unwrap();
+    assert!(made.omitted.is_empty() && !made.scene.contains("torsion_spring"));
+}
+
+/// Files include each other once, from the folder of the first.
+#[test]
+fn files_that_are_included_keep_their_places() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    file("round.xml", "<mujocoinclude><include file='round.xml'/></mujocoinclude>");
+    file("limit.xml", "<mujocoinclude>\n\n<joint name='k' range='-1 1'/></mujocoinclude>");
+    let made = |text: &str| import_text(text, "test.xml", folder.path(), &Options::default());
+    let Err(ImportError::Refused(refusal)) = made("<mujoco><include file='round.xml'/></mujoco>")
+    else {
+        panic!();
+    };
+    assert!(refusal.message.contains("round.xml a second time"), "{refusal}");
+    let text = with("<body><include file='limit.xml'/><geom size='1'/></body>", "", "");
+    let Err(ImportError::Omitted { omissions, .. }) = made(&text) else { panic!() };
+    assert!(omissions[0].file.ends_with("limit.xml"), "{omissions:?}");
+    assert_eq!((omissions.len(), omissions[0].line), (1, 3));
+}
+
+/// Calls the command line: exit code, standard output, standard error.
+fn call(arguments: &[&str]) -> (Exit, String, String) {
+    let (mut out, mut err) = (Vec::new(), Vec::new());
+    let mut console = Console { out: &mut out, err: &mut err, terminal: false };
+    let line = ["host-sim", "import"].iter().chain(arguments);
+    let exit = main_with(line, &mut console);
+    (exit, String::from_utf8(out).unwrap(), String::from_utf8(err).unwrap())
+}
+
+#[test]
+fn the_command_refuses_lists_and_writes() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (xml, toml) = (path("a.xml"), path("a.toml"));
+    fs::write(
+        &xml,
+        with("<body name='b'><joint name='k' armature='0.01'/><geom size='1'/></body>", "", ""),
+    )
+    .unwrap();
+    let (exit, out, err) = call(&[&xml, "--out", &toml]);
+    assert_eq!((exit, out.as_str()), (Exit::Refused, ""));
+    assert!(err.contains("a.xml:6") && err.contains("armature 0.01 kg·m²"), "{err}");
+    assert!(err.contains("--ignore armature"), "{err}");
+    assert!(!Path::new(&toml).exists());
+    let (exit, out, _) = call(&[&xml, "--list"]);
+    assert_eq!((exit, out.lines().count()), (Exit::Done, 1));
+    let (exit, out, err) = call(&[&xml, "--ignore", "armature", "--out", &toml]);
+    assert_eq!((exit, out.as_str()), (Exit::Done, ""), "{err}");
+    assert!(err.contains("note: left out"), "{err}");
+    assert!(fs::read_to_string(&toml).unwrap().contains("name = \"a\""));
+    // Again, and not over another's file.
+    assert_eq!(call(&[&xml, "--ignore", "all", "--out", &toml]).0, Exit::Done);
+    fs::write(&toml, "name = \"mine\"\n").unwrap();
+    let (exit, _, err) = call(&[&xml, "--ignore", "all", "--out", &toml]);
+    assert_eq!(exit, Exit::Refused);
+    assert!(err.contains("holds what host-sim has not imported"), "{err}");
+    for wrong in [
+        &["--ignore", "limits"][..],
+        &["--stiffness", "0"],
+        &["--stiffness", "nan"],
+        &["--damping", "-1"],
+    ] {
+        assert_eq!(call(&[&[xml.as_str()], wrong].concat()).0, Exit::Refused, "{wrong:?}");
+    }
+    let (exit, _, err) = call(&[&path("none.xml")]);
+    assert!(exit == Exit::Refused && err.contains("cannot read"), "{err}");
+    // A size at which no joint can be made: what is written can be run, or is not written.
+    let (exit, _, err) = call(&[&xml, "--ignore", "all", "--span", "1e-300"]);
+    assert!(exit == Exit::Refused && err.contains("becomes is refused"), "{err}");
+}
