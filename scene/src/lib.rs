@@ -8,12 +8,15 @@ mod assembly;
 mod body;
 pub mod build;
 mod columns;
+mod defaults;
+mod derived;
 mod direction;
 mod error;
 pub mod export;
 mod facts;
 mod file_lines;
 mod hinge;
+mod inertia;
 mod input;
 mod joints;
 mod links;
@@ -44,6 +47,7 @@ use std::path::Path;
 
 pub use build::{Build, build};
 pub use columns::{BODY_COLUMNS, ENERGY_COLUMNS};
+pub use derived::DerivedBody;
 pub use error::{Refusal, SceneError};
 pub use facts::{ElementDamping, ElementFrequency, Facts, Island, JointElement, JointFacts};
 pub use hinge::Hinge;
@@ -76,6 +80,7 @@ const KEYS: &[&str] = &[
     "step",
     "every",
     "points",
+    "defaults",
     "body",
     "joint",
     "tsda",
@@ -111,6 +116,8 @@ pub struct Scene {
     pub inputs: Vec<InputInfo>,
     /// The read-outs in scene order.
     pub readouts: Vec<ReadoutInfo>,
+    /// What came of bodies whose mass, inertia or axes are not written as numbers, in scene order.
+    pub derived: Vec<DerivedBody>,
     /// The changes of the file's values as they were given, each `PATH=VALUE`.
     pub changes: Vec<String>,
     /// What they changed.
@@ -227,7 +234,8 @@ impl Scene {
 
         let mut assembly = Assembly::default();
         assembly.set_gravity(gravity.unwrap_or_default());
-        body::read_all(&root, &mut assembly)?;
+        defaults::check(&root)?;
+        let derived = body::read_all(&root, &mut assembly)?;
         let mut elements = Elements::default();
         let joints = joints::read_all(&root, &mut assembly, &mut elements)?;
         let mut raw_names = tsda::read_all(&root, &mut assembly, &mut elements)?;
@@ -253,6 +261,7 @@ impl Scene {
             file_lines: FileLines::of(&root)?,
             origin: Origin::of(source, &root),
             written_angles: written::angles(&root)?,
+            derived,
             changes: given,
             changed,
             raw_names,
