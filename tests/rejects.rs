@@ -121,7 +121,7 @@ const CASES: &[Case] = &[
     case("mass = 1.5", "mass = «]", "missing array opening", "expected `[`"),
     case("mass = 1.5", "mass = 1.5\n«mass = 1.6", "duplicate key", "a key stands once in its table"),
     case("\"arm\"\nmass = 1.5", "\"arm«\nmass = 1.5", "invalid basic string", "expected `\"`"),
-    case("duration = 0.5", "duration = 0.5«s", "invalid float", "a unit does not follow it"),
+    case("duration = 0.5", "duration = 0.5«s", "invalid float", "with its unit or in a sum it stands in quotes"),
 
     case("duration = 0.5", "duration = 0«,5", "unexpected key or value", "a decimal point"),
     case("mass = 1.5", "mass = «heavy", "a text without quotes", "in quotes: \"heavy\""),
@@ -134,10 +134,10 @@ const CASES: &[Case] = &[
     case("[[torsion_spring]]", "[[torsion_spring]«\n", "unclosed array table", "closed by two"),
 
     // Times.
-    case("duration = 0.5", "duration = «\"0.5 min\"", "`duration` of the scene is \"0.5 min\"", "s, ms, us, ns"),
+    case("duration = 0.5", "duration = «\"0.5 km\"", "`duration` of the scene is \"0.5 km\", a value in m", "\"20us\""),
     case("duration = 0.5", "duration = «\"0us\"", "is \"0us\"", "a finite number > 0 in s"),
-    case("from = 0.25", "from = «\"soon\"", "`from` of load 1 is \"soon\"", "\"20us\""),
-    case("from = 0.25", "from = «\"1e999s\"", "`from` of load 1 is \"1e999s\"", "\"20us\""),
+    case("from = 0.25", "from = \"«soon\"", "`from` of load 1: `soon` is neither a unit nor", "\"20us\""),
+    case("from = 0.25", "from = \"«1e999s\"", "`from` of load 1: a value is too large", "\"20us\""),
 
     // Types of joints by other names.
     case("\"spherical\"", "«\"ball\"", "`type` of joint `wrist` is \"ball\"", "did you mean \"spherical\"?"),
@@ -196,9 +196,9 @@ const CASES: &[Case] = &[
     case("[\"arm\", \"hand\"]", "«\"arm\"", "`between` of joint `wrist` is a string", "the names of two different bodies"),
     case("[\"arm\", \"hand\"]", "«[\"arm\"]", "`between` of joint `wrist` has 1 entry", "the names of two different bodies"),
     case("[\"arm\", \"hand\"]", "[«1, \"hand\"]", "`between`[0] of joint `wrist` is an integer", "the name of a body or \"world\""),
-    case("stiffness = 9e6", "stiffness = «\"stiff\"", "`stiffness` of joint `shoulder` is a string", "{ load = N, deflection = m }"),
+    case("stiffness = 9e6", "stiffness = \"«stiff\"", "`stiffness` of joint `shoulder`: `stiff` is neither", "≥ 0 in N/m"),
     case("[[2, 0, 0], [0.1, 0, 0]]", "[[2, 0, 0], «[0.1, 0]]", "`points`[1] of tsda 1 has 2 entries", "3 finite numbers in m"),
-    case("[[2, 0, 0], [0.1, 0, 0]]", "[[2, 0, 0], [0.1, «\"0\", 0]]", "`points`[1][1] of tsda 1 is a string", "a finite number in m"),
+    case("[[2, 0, 0], [0.1, 0, 0]]", "[[2, 0, 0], [0.1, «\"0 s\", 0]]", "`points`[1][1] of tsda 1 is \"0 s\", a value in s", "a finite number in m"),
     case("[[load]]", "«[load]", "opened by [load], in one bracket", "opened by [[load]]"),
 
     // Numbers that are not finite.

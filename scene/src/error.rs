@@ -6,6 +6,8 @@ use std::io;
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode, SourceSpan};
 use thiserror::Error;
 
+use crate::quantity::Scope;
+
 /// A scene that cannot be read, or that is refused.
 ///
 /// Displayed on one line as what is wrong; place and help are in the accessors and the diagnostic.
@@ -104,7 +106,7 @@ impl Diagnostic for SceneError {
     }
 }
 
-/// The text of a scene and its file's name.
+/// The text of a scene, its file's name, and what the text's names stand for.
 #[derive(Clone, Copy)]
 pub(crate) struct Source<'t> {
     /// The name used in messages.
@@ -113,6 +115,8 @@ pub(crate) struct Source<'t> {
     pub(crate) text: &'t str,
     /// How long the file's is.
     pub(crate) own: usize,
+    /// What names in values stand for, once it is known.
+    pub(crate) scope: Option<&'t Scope>,
 }
 
 impl<'t> Source<'t> {
@@ -121,13 +125,18 @@ impl<'t> Source<'t> {
 
     /// The text of a file, without changes.
     pub(crate) fn of(file: &'t str, text: &'t str) -> Self {
-        Self { file, text, own: text.len() }
+        Self { file, text, own: text.len(), scope: None }
+    }
+
+    /// Whether a byte is one of a change.
+    pub(crate) fn is_change(self, byte: usize) -> bool {
+        byte > self.own && self.text.len() > self.own
     }
 
     /// What a byte belongs to, and where that begins: the file, or the line of a change.
     fn part(self, byte: usize) -> (Self, usize) {
         let own = |text| (Self { text, ..self }, 0);
-        if byte <= self.own || self.text.len() == self.own {
+        if !self.is_change(byte) {
             return own(self.text.get(..self.own).unwrap_or(self.text));
         }
         let byte = byte.min(self.text.len());

@@ -31,6 +31,7 @@ pub mod parameters;
 mod point_on_line;
 mod points;
 mod precise;
+pub mod quantity;
 mod readout;
 mod runtime;
 mod shortened;
@@ -64,10 +65,11 @@ use dbd_kernel::readouts::Readout;
 use dbd_kernel::{F64, Geometry};
 
 use crate::assembly::Assembly;
+use crate::error::Source;
 use crate::file_lines::FileLines;
 use crate::hinge::Known;
 use crate::origin::Origin;
-use crate::parameters::{Changed, Changes};
+use crate::parameters::{Changed, Changes, Parameter};
 use crate::target::Elements;
 use crate::text::{Number, Numbers, Seconds, Text};
 use crate::written::WrittenAngle;
@@ -81,6 +83,7 @@ const KEYS: &[&str] = &[
     "every",
     "points",
     "defaults",
+    "parameters",
     "body",
     "joint",
     "tsda",
@@ -118,6 +121,8 @@ pub struct Scene {
     pub readouts: Vec<ReadoutInfo>,
     /// What came of bodies whose mass, inertia or axes are not written as numbers, in scene order.
     pub derived: Vec<DerivedBody>,
+    /// The values that `[parameters]` names, in the order of the file, as they are with the changes.
+    pub parameters: Vec<Parameter>,
     /// The changes of the file's values as they were given, each `PATH=VALUE`.
     pub changes: Vec<String>,
     /// What they changed.
@@ -222,9 +227,16 @@ impl Scene {
         let changes = Changes::read(text, changes)?;
         let source = changes.source(file);
         let mut document = text::parse(source)?;
+        let before = match &changes.is_empty() {
+            true => None,
+            false => parameters::read(&text::root(source, &document), None).ok(),
+        };
         let changed = changes.apply(file, &mut document)?;
         let root = text::root(source, &document);
         root.only(&[KEYS])?;
+        let scope = parameters::read(&root, before.as_ref())?;
+        let source = Source { scope: Some(&scope), ..source };
+        let root = text::root(source, &document);
         let name = root.required("name", Text::Name)?;
         let description = root.optional("description", Text::Any)?.unwrap_or_default();
         let duration = root.required("duration", Seconds::positive())?;
@@ -262,6 +274,7 @@ impl Scene {
             origin: Origin::of(source, &root),
             written_angles: written::angles(&root)?,
             derived,
+            parameters: parameters::all(&root, &scope),
             changes: given,
             changed,
             raw_names,

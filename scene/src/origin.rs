@@ -50,7 +50,7 @@ impl Origin {
 
     pub(crate) fn refuse(&self, setting: Setting, message: &str, help: &str) -> Option<SceneError> {
         let place = self.places[setting as usize].clone()?;
-        let source = Source { file: &self.file, text: &self.text, own: self.own };
+        let source = Source { own: self.own, ..Source::of(&self.file, &self.text) };
         Some(source.refuse(place, message, help))
     }
 }

@@ -86,7 +86,7 @@ impl Kind for Stiffness {
 
     fn read(&self, value: &Value<'_>) -> Result<f64, SceneError> {
         if !value.get().is_table() {
-            if !(value.get().is_float() || value.get().is_integer()) {
+            if !(value.get().is_float() || value.get().is_integer() || value.get().is_str()) {
                 return Err(value.wrong_type(&self.expected()));
             }
             return Number::not_negative(self.0.stiffness).read(value);

@@ -1,15 +1,13 @@
-//! Times with a unit, in scenes and on the command line: `20us`, `0.02ms`, `5e-2s`.
+//! Times on the command line and in reports: `20us`, `0.02ms`, `5e-2s`.
 //!
-//! `text => seconds` and back. A time is one decimal number: its unit shifts the decimal exponent
-//! in the text, which is then read once. `20us` is thus the f64 nearest to 20e-6, the same as
-//! `0.02ms` and `2e-5`, a number of seconds; 20.0·1e-6 would be another one.
+//! `text => seconds` and back. A text is read as in a scene ([`quantity`](crate::quantity)): `20us` is the f64
+//! nearest to 20e-6, the same as `0.02ms` and `2e-5`, a number of seconds; 20.0·1e-6 would be another
+//! one.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// Spellings of the units and their decimal exponents; the longer before those they end on.
-const UNITS: [(&str, i32); 6] =
-    [("ns", -9), ("us", -6), ("µs", -6), ("μs", -6), ("ms", -3), ("s", 0)];
+use crate::quantity::{dimension_of, evaluate};
 
 /// A positive, finite time \[s\].
 ///
@@ -23,7 +21,7 @@ pub struct Time(f64);
 pub enum TimeError {
     /// Not a decimal number, with or without a unit.
     #[error(
-        "a time is a number of seconds, or a number with a unit (s, ms, us, ns), for example 20us"
+        "a time is a number of seconds, or a number with a unit (s, ms, us, ns, min), for example 20us"
     )]
     Malformed,
     /// Zero, negative, or beyond what an f64 can hold.
@@ -55,18 +53,18 @@ impl FromStr for Time {
     }
 }
 
-/// \[s\] what a text says: a number of seconds, or one with a unit; of any sign, and infinite where
-/// it is too large to hold.
+/// \[s\] what a text says: a number of seconds, or a value in a unit of time; of any sign.
 ///
 /// # Errors
-/// [`TimeError::Malformed`]; [`TimeError::Range`] where its exponent is beyond all measure.
+/// [`TimeError::Malformed`]; [`TimeError::Range`] where it is too large to hold.
 pub fn seconds(text: &str) -> Result<f64, TimeError> {
-    let text = text.trim();
-    let unit = UNITS.iter().find_map(|(name, shift)| Some((text.strip_suffix(name)?, *shift)));
-    let (number, shift) = unit.unwrap_or((text, 0));
-    let (mantissa, exponent) = split_exponent(number.trim_end()).ok_or(TimeError::Malformed)?;
-    let shifted = exponent.checked_add(shift).ok_or(TimeError::Range)?;
-    format!("{mantissa}e{shifted}").parse().map_err(|_| TimeError::Malformed)
+    match evaluate(text) {
+        Ok(time) if time.dimension.is_none() || time.dimension == dimension_of("s") => {
+            Ok(time.value)
+        }
+        Err(fault) if fault.is_too_large => Err(TimeError::Range),
+        Ok(_) | Err(_) => Err(TimeError::Malformed),
+    }
 }
 
 /// Splits `-1.5e-3` into `-1.5` and −3; `None` where it is not a decimal number.
@@ -160,13 +158,15 @@ mod tests {
         assert_eq!(read("3"), Ok(3.0));
         assert_eq!(read("100ns"), Ok(1e-7));
         assert_eq!(read("+1E+3 ms"), Ok(1.0));
+        assert_eq!(read("5min"), Ok(300.0));
         // A product would round twice and miss the nearest number.
         assert_ne!(read("20us"), Ok(20.0 * 1e-6));
     }
 
     #[test]
     fn what_is_not_a_time_is_refused() {
-        for text in ["", "us", "fast", "1,5ms", "1.2.3s", "0x10s", "infs", "nans", "1e5e5s", "5min"]
+        for text in
+            ["", "us", "fast", "1,5ms", "1.2.3s", "0x10s", "infs", "nans", "1e5e5s", "5m", "2 * L"]
         {
             assert_eq!(read(text), Err(TimeError::Malformed), "{text}");
         }

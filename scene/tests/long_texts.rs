@@ -111,7 +111,8 @@ fn endless_texts_are_refused_at_once_and_not_repeated() {
     }
     let line = |from: &str, to: String, column: usize| (from.to_owned(), to, column);
     cases.extend([
-        line("duration = 1", quoted("duration"), 12),
+        // The word within the quotes.
+        line("duration = 1", quoted("duration"), 13),
         line("duration = 1", format!("duration = {endless}"), 12),
         line("duration = 1", format!("duration = -{}", "1".repeat(150_000)), 12),
         line("duration = 1", format!("duration = 1\n{endless} = 1"), 1),

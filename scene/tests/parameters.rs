@@ -92,7 +92,7 @@ fn a_pattern_changes_all_that_it_fits_and_the_last_change_holds() {
 fn what_is_wrong_with_a_change_is_shown_in_it() {
     for (change, column, message, help) in [
         ("body.cart.mass=-1", 16, "`mass` of body `cart` is -1", "> 0 in kg"),
-        ("body.cart.mass=heavy", 16, "is a string", "kg"),
+        ("body.cart.mass=heavy", 17, "`heavy` is neither a unit nor", "> 0 in kg"),
         ("body.crat.mass=1", 6, "the scene has no body `crat`", "did you mean `cart`?"),
         ("bdoy.cart.mass=1", 1, "the scene has no key `bdoy`", "did you mean `body`?"),
         ("body.cart.mas=1", 1, "no key `mas`", "did you mean `mass`?"),

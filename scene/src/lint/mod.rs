@@ -1,6 +1,6 @@
 //! What is probably not meant in a scene that is nevertheless right.
 //!
-//! `scene => warnings`, in the order angles, bodies, joints and raw elements, torsion springs, frequencies. They stop
+//! `scene => warnings`, in the order parameters, angles, bodies, joints and raw elements, torsion springs, frequencies. They stop
 //! nothing: what cannot be run is refused when the scene is read. Every threshold is a constant
 //! beside its reason.
 
@@ -9,6 +9,7 @@ mod bodies;
 mod elements;
 mod frequencies;
 mod locked;
+mod parameters;
 mod reach;
 mod torsion_springs;
 
@@ -53,6 +54,7 @@ impl Scene {
     pub fn warnings(&self) -> Vec<Warning> {
         let facts = self.facts();
         let mut warnings = Vec::new();
+        parameters::judge(self, &mut warnings);
         angles::judge(self, &mut warnings);
         bodies::judge(self, &facts, &mut warnings);
         locked::judge(self, &facts, &mut warnings);

@@ -5,6 +5,7 @@
 //! the number from 1 of what has none; then keys, and entries of arrays from 0. A key that a table
 //! does not have is added to it.
 
+mod named;
 mod path;
 
 use toml::Spanned;
@@ -14,6 +15,8 @@ use crate::error::{SceneError, Source};
 use crate::nearest::nearest;
 use crate::shortened::shortened;
 use crate::text;
+pub use named::Parameter;
+pub(crate) use named::{all, read};
 use path::{Placed, Step};
 
 /// What a change did.
@@ -71,9 +74,14 @@ impl Changes {
         Ok(whole)
     }
 
+    /// Whether there is none.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.changes.is_empty()
+    }
+
     /// The text, the file's and the changes'.
     pub(crate) fn source<'t>(&'t self, file: &'t str) -> Source<'t> {
-        Source { file, text: &self.text, own: self.own }
+        Source { own: self.own, ..Source::of(file, &self.text) }
     }
 
     /// Puts the values into the document, one change after the other.
@@ -100,9 +108,9 @@ impl Changes {
     }
 }
 
-/// Whether a value is a text without its quotes: `20us`, `quaternion`.
+/// Whether a value is a text without its quotes: `20us`, `9 kN/mm`, `2 * L`, `quaternion`.
 fn is_word(value: &str) -> bool {
-    let plain = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '+' | ' ');
+    let plain = |c: char| c.is_alphanumeric() || "_-.+ */()^·⋅×÷−°⁻".contains(c);
     let number = value.replace('_', "").parse::<f64>().is_ok();
     let radix = ["0x", "0o", "0b"].iter().any(|prefix| value.starts_with(prefix));
     let keyword = matches!(value, "true" | "false");

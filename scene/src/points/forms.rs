@@ -233,8 +233,11 @@ fn across(table: &Table<'_>, normal: PreciseVector) -> Result<[PreciseVector; 2]
 
 /// A direction at unit length.
 pub(crate) fn precise_direction(table: &Table<'_>, key: &str) -> Result<PreciseVector, SceneError> {
+    let Some(value) = table.value(key) else {
+        return Err(table.missing(key, &Direction.expected()));
+    };
     // Refused like any other direction; its length is then brought to 1 with all digits.
-    table.required(key, Direction)?;
-    let numbers: [f64; 3] = table.required(key, Numbers(Number::any("")))?;
+    Direction.read(&value)?;
+    let numbers = Direction::numbers(&value)?;
     Ok(PreciseVector::from(numbers).unit().unwrap_or(PreciseVector::ZERO))
 }

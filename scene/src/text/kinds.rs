@@ -1,156 +1,42 @@
-//! The kinds of plain values: numbers, vectors, directions, texts, choices.
+//! The kinds of other plain values: directions, texts, choices.
 
 use dbd_kernel::Vec3;
-use toml::de::DeValue;
 
 use crate::direction::unit;
 use crate::error::SceneError;
 use crate::nearest::nearest;
+use crate::quantity::{Dimension, Quantity};
 use crate::shortened::shortened;
+use crate::text::number::Measure;
 use crate::text::value::{Kind, Value};
-use crate::time::seconds;
-
-/// A finite number; integers are numbers, too.
-#[derive(Clone, Copy)]
-pub(crate) struct Number {
-    unit: &'static str,
-    least: Least,
-}
-
-#[derive(Clone, Copy, PartialEq)]
-enum Least {
-    Any,
-    Zero,
-    AboveZero,
-}
-
-impl Number {
-    /// Any finite number.
-    pub(crate) const fn any(unit: &'static str) -> Self {
-        Self { unit, least: Least::Any }
-    }
-
-    /// A number ≥ 0.
-    pub(crate) const fn not_negative(unit: &'static str) -> Self {
-        Self { unit, least: Least::Zero }
-    }
-
-    /// A number > 0.
-    pub(crate) const fn positive(unit: &'static str) -> Self {
-        Self { unit, least: Least::AboveZero }
-    }
-
-    fn range(self) -> &'static str {
-        match self.least {
-            Least::Any => "",
-            Least::Zero => " ≥ 0",
-            Least::AboveZero => " > 0",
-        }
-    }
-
-    fn holds(self, number: f64) -> bool {
-        let right = match self.least {
-            Least::Any => true,
-            Least::Zero => number >= 0.0,
-            // A subnormal number has no finite inverse.
-            Least::AboveZero => number >= f64::MIN_POSITIVE,
-        };
-        right && number.is_finite()
-    }
-
-    fn in_unit(self) -> String {
-        if self.unit.is_empty() { String::new() } else { format!(" in {}", self.unit) }
-    }
-}
-
-impl Kind for Number {
-    type Output = f64;
-
-    fn expected(&self) -> String {
-        format!("a finite number{}{}", self.range(), self.in_unit())
-    }
-
-    fn read(&self, value: &Value<'_>) -> Result<f64, SceneError> {
-        let number = number(value).ok_or_else(|| value.wrong_type(&self.expected()))?;
-        if !self.holds(number) {
-            return Err(
-                value.refuse(&format!("is {}", shortened(value.written())), &self.expected())
-            );
-        }
-        Ok(number)
-    }
-}
-
-/// A time: a number of seconds, or a text with a unit such as `"20us"`.
-#[derive(Clone, Copy)]
-pub(crate) struct Seconds(Number);
-
-impl Seconds {
-    /// Any finite time.
-    pub(crate) const fn any() -> Self {
-        Self(Number::any("s"))
-    }
-
-    /// A time > 0.
-    pub(crate) const fn positive() -> Self {
-        Self(Number::positive("s"))
-    }
-}
-
-impl Kind for Seconds {
-    type Output = f64;
-
-    fn expected(&self) -> String {
-        format!(
-            "{}, or a time in quotes with its unit (s, ms, us, ns): \"20us\"",
-            self.0.expected()
-        )
-    }
-
-    fn read(&self, value: &Value<'_>) -> Result<f64, SceneError> {
-        let Some(text) = value.get().as_str() else { return self.0.read(value) };
-        let time = seconds(text).ok().filter(|time| self.0.holds(*time));
-        time.ok_or_else(|| {
-            value.refuse(&format!("is {}", shortened(value.written())), &self.expected())
-        })
-    }
-}
-
-/// The number nearest to what is written; one too large to write down is infinite.
-fn number(value: &Value<'_>) -> Option<f64> {
-    match value.get() {
-        DeValue::Float(float) => float.as_str().parse().ok(),
-        DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
-        DeValue::Integer(integer) => {
-            i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|i| i as f64)
-        }
-        _ => None,
-    }
-}
-
-/// An array of `N` numbers, each of one kind.
-#[derive(Clone, Copy)]
-pub(crate) struct Numbers<const N: usize>(pub(crate) Number);
-
-impl<const N: usize> Kind for Numbers<N> {
-    type Output = [f64; N];
-
-    fn expected(&self) -> String {
-        format!("an array of {N} finite numbers{}{}", self.0.range(), self.0.in_unit())
-    }
-
-    fn read(&self, value: &Value<'_>) -> Result<[f64; N], SceneError> {
-        let mut numbers = [0.0; N];
-        for (number, entry) in numbers.iter_mut().zip(value.entries(N, &self.expected())?) {
-            *number = self.0.read(&entry)?;
-        }
-        Ok(numbers)
-    }
-}
 
 /// A unit vector along an array of three numbers.
 #[derive(Clone, Copy)]
 pub(crate) struct Direction;
+
+impl Direction {
+    /// Its three numbers as they are written.
+    pub(crate) fn numbers(value: &Value<'_>) -> Result<[f64; 3], SceneError> {
+        let expected = Self.expected();
+        let mut vector = [0.0; 3];
+        let mut common = None;
+        for (component, entry) in vector.iter_mut().zip(value.entries(3, &expected)?) {
+            let Quantity { value: number, dimension } = Measure.read(&entry)?;
+            *component = number;
+            // A 0 is one of any dimension.
+            if number == 0.0 && dimension.is_none() {
+                continue;
+            }
+            let common = *common.get_or_insert(dimension);
+            if common != dimension {
+                let help = "the components of a direction are of one dimension, or plain numbers";
+                let problem = format!("is {}, others {}", called(dimension), called(common));
+                return Err(entry.refuse_with(&problem, help));
+            }
+        }
+        Ok(vector)
+    }
+}
 
 impl Kind for Direction {
     type Output = Vec3<f64>;
@@ -160,10 +46,13 @@ impl Kind for Direction {
     }
 
     fn read(&self, value: &Value<'_>) -> Result<Vec3<f64>, SceneError> {
-        let vector = Numbers::<3>(Number::any("")).read(value)?;
-        unit(Vec3::from_f64(vector))
+        unit(Vec3::from_f64(Self::numbers(value)?))
             .ok_or_else(|| value.refuse("has no direction", &self.expected()))
     }
+}
+
+fn called(dimension: Dimension) -> String {
+    if dimension.is_none() { "a plain number".into() } else { format!("a value in {dimension}") }
 }
 
 /// Bytes of a name in UTF-8: a folder may have it, with room for what systems add; 255 is the end.
@@ -245,30 +134,5 @@ impl Kind for Choice<'_> {
                 None => value.refuse(&problem, &self.expected()),
             }
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::error::Source;
-    use crate::text::{Number, parse, root};
-
-    #[test]
-    fn numbers_of_every_notation_are_the_nearest_doubles() {
-        for (text, expected) in [
-            ("x = 3", 3.0),
-            ("x = +1_000", 1000.0),
-            ("x = 0x1F", 31.0),
-            ("x = 0b101", 5.0),
-            ("x = 9007199254740993", 9007199254740992.0),
-            ("x = 123456789012345678901234567890", 1.2345678901234568e29),
-            ("x = 20e-6", 2e-5),
-            ("x = 1_0.5", 10.5),
-            ("x = -4.9e-324", -5e-324),
-        ] {
-            let document = parse(Source::of("f", text)).unwrap();
-            let table = root(Source::of("f", text), &document);
-            assert_eq!(table.required("x", Number::any("")).unwrap(), expected, "{text}");
-        }
     }
 }

@@ -4,10 +4,12 @@
 //! a value must be; a [`Table`] asks for it by key. Nothing here knows of bodies or joints.
 
 mod kinds;
+mod number;
 mod table;
 mod value;
 
-pub(crate) use kinds::{Choice, Direction, Number, Numbers, Seconds, Text};
+pub(crate) use kinds::{Choice, Direction, Text};
+pub(crate) use number::{Measure, Number, Numbers, Seconds};
 pub(crate) use table::{Table, root};
 pub(crate) use value::{Kind, Value};
 
@@ -43,8 +45,8 @@ fn explain(source: Source<'_>, span: &Range<usize>, message: &str) -> (String, S
     let help = match (problem, expected) {
         // `0.5s` is a float with something behind it to the parser.
         ("invalid float" | "invalid integer", "" | "nothing") => {
-            "a number is plain and in SI units, e.g. 0.5 or 2e-5; a unit does not follow it, but a \
-             time may stand in quotes: \"20us\""
+            "a number alone is in SI units, e.g. 0.5 or 2e-5; with its unit or in a sum it stands in \
+             quotes: \"20us\", \"30 deg\", \"2 * L\""
                 .into()
         }
         ("duplicate key", _) => match opened_by(source, span) {

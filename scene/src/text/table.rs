@@ -189,6 +189,15 @@ impl<'t> Table<'t> {
         })
     }
 
+    /// All keys with their places and values, in the order of the file.
+    pub(crate) fn values(&self) -> Vec<(Range<usize>, &'t str, Value<'t>)> {
+        let keys = self.entries.keys().map(|key| (key.span(), key.get_ref().as_ref()));
+        let mut keys: Vec<(Range<usize>, &str)> = keys.collect();
+        keys.sort_by_key(|(place, _)| place.start);
+        let value = |(place, key)| Some((place, key, self.value(key)?));
+        keys.into_iter().filter_map(value).collect()
+    }
+
     /// A key that must be there.
     pub(crate) fn required<K: Kind>(&self, key: &str, kind: K) -> Result<K::Output, SceneError> {
         match self.value(key) {
@@ -265,12 +274,16 @@ impl<'t> Table<'t> {
         let mut lines = Vec::new();
         for table in self.list(key)? {
             let start = table.start();
-            let between = self.source.text.get(from..start).unwrap_or_default();
-            line += between.matches('\n').count();
+            line += self.breaks(from..start);
             from = start.max(from);
             lines.push(line);
         }
         Ok(lines)
+    }
+
+    /// The line breaks between two bytes of the text.
+    pub(crate) fn breaks(&self, between: Range<usize>) -> usize {
+        self.source.text.get(between).unwrap_or_default().matches('\n').count()
     }
 
     /// Where the table begins, in bytes.

@@ -6,6 +6,7 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use crate::error::{SceneError, Source};
+use crate::quantity::Fault;
 use crate::text::Table;
 
 /// What a value must be.
@@ -56,6 +57,19 @@ impl<'t> Value<'t> {
         self.source.refuse(self.span(), format!("{key} of {owner} {problem}"), help)
     }
 
+    /// Refuses a part of its text; `text` is what it reads as.
+    pub(crate) fn refuse_within(&self, text: &str, fault: &Fault, expected: &str) -> SceneError {
+        let Self { key, owner, .. } = self;
+        let span = self.span();
+        // Where letters are written otherwise, as by \u0041, the whole text is shown.
+        let start = Some(text).filter(|text| !text.is_empty());
+        let start = start.and_then(|text| Some(span.start + self.written().find(text)?));
+        let place = start.map(|start| start + fault.place.start..start + fault.place.end);
+        let message = format!("{key} of {owner}: {fault}");
+        let help = format!("{}; {key} of {owner} must be {expected}", fault.help);
+        self.source.refuse(place.unwrap_or(span), message, help)
+    }
+
     /// Refuses its type.
     pub(crate) fn wrong_type(&self, expected: &str) -> SceneError {
         let kind = self.get().type_str();
@@ -97,6 +111,16 @@ impl<'t> Value<'t> {
             DeValue::Table(entries) => {
                 let label = format!("{} of {}", self.key, self.owner);
                 Ok(Table::new(self.source, entries, self.span(), label))
+            }
+            _ => Err(self.wrong_type(expected)),
+        }
+    }
+
+    /// A table that messages call by a name of its own.
+    pub(crate) fn labelled(&self, expected: &str, label: &str) -> Result<Table<'t>, SceneError> {
+        match self.get() {
+            DeValue::Table(entries) => {
+                Ok(Table::new(self.source, entries, self.span(), label.into()))
             }
             _ => Err(self.wrong_type(expected)),
         }

@@ -1,0 +1,14 @@
+//! Parameters that nothing names: a value that is changed in vain.
+
+use super::{Severity, Warning};
+use crate::Scene;
+
+pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
+    let unused = scene.parameters.iter().filter(|parameter| !parameter.used);
+    warnings.extend(unused.map(|parameter| Warning {
+        severity: Severity::Warning,
+        name: format!("parameter `{}`", crate::shortened(&parameter.name)),
+        line: parameter.line,
+        text: "no value of the scene names it: another value of it changes nothing".into(),
+    }));
+}

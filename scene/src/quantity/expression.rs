@@ -1,0 +1,343 @@
+//! Texts of numbers, units and names, and the arithmetic between them.
+//!
+//! `(text, names) => quantity, or a fault at its place`. One pass from left to right:
+//!
+//! ```text
+//! sum     = product (("+" | "-") product)*
+//! product = factor (("*" | "/") factor)*
+//! factor  = ("+" | "-")* (number unit? | unit | name | "(" sum ")")
+//! unit    = name of a unit (("^" whole number) | raised digits)?
+//! ```
+//!
+//! `·`, `×` and a point between units are `*`, `÷` is `/`, `−` is `-`.
+
+use std::ops::Range;
+
+use crate::quantity::decimal::Decimal;
+use crate::quantity::dimension::Dimension;
+use crate::quantity::fault::Fault;
+use crate::quantity::operand::{Operand, Worth};
+use crate::quantity::scope::Scope;
+use crate::quantity::unit::{self, Scale, Unit};
+use crate::quantity::word::{begins_word, word};
+use crate::quantity::{Quantity, scope};
+use crate::shortened::shortened;
+
+/// Brackets within brackets: a thread's smallest stack holds them many times over.
+const DEEPEST: usize = 32;
+
+/// The highest power of a unit.
+const HIGHEST: u64 = 9;
+
+/// The value of a text, its names those of a scope.
+pub(crate) fn within(text: &str, scope: Option<&Scope>) -> Result<Quantity, Fault> {
+    let mut parser = Parser { text, place: 0, scope, depth: 0, has_number: false };
+    let found = parser.sum()?;
+    if let Some(left) = parser.next() {
+        return Err(match left {
+            ')' => parser.fault(1, "a bracket is closed that is not open", "as many `(` as `)`"),
+            _ => parser.unexpected(left),
+        });
+    }
+    if !parser.has_number {
+        let help = format!("a number before it: \"1 {}\"", shortened(text.trim()));
+        return Err(Fault::new(found.place, "a unit stands without a number", help));
+    }
+    let value = found.value();
+    if !value.is_finite() {
+        return Err(Fault::too_large(found.place));
+    }
+    Ok(Quantity { value, dimension: found.dimension })
+}
+
+struct Parser<'t> {
+    text: &'t str,
+    place: usize,
+    scope: Option<&'t Scope>,
+    /// Open brackets.
+    depth: usize,
+    /// Whether there was more than units.
+    has_number: bool,
+}
+
+impl<'t> Parser<'t> {
+    fn rest(&self) -> &'t str {
+        &self.text[self.place..]
+    }
+
+    /// The next character that is not blank.
+    fn next(&mut self) -> Option<char> {
+        let rest = self.rest();
+        self.place += rest.len() - rest.trim_start().len();
+        self.rest().chars().next()
+    }
+
+    /// A fault of so many bytes from here on.
+    fn fault(&self, length: usize, message: impl Into<String>, help: impl Into<String>) -> Fault {
+        Fault::new(self.place..self.place + length, message, help)
+    }
+
+    /// The refusal of a character that cannot stand here.
+    fn unexpected(&self, found: char) -> Fault {
+        let length = found.len_utf8();
+        match found {
+            ',' => self.fault(length, "a comma in a number", "a number has a decimal point: 0.5"),
+            '^' | '²' | '³' => {
+                let help = "only a unit has a power: \"5 mm^2\"; a product is written out: L * L";
+                self.fault(length, "a power of what is no unit", help)
+            }
+            _ => {
+                let message = format!("`{found}` is no part of a value");
+                self.fault(length, message, "numbers, units, names of [parameters], + - * / ( )")
+            }
+        }
+    }
+
+    fn sum(&mut self) -> Result<Operand<'t>, Fault> {
+        let mut sum = self.product()?;
+        loop {
+            let subtracted = match self.next() {
+                Some('+') => false,
+                Some('-' | '−') => true,
+                _ => return Ok(sum),
+            };
+            self.skip();
+            let right = self.product()?;
+            sum = sum.plus(right, subtracted)?;
+        }
+    }
+
+    fn product(&mut self) -> Result<Operand<'t>, Fault> {
+        let mut product = self.factor()?;
+        loop {
+            let divided = match self.next() {
+                Some('*' | '·' | '⋅' | '×') => false,
+                Some('/' | '÷') => true,
+                Some('.') if self.rest()[1..].starts_with(begins_word) => false,
+                Some(c) if begins_word(c) || c == '(' || Decimal::begins(self.rest()).is_some() => {
+                    return Err(self.no_sign(&product));
+                }
+                _ => return Ok(product),
+            };
+            self.skip();
+            let right = self.factor()?;
+            if divided && product.dimension.is_none() && right.has_unit() {
+                return Err(self.two_ways(&product, &right));
+            }
+            product = product.times(right, divided)?;
+        }
+    }
+
+    /// The refusal of `1 / 2 mm`, which some take for half a millimetre and others for 500 1/m.
+    fn two_ways(&self, left: &Operand<'_>, right: &Operand<'_>) -> Fault {
+        let text = |place: Range<usize>| shortened(&self.text[place]).into_owned();
+        let place = left.place.start..right.place.end;
+        let divided = text(right.place.clone());
+        let before = text(place.start..right.place.start);
+        let unit = divided.trim_start_matches(|c: char| !begins_word(c) || "eE".contains(c));
+        let number = divided[..divided.len() - unit.len()].trim_end();
+        let message = format!("`{}` can be read in two ways", text(place.clone()));
+        Fault::new(place, message, format!("{before}({divided}) or {before}{number} * {unit}"))
+    }
+
+    /// The refusal of two operands without a sign between them.
+    fn no_sign(&self, left: &Operand<'_>) -> Fault {
+        let rest = self.rest();
+        let length = match Decimal::begins(rest) {
+            Some((_, length)) => length,
+            None => word(rest).len().max(1),
+        };
+        let right = &rest[..length];
+        if begins_word(right.chars().next().unwrap_or(' ')) && self.known(right).is_none() {
+            return self.unknown(right);
+        }
+        let left = shortened(self.text[left.place.clone()].trim()).into_owned();
+        let message = format!("no sign stands between `{left}` and `{}`", shortened(right));
+        let help = match right {
+            "(" => format!("`*` between them: {left} * ("),
+            _ => format!("`*` between them: {left} * {}", shortened(right)),
+        };
+        self.fault(length, message, help)
+    }
+
+    fn factor(&mut self) -> Result<Operand<'t>, Fault> {
+        let mut start = None;
+        let mut is_negative = false;
+        while let Some(sign @ ('+' | '-' | '−')) = self.next() {
+            start = start.or(Some(self.place));
+            is_negative ^= sign != '+';
+            self.skip();
+        }
+        let operand = self.atom()?;
+        let place = start.unwrap_or(operand.place.start)..operand.place.end;
+        let operand = Operand { place, ..operand };
+        Ok(if is_negative { operand.negated() } else { operand })
+    }
+
+    fn atom(&mut self) -> Result<Operand<'t>, Fault> {
+        let Some(first) = self.next() else {
+            let before = self.text.trim_end().len();
+            let message = if before == 0 { "it is empty" } else { "a number or a name is missing" };
+            return Err(Fault::new(before..before, message, "e.g. \"30 deg\", \"2 * L + 5 mm\""));
+        };
+        let start = self.place;
+        if let Some((number, length)) = Decimal::begins(self.rest()) {
+            self.place += length;
+            self.has_number = true;
+            return self.measured(number, start);
+        }
+        if first == '(' {
+            return self.bracket();
+        }
+        if !begins_word(first) {
+            return Err(match first {
+                ')' | '*' | '/' => self.fault(
+                    1,
+                    format!("a number or a name is missing before `{first}`"),
+                    "e.g. (2 * L) / 3",
+                ),
+                _ => self.unexpected(first),
+            });
+        }
+        let word = word(self.rest());
+        match self.known(word) {
+            Some(Known::Unit(unit)) => {
+                let (scale, dimension) = self.unit(unit)?;
+                let place = start..self.place;
+                Ok(Operand { worth: Worth::Unit(scale), dimension, place, is_bare: true })
+            }
+            Some(Known::Name(quantity)) => {
+                self.place += word.len();
+                self.has_number = true;
+                let worth = Worth::Computed(quantity.value);
+                let (dimension, place) = (quantity.dimension, start..self.place);
+                Ok(Operand { worth, dimension, place, is_bare: true })
+            }
+            None => Err(self.unknown(word)),
+        }
+    }
+
+    /// A number and the unit behind it, if there is one.
+    fn measured(&mut self, number: Decimal<'t>, start: usize) -> Result<Operand<'t>, Fault> {
+        let (mut scale, mut dimension, mut end) = (Scale::ONE, Dimension::default(), self.place);
+        if self.next().is_some_and(begins_word) {
+            let word = word(self.rest());
+            match self.known(word) {
+                Some(Known::Unit(unit)) => {
+                    (scale, dimension) = self.unit(unit)?;
+                    end = self.place;
+                }
+                // The product says that a sign is missing.
+                Some(Known::Name(_)) => {}
+                None => return Err(self.unknown(word)),
+            }
+        }
+        let worth = Worth::Written { number, scale, is_negative: false };
+        Ok(Operand { worth, dimension, place: start..end, is_bare: true })
+    }
+
+    fn bracket(&mut self) -> Result<Operand<'t>, Fault> {
+        let start = self.place;
+        if self.depth == DEEPEST {
+            let message = format!("brackets are nested more than {DEEPEST} deep");
+            return Err(self.fault(1, message, "a part of it as a name of [parameters]"));
+        }
+        self.depth += 1;
+        self.skip();
+        let inner = self.sum()?;
+        match self.next() {
+            Some(')') => self.skip(),
+            None => return Err(Fault::new(start..start + 1, "a bracket is not closed", "`)`")),
+            Some(found) => return Err(self.unexpected(found)),
+        }
+        self.depth -= 1;
+        // A unit in brackets is one still: N·m/(s²·rad).
+        Ok(Operand { place: start..self.place, is_bare: false, ..inner })
+    }
+
+    /// A unit with its power.
+    fn unit(&mut self, unit: &'static Unit) -> Result<(Scale, Dimension), Fault> {
+        let start = self.place;
+        self.place += unit.name.len();
+        let rest = self.rest();
+        let blank = rest.len() - rest.trim_start().len();
+        let (is_negative, size, length) = match rest[blank..].strip_prefix('^') {
+            Some(power) => {
+                let sign = usize::from(power.starts_with(['+', '-']));
+                let digits = power[sign..].bytes().take_while(u8::is_ascii_digit).count();
+                let size = power[sign..sign + digits].parse().ok();
+                (power.starts_with('-'), size, blank + 1 + sign + digits)
+            }
+            None => raised(rest),
+        };
+        let power = match size {
+            Some(0) | None => None,
+            Some(size) if size > HIGHEST => None,
+            Some(size) => Some(size),
+        };
+        let beyond = || {
+            let help = format!("a unit has a whole power from 1 to {HIGHEST}: m^2, s^-1");
+            Fault::new(start..self.place + length, "a power that no unit has", help)
+        };
+        let power = power.ok_or_else(beyond)?;
+        let (mut scale, mut dimension) = (Scale::ONE, Dimension::default());
+        for _ in 0..power {
+            scale = scale.times(unit.scale, is_negative).ok_or_else(beyond)?;
+            let sign = if is_negative { -1 } else { 1 };
+            dimension = dimension.times(unit.dimension, sign).ok_or_else(beyond)?;
+        }
+        self.place += length;
+        Ok((scale, dimension))
+    }
+
+    /// What a word names.
+    fn known(&self, word: &str) -> Option<Known> {
+        if let Some(unit) = unit::find(word) {
+            return Some(Known::Unit(unit));
+        }
+        if word == scope::PI.0 {
+            let value = scope::PI.1;
+            return Some(Known::Name(Quantity { value, dimension: Dimension::default() }));
+        }
+        self.scope?.get(word).map(Known::Name)
+    }
+
+    /// The refusal of a word that names nothing.
+    fn unknown(&self, word: &str) -> Fault {
+        let shown = shortened(word);
+        let Some(scope) = self.scope else {
+            let help = Scope::default().help(word);
+            return self.fault(word.len(), format!("`{shown}` is no unit"), help);
+        };
+        let message = format!("`{shown}` is neither a unit nor one of [parameters]");
+        self.fault(word.len(), message, scope.help(word))
+    }
+
+    fn skip(&mut self) {
+        self.place += self.rest().chars().next().map_or(0, char::len_utf8);
+    }
+}
+
+/// What a word names.
+enum Known {
+    Unit(&'static Unit),
+    Name(Quantity),
+}
+
+/// The power in raised digits: its sign, its size and its bytes; 1 where there is none.
+fn raised(text: &str) -> (bool, Option<u64>, usize) {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let unsigned = text.strip_prefix('⁻').unwrap_or(text);
+    let (mut size, mut length) = (0_u64, 0);
+    for c in unsigned.chars() {
+        let Some(digit) = DIGITS.iter().position(|raised| *raised == c) else { break };
+        size = size.saturating_mul(10).saturating_add(digit as u64);
+        length += c.len_utf8();
+    }
+    let sign = text.len() - unsigned.len();
+    match length {
+        0 if sign == 0 => (false, Some(1), 0),
+        0 => (true, None, sign),
+        _ => (sign > 0, Some(size), sign + length),
+    }
+}
