@@ -69,6 +69,14 @@ fn mechanisms_are_short() {
     }
 }
 
+/// The page shows the very file.
+#[test]
+fn the_page_shows_the_four_bar() {
+    let page = include_str!("../../docs/authoring.md");
+    let scene = include_str!("../../tests/authoring/four-bar.toml");
+    assert!(page.contains(&format!("```toml\n{scene}```")));
+}
+
 /// Legs stay as long as they are; what rests falls no further than its springs give way.
 #[test]
 fn the_stewart_platform_of_points_stands() {
@@ -86,4 +94,11 @@ fn the_stewart_platform_of_points_stands() {
         (least, greatest) = (least.min(height), greatest.max(height));
     }
     assert!(greatest - least < 1e-4 && least < begin, "{begin} {least} {greatest}");
+}
+
+/// What random texts of points begin with is a scene.
+#[test]
+fn the_seed_of_random_texts_is_taken() {
+    let scene = load("fuzz/corpus/scene/points");
+    assert_eq!((scene.body_names.len(), scene.derived.len()), (4, 4));
 }

@@ -2,7 +2,7 @@
 //!
 //! - [`list`]: the scenes that ship.
 //! - [`warnings`]: what is probably not meant, in one place for all.
-//! - [`stability`], [`check`]: what a scene is, without running it.
+//! - [`stability`], [`derived`], [`check`]: what a scene is, without running it.
 //! - [`folder`]: where results go.
 //! - [`golden`]: a run beside a golden file.
 //! - [`run`]: a scene becomes a trace, a summary and a report.
@@ -13,6 +13,7 @@
 
 pub mod check;
 pub mod completions;
+pub mod derived;
 pub mod export;
 pub mod folder;
 pub mod golden;
