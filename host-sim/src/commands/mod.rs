@@ -2,7 +2,7 @@
 //!
 //! - [`list`]: the scenes that ship.
 //! - [`warnings`]: what is probably not meant, in one place for all.
-//! - [`stability`], [`check`]: what a scene is, without running it.
+//! - [`stability`], [`derived`], [`check`]: what a scene is, without running it.
 //! - [`picture`]: the mechanism as an SVG.
 //! - [`folder`]: where results go.
 //! - [`golden`]: a run beside a golden file.
@@ -16,6 +16,7 @@
 
 pub mod check;
 pub mod completions;
+pub mod derived;
 pub mod export;
 pub mod folder;
 pub mod golden;

@@ -14,17 +14,13 @@ use crate::text::value::{Kind, Value};
 #[derive(Clone, Copy)]
 pub(crate) struct Direction;
 
-impl Kind for Direction {
-    type Output = Vec3<f64>;
-
-    fn expected(&self) -> String {
-        "an array of 3 finite numbers, not all 0, in world axes".into()
-    }
-
-    fn read(&self, value: &Value<'_>) -> Result<Vec3<f64>, SceneError> {
+impl Direction {
+    /// Its three numbers as they are written.
+    pub(crate) fn numbers(value: &Value<'_>) -> Result<[f64; 3], SceneError> {
+        let expected = Self.expected();
         let mut vector = [0.0; 3];
         let mut common = None;
-        for (component, entry) in vector.iter_mut().zip(value.entries(3, &self.expected())?) {
+        for (component, entry) in vector.iter_mut().zip(value.entries(3, &expected)?) {
             let Quantity { value: number, dimension } = Measure.read(&entry)?;
             *component = number;
             // A 0 is one of any dimension.
@@ -38,7 +34,19 @@ impl Kind for Direction {
                 return Err(entry.refuse_with(&problem, help));
             }
         }
-        unit(Vec3::from_f64(vector))
+        Ok(vector)
+    }
+}
+
+impl Kind for Direction {
+    type Output = Vec3<f64>;
+
+    fn expected(&self) -> String {
+        "an array of 3 finite numbers, not all 0, in world axes".into()
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<Vec3<f64>, SceneError> {
+        unit(Vec3::from_f64(Self::numbers(value)?))
             .ok_or_else(|| value.refuse("has no direction", &self.expected()))
     }
 }
