@@ -296,6 +296,8 @@ fn what_is_wrong_is_shown_in_its_place_and_nothing_is_written() {
         let done = folder.swept(spec, &[]);
         assert!(done.exit == Exit::Refused && done.err.contains(word), "{}", done.err);
     }
+    let input = folder.sweep("scene = \"-\"\n[axes]\nstep = [1e-3]\n");
+    assert!(folder.swept(&input, &[]).err.contains("does not come from standard input"));
     let unknown = folder.sweep("scene = \"pendulun\"\n[axes]\nstep = [1e-3]\n");
     assert!(folder.swept(&unknown, &[]).err.contains("there is no scene named \"pendulun\""));
 }

@@ -9,7 +9,7 @@ use dbd_sweep::store::Store;
 use serde::Serialize;
 
 use crate::commands::sweep::error::SweepError;
-use crate::commands::sweep::{Sweep, VERSION};
+use crate::commands::sweep::loaded::{Sweep, VERSION};
 
 /// Cases that a message names.
 const NAMED: usize = 8;
