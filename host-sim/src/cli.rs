@@ -26,6 +26,7 @@ use crate::commands::run::{Outcome, RunOptions, run};
 use crate::commands::stability::StabilityCheck;
 use crate::commands::trade::{TradeRequest, json as survey_json, trade};
 use crate::commands::warnings::of_scene;
+use crate::commands::write::{self, WriteError};
 use crate::error::Error;
 use crate::simulate::EnergyLimit;
 use crate::terminal::text::{json, table};
@@ -90,6 +91,13 @@ struct CheckArguments {
     /// As JSON
     #[arg(long)]
     json: bool,
+    /// Write the scene in its long form: poses at which the joints are closed, all numbers in SI; - for
+    /// standard output, in place of the table
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    write: Option<PathBuf>,
+    /// Replace the file where there is one
+    #[arg(long, requires = "write")]
+    overwrite: bool,
     /// Look for the largest stable step about the pose at t = 0; takes seconds
     #[arg(long)]
     stability: bool,
@@ -312,7 +320,19 @@ fn check_scene(
     let method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
     let method = damped(method, arguments.damping)?;
     method.check_built()?;
-    let Found { scene, .. } = load(catalogue, &arguments.scene)?;
+    let to_output = arguments.write.as_ref().is_some_and(|file| write::is_output(file));
+    if to_output && arguments.json {
+        return Err(WriteError::Both.into());
+    }
+    let Found { scene, file, text } = load(catalogue, &arguments.scene)?;
+    if let Some(target) = &arguments.write {
+        let long = write::long_form(&scene, &text, &file.place, &arguments.scene.set)?;
+        if to_output {
+            console.print(&long)?;
+            return Ok(Exit::Done);
+        }
+        write::write(target, &long, arguments.overwrite)?;
+    }
     let mut check = check(&scene);
     if arguments.stability {
         check.stability = Some(StabilityCheck::of(&scene, &method)?);

@@ -9,6 +9,7 @@ use crate::commands::export::ExportError;
 use crate::commands::new::NewError;
 use crate::commands::run::RunError;
 use crate::commands::trade::TradeError;
+use crate::commands::write::WriteError;
 use crate::terminal::console::OutputError;
 use crate::terminal::{Exit, LoadError};
 
@@ -35,6 +36,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     New(#[from] NewError),
+    /// A scene's long form was not written.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    LongForm(#[from] WriteError),
     /// A run was refused, or its results could not be written.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -59,6 +64,8 @@ impl Error {
                 Exit::Failed
             }
             Self::Export(_) | Self::New(_) => Exit::Refused,
+            Self::LongForm(WriteError::Write { .. } | WriteError::Differs) => Exit::Failed,
+            Self::LongForm(_) => Exit::Refused,
             Self::Output(_) => Exit::Failed,
             Self::Run(error) => match error {
                 RunError::Plan(_)

@@ -2,7 +2,8 @@
 //!
 //! - [`list`]: the scenes that ship.
 //! - [`warnings`]: what is probably not meant, in one place for all.
-//! - [`stability`], [`check`]: what a scene is, without running it.
+//! - [`assembled`], [`stability`], [`check`]: what a scene is, without running it.
+//! - [`write`]: a scene in its long form.
 //! - [`folder`]: where results go.
 //! - [`golden`]: a run beside a golden file.
 //! - [`run`]: a scene becomes a trace, a summary and a report.
@@ -11,6 +12,7 @@
 //! - [`new`]: a project with a plant in firmware.
 //! - [`completions`]: a script for a shell.
 
+pub mod assembled;
 pub mod check;
 pub mod completions;
 pub mod export;
@@ -22,3 +24,4 @@ pub mod run;
 pub mod stability;
 pub mod trade;
 pub mod warnings;
+pub mod write;

@@ -18,6 +18,7 @@ use dbd_scene::{Scene, Setting};
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::commands::assembled::AssembledCheck;
 use crate::commands::folder::{Destination, FolderError};
 use crate::commands::golden::{GoldenOptions, GoldenRefusal, GoldenWatch};
 use crate::commands::warnings::{of_run, of_scene, of_step};
@@ -330,6 +331,7 @@ fn summarise(
         scene_file: None,
         scene_hash: None,
         set: SetValue::of(scene),
+        assembled: AssembledCheck::of(scene).map(|assembled| assembled.sentence()),
         watch_energy: None,
         golden: None,
         widest_joint: widest(scene, &ending.openings),
