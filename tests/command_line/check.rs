@@ -209,7 +209,7 @@ fn check_says_what_was_assembled_and_writes_it() {
     let done = call(&["check", &scene]);
     assert_eq!(done.exit, Exit::Done, "{}", done.err);
     for part in
-        ["assembled", "`bar` by 0.01 m and 0 rad", "`pivot` by 0.01 m", "set moving", "1 left"]
+        ["assembled", "`bar` by 0.005 m and 0.01 rad", "`pivot` by 0.01 m", "set moving", "1 left"]
     {
         assert!(done.out.contains(part), "{part}: {}", done.out);
     }
