@@ -32,6 +32,7 @@ use crate::commands::stability::StabilityCheck;
 use crate::commands::sweep::{SweepArguments, sweep};
 use crate::commands::trade::{TradeRequest, json as survey_json, trade};
 use crate::commands::warnings::of_scene;
+use crate::commands::write::{self, WriteError};
 use crate::error::Error;
 use crate::simulate::EnergyLimit;
 use crate::terminal::text::{json, table};
@@ -106,6 +107,13 @@ struct CheckArguments {
     /// of the table
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     svg: Option<PathBuf>,
+    /// Write the scene in its long form: poses at which the joints are closed, all numbers in SI; - for
+    /// standard output, in place of the table
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    write: Option<PathBuf>,
+    /// Replace the file where there is one
+    #[arg(long, requires = "write")]
+    overwrite: bool,
     /// Look for the largest stable step about the pose at t = 0; takes seconds
     #[arg(long)]
     stability: bool,
@@ -332,13 +340,29 @@ fn check_scene(
     let method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
     let method = damped(method, arguments.damping)?;
     method.check_built()?;
-    let printed = arguments.svg.as_ref().is_some_and(|file| picture::is_output(file));
-    if printed && arguments.json {
+    let picture_printed = arguments.svg.as_ref().is_some_and(|file| picture::is_output(file));
+    if picture_printed && arguments.json {
         return Err(PictureError::Both.into());
     }
-    let Found { scene, .. } = load(catalogue, &arguments.scene)?;
-    if printed {
-        console.print(&picture::picture(&scene, Paper::File))?;
+    let long_printed = arguments.write.as_ref().is_some_and(|file| write::is_output(file));
+    if long_printed && (arguments.json || picture_printed) {
+        return Err(WriteError::Both.into());
+    }
+    let Found { scene, file, text } = load(catalogue, &arguments.scene)?;
+    if let Some(target) = &arguments.write {
+        let long = write::long_form(&scene, &text, &file.place, &arguments.scene.set)?;
+        if long_printed {
+            console.print(&long)?;
+        } else {
+            write::write(target, &long, arguments.overwrite)?;
+        }
+    }
+    match &arguments.svg {
+        Some(_) if picture_printed => console.print(&picture::picture(&scene, Paper::File))?,
+        Some(file) => picture::write(&scene, file)?,
+        None => (),
+    }
+    if picture_printed || long_printed {
         return Ok(Exit::Done);
     }
     let mut check = check(&scene);
@@ -346,11 +370,9 @@ fn check_scene(
         check.stability = Some(StabilityCheck::of(&scene, &method)?);
     }
     let mut text = if arguments.json { json(&check) } else { check.text() };
-    if let Some(file) = &arguments.svg {
-        picture::write(&scene, file)?;
-        if !arguments.json {
-            text += &format!("\nwritten  {}\n", file.display());
-        }
+    if !arguments.json {
+        let written = arguments.svg.iter().chain(&arguments.write);
+        written.for_each(|file| text += &format!("\nwritten  {}\n", file.display()));
     }
     console.print(&text)?;
     Ok(Exit::Done)

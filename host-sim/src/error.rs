@@ -12,6 +12,7 @@ use crate::commands::picture::PictureError;
 use crate::commands::run::RunError;
 use crate::commands::sweep::error::SweepError;
 use crate::commands::trade::TradeError;
+use crate::commands::write::WriteError;
 use crate::terminal::console::OutputError;
 use crate::terminal::{Exit, LoadError};
 
@@ -46,6 +47,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     New(#[from] NewError),
+    /// A scene's long form was not written.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    LongForm(#[from] WriteError),
     /// A run was refused, or its results could not be written.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -75,6 +80,8 @@ impl Error {
             | Self::New(NewError::Write { .. })
             | Self::Picture(PictureError::Write { .. }) => Exit::Failed,
             Self::Export(_) | Self::Import(_) | Self::New(_) | Self::Picture(_) => Exit::Refused,
+            Self::LongForm(WriteError::Write { .. } | WriteError::Differs) => Exit::Failed,
+            Self::LongForm(_) => Exit::Refused,
             Self::Output(_) => Exit::Failed,
             Self::Run(error) => match error {
                 RunError::Plan(_)

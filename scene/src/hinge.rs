@@ -69,7 +69,9 @@ pub(crate) fn read(table: &Table<'_>, known: &Known<'_>) -> Result<Hinge, SceneE
             let group = known.assembly.groups().get(info.groups.start).copied();
             let (a, b) = group.map_or((BodyIndex::WORLD, BodyIndex::WORLD), |g| (g.a, g.b));
             let pair = Pair { a, b, names: info.between.clone() };
+            let written = axis;
             let axis = known.assembly.carried_direction(a, axis);
+            known.assembly.resolve_direction(table.value("axis"), written, axis);
             Ok(known.assembly.hinge(&pair, axis))
         }
         (kind, _) => Err(rigid(table, &name, &format!("{kind} joint"))),

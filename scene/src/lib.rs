@@ -43,8 +43,10 @@ mod text;
 pub mod time;
 mod torsion_spring;
 mod tsda;
+mod write;
 mod written;
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 
@@ -67,14 +69,15 @@ use dbd_kernel::index::InputIndex;
 use dbd_kernel::readouts::Readout;
 use dbd_kernel::{F64, Geometry};
 
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, Resolved};
 use crate::error::Source;
 use crate::file_lines::FileLines;
 use crate::hinge::Known;
 use crate::origin::Origin;
 use crate::parameters::{Changed, Changes, Parameter};
 use crate::target::Elements;
-use crate::text::{Number, Numbers, Seconds, Text};
+use crate::text::{Number, Numbers, Seconds, Table, Text};
+use crate::write::Writer;
 use crate::written::WrittenAngle;
 
 const KEYS: &[&str] = &[
@@ -229,6 +232,32 @@ impl Scene {
         file: &str,
         changes: &[impl AsRef<str>],
     ) -> Result<Self, SceneError> {
+        Self::read(text, file, changes, |_, _, _| Ok(())).map(|(scene, ())| scene)
+    }
+
+    /// The long form of a scene: the text of one with the same bits whose every pose and place is a number in SI,
+    /// where the joints are closed, with the changes. Comments stay where what they stand at does.
+    ///
+    /// # Errors
+    /// As [`Scene::parse_with`].
+    pub fn long_form(
+        text: &str,
+        file: &str,
+        changes: &[impl AsRef<str>],
+    ) -> Result<String, SceneError> {
+        let write = |scene: &Self, root: &Table<'_>, resolved: &_| {
+            Writer::new(root, scene, resolved, text).write()
+        };
+        Self::read(text, file, changes, write).map(|(_, text)| text)
+    }
+
+    /// Reads a scene and does something while its tables are there, knowing what values stand for.
+    fn read<T>(
+        text: &str,
+        file: &str,
+        changes: &[impl AsRef<str>],
+        then: impl FnOnce(&Self, &Table<'_>, &BTreeMap<usize, Resolved>) -> Result<T, SceneError>,
+    ) -> Result<(Self, T), SceneError> {
         let given = changes.iter().map(|change| change.as_ref().to_owned()).collect();
         let changes = Changes::read(text, changes)?;
         let source = changes.source(file);
@@ -264,8 +293,9 @@ impl Scene {
         let mut known = Known { assembly: &mut assembly, elements: &elements, joints: &joints };
         let inputs = input::read_all(&root, &mut known)?;
         let readouts = readout::read_all(&root, &mut known, &inputs, &mut torsion_names)?;
+        let resolved = assembly.resolved();
         let (model, body_names) = assembly.finish();
-        Ok(Self {
+        let scene = Self {
             name,
             description,
             duration,
@@ -286,7 +316,9 @@ impl Scene {
             changes: given,
             changed,
             raw_names,
-        })
+        };
+        let done = then(&scene, &root, &resolved)?;
+        Ok((scene, done))
     }
 
     /// The input of a name, to set it on a plant.

@@ -106,6 +106,7 @@ fn norm_squared([w, x, y, z]: [f64; 4]) -> f64 {
     w * w + x * x + y * y + z * z
 }
 
+/// A quaternion at unit length.
 pub(crate) fn normalised(q: [f64; 4]) -> [f64; 4] {
     let norm = libm::sqrt(norm_squared(q));
     q.map(|c| c / norm)

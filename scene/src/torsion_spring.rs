@@ -22,7 +22,9 @@ pub(crate) fn read_all(
         elements.read_optional(&table, "torsion_spring", Target::TorsionSpring(names.len()))?;
         let pair = table.required("between", Between(assembly))?;
         let axis = table.required("axis", Direction)?;
+        let written = axis;
         let axis = assembly.carried_direction(pair.a, axis);
+        assembly.resolve_direction(table.value("axis"), written, axis);
         let spring = spring::read(&table, spring::TORSIONAL)?;
         let preload = table.optional("preload", Number::any("N·m"))?.unwrap_or(0.0);
         assembly

@@ -180,3 +180,69 @@ fn a_spin_limits_the_step() {
     let given = folder.scene(&ROTOR.replace("duration = 10", "duration = 10\nstep = 0.016"));
     assert!(warned(&call(&["check", &given]).out));
 }
+
+/// A pendulum whose pivot lies a little off the end of its bar, spun by its joint.
+const OPEN: &str = r#"
+name = "open"
+duration = 0.1
+[assemble]
+rates = { pivot = "2 rad/s" }
+[[body]]
+name = "bar" # one of oak
+mass = "500 g"
+inertia = [0.1, 0.1, 0.1]
+position = [0.5, 0.01, 0]
+[[joint]]
+name = "pivot"
+type = "revolute"
+between = ["world", "bar"]
+at = { first = [0, 0, 0], second = [0, 0.01, 0] }
+axis = [0, 0, 1]
+stiffness = 1e6
+span = 0.1
+"#;
+
+#[test]
+fn check_says_what_was_assembled_and_writes_it() {
+    let folder = Folder::new();
+    let scene = folder.scene(OPEN);
+    let done = call(&["check", &scene]);
+    assert_eq!(done.exit, Exit::Done, "{}", done.err);
+    for part in
+        ["assembled", "`bar` by 0.005 m and 0.01 rad", "`pivot` by 0.01 m", "set moving", "1 left"]
+    {
+        assert!(done.out.contains(part), "{part}: {}", done.out);
+    }
+    let check: Value = serde_json::from_str(&call(&["check", &scene, "--json"]).out).unwrap();
+    assert_eq!(check["assembled"]["moved"][0]["body"], "bar");
+    assert_eq!(check["assembled"]["freedoms"], 1);
+
+    let file = format!("{}.long.toml", scene.trim_end_matches(".toml"));
+    let write = |more: &[&str]| call(&[&["check", &scene, "--write", &file][..], more].concat());
+    assert_eq!(write(&[]).exit, Exit::Done);
+    let text = std::fs::read_to_string(&file).unwrap();
+    assert!(text.contains("name = \"bar\"  # one of oak\nmass = 0.5\n"), "{text}");
+    assert!(!text.contains("assemble"), "{text}");
+    let refused = write(&["--set", "body.bar.mass=2"]);
+    assert!(
+        refused.exit == Exit::Refused && refused.err.contains("--overwrite"),
+        "{}",
+        refused.err
+    );
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), text);
+    assert_eq!(write(&["--set", "body.bar.mass=2", "--overwrite"]).exit, Exit::Done);
+    assert!(std::fs::read_to_string(&file).unwrap().contains("mass = 2"));
+    let printed = call(&["check", &scene, "--write", "-"]);
+    assert_eq!(printed.out, text);
+    assert_eq!(call(&["check", &scene, "--write", "-", "--json"]).exit, Exit::Refused);
+
+    // Both run to the same bits.
+    let hash = |scene: &str| {
+        let summary = folder.summary(scene, &[]);
+        (summary["state_hash"].clone(), summary.get("assembled").is_some())
+    };
+    std::fs::write(&file, text).unwrap();
+    let (first, second) = (hash(&scene), hash(&file));
+    assert!(first.0 == second.0 && first.0.is_string(), "{first:?} {second:?}");
+    assert!(first.1 && !second.1);
+}

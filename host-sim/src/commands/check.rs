@@ -13,6 +13,7 @@ use dbd_plant::{Frequencies, Method};
 use dbd_scene::{InputInfo, JointFacts, JointInfo, ReadoutInfo, Scene};
 use serde::Serialize;
 
+use crate::commands::assembled::AssembledCheck;
 use crate::commands::derived::{DerivedCheck, derived, lines as derived_lines};
 use crate::commands::stability::StabilityCheck;
 use crate::commands::warnings::{notes, of_scene, of_step};
@@ -53,6 +54,9 @@ pub struct Check {
     pub islands: usize,
     /// \[m\] the largest assembly error of a joint.
     pub assembly_error: f64,
+    /// What was moved to close the joints, where the scene has a table `assemble`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub assembled: Option<AssembledCheck>,
     /// \[Hz\] upper bound of the highest frequency at t = 0.
     pub frequency_bound_hz: f64,
     /// \[Hz\] estimate of the highest frequency at t = 0.
@@ -194,6 +198,7 @@ pub fn check(scene: &Scene) -> Check {
         islands: facts.islands.len(),
         assembly_error: joints.iter().map(|joint| joint.assembly_error).fold(0.0, f64::max),
         joints,
+        assembled: AssembledCheck::of(scene),
         frequency_bound_hz: frequencies.bound_hz(),
         frequency_estimate_hz: frequencies.estimate_hz(),
         advised_step: frequencies.advised_step(),
@@ -276,6 +281,7 @@ impl Check {
             ("advised step", advised),
             ("step of the scene", step),
         ];
+        rows.extend(self.assembled.iter().flat_map(AssembledCheck::rows));
         rows.extend(self.stability.iter().flat_map(StabilityCheck::rows));
         rows.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
         rows.extend(self.notes.iter().map(|note| ("note", note.clone())));

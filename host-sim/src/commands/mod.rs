@@ -2,8 +2,8 @@
 //!
 //! - [`list`]: the scenes that ship.
 //! - [`warnings`]: what is probably not meant, in one place for all.
-//! - [`stability`], [`derived`], [`check`]: what a scene is, without running it.
-//! - [`picture`]: the mechanism as an SVG.
+//! - [`assembled`], [`stability`], [`derived`], [`check`]: what a scene is, without running it.
+//! - [`picture`]: the mechanism as an SVG. [`write`]: a scene in its long form.
 //! - [`folder`]: where results go.
 //! - [`golden`]: a run beside a golden file.
 //! - [`run`]: a scene becomes a trace, a summary and a report.
@@ -14,6 +14,7 @@
 //! - [`new`]: a project with a plant in firmware.
 //! - [`completions`]: a script for a shell.
 
+pub mod assembled;
 pub mod check;
 pub mod completions;
 pub mod derived;
@@ -29,3 +30,4 @@ pub mod stability;
 pub mod sweep;
 pub mod trade;
 pub mod warnings;
+pub mod write;

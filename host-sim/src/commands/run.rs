@@ -19,6 +19,7 @@ use dbd_study::command::with_changes;
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::commands::assembled::AssembledCheck;
 use crate::commands::folder::{Destination, FolderError};
 use crate::commands::golden::{GoldenOptions, GoldenRefusal, GoldenWatch};
 use crate::commands::warnings::{of_run, of_scene, of_step, of_turns};
@@ -357,6 +358,7 @@ fn summarise(
         scene_file: None,
         scene_hash: None,
         set: SetValue::of(scene),
+        assembled: AssembledCheck::of(scene).map(|assembled| assembled.sentence()),
         watch_energy: None,
         golden: None,
         widest_joint: widest(scene, &ending.openings),

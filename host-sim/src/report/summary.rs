@@ -76,6 +76,9 @@ pub struct Summary {
     /// The values of the file that were changed for this run.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub set: Vec<SetValue>,
+    /// What was moved to close the joints of the scene, where it has a table `assemble`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub assembled: Option<String>,
     /// The joint that opened by the largest share of its free length; `None` without joints.
     pub widest_joint: Option<JointOpening>,
     /// The watch over the energy, where there was one.
@@ -234,6 +237,7 @@ impl Summary {
             };
             rows.push(("golden", format!("{}: {words}", golden.file)));
         }
+        rows.extend(self.assembled.iter().map(|moved| ("assembled", moved.clone())));
         rows.extend(self.readouts.iter().map(|figures| ("read-out", readout(figures))));
         rows.extend(self.set.iter().map(|value| ("set", value.text())));
         rows.push(("status", self.status.clone()));

@@ -5,9 +5,12 @@
 
 mod driven;
 mod moved;
+mod resolved;
 
 pub(crate) use driven::{Drive, NoAnchor};
+pub(crate) use resolved::Resolved;
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use dbd_kernel::attitude::Attitude as _;
@@ -38,6 +41,8 @@ pub(crate) struct Assembly {
     /// The states in which bodies were given that have moved since.
     given: BTreeMap<usize, BodyState<F64>>,
     is_assembled: bool,
+    /// What values stand for that the long form gives otherwise, by where they begin in the text.
+    resolved: RefCell<BTreeMap<usize, Resolved>>,
     points: BTreeMap<String, Vec3<f64>>,
     /// Per body where it has points of its own, from its centre of mass, body axes.
     ends: Vec<Vec<(String, Vec3<f64>)>>,

@@ -5,7 +5,7 @@
 
 use dbd_kernel::Vec3;
 
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, Resolved};
 use crate::closure::{Closure, Opening, Place, Pose, Turn, length};
 use crate::direction::{least_aligned, normals};
 use crate::error::SceneError;
@@ -107,7 +107,34 @@ impl Site {
         let at_w =
             if self.asks.0 == Place::Line && p != q { p + axes[0] * axes[0].dot(q - p) } else { p };
         let reference = self.references.map(|[first, _]| assembly.carried_direction(a, first));
+        self.resolve(table, assembly, at_w, axes, reference);
         Ok(Joint { name, pair: self.pair, at_w, axes, reference, spring })
+    }
+
+    /// What the long form has: one place and one direction each, where the bodies are now.
+    fn resolve(
+        &self,
+        table: &Table<'_>,
+        assembly: &Assembly,
+        at_w: Vec3<f64>,
+        axes: [Vec3<f64>; 2],
+        reference: Option<Vec3<f64>>,
+    ) {
+        let has_moved = [self.pair.a, self.pair.b].iter().any(|end| assembly.has_moved(end.row()));
+        if !(has_moved || self.is_double) {
+            return;
+        }
+        let resolve = |key, resolved| {
+            if let Some(value) = table.value(key) {
+                assembly.resolve(&value, resolved);
+            }
+        };
+        resolve("at", Resolved::Point(at_w));
+        resolve("axis", Resolved::Direction(axes[0]));
+        resolve("axes", Resolved::Directions(axes));
+        if let Some(reference) = reference {
+            resolve("reference", Resolved::Direction(reference));
+        }
     }
 
     fn refuse_open(&self, table: &Table<'_>, assembly: &Assembly) -> Result<(), SceneError> {

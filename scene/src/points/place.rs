@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use dbd_kernel::{BodyIndex, Vec3};
 
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, Resolved};
 use crate::error::SceneError;
 use crate::nearest::nearest;
 use crate::points::Places;
@@ -53,7 +53,11 @@ impl Kind for Place<'_> {
 
     fn read(&self, value: &Value<'_>) -> Result<Vec3<f64>, SceneError> {
         match value.get().as_str() {
-            Some(name) => named(self.0.points(), name, value),
+            Some(name) => {
+                let place = named(self.0.points(), name, value)?;
+                self.0.resolve(value, Resolved::Point(place));
+                Ok(place)
+            }
             None if value.get().is_array() => {
                 Numbers(Number::any("m, world")).read(value).map(Vec3::from_f64)
             }
@@ -84,7 +88,9 @@ impl Kind for PlaceOf<'_> {
             Some(name) => {
                 let place = named(assembly.points(), name, value)?;
                 let end = assembly.end(body, name);
-                Ok(end.unwrap_or_else(|| assembly.given_point_in(body, place)))
+                let place = end.unwrap_or_else(|| assembly.given_point_in(body, place));
+                assembly.resolve(value, Resolved::Point(place));
+                Ok(place)
             }
             None if value.get().is_array() => {
                 let place = Numbers(Number::any("m, body axes")).read(value)?;

@@ -1,0 +1,231 @@
+//! The long form of a scene: every pose and place a number in SI, nothing left to assemble or to look up.
+//!
+//! `(tables, what values stand for, model) => text that reads back to the same bits`. Comments that stand before or
+//! behind what is still there stay. What it leaves out: `[points]`, `[parameters]`, `[assemble]`, `[defaults]`, and
+//! what of a body gives its pose and inertia otherwise.
+
+mod comments;
+mod literal;
+
+use std::collections::BTreeMap;
+
+use dbd_kernel::F64;
+use toml::de::DeValue;
+
+use crate::Scene;
+use crate::assembly::Resolved;
+use crate::error::SceneError;
+use crate::runtime::SceneModel;
+use crate::text::{Kind as _, Measure, Table, Value};
+use crate::write::comments::Comments;
+use crate::write::literal::{basic_string, direction, key, number, orientation, vector};
+
+/// What the long form has no use for.
+const LEFT_OUT: &[&str] = &["points", "parameters", "assemble", "defaults"];
+
+/// Kinds of which there are many, in the order of the reference.
+const MANY: &[&str] =
+    &["body", "joint", "tsda", "point_on_line", "torsion_spring", "load", "input", "readout"];
+
+/// Values that are texts; others that are given as texts are numbers.
+const TEXTS: &[&str] = &[
+    "name",
+    "description",
+    "type",
+    "between",
+    "body",
+    "target",
+    "frame",
+    "interpolate",
+    "offsets",
+    "about",
+];
+
+/// What a body has in the long form, besides its name.
+const OF_A_BODY: &[&str] =
+    &["mass", "inertia", "position", "orientation", "velocity", "angular_velocity"];
+
+/// A scene that is written.
+pub(crate) struct Writer<'w, 't> {
+    root: &'w Table<'t>,
+    scene: &'w Scene,
+    resolved: &'w BTreeMap<usize, Resolved>,
+    comments: Comments<'t>,
+    text: String,
+}
+
+impl<'w, 't> Writer<'w, 't> {
+    /// Of the whole scene; `own` is the text of its file.
+    pub(crate) fn new(
+        root: &'w Table<'t>,
+        scene: &'w Scene,
+        resolved: &'w BTreeMap<usize, Resolved>,
+        own: &'t str,
+    ) -> Self {
+        Self { root, scene, resolved, comments: Comments::of(own), text: String::new() }
+    }
+
+    /// The text.
+    pub(crate) fn write(mut self) -> Result<String, SceneError> {
+        self.text.push_str(&self.comments.head());
+        for (place, name, value) in self.root.values() {
+            if LEFT_OUT.contains(&name) || MANY.contains(&name) {
+                continue;
+            }
+            let line = format!("{} = {}", key(name), self.value(name, &value)?);
+            self.line(place.start, value.span().end, &line);
+        }
+        for kind in MANY {
+            for (row, table) in self.root.list(kind)?.iter().enumerate() {
+                let start = table.start();
+                self.text.push('\n');
+                self.line(start, self.comments.end_of_header(start), &format!("[[{kind}]]"));
+                match *kind {
+                    "body" => self.body(table, row)?,
+                    "joint" => self.joint(table, row)?,
+                    _ => self.table(table, |_| true)?,
+                }
+            }
+        }
+        Ok(self.text)
+    }
+
+    /// A line with the comments around the place where it stood.
+    fn line(&mut self, start: usize, end: usize, line: &str) {
+        self.text.push_str(&self.comments.before(start));
+        self.text.push_str(line);
+        self.text.push_str(&self.comments.behind(end));
+        self.text.push('\n');
+    }
+
+    /// The keys of a table, those that are wanted.
+    fn table(
+        &mut self,
+        table: &Table<'t>,
+        wanted: impl Fn(&str) -> bool,
+    ) -> Result<(), SceneError> {
+        for (place, name, value) in table.values() {
+            if wanted(name) {
+                let line = format!("{} = {}", key(name), self.value(name, &value)?);
+                self.line(place.start, value.span().end, &line);
+            }
+        }
+        Ok(())
+    }
+
+    /// A body: what is given as a number stays as it is where it is still that.
+    fn body(&mut self, table: &Table<'t>, row: usize) -> Result<(), SceneError> {
+        self.table(table, |key| key == "name")?;
+        let model: &SceneModel<F64> = &self.scene.model;
+        let (Some(body), Some(state)) = (model.bodies.get(row), model.initial.get(row)) else {
+            return Ok(());
+        };
+        let at_rest = dbd_kernel::Vec3::ZERO;
+        for name in OF_A_BODY {
+            let now = match *name {
+                "mass" => Some(number(body.mass)),
+                "inertia" => Some(vector(body.inertia)),
+                "position" => Some(vector(state.position)),
+                "orientation" => Some(orientation(state.orientation.to_f64()))
+                    .filter(|_| state.orientation.to_f64() != [1.0, 0.0, 0.0, 0.0]),
+                "velocity" => Some(vector(state.velocity)).filter(|_| state.velocity != at_rest),
+                _ => Some(vector(state.angular_velocity))
+                    .filter(|_| state.angular_velocity != at_rest),
+            };
+            let entry = table.values().into_iter().find(|(_, key, _)| key == name);
+            match entry {
+                Some((place, _, value)) => {
+                    let written = self.value(name, &value)?;
+                    // A quaternion that is written otherwise is another text of the same bits.
+                    let kept = match (*name, &now) {
+                        ("orientation", _) => self.is_turned_as(&written, row),
+                        (_, Some(now)) => is_same(&written, now),
+                        (_, None) => true,
+                    };
+                    let text = if kept { written } else { now.unwrap_or(written) };
+                    self.line(place.start, value.span().end, &format!("{name} = {text}"));
+                }
+                None => {
+                    if let Some(now) = now {
+                        self.text.push_str(&format!("{name} = {now}\n"));
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a written orientation is that of a body.
+    fn is_turned_as(&self, written: &str, row: usize) -> bool {
+        let own = self.scene.model.initial[row].orientation;
+        let bits = |q: [f64; 4]| q.map(f64::to_bits);
+        literal::read_orientation(written).is_some_and(|q| bits(q) == bits(own.to_f64()))
+    }
+
+    /// A joint; a spider that was set moving says how it turns.
+    fn joint(&mut self, table: &Table<'t>, row: usize) -> Result<(), SceneError> {
+        let info = self.scene.joints.get(row);
+        let spider = info.and_then(|info| info.spider.as_ref());
+        let body = spider.and_then(|name| self.scene.body_names.iter().position(|n| n == name));
+        for (place, name, value) in table.values() {
+            let mut written = self.value(name, &value)?;
+            let is_given = value.get().get("angular_velocity").is_some();
+            let is_set = self.scene.assembled.is_some() && !is_given;
+            if let (Some(body), "spider", true) = (body, name, is_set) {
+                let turning = vector(self.scene.model.initial[body].angular_velocity);
+                let open = written.trim_end_matches('}').trim_end().to_owned();
+                written = format!("{open}, angular_velocity = {turning} }}");
+            }
+            let line = format!("{} = {written}", key(name));
+            self.line(place.start, value.span().end, &line);
+        }
+        Ok(())
+    }
+
+    /// A value on one line.
+    fn value(&self, name: &str, value: &Value<'t>) -> Result<String, SceneError> {
+        match self.resolved.get(&value.span().start) {
+            Some(Resolved::Point(point)) => return Ok(vector(*point)),
+            Some(Resolved::Direction(axis)) => return Ok(direction(*axis)),
+            Some(Resolved::Directions([a, b])) => {
+                return Ok(format!("[{}, {}]", direction(*a), direction(*b)));
+            }
+            None => {}
+        }
+        Ok(match value.get() {
+            DeValue::String(text) if TEXTS.contains(&name) => basic_string(text),
+            // What is no number is a name of something else.
+            DeValue::String(text) => match Measure.read(value) {
+                Ok(quantity) => number(quantity.value),
+                Err(_) => basic_string(text),
+            },
+            DeValue::Array(_) => {
+                let entries = value.array("")?;
+                let entries: Result<Vec<_>, _> =
+                    entries.iter().map(|entry| self.value(name, entry)).collect();
+                format!("[{}]", entries?.join(", "))
+            }
+            DeValue::Table(_) => {
+                let mut entries = Vec::new();
+                for (_, name, value) in value.table("")?.values() {
+                    entries.push(format!("{} = {}", key(name), self.value(name, &value)?));
+                }
+                match entries.is_empty() {
+                    true => "{}".to_owned(),
+                    false => format!("{{ {} }}", entries.join(", ")),
+                }
+            }
+            _ => value.written().to_owned(),
+        })
+    }
+}
+
+/// Whether two texts are of the same numbers.
+fn is_same(a: &str, b: &str) -> bool {
+    let numbers = |text: &str| {
+        let parts = text.trim_matches(['[', ']', ' ']).split(',');
+        let parts = parts.map(|part| literal::read_number(part.trim()).map(f64::to_bits));
+        parts.collect::<Option<Vec<_>>>()
+    };
+    numbers(a).is_some_and(|a| numbers(b) == Some(a))
+}
