@@ -55,7 +55,10 @@ impl Target for CommandLineTarget {
 
     fn input(&self, random: &mut Rng) -> Vec<u8> {
         let scene = if random.u8(..4) == 0 { text(random) } else { words::valid_scene(random) };
-        Arguments { words: words::random(random), scene }.bytes()
+        let words = words::random(random);
+        let is_sweep = words.first().is_some_and(|word| word == words::SWEEP);
+        let scene = if is_sweep && random.u8(..8) > 0 { words::sweep(random) } else { scene };
+        Arguments { words, scene }.bytes()
     }
 
     fn execute(&self, input: &[u8]) -> Result<Reach, Finding> {

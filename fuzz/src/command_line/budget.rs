@@ -6,11 +6,13 @@
 use dbd_plant::time::Time;
 use dbd_plant::{Frequencies, Method};
 use dbd_scene::Scene;
+use dbd_sweep::Spec;
+use dbd_sweep::axis::Axis;
 use host_sim::commands::run::{RunOptions, plan_of};
 use host_sim::terminal::Catalogue;
 
 use super::folder::SCENE;
-use super::words::Arguments;
+use super::words::{Arguments, SHORT_SWEEP, SWEEP};
 use crate::scene::fnv;
 
 /// Steps times bodies of a run.
@@ -28,12 +30,18 @@ const SEARCHES: u64 = 8;
 /// Bodies of a scene whose stability is looked for.
 const FEW: usize = 2;
 
+/// Cases of a sweep.
+const CASES: u128 = 50;
+
 /// Whether a command line is done within a second or so.
 pub fn is_short(arguments: &Arguments) -> bool {
     let words: Vec<String> =
         arguments.words.iter().map(|word| word.to_string_lossy().into_owned()).collect();
     let has = |what: &str| words.iter().any(|word| word == what);
     let (run, trade, stability) = (has("run"), has("trade"), has("--stability"));
+    if has(SWEEP) && !sweep_is_short(&arguments.scene) {
+        return false;
+    }
     if !(run || trade || stability) {
         return true;
     }
@@ -53,6 +61,15 @@ pub fn is_short(arguments: &Arguments) -> bool {
         return false;
     }
     !run || scenes.iter().all(|scene| run_is_short(scene, &words))
+}
+
+/// Whether a sweep's file has few cases of few steps, or is refused.
+fn sweep_is_short(text: &[u8]) -> bool {
+    let Ok(text) = std::str::from_utf8(text) else { return true };
+    let Ok(spec) = Spec::parse(text, SCENE) else { return true };
+    let timed = spec.axes.iter().any(|axis| Axis::is_time(&axis.path));
+    let set = spec.set.iter().any(|change| !change.text.starts_with(['g', 'b', '=', 'a']));
+    spec.count() <= CASES && text.starts_with(SHORT_SWEEP) && !timed && !set
 }
 
 /// Whether a command line names no file outside of the folder that is watched, but devices.

@@ -59,6 +59,9 @@ fn os_string(bytes: &[u8]) -> OsString {
     String::from_utf8_lossy(bytes).replace('\0', "").into()
 }
 
+/// The command whose file is a sweep's.
+pub const SWEEP: &str = "sweep";
+
 /// Commands with the options and flags that are theirs: rows of [`OPTIONS`], flags.
 const COMMANDS: &[(&str, &[usize], &[&str])] = &[
     ("run", &[0, 1, 2, 5, 6, 7, 8, 9, 10], &["--json", "--quiet", "--overwrite"]),
@@ -66,9 +69,14 @@ const COMMANDS: &[(&str, &[usize], &[&str])] = &[
     ("run", &[1, 6, 8], &["--json", "--quiet"]),
     ("check", &[], &["--json"]),
     ("check", &[5, 6, 7, 8], &["--stability", "--json"]),
-    ("check", &[11], &["--json"]),
+    ("check", &[13, 14], &["--json"]),
     ("export", &[8], &[]),
     ("trade", &[3, 4, 10], &["--json", "--quiet", "--overwrite"]),
+    (
+        SWEEP,
+        &[10, 11, 12],
+        &["--json", "--quiet", "--overwrite", "--merge", "--partial", "--reports"],
+    ),
     ("list", &[], &["--json"]),
     ("completions", &[], &[]),
 ];
@@ -120,7 +128,13 @@ const OPTIONS: &[(&str, &[&str])] = &[
             "CON",
         ],
     ),
+    (
+        "--shard",
+        &["1/1", "1/2", "2/2", "3/3", "1/8", "1/99", "2/3", "1/1", "0/1", "2/1", "/", "1/-1"],
+    ),
+    ("--jobs", &["1", "2", "1", "2", "1", "2", "1", "2", "0", "-1", "x", "18446744073709551616"]),
     ("--svg", &["-"]),
+    ("--write", &["-"]),
 ];
 
 const FLAGS: &[&str] = &[
@@ -211,6 +225,64 @@ fn pick<'l>(list: &[&'l str], random: &mut Rng) -> &'l str {
 pub fn valid_scene(random: &mut Rng) -> Vec<u8> {
     let list = if random.u8(..8) > 0 { &SMALL } else { &SHIPPED };
     list[random.usize(..list.len())].clone().into_bytes()
+}
+
+/// What a sweep's file begins with where it is short to run.
+pub const SHORT_SWEEP: &str = "duration = \"1ms\"\nstep = \"0.1ms\"\n";
+
+/// Lines before the axes, axes; some of them right.
+const SWEEPS: [&[&str]; 2] = [
+    &[
+        "scene = \"spring-ball\"",
+        "scene = \"cart-pendulum\"",
+        "scene = \"scene.toml\"",
+        "precision = \"f32\"",
+        "statistics = [\"rms\", \"max\"]",
+        "columns = [\"energy.*\"]",
+        "columns = [\"*.x\", \"é?\"]",
+        "set = [\"gravity=[0, 0, 1]\", \"body.*.mass=2\"]",
+        "set = [\"=\", \"a\"]",
+        "sample = { kind = \"random\", count = 3, seed = 1 }",
+        "sample = { kind = \"latin-hypercube\", count = 5, seed = 18446744073709551615 }",
+        "paired = [[\"scheme\", \"newton\"]]",
+        "every = \"0.3ms\"",
+        "nothing = 1",
+    ],
+    &[
+        "scheme = [\"rk4\", \"dbd\"]",
+        "newton = [\"own\", 2]",
+        "damping = [\"own\", \"explicit\"]",
+        "precision = [\"f32\", \"f64\"]",
+        "\"body.*.mass\" = { from = 0.5, to = 2, count = 3 }",
+        "\"body.*.mass\" = { from = \"1 kg\", to = \"2 kg\", scale = \"log\" }",
+        "\"tsda.*.stiffness\" = { from = 1e3, to = 1e300, count = 2, scale = \"logarithmic\" }",
+        "\"gravity[1]\" = [-9.81, 0]",
+        "gravity = [[0, 0, 0], [1e308, 0, nan]]",
+        "name = [\"a,\\\"b\\n\", \"é\"]",
+        "\"a..b\" = [1]",
+        "x = { from = 1, to = 2, count = 1000001 }",
+        "load.1.until = []",
+    ],
+];
+
+/// A sweep's file of few cases, some of them right.
+pub fn sweep(random: &mut Rng) -> Vec<u8> {
+    let mut text = SHORT_SWEEP.to_owned();
+    for (lines, most) in SWEEPS.into_iter().zip([4, 4]) {
+        for _ in 0..random.usize(1..most) {
+            text += pick(lines, random);
+            text.push('\n');
+        }
+        if !text.contains("[axes]") {
+            text += "[axes]\n";
+        }
+    }
+    let mut bytes = text.into_bytes();
+    if random.u8(..4) == 0 {
+        let at = random.usize(..bytes.len());
+        bytes[at] = random.u8(..);
+    }
+    bytes
 }
 
 /// Arguments, of which most are right by themselves.
