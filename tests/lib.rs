@@ -20,6 +20,7 @@ macro_rules! pages {
 pages! {
     contributing "CONTRIBUTING.md"
     architecture "docs/architecture.md"
+    authoring "docs/authoring.md"
     board "docs/board.md"
     command_line "docs/command-line.md"
     development "docs/development.md"

@@ -1,34 +1,51 @@
 //! `[[body]]`: mass, principal inertia and state at t = 0.
 //!
-//! `tables => bodies in the assembly, places of the points`. A body's pose is given in the world, in the frame of
-//! another body, or by the points between which it lies.
+//! `tables => bodies in the assembly, places of the points`. A body's pose is given in the world, in the
+//! frame of another body, or by the points between which it lies; its inertia as moments, as a tensor
+//! or by a shape.
 
-use dbd_kernel::{Body, BodyState, F64, Vec3};
+use dbd_kernel::{Body, BodyState, F64, Quaternion, Vec3};
 
+use crate::DerivedBody;
 use crate::assembly::{Assembly, WORLD};
 use crate::error::SceneError;
+use crate::inertia::{self, AnyInertia, Inertia, PrincipalInertia, Section};
 use crate::links::{self, Link};
 use crate::names::Names;
-use crate::orientation::Orientation;
+use crate::orientation::{Orientation, normalised};
 use crate::points::{self, Frame, Node, Places, PrecisePlace};
-use crate::text::{Number, Numbers, Table, Value};
+use crate::precise::Precise;
+use crate::text::{Choice, Kind as _, Number, Numbers, Table};
 
-const KEYS: &[&str] =
-    &["name", "mass", "inertia", "position", "orientation", "velocity", "angular_velocity", "link"];
-
-/// Relative slack of the triangle inequality: an inertia computed for a thin plate meets it with
-/// equality but for rounding.
-const TRIANGLE_SLACK: f64 = 1e-9;
+pub(crate) const KEYS: &[&str] = &[
+    "name",
+    "mass",
+    "inertia",
+    "position",
+    "orientation",
+    "velocity",
+    "angular_velocity",
+    "frame",
+    "link",
+    "shape",
+];
 
 /// A body that was read.
 struct Read {
     body: Body<f64>,
     state: BodyState<F64>,
-    link: Option<Link>,
+    /// From its principal axes to those that it is written in.
+    turn: Option<Quaternion<f64>>,
+    ends: Vec<links::End>,
+    derived: Option<DerivedBody>,
 }
 
-/// Reads all points and bodies; adds the bodies in scene order.
-pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), SceneError> {
+/// Reads all points and bodies; adds the bodies in scene order. Says what came of those whose numbers
+/// are not written.
+pub(crate) fn read_all(
+    root: &Table<'_>,
+    assembly: &mut Assembly,
+) -> Result<Vec<DerivedBody>, SceneError> {
     let tables = named(root)?;
     let points = points::written(root)?;
     let point_names = points.iter().map(|(name, _)| name.clone()).collect();
@@ -43,21 +60,27 @@ pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), 
             }
             Node::Body(row) => {
                 let (name, table) = &tables[row];
-                let body = read(table, &places, root.has("assemble"))?;
-                places.add_frame(name, frame(&body.state));
+                let body = read(root, table, name, &places)?;
+                places.add_frame(name, body.frame());
                 bodies[row] = Some(body);
             }
         }
     }
+    let mut derived = Vec::new();
     for ((name, table), read) in tables.iter().zip(bodies) {
-        let Some(Read { body, state, link }) = read else { continue };
-        let row = assembly.add_body(name, body, state).map_err(|defect| defect.refuse(table))?;
-        let ends = link.into_iter().flat_map(|link| link.ends);
-        let ends = ends.map(|end| (end.point, Vec3::from_f64(end.place)));
-        assembly.set_ends(row, ends.collect());
+        let Some(read) = read else { continue };
+        let row = assembly
+            .add_body(name, read.body, read.state)
+            .map_err(|defect| defect.refuse(table))?;
+        assembly.set_turn(row, read.turn);
+        let ends = read.ends.into_iter();
+        let ends = ends.map(|end| (end.point, assembly.of_written(row, end.place)));
+        let ends = ends.collect();
+        assembly.set_ends(row, ends);
+        derived.extend(read.derived);
     }
     assembly.set_points(places.rounded());
-    Ok(())
+    Ok(derived)
 }
 
 /// The tables of all bodies with their names.
@@ -84,71 +107,206 @@ fn named<'t>(root: &Table<'t>) -> Result<Vec<(String, Table<'t>)>, SceneError> {
     Ok(named)
 }
 
-/// The frame of a body at its initial pose.
-fn frame(state: &BodyState<F64>) -> Frame {
-    Frame { origin: state.position.into(), axes: links::axes_of(state.orientation.to_f64()) }
+impl Read {
+    /// Its written axes at its centre of mass, and how they move.
+    fn frame(&self) -> Frame {
+        let state = &self.state;
+        let spin_w = state.orientation.rotation().to_world(state.angular_velocity);
+        let orientation = match self.turn {
+            Some(turn) => normalised(state.orientation.product(turn.conjugate()).to_f64()),
+            None => state.orientation.to_f64(),
+        };
+        Frame {
+            origin: state.position.into(),
+            axes: links::axes_of(orientation),
+            orientation,
+            velocity: state.velocity,
+            spin_w,
+        }
+    }
 }
 
-fn read(table: &Table<'_>, places: &Places, is_assembled: bool) -> Result<Read, SceneError> {
-    let link = match table.value("link") {
+/// A body's pose and motion, in the axes that it is written in.
+struct Pose {
+    position: Vec3<f64>,
+    orientation: [f64; 4],
+    velocity: Vec3<f64>,
+    /// Written axes.
+    angular_velocity: Vec3<f64>,
+}
+
+fn read(
+    root: &Table<'_>,
+    table: &Table<'_>,
+    name: &str,
+    places: &Places,
+) -> Result<Read, SceneError> {
+    let (link, section) = match table.value("link") {
         Some(value) => {
             let link =
                 value.table("{ from = \"A\", to = \"B\" }, the points between which it lies")?;
-            link.only(&[links::KEYS])?;
-            Some(links::read(&link, places, is_assembled)?)
+            let (link, section) = read_link(root, table, link, places)?;
+            (Some(link), Some(section))
         }
-        None => None,
+        None => (None, shape(root, table)?),
     };
-    let body = mass_and_inertia(table)?;
-    let (position, orientation) = match &link {
-        Some(link) => {
-            for key in ["position", "orientation"] {
-                if table.has(key) {
-                    let help = "a link gives position and orientation; `centre`, `along` and \
-                                `reference` of the link change them";
-                    return Err(table.refuse_key(key, "contradicts `link`", help));
-                }
-            }
-            (link.position, link.orientation)
+    let (mass, inertia) = mass_and_inertia_of(table, section.as_ref())?;
+    let pose = pose(table, link.as_ref(), places)?;
+    let turn = inertia.turn.map(Quaternion::from_f64);
+    let (orientation, angular_velocity) = match turn {
+        Some(turn) => {
+            let written = Quaternion::from_f64(pose.orientation);
+            let orientation = normalised(written.product(turn).to_f64());
+            (orientation, turn.rotation().to_body(pose.angular_velocity))
         }
+        None => (pose.orientation, pose.angular_velocity),
+    };
+    let [position, velocity, angular_velocity] =
+        [pose.position, pose.velocity, angular_velocity].map(Vec3::to_f64);
+    let is_derived = turn.is_some() || section.is_some();
+    let derived = is_derived.then(|| DerivedBody {
+        name: name.to_owned(),
+        shape: section.filter(|_| !table.has("inertia")).map(|section| section.name),
+        length: link.as_ref().map(|link| link.length.nearest()),
+        mass,
+        inertia: inertia.moments,
+        turned: turn.map_or(0.0, |turn| {
+            let v = turn.v;
+            2.0 * libm::atan2(libm::sqrt(v.dot(v)), turn.w.abs())
+        }),
+    });
+    Ok(Read {
+        body: Body::from_f64(mass, inertia.moments),
+        state: BodyState::from_f64(position, orientation, velocity, angular_velocity),
+        turn,
+        ends: link.map_or_else(Vec::new, |link| link.ends),
+        derived,
+    })
+}
+
+fn read_link(
+    root: &Table<'_>,
+    table: &Table<'_>,
+    link: Table<'_>,
+    places: &Places,
+) -> Result<(Link, Section), SceneError> {
+    for key in ["position", "orientation", "frame", "shape"] {
+        if table.has(key) {
+            let help = "a link gives position, orientation and shape; its `centre`, `along`, \
+                        `reference` and `shape` change them";
+            return Err(table.refuse_key(key, "contradicts `link`", help));
+        }
+    }
+    let link = link.with_defaults(root, "link")?;
+    link.only(&[links::KEYS, inertia::KEYS])?;
+    let read = links::read(&link, places, root.has("assemble"))?;
+    let place = (read.length, read.along);
+    let section = inertia::section(&link, "shape", links::KEYS, place, table.has("mass"))?;
+    Ok((read, section))
+}
+
+/// Reads `shape`.
+fn shape(root: &Table<'_>, table: &Table<'_>) -> Result<Option<Section>, SceneError> {
+    let expected =
+        "a uniform body: { type = \"box\", length = m, section = [m, m], density = kg/m³ }";
+    let Some(value) = table.value("shape") else { return Ok(None) };
+    let shape = value.table(expected)?.with_defaults(root, "shape")?;
+    shape.only(&[&["type", "along", "length"], &inertia::KEYS[1..]])?;
+    if !shape.has("type") {
+        return Err(shape.missing("type", &Choice(&inertia::NAMES).expected()));
+    }
+    let along = shape.optional("along", Choice(&["x", "y", "z"]))?.unwrap_or(0);
+    let is_sphere = shape.value("type").is_some_and(|kind| kind.get().as_str() == Some("sphere"));
+    let length = match is_sphere {
+        true => 0.0,
+        false => shape.required("length", Number::positive("m"))?,
+    };
+    let others: &[&str] = if is_sphere { &[] } else { &["along", "length"] };
+    inertia::section(&shape, "type", others, (length.into(), along), table.has("mass")).map(Some)
+}
+
+/// Mass and inertia: what stands in the body's own table goes before what its link or shape says.
+fn mass_and_inertia_of(
+    table: &Table<'_>,
+    section: Option<&Section>,
+) -> Result<(f64, Inertia), SceneError> {
+    let number = Number::positive("kg");
+    let own = table.optional("mass", number)?;
+    let Some(mass) = own.map(Precise::from).or(section.and_then(|section| section.mass)) else {
+        let or = if section.is_some() { ", or `density` or `mass` of its shape" } else { "" };
+        return Err(table.missing("mass", &format!("{}{or}", number.expected())));
+    };
+    match section {
+        Some(section) if !table.has("inertia") => {
+            let moments = section.moments.map(|moment| (moment * mass).nearest());
+            if !moments.iter().all(|moment| moment.is_normal()) {
+                let [x, y, z] = moments;
+                let problem =
+                    format!("comes to moments of inertia of {x:e}, {y:e} and {z:e} kg·m²");
+                return Err(table.refuse(&problem, "sizes and a mass that double precision holds"));
+            }
+            Ok((mass.nearest(), Inertia { moments, turn: None }))
+        }
+        _ => Ok((mass.nearest(), table.required("inertia", AnyInertia)?)),
+    }
+}
+
+/// Where a body is and how it moves, from its points or its own numbers, in the world or in a frame.
+fn pose(table: &Table<'_>, link: Option<&Link>, places: &Places) -> Result<Pose, SceneError> {
+    let frame = table.value("frame").map(|value| points::body_frame(&value, places)).transpose()?;
+    let (position, orientation) = match link {
+        Some(link) => (link.position, link.orientation),
         None => {
-            let position = table.required("position", PrecisePlace(places))?;
-            let orientation = table.optional("orientation", Orientation)?;
-            (position, orientation.unwrap_or([1.0, 0.0, 0.0, 0.0]))
+            let given = table.value("position").map(|value| value.get().is_array());
+            let place = table.required("position", PrecisePlace(places))?;
+            let own = table.optional("orientation", Orientation)?;
+            let own = own.unwrap_or([1.0, 0.0, 0.0, 0.0]);
+            match &frame {
+                Some(frame) => {
+                    // A name is a place in the world, in whichever frame it is said.
+                    let is_in_frame = given == Some(true);
+                    let place = if is_in_frame { frame.place(place).unsigned() } else { place };
+                    (place, turned(frame.orientation, own))
+                }
+                None => (place, own),
+            }
         }
     };
     let velocity = table.optional("velocity", Numbers(Number::any("m/s")))?.unwrap_or_default();
     let angular_velocity =
         table.optional("angular_velocity", Numbers(Number::any("rad/s")))?.unwrap_or_default();
-    let position = position.nearest().to_f64();
-    let state = BodyState::from_f64(position, orientation, velocity, angular_velocity);
-    Ok(Read { body, state, link })
+    let mut pose = Pose {
+        position: position.nearest(),
+        orientation,
+        velocity: Vec3::from_f64(velocity),
+        angular_velocity: Vec3::from_f64(angular_velocity),
+    };
+    if let Some(frame) = frame {
+        let rotation = Quaternion::<f64>::from_f64(frame.orientation).rotation();
+        let arm = pose.position - frame.origin.nearest();
+        pose.velocity =
+            (frame.velocity + frame.spin_w.cross(arm)) + rotation.to_world(pose.velocity);
+        let own = Quaternion::<f64>::from_f64(pose.orientation).rotation();
+        pose.angular_velocity = pose.angular_velocity + own.to_body(frame.spin_w);
+    }
+    Ok(pose)
 }
 
-/// Reads `mass` and `inertia`.
+/// An orientation in a frame, as one in the world; either alone keeps its bits.
+fn turned(frame: [f64; 4], own: [f64; 4]) -> [f64; 4] {
+    const UNTURNED: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
+    if own == UNTURNED {
+        frame
+    } else if frame == UNTURNED {
+        own
+    } else {
+        let [frame, own] = [frame, own].map(Quaternion::<f64>::from_f64);
+        normalised(frame.product(own).to_f64())
+    }
+}
+
+/// Reads `mass` and `inertia` about axes that are the principal ones.
 pub(crate) fn mass_and_inertia(table: &Table<'_>) -> Result<Body<f64>, SceneError> {
     let mass = table.required("mass", Number::positive("kg"))?;
-    let inertia = table.required("inertia", Numbers(Number::positive("kg·m²")))?;
-    if let Some(value) = table.value("inertia") {
-        refuse_impossible(&value, inertia)?;
-    }
-    Ok(Body::from_f64(mass, inertia))
-}
-
-/// Refuses an inertia that no distribution of mass has: one moment above the sum of the others.
-fn refuse_impossible(value: &Value<'_>, inertia: [f64; 3]) -> Result<(), SceneError> {
-    let [x, y, z] = inertia;
-    for (name, one, others, sum) in
-        [("Ix", x, "Iy + Iz", y + z), ("Iy", y, "Ix + Iz", x + z), ("Iz", z, "Ix + Iy", x + y)]
-    {
-        if one > sum * (1.0 + TRIANGLE_SLACK) {
-            let problem = format!("breaks the triangle inequality: {name} = {one:?} > {sum:?}");
-            let help = format!(
-                "{name} ≤ {others}, and likewise for the others: principal moments of a rigid \
-                 body about its centre of mass"
-            );
-            return Err(value.refuse_with(&problem, help));
-        }
-    }
-    Ok(())
+    Ok(Body::from_f64(mass, table.required("inertia", PrincipalInertia)?))
 }

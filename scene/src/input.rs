@@ -5,7 +5,7 @@
 
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::index::InputIndex;
-use dbd_kernel::{F64, Geometry, LoadFrame, Vec3};
+use dbd_kernel::{BodyIndex, F64, Geometry, LoadFrame, Vec3};
 
 use crate::assembly::{Drive, NoAnchor};
 use crate::error::SceneError;
@@ -48,6 +48,12 @@ static TYPES: [InputType; 5] = [
 
 const KEYS: &[&str] = &["name", "type", "value", "table", "interpolate"];
 
+/// Every key of every type.
+pub(crate) fn keys() -> Vec<&'static [&'static str]> {
+    let types = TYPES.iter().map(|kind| kind.keys);
+    std::iter::once(KEYS).chain(types).collect()
+}
+
 /// Reads all inputs in scene order.
 pub(crate) fn read_all(
     root: &Table<'_>,
@@ -84,20 +90,30 @@ fn force(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, Sce
     let (_, body) = table.required("body", body)?;
     let place = PlaceOf { assembly: known.assembly, body };
     let point = table.optional("point", place)?.unwrap_or_default();
-    let direction = table.required("axis", Direction)?;
-    Ok(InputKind::Force {
-        body,
-        point: F64::local_from_f64(point.to_f64()),
-        direction,
-        frame: frame(table)?,
-    })
+    let (direction, frame) = axis(table, known, body)?;
+    Ok(InputKind::Force { body, point: F64::local_from_f64(point.to_f64()), direction, frame })
 }
 
 fn torque(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {
     let body = BodyName { assembly: known.assembly, world: false };
     let (_, body) = table.required("body", body)?;
+    let (axis, frame) = axis(table, known, body)?;
+    Ok(InputKind::Torque { body, axis, frame })
+}
+
+/// `axis` and whose axes it is in.
+fn axis(
+    table: &Table<'_>,
+    known: &Known<'_>,
+    body: BodyIndex,
+) -> Result<(Vec3<f64>, LoadFrame), SceneError> {
     let axis = table.required("axis", Direction)?;
-    Ok(InputKind::Torque { body, axis, frame: frame(table)? })
+    let frame = frame(table)?;
+    let axis = match frame {
+        LoadFrame::Body => known.assembly.of_written(body, axis),
+        LoadFrame::World => axis,
+    };
+    Ok((axis, frame))
 }
 
 fn frame(table: &Table<'_>) -> Result<LoadFrame, SceneError> {

@@ -9,12 +9,15 @@ mod body;
 pub mod build;
 mod closure;
 mod columns;
+mod defaults;
+mod derived;
 mod direction;
 mod error;
 pub mod export;
 mod facts;
 mod file_lines;
 mod hinge;
+mod inertia;
 mod input;
 mod joints;
 mod links;
@@ -49,6 +52,7 @@ use std::path::Path;
 
 pub use build::{Build, build};
 pub use columns::{BODY_COLUMNS, ENERGY_COLUMNS};
+pub use derived::DerivedBody;
 pub use error::{Refusal, SceneError};
 pub use facts::{ElementDamping, ElementFrequency, Facts, Island, JointElement, JointFacts};
 pub use hinge::Hinge;
@@ -84,8 +88,9 @@ const KEYS: &[&str] = &[
     "duration",
     "step",
     "every",
-    "parameters",
     "points",
+    "defaults",
+    "parameters",
     "body",
     "joint",
     "tsda",
@@ -123,6 +128,8 @@ pub struct Scene {
     pub inputs: Vec<InputInfo>,
     /// The read-outs in scene order.
     pub readouts: Vec<ReadoutInfo>,
+    /// What came of bodies whose mass, inertia or axes are not written as numbers, in scene order.
+    pub derived: Vec<DerivedBody>,
     /// The values that `[parameters]` names, in the order of the file, as they are with the changes.
     pub parameters: Vec<Parameter>,
     /// The changes of the file's values as they were given, each `PATH=VALUE`.
@@ -274,7 +281,8 @@ impl Scene {
 
         let mut assembly = Assembly::default();
         assembly.set_gravity(gravity.unwrap_or_default());
-        body::read_all(&root, &mut assembly)?;
+        defaults::check(&root)?;
+        let derived = body::read_all(&root, &mut assembly)?;
         let assembled = joints::assemble(&root, &mut assembly)?;
         let mut elements = Elements::default();
         let joints = joints::read_all(&root, &mut assembly, &mut elements)?;
@@ -303,6 +311,7 @@ impl Scene {
             file_lines: FileLines::of(&root)?,
             origin: Origin::of(source, &root),
             written_angles: written::angles(&root)?,
+            derived,
             parameters: parameters::all(&root, &scope),
             changes: given,
             changed,

@@ -7,7 +7,7 @@ use crate::error::SceneError;
 use crate::pair::BodyName;
 use crate::text::{Choice, Number, Numbers, Seconds, Table};
 
-const KEYS: &[&str] = &["body", "force", "torque", "frame", "from", "until"];
+pub(crate) const KEYS: &[&str] = &["body", "force", "torque", "frame", "from", "until"];
 
 /// Reads all loads in scene order.
 pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), SceneError> {
@@ -32,14 +32,12 @@ pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), 
             let problem = format!("is {until}, not after `from` = {from}");
             return Err(table.refuse_value("until", &problem, help));
         }
-        assembly.add_load(Load {
-            body,
-            frame,
-            force: Vec3::from_f64(force.unwrap_or_default()),
-            torque: Vec3::from_f64(torque.unwrap_or_default()),
-            from,
-            until,
-        });
+        let vector = |given: Option<[f64; 3]>| {
+            let vector = Vec3::from_f64(given.unwrap_or_default());
+            if frame == LoadFrame::Body { assembly.of_written(body, vector) } else { vector }
+        };
+        let (force, torque) = (vector(force), vector(torque));
+        assembly.add_load(Load { body, frame, force, torque, from, until });
     }
     Ok(())
 }

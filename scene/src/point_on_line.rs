@@ -10,7 +10,7 @@ use crate::spring;
 use crate::target::{Elements, Target};
 use crate::text::{Direction, Number, Table};
 
-const KEYS: &[&str] =
+pub(crate) const KEYS: &[&str] =
     &["name", "between", "line_point", "line_direction", "point", "free_length", "clearance"];
 
 /// A point nearer to its line than this share of the free length is on it: no direction leads
@@ -31,7 +31,7 @@ pub(crate) fn read_all(
         let pair = table.required("between", Between(assembly))?;
         let place = |body| PlaceOf { assembly, body };
         let line_point = table.required("line_point", place(pair.a))?;
-        let direction = table.required("line_direction", Direction)?;
+        let direction = assembly.of_written(pair.a, table.required("line_direction", Direction)?);
         let tip = table.required("point", place(pair.b))?;
         let spring = spring::read(&table, spring::AXIAL)?;
         let free_length = table.required("free_length", Number::not_negative("m"))?;

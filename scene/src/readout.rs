@@ -114,6 +114,12 @@ static TYPES: [ReadoutType; 8] = [
 
 const KEYS: &[&str] = &["name", "type"];
 
+/// Every key of every type.
+pub(crate) fn keys() -> Vec<&'static [&'static str]> {
+    let types = TYPES.iter().map(|kind| kind.keys);
+    std::iter::once(KEYS).chain(types).collect()
+}
+
 /// Reads all read-outs in scene order, and names the torsion springs that were added for them.
 pub(crate) fn read_all(
     root: &Table<'_>,

@@ -7,7 +7,7 @@ use crate::spring;
 use crate::target::{Elements, Target};
 use crate::text::{Direction, Number, Table};
 
-const KEYS: &[&str] = &["name", "between", "axis", "preload"];
+pub(crate) const KEYS: &[&str] = &["name", "between", "axis", "preload"];
 
 /// Reads all torsion springs in scene order and names them for messages:
 /// `torsion_spring 1 (world–crank)`.

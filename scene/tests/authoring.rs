@@ -2,6 +2,8 @@
 //!
 //! `(short form, long form) => equal models and hashes`.
 
+#[path = "authoring/bodies.rs"]
+mod bodies;
 #[path = "authoring/places.rs"]
 mod places;
 #[path = "authoring/refusals.rs"]
@@ -48,4 +50,55 @@ fn the_four_bar_of_points_is_that_of_numbers() {
     let golden = include_str!("../../tests/golden/hashes.csv");
     let hash = format!("four-bar,dbd,f64,2e-5,1000,{:016x}\n", hash(&short, Dbd::default(), 1000));
     assert!(golden.contains(&hash), "{hash}");
+}
+
+/// The long form is of another program, which computed with 60 digits.
+#[test]
+fn the_peaucellier_linkage_of_points_is_that_of_numbers() {
+    assert_same(&written("peaucellier"), &written("peaucellier-long"));
+}
+
+/// So few lines, comments and all.
+#[test]
+fn mechanisms_are_short() {
+    for (name, most) in [("four-bar", 20), ("peaucellier", 60)] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/authoring").join(name);
+        let text = std::fs::read_to_string(path.with_extension("toml")).unwrap();
+        assert!(text.lines().count() <= most, "{name}: {} lines", text.lines().count());
+        assert!(text.lines().all(|line| line.chars().count() <= 180), "{name}");
+    }
+}
+
+/// The page shows the very file.
+#[test]
+fn the_page_shows_the_four_bar() {
+    let page = include_str!("../../docs/authoring.md");
+    let scene = include_str!("../../tests/authoring/four-bar.toml");
+    assert!(page.contains(&format!("```toml\n{scene}```")));
+}
+
+/// Legs stay as long as they are; what rests falls no further than its springs give way.
+#[test]
+fn the_stewart_platform_of_points_stands() {
+    let scene = written("stewart-platform");
+    assert_eq!((scene.body_names.len(), scene.joints.len()), (7, 12));
+    let error = scene.joints.iter().map(|joint| joint.assembly_error).fold(0.0, f64::max);
+    assert!(error < 1e-14, "{error:e}");
+    let step = scene.step.unwrap();
+    let mut plant = Plant::new(&scene.model, Leapfrog, step).unwrap();
+    let begin = scene.model.initial[0].position.z;
+    let (mut least, mut greatest) = (begin, begin);
+    for _ in 0..(0.1 / step) as u64 {
+        plant.step().ok().unwrap();
+        let height = plant.state().bodies[0].position.z;
+        (least, greatest) = (least.min(height), greatest.max(height));
+    }
+    assert!(greatest - least < 1e-4 && least < begin, "{begin} {least} {greatest}");
+}
+
+/// What random texts of points begin with is a scene.
+#[test]
+fn the_seed_of_random_texts_is_taken() {
+    let scene = load("fuzz/corpus/scene/points");
+    assert_eq!((scene.body_names.len(), scene.derived.len()), (4, 4));
 }

@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
 const FOUR_BAR: &str = include_str!("../../scenes/four-bar.toml");
+const POINTS: &str = include_str!("../../fuzz/corpus/scene/points.toml");
 
 /// A direction with its reference, as they stand in a scene.
 fn direction() -> impl Strategy<Value = [f64; 3]> {
@@ -74,13 +75,16 @@ proptest! {
     /// within it, a reason and a remedy; never a panic.
     #[test]
     fn a_damaged_scene_is_read_or_refused(
+        is_of_points in any::<bool>(),
         start in 0..FOUR_BAR.len(),
         length in 0..60_usize,
         insert in "[\\[\\]{}=,.\"'#a-z0-9 \n\\-_\u{e9}]{0,20}",
     ) {
-        let floor = |i: usize| (0..=i.min(FOUR_BAR.len())).rev().find(|i| FOUR_BAR.is_char_boundary(*i));
+        let whole = if is_of_points { POINTS } else { FOUR_BAR };
+        let start = start % whole.len();
+        let floor = |i: usize| (0..=i.min(whole.len())).rev().find(|i| whole.is_char_boundary(*i));
         let (start, end) = (floor(start).unwrap_or(0), floor(start + length).unwrap_or(0));
-        let text = format!("{}{insert}{}", &FOUR_BAR[..start], &FOUR_BAR[end..]);
+        let text = format!("{}{insert}{}", &whole[..start], &whole[end..]);
         if let Err(error) = Scene::parse(&text, "damaged.toml") {
             let (line, column) = error.line().zip(error.column()).unwrap_or_default();
             let width = text.split('\n').nth(line - 1).map(|line| line.chars().count());

@@ -100,6 +100,10 @@ fn an_angle_in_degrees_is_that_in_radians() {
         scene("", &[("orientation", &form)]).model.initial[0].orientation
     };
     assert_eq!(of("\"30 deg\""), of(&format!("{:?}", 30.0_f64.to_radians())));
+    let along = |axis: &str| {
+        scene("", &[("orientation", &format!("{{ axis = {axis}, angle = 1 }}"))]).model.initial[0]
+    };
+    assert_eq!(along("[0, \"3 mm\", \"4 mm\"]"), along("[0, 3e-3, 4e-3]"));
     assert_eq!(of("\"1/4 * turn\""), of("\"90°\""));
 }
 
@@ -132,8 +136,15 @@ fn what_is_wrong_is_marked_within_the_text() {
         ("velocity", "[0, \"3 rad/s * L\", 0]", 4, "a value in m·rad/s", "divide by `rad`"),
         (
             "orientation",
-            "{ axis = [0, 0, \"1 m\"], angle = 0 }",
+            "{ axis = [0, 1, \"1 m\"], angle = 0 }",
             16,
+            "is a value in m, others a plain number",
+            "of one dimension",
+        ),
+        (
+            "orientation",
+            "{ quaternion = [1, 0, 0, \"1 m\"] }",
+            25,
             "a value in m",
             "without a unit",
         ),
@@ -313,4 +324,13 @@ fn the_page_has_every_unit_and_its_equations_hold() {
         equations += 1;
     }
     assert_eq!(equations, 9);
+}
+
+#[test]
+fn a_text_without_its_quotes_is_shown_with_them() {
+    for value in ["2 kg", "2kg", "2 * L", "L", "-L", "(1 + 2)", "9 kN/mm"] {
+        let error = refused("", &[("mass", value)]);
+        assert_eq!(error.column(), Some(8), "{value}: {error}");
+        assert!(error.help().contains(&format!("in quotes: \"{value}\"")), "{}", error.help());
+    }
 }

@@ -52,3 +52,28 @@ fn every_command_takes_changes_and_refuses_wrong_ones_in_their_own_words() {
         }
     }
 }
+
+/// A parameter is changed as any value is: the summary says so, and a fault is marked in its text.
+#[test]
+fn parameters_are_changed_and_told_with_their_units() {
+    let folder = Folder::new();
+    let text = format!("parameters = {{ m_bob = \"500 g\", unused = 1 }}\n{PENDULUM}");
+    let scene = folder.scene(&text.replace("mass = 0.5", "mass = \"m_bob\""));
+    let set = folder.summary(&scene, &["--set", "parameters.m_bob=0.75"]);
+    let change = &set["set"][0];
+    assert_eq!((&change["path"], &change["now"]), (&"parameters.m_bob".into(), &"0.75".into()));
+    assert_eq!(change["before"], "\"500 g\"");
+    let warnings = set["warnings"].to_string();
+    assert!(warnings.contains("parameter `unused` (line 1): no value"), "{warnings}");
+    let plain = folder.scene(PENDULUM);
+    let same = folder.summary(&plain, &["--set", "body.bob.mass=3/4 * kg"]);
+    assert_eq!(same["state_hash"], set["state_hash"]);
+    let done = call(&["check", &scene, "--set", "body.bob.mass=2 * m_bop"]);
+    assert_eq!(done.exit, Exit::Refused);
+    for part in ["--set:1:20", "`m_bop` is neither a unit nor", "did you mean `m_bob`?"] {
+        assert!(done.err.contains(part), "{part}: {}", done.err);
+    }
+    // A step on the command line is a time as in a scene.
+    let step = folder.summary(&plain, &["--step", "0.5 ms * 2", "--duration", "0.1 min / 60"]);
+    assert_eq!((&step["step"], &step["duration"]), (&1e-3.into(), &0.1.into()));
+}

@@ -14,6 +14,7 @@ use dbd_scene::{InputInfo, JointFacts, JointInfo, ReadoutInfo, Scene};
 use serde::Serialize;
 
 use crate::commands::assembled::AssembledCheck;
+use crate::commands::derived::{DerivedCheck, derived, lines as derived_lines};
 use crate::commands::stability::StabilityCheck;
 use crate::commands::warnings::{notes, of_scene, of_step};
 use crate::terminal::text::{aligned, table};
@@ -37,6 +38,9 @@ pub struct Check {
     pub readouts: Vec<ReadoutCheck>,
     /// The joints.
     pub joints: Vec<JointCheck>,
+    /// Bodies that are given by links, shapes or tensors with products: what came of them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub derived: Vec<DerivedCheck>,
     /// 6 per body less what the joints hold; too low where joints hold the same twice.
     pub degrees_of_freedom: i64,
     /// What the joints leave free at t = 0, by the rank of their constraints; `None` where the bodies
@@ -186,6 +190,7 @@ pub fn check(scene: &Scene) -> Check {
         loads: model.loads.len(),
         inputs: scene.inputs.iter().map(InputCheck::of).collect(),
         readouts: scene.readouts.iter().map(ReadoutCheck::of).collect(),
+        derived: derived(scene),
         degrees_of_freedom: facts.degrees_of_freedom,
         freedoms_by_rank: facts.freedoms_by_rank,
         equations: facts.equations,
@@ -284,6 +289,10 @@ impl Check {
         if !self.joints.is_empty() {
             text.push('\n');
             text.push_str(&self.joint_lines());
+        }
+        if !self.derived.is_empty() {
+            text.push('\n');
+            text.push_str(&derived_lines(&self.derived));
         }
         if !(self.inputs.is_empty() && self.readouts.is_empty()) {
             text.push('\n');

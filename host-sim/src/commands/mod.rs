@@ -2,7 +2,7 @@
 //!
 //! - [`list`]: the scenes that ship.
 //! - [`warnings`]: what is probably not meant, in one place for all.
-//! - [`assembled`], [`stability`], [`check`]: what a scene is, without running it.
+//! - [`assembled`], [`stability`], [`derived`], [`check`]: what a scene is, without running it.
 //! - [`write`]: a scene in its long form.
 //! - [`folder`]: where results go.
 //! - [`golden`]: a run beside a golden file.
@@ -15,6 +15,7 @@
 pub mod assembled;
 pub mod check;
 pub mod completions;
+pub mod derived;
 pub mod export;
 pub mod folder;
 pub mod golden;

@@ -46,6 +46,8 @@ pub(crate) struct Assembly {
     points: BTreeMap<String, Vec3<f64>>,
     /// Per body where it has points of its own, from its centre of mass, body axes.
     ends: Vec<Vec<(String, Vec3<f64>)>>,
+    /// Per body the turn from its principal axes to those that it is written in, where it is one.
+    turns: Vec<Option<Quaternion<f64>>>,
 }
 
 /// Why an element does not fit the model.
@@ -164,6 +166,21 @@ impl Assembly {
         }
     }
 
+    /// Says how a body's principal axes lie in those that it is written in.
+    pub(crate) fn set_turn(&mut self, body: BodyIndex, turn: Option<Quaternion<f64>>) {
+        if let Some(known) = self.turns.get_mut(body.row()) {
+            *known = turn;
+        }
+    }
+
+    /// A vector in the axes that a body is written in, in its principal axes.
+    pub(crate) fn of_written(&self, body: BodyIndex, vector: Vec3<f64>) -> Vec3<f64> {
+        match self.turns.get(body.row()) {
+            Some(Some(turn)) => turn.rotation().to_body(vector),
+            _ => vector,
+        }
+    }
+
     /// A world point in the axes of its owner.
     pub(crate) fn point_in(&self, body: BodyIndex, point_w: Vec3<f64>) -> Vec3<f64> {
         match self.state(body) {
@@ -222,6 +239,7 @@ impl Assembly {
         self.frames.push(F64::frame(&state.position, &state.orientation));
         self.names.push(name.to_owned());
         self.ends.push(Vec::new());
+        self.turns.push(None);
         self.rows.insert(name.to_owned(), BodyIndex(row));
         Ok(BodyIndex(row))
     }

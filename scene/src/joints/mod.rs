@@ -78,6 +78,14 @@ static TYPES: [JointType; 6] = [
 
 const KEYS: &[&str] = &["name", "type", "between", "at"];
 
+/// Every key of all types together, then those of each type.
+pub(crate) fn keys() -> Vec<(&'static str, Vec<&'static [&'static str]>)> {
+    let with = |keys: &[&'static [&'static str]]| [&[KEYS, spring::KEYS], keys].concat();
+    let all: Vec<_> = TYPES.iter().map(|kind| kind.keys).collect();
+    let each = TYPES.iter().map(|kind| (kind.name, with(&[kind.keys])));
+    std::iter::once(("joint", with(&all))).chain(each).collect()
+}
+
 /// What other programs and people call the types.
 const OTHER_NAMES: [(&str, &[&str]); 6] = [
     ("spherical", &["ball", "ball_and_socket", "ball_socket", "socket", "point", "globular"]),
@@ -166,6 +174,11 @@ fn kind(table: &Table<'_>) -> Result<&'static JointType, SceneError> {
     }
     let index = table.required("type", Choice(&names))?;
     Ok(&TYPES[index])
+}
+
+/// Lets a table have the keys of its type: defaults of other types are not its.
+pub(crate) fn allow(table: &Table<'_>) -> Result<(), SceneError> {
+    table.only(&[KEYS, kind(table)?.keys, spring::KEYS])
 }
 
 /// The type that goes by another name, with or without "joint" behind it.

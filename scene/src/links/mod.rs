@@ -7,6 +7,8 @@ mod attitude;
 
 pub(crate) use attitude::axes_of;
 
+use dbd_kernel::Vec3;
+
 use crate::error::SceneError;
 use crate::points::{Places, PrecisePlace, precise_direction};
 use crate::precise::{Precise, PreciseVector};
@@ -28,6 +30,10 @@ pub(crate) struct Link {
     pub(crate) position: PreciseVector,
     /// Body → world, scalar first.
     pub(crate) orientation: [f64; 4],
+    /// \[m\] between its ends.
+    pub(crate) length: Precise,
+    /// The body's axis along it: 0, 1 or 2.
+    pub(crate) along: usize,
     /// Its ends that have names.
     pub(crate) ends: Vec<End>,
 }
@@ -38,7 +44,7 @@ pub(crate) struct End {
     /// The point that it is at, or is to come to.
     pub(crate) point: String,
     /// \[m\] where it is, from the centre of mass, body axes.
-    pub(crate) place: [f64; 3],
+    pub(crate) place: Vec3<f64>,
 }
 
 /// Reads a link. `is_assembled` says whether an end may lie off its point, to be brought there.
@@ -63,7 +69,7 @@ pub(crate) fn read(
     };
     let own = own_length(table, apart, is_assembled)?;
     let whole = own.map_or(arm, |length| direction * length.into());
-    let length = own.unwrap_or(apart);
+    let length = own.map_or(arm.length(), Precise::from);
 
     let orientation = match table.has("reference") {
         true => {
@@ -78,12 +84,12 @@ pub(crate) fn read(
     let end = |key: &str, share: f64| {
         let point = table.value(key).and_then(|value: Value<'_>| value.get().as_str());
         let mut place = [0.0; 3];
-        place[along] = (Precise::from(length) * Precise::from(share)).nearest();
-        point.map(|point| End { point: point.to_owned(), place })
+        place[along] = (length * Precise::from(share)).nearest();
+        point.map(|point| End { point: point.to_owned(), place: Vec3::from_f64(place) })
     };
     let ends = [end("from", -share), end("to", 1.0 - share)].into_iter().flatten().collect();
     let position = (from + whole * share.into()).unsigned();
-    Ok(Link { position, orientation, ends })
+    Ok(Link { position, orientation, length, along, ends })
 }
 
 /// The link's own length, where it is given and is not that between the points.

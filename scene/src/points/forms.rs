@@ -178,33 +178,37 @@ fn turned(
 fn in_frame(table: &Table<'_>, places: &Places) -> Result<PreciseVector, SceneError> {
     table.only(&[&["frame", "at"]])?;
     let Some(value) = table.value("frame") else { return Err(table.missing("frame", FORMS)) };
-    let frame = if value.get().is_array() {
+    let (origin, axes) = if value.get().is_array() {
         of_points(&value, places)?
     } else {
-        body_frame(&value, places)?
+        let frame = body_frame(&value, places)?;
+        (frame.origin, frame.axes)
     };
     let at: [f64; 3] = table.required("at", Numbers(Number::any("m")))?;
-    Ok(frame.place(at.into()))
+    Ok(origin + PreciseVector::from(at).along(axes))
 }
 
 /// The frame of a body that is known.
 pub(crate) fn body_frame(value: &Value<'_>, places: &Places) -> Result<Frame, SceneError> {
     let name = Text::Name.read(value)?;
     if name == WORLD {
-        return Ok(Frame { origin: PreciseVector::ZERO, axes: PreciseVector::axes() });
+        return Ok(Frame::world());
     }
     places.frames.get(&name).copied().ok_or_else(|| unknown(value, "body", &name, &places.names[1]))
 }
 
 /// Origin, a point on the x axis, a point of the plane of x and y.
-fn of_points(value: &Value<'_>, places: &Places) -> Result<Frame, SceneError> {
+fn of_points(
+    value: &Value<'_>,
+    places: &Places,
+) -> Result<(PreciseVector, [PreciseVector; 3]), SceneError> {
     let entries = value.entries(3, "the name of a body, or an array of three points")?;
     let place = |entry: &Value<'_>| PrecisePlace(places).read(entry);
     let [origin, x, y] = [place(&entries[0])?, place(&entries[1])?, place(&entries[2])?];
     let axes = (x - origin).unit().and_then(|x| x.normals(y - origin).map(|[y, z]| [x, y, z]));
     let help = "three points that are not on a line: origin, one on the x axis, one in the plane of x and y";
     let axes = axes.ok_or_else(|| value.refuse_with("spans no plane", help))?;
-    Ok(Frame { origin, axes })
+    Ok((origin, axes))
 }
 
 /// A direction, the world's z where it is not given.
@@ -229,8 +233,11 @@ fn across(table: &Table<'_>, normal: PreciseVector) -> Result<[PreciseVector; 2]
 
 /// A direction at unit length.
 pub(crate) fn precise_direction(table: &Table<'_>, key: &str) -> Result<PreciseVector, SceneError> {
+    let Some(value) = table.value(key) else {
+        return Err(table.missing(key, &Direction.expected()));
+    };
     // Refused like any other direction; its length is then brought to 1 with all digits.
-    table.required(key, Direction)?;
-    let numbers: [f64; 3] = table.required(key, Numbers(Number::any("")))?;
+    Direction.read(&value)?;
+    let numbers = Direction::numbers(&value)?;
     Ok(PreciseVector::from(numbers).unit().unwrap_or(PreciseVector::ZERO))
 }

@@ -10,13 +10,13 @@ mod place;
 
 use std::collections::BTreeMap;
 
-use toml::de::DeValue;
+use dbd_kernel::Vec3;
 
 use crate::error::SceneError;
 use crate::precise::PreciseVector;
 use crate::text::{Table, Value};
 
-pub(crate) use forms::precise_direction;
+pub(crate) use forms::{body_frame, precise_direction};
 pub(crate) use order::{Node, order};
 pub(crate) use place::{Place, PlaceOf, PrecisePlace};
 
@@ -29,18 +29,36 @@ pub(crate) struct Places {
     names: [Vec<String>; 2],
 }
 
-/// A place and three right-handed unit vectors, world.
+/// The frame of a body: a place, axes and how it moves, world.
 #[derive(Clone, Copy)]
 pub(crate) struct Frame {
+    /// \[m\].
     pub(crate) origin: PreciseVector,
+    /// Right-handed unit vectors.
     pub(crate) axes: [PreciseVector; 3],
+    /// The turn that they come from, scalar first.
+    pub(crate) orientation: [f64; 4],
+    /// \[m/s\] of the origin.
+    pub(crate) velocity: Vec3<f64>,
+    /// \[rad/s\].
+    pub(crate) spin_w: Vec3<f64>,
 }
 
 impl Frame {
     /// Where coordinates in it are.
     pub(crate) fn place(&self, at: PreciseVector) -> PreciseVector {
-        let [x, y, z] = self.axes;
-        self.origin + (x * at.x + y * at.y + z * at.z)
+        self.origin + at.along(self.axes)
+    }
+
+    /// That of the world.
+    fn world() -> Self {
+        Self {
+            origin: PreciseVector::ZERO,
+            axes: PreciseVector::axes(),
+            orientation: [1.0, 0.0, 0.0, 0.0],
+            velocity: Vec3::ZERO,
+            spin_w: Vec3::ZERO,
+        }
     }
 }
 
@@ -63,7 +81,7 @@ impl Places {
     }
 
     /// The places of all points, rounded once.
-    pub(crate) fn rounded(&self) -> BTreeMap<String, dbd_kernel::Vec3<f64>> {
+    pub(crate) fn rounded(&self) -> BTreeMap<String, Vec3<f64>> {
         self.points.iter().map(|(name, place)| (name.clone(), place.nearest())).collect()
     }
 }
@@ -72,7 +90,5 @@ impl Places {
 pub(crate) fn written<'t>(root: &Table<'t>) -> Result<Vec<(String, Value<'t>)>, SceneError> {
     let Some(value) = root.value("points") else { return Ok(Vec::new()) };
     let expected = "a table of names and places: A = [x, y, z]";
-    let DeValue::Table(entries) = value.get() else { return Err(value.wrong_type(expected)) };
-    let table = Table::new(value.source, entries, value.span(), "[points]".into());
-    table.named()
+    value.table(expected)?.called("[points]").named()
 }

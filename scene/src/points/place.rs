@@ -93,7 +93,8 @@ impl Kind for PlaceOf<'_> {
                 Ok(place)
             }
             None if value.get().is_array() => {
-                Numbers(Number::any("m, body axes")).read(value).map(Vec3::from_f64)
+                let place = Numbers(Number::any("m, body axes")).read(value)?;
+                Ok(assembly.of_written(body, Vec3::from_f64(place)))
             }
             None => Err(value.wrong_type(&self.expected())),
         }

@@ -7,6 +7,9 @@ use core::f64::consts::FRAC_PI_2;
 
 use crate::precise::Precise;
 
+/// π.
+pub(crate) const PI: Precise = Precise::new(core::f64::consts::PI, 1.224_646_799_147_353_2e-16);
+
 /// π/2.
 const QUARTER: Precise = Precise::new(FRAC_PI_2, 6.123_233_995_736_766e-17);
 

@@ -43,6 +43,11 @@ impl PreciseVector {
         }
     }
 
+    /// The vector with these coordinates along three axes.
+    pub(crate) fn along(self, [x, y, z]: [Self; 3]) -> Self {
+        x * self.x + y * self.y + z * self.z
+    }
+
     pub(crate) fn length(self) -> Precise {
         self.dot(self).root()
     }

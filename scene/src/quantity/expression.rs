@@ -16,6 +16,7 @@ use std::ops::Range;
 use crate::quantity::decimal::Decimal;
 use crate::quantity::dimension::Dimension;
 use crate::quantity::fault::Fault;
+use crate::quantity::operand::{Operand, Worth};
 use crate::quantity::scope::Scope;
 use crate::quantity::unit::{self, Scale, Unit};
 use crate::quantity::word::{begins_word, word};
@@ -47,126 +48,6 @@ pub(crate) fn within(text: &str, scope: Option<&Scope>) -> Result<Quantity, Faul
         return Err(Fault::too_large(found.place));
     }
     Ok(Quantity { value, dimension: found.dimension })
-}
-
-/// What stands between two signs.
-struct Operand<'t> {
-    worth: Worth<'t>,
-    dimension: Dimension,
-    place: Range<usize>,
-    /// Whether it stands without brackets.
-    is_bare: bool,
-}
-
-#[derive(Clone, Copy)]
-enum Worth<'t> {
-    /// A number with its units, not yet rounded.
-    Written {
-        number: Decimal<'t>,
-        scale: Scale,
-        is_negative: bool,
-    },
-    /// A unit without a number.
-    Unit(Scale),
-    Computed(f64),
-}
-
-impl<'t> Operand<'t> {
-    fn value(&self) -> f64 {
-        match self.worth {
-            Worth::Written { number, scale, is_negative: false } => number.of(scale),
-            Worth::Written { number, scale, is_negative: true } => -number.of(scale),
-            Worth::Unit(scale) => Decimal::ONE.of(scale),
-            Worth::Computed(value) => value,
-        }
-    }
-
-    /// Whether it is a number with its unit, and not in brackets.
-    fn has_unit(&self) -> bool {
-        self.is_bare && matches!(self.worth, Worth::Written { .. }) && !self.dimension.is_none()
-    }
-
-    fn negated(self) -> Self {
-        let worth = match self.worth {
-            Worth::Written { number, scale, is_negative } => {
-                Worth::Written { number, scale, is_negative: !is_negative }
-            }
-            Worth::Unit(_) | Worth::Computed(_) => Worth::Computed(-self.value()),
-        };
-        Self { worth, ..self }
-    }
-
-    /// A product or a quotient.
-    fn times(self, right: Self, divided: bool) -> Result<Self, Fault> {
-        let place = self.place.start..right.place.end;
-        let beyond = || {
-            let help = "a power of a length, a mass, a time or an angle is at most 24";
-            Fault::new(place.clone(), "the unit is beyond all measure", help)
-        };
-        let power = if divided { -1 } else { 1 };
-        let dimension = self.dimension.times(right.dimension, power).ok_or_else(beyond)?;
-        let worth = match (self.worth, right.worth) {
-            (Worth::Written { number, scale, is_negative }, Worth::Unit(unit)) => {
-                let scale = scale.times(unit, divided).ok_or_else(beyond)?;
-                Worth::Written { number, scale, is_negative }
-            }
-            (Worth::Unit(scale), Worth::Unit(unit)) => {
-                Worth::Unit(scale.times(unit, divided).ok_or_else(beyond)?)
-            }
-            (_, Worth::Unit(unit)) => {
-                let unit = if divided { Scale::ONE.times(unit, true) } else { Some(unit) };
-                Worth::Computed(unit.ok_or_else(beyond)?.of(self.value()))
-            }
-            _ => {
-                let (value, by) = (self.value(), right.value());
-                if divided && by == 0.0 {
-                    return Err(Fault::new(right.place, "it is divided by 0", "another divisor"));
-                }
-                Worth::Computed(if divided { value / by } else { value * by })
-            }
-        };
-        Self { worth, dimension, place, is_bare: true }.finite()
-    }
-
-    /// A sum or a difference.
-    fn plus(self, right: Self, subtracted: bool) -> Result<Self, Fault> {
-        if self.dimension != right.dimension {
-            return Err(unlike(&self, &right));
-        }
-        let (value, other) = (self.value(), right.value());
-        let sum = if subtracted { value - other } else { value + other };
-        let place = self.place.start..right.place.end;
-        let worth = Worth::Computed(sum);
-        Self { worth, dimension: self.dimension, place, is_bare: true }.finite()
-    }
-
-    fn finite(self) -> Result<Self, Fault> {
-        match self.worth {
-            // It may yet get a unit.
-            Worth::Computed(value) if !value.is_finite() => Err(Fault::too_large(self.place)),
-            _ => Ok(self),
-        }
-    }
-}
-
-/// The refusal of a sum of what has two dimensions.
-fn unlike(left: &Operand<'_>, right: &Operand<'_>) -> Fault {
-    let (plain, other) = match (left.dimension.is_none(), right.dimension.is_none()) {
-        (true, _) => (left, right),
-        (_, true) => (right, left),
-        _ => {
-            let message =
-                format!("a value in {} is added to one in {}", right.dimension, left.dimension);
-            let help = "what is added or subtracted has one dimension";
-            return Fault::new(right.place.clone(), message, help);
-        }
-    };
-    let message = format!("a plain number stands beside a value in {}", other.dimension);
-    let help = format!(
-        "give it its unit here or where it is named, e.g. \"5 {0}\", or `* {0}` behind a name",
-        other.dimension
-    );
-    Fault::new(plain.place.clone(), message, help)
 }
 
 struct Parser<'t> {

@@ -10,6 +10,7 @@ mod decimal;
 mod dimension;
 mod expression;
 mod fault;
+mod operand;
 mod scope;
 mod unit;
 mod word;

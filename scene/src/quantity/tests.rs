@@ -188,6 +188,8 @@ fn what_is_wrong_is_named_at_its_place() {
         ("1 + huge * huge", "huge * huge", "too large", "1.8e308"),
         ("1e308 * 10", "1e308 * 10", "too large", "1.8e308"),
         ("1e999", "1e999", "too large", "1.8e308"),
+        ("1 / 1e999", "1e999", "too large", "1.8e308"),
+        ("1 N / 1e999 mm", "1e999 mm", "too large", "1.8e308"),
         ("-1e308 - 1e308", "-1e308 - 1e308", "too large", "1.8e308"),
         ("1e306 km", "1e306 km", "too large", "1.8e308"),
         ("2 × length²", "²", "a power of what is no unit", "L * L"),
@@ -222,6 +224,20 @@ fn long_texts_take_no_stack() {
         let fault = evaluate(&text).unwrap_err();
         assert!(fault.message.len() + fault.help.len() < 600, "{fault}");
     }
+}
+
+#[test]
+fn endless_units_are_refused() {
+    let many = |unit: &str, n: usize| unit.repeat(n).trim_end_matches('*').to_owned();
+    // π to the power of -128, and its inverse, which no i8 holds.
+    let turns = many("rad/turn*", 128);
+    for text in
+        [format!("1/({turns})"), format!("1*{turns}/turn"), format!("1 {}", many("h/s*", 6))]
+    {
+        let fault = evaluate(&text).unwrap_err();
+        assert!(fault.message.contains("beyond all measure"), "{text}: {fault}");
+    }
+    assert_eq!(value(&format!("5e-451 {}", many("km/m*", 150))), 0.5);
 }
 
 #[test]

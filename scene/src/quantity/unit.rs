@@ -27,10 +27,10 @@ impl Scale {
         let (over, under) = (self.over.checked_mul(over)?, self.under.checked_mul(under)?);
         let common = common_divisor(over, under);
         Some(Self {
-            ten: self.ten.checked_add(sign * other.ten)?,
+            ten: self.ten.checked_add(other.ten.checked_mul(sign)?)?,
             over: over / common,
             under: under / common,
-            pi: self.pi.checked_add(sign as i8 * other.pi)?,
+            pi: self.pi.checked_add(other.pi.checked_mul(sign as i8)?)?,
         })
     }
 

@@ -5,13 +5,38 @@ use dbd_kernel::Vec3;
 use crate::direction::unit;
 use crate::error::SceneError;
 use crate::nearest::nearest;
+use crate::quantity::{Dimension, Quantity};
 use crate::shortened::shortened;
-use crate::text::number::{Number, Numbers};
+use crate::text::number::Measure;
 use crate::text::value::{Kind, Value};
 
 /// A unit vector along an array of three numbers.
 #[derive(Clone, Copy)]
 pub(crate) struct Direction;
+
+impl Direction {
+    /// Its three numbers as they are written.
+    pub(crate) fn numbers(value: &Value<'_>) -> Result<[f64; 3], SceneError> {
+        let expected = Self.expected();
+        let mut vector = [0.0; 3];
+        let mut common = None;
+        for (component, entry) in vector.iter_mut().zip(value.entries(3, &expected)?) {
+            let Quantity { value: number, dimension } = Measure.read(&entry)?;
+            *component = number;
+            // A 0 is one of any dimension.
+            if number == 0.0 && dimension.is_none() {
+                continue;
+            }
+            let common = *common.get_or_insert(dimension);
+            if common != dimension {
+                let help = "the components of a direction are of one dimension, or plain numbers";
+                let problem = format!("is {}, others {}", called(dimension), called(common));
+                return Err(entry.refuse_with(&problem, help));
+            }
+        }
+        Ok(vector)
+    }
+}
 
 impl Kind for Direction {
     type Output = Vec3<f64>;
@@ -21,10 +46,13 @@ impl Kind for Direction {
     }
 
     fn read(&self, value: &Value<'_>) -> Result<Vec3<f64>, SceneError> {
-        let vector = Numbers::<3>(Number::any("")).read(value)?;
-        unit(Vec3::from_f64(vector))
+        unit(Vec3::from_f64(Self::numbers(value)?))
             .ok_or_else(|| value.refuse("has no direction", &self.expected()))
     }
+}
+
+fn called(dimension: Dimension) -> String {
+    if dimension.is_none() { "a plain number".into() } else { format!("a value in {dimension}") }
 }
 
 /// Bytes of a name in UTF-8: a folder may have it, with room for what systems add; 255 is the end.

@@ -3,9 +3,11 @@
 //! Unknown keys are refused before any key is read: where a required key is misspelled, the
 //! message names the misspelling rather than an absence.
 
+use std::cell::RefCell;
 use std::ops::Range;
 
-use toml::de::{DeTable, DeValue};
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
 
 use crate::error::{SceneError, Source};
 use crate::nearest::nearest;
@@ -20,7 +22,26 @@ pub(crate) struct Table<'t> {
     span: Range<usize>,
     /// ``body `crank` ``, or `body 1` where it has no name.
     label: String,
+    /// What it has where it gives nothing of its own: the first of these goes before the next.
+    defaults: Vec<&'t DeTable<'t>>,
+    /// The keys that it may have, once they are known: a default that is none of them is not its.
+    allowed: RefCell<Option<Vec<&'static str>>>,
 }
+
+/// What a key says in another way: where a table gives it, defaults of these are not its.
+const ALTERNATIVES: &[(&str, &[&str])] = &[
+    ("damping", &["damping_ratio", "frequency"]),
+    ("damping_ratio", &["damping"]),
+    ("frequency", &["damping"]),
+    ("mass", &["density"]),
+    ("density", &["mass"]),
+    ("wall", &["inner_diameter"]),
+    ("inner_diameter", &["wall"]),
+    ("link", &["position", "orientation", "frame", "shape"]),
+    ("position", &["link"]),
+    ("inertia", &["shape"]),
+    ("shape", &["inertia"]),
+];
 
 /// The table that is the whole scene.
 pub(crate) fn root<'t>(source: Source<'t>, document: &'t DeTable<'t>) -> Table<'t> {
@@ -34,7 +55,61 @@ impl<'t> Table<'t> {
         span: Range<usize>,
         label: String,
     ) -> Self {
-        Self { source, entries, span, label }
+        let (defaults, allowed) = (Vec::new(), RefCell::new(None));
+        Self { source, entries, span, label, defaults, allowed }
+    }
+
+    /// Gives it another name in messages.
+    pub(crate) fn called(self, label: &str) -> Self {
+        Self { label: label.to_owned(), ..self }
+    }
+
+    /// Gives it the defaults of its kind, which stand in `[defaults.kind]` of the scene.
+    pub(crate) fn with_defaults(
+        mut self,
+        root: &Table<'t>,
+        kind: &str,
+    ) -> Result<Self, SceneError> {
+        let Some(all) = root.value("defaults") else { return Ok(self) };
+        let all = all.table("tables of keys by kind: [defaults.joint]")?;
+        let of = |kind: &str| match all.value(kind) {
+            Some(value) => value.table("a table of keys").map(|table| Some(table.entries)),
+            None => Ok(None),
+        };
+        self.defaults.extend(of(kind)?);
+        if kind == "joint" {
+            let own_type = self.value("type").and_then(|value| value.get().as_str());
+            if let Some(own_type) = own_type {
+                self.defaults = of(own_type)?.into_iter().chain(self.defaults).collect();
+            }
+        }
+        Ok(self)
+    }
+
+    /// A key with its value: its own, or the first default that nothing before it replaces.
+    fn entry(&self, key: &str) -> Option<(&'t Spanned<DeString<'t>>, &'t Spanned<DeValue<'t>>)> {
+        let own = self.entries.get_key_value(key);
+        if own.is_some() || self.defaults.is_empty() {
+            return own;
+        }
+        if self.allowed.borrow().as_ref().is_some_and(|allowed| !allowed.contains(&key)) {
+            return None;
+        }
+        let replaces = |other: &&DeTable<'_>| {
+            let mut others = ALTERNATIVES.iter().filter(|(_, replaced)| replaced.contains(&key));
+            others.any(|(other_key, _)| other.contains_key(*other_key))
+        };
+        let mut before = vec![self.entries];
+        for defaults in &self.defaults {
+            if before.iter().any(replaces) {
+                return None;
+            }
+            if let Some(entry) = defaults.get_key_value(key) {
+                return Some(entry);
+            }
+            before.push(defaults);
+        }
+        None
     }
 
     /// What messages call it.
@@ -54,7 +129,7 @@ impl<'t> Table<'t> {
         problem: &str,
         help: impl Into<String>,
     ) -> SceneError {
-        let span = self.entries.get_key_value(key).map_or(self.span.clone(), |(k, _)| k.span());
+        let span = self.entry(key).map_or(self.span.clone(), |(k, _)| k.span());
         self.source.refuse(span, format!("`{key}` of {} {problem}", self.label), help)
     }
 
@@ -85,7 +160,10 @@ impl<'t> Table<'t> {
             .filter(|key| !allowed.contains(&key.get_ref().as_ref()))
             // Keys come in alphabetical order; the first in the file is the one to name.
             .min_by_key(|key| key.span().start);
-        let Some(unknown) = unknown else { return Ok(()) };
+        let Some(unknown) = unknown else {
+            *self.allowed.borrow_mut() = Some(allowed);
+            return Ok(());
+        };
         let mut help = String::new();
         if let Some(key) = nearest(unknown.get_ref(), allowed.iter().copied()) {
             help = format!("did you mean `{key}`? ");
@@ -98,12 +176,12 @@ impl<'t> Table<'t> {
 
     /// Whether a key is there.
     pub(crate) fn has(&self, key: &str) -> bool {
-        self.entries.contains_key(key)
+        self.entry(key).is_some()
     }
 
     /// The value of a key, where it is there.
     pub(crate) fn value(&self, key: &str) -> Option<Value<'t>> {
-        self.entries.get(key).map(|entry| Value {
+        self.entry(key).map(|(_, entry)| Value {
             source: self.source,
             entry,
             key: format!("`{key}`"),
@@ -113,9 +191,21 @@ impl<'t> Table<'t> {
 
     /// All keys with their places and values, in the order of the file.
     pub(crate) fn values(&self) -> Vec<(Range<usize>, &'t str, Value<'t>)> {
-        let keys = self.entries.keys().map(|key| (key.span(), key.get_ref().as_ref()));
-        let mut keys: Vec<(Range<usize>, &str)> = keys.collect();
-        keys.sort_by_key(|(place, _)| place.start);
+        let of = |entries: &'t DeTable<'t>| {
+            let keys = entries.keys().map(|key| (key.span(), key.get_ref().as_ref()));
+            let mut keys: Vec<(Range<usize>, &str)> = keys.collect();
+            keys.sort_by_key(|(place, _)| place.start);
+            keys
+        };
+        let mut keys = of(self.entries);
+        // Its own, then those that it has by default.
+        for defaults in &self.defaults {
+            for (place, key) in of(defaults) {
+                if keys.iter().all(|(_, known)| *known != key) {
+                    keys.push((place, key));
+                }
+            }
+        }
         let value = |(place, key)| Some((place, key, self.value(key)?));
         keys.into_iter().filter_map(value).collect()
     }
@@ -163,7 +253,8 @@ impl<'t> Table<'t> {
                 }
                 _ => format!("{key} {}", i + 1),
             };
-            tables.push(Table::new(self.source, entries, entry.span(), label));
+            let table = Table::new(self.source, entries, entry.span(), label);
+            tables.push(table.with_defaults(self, key)?);
         }
         Ok(tables)
     }

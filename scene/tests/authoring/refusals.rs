@@ -4,6 +4,10 @@ use dbd_scene::Scene;
 
 const BASE: &str = r#"name = "base"
 duration = 1
+[defaults.joint]
+damping = 1
+[defaults.link]
+density = 10
 [points]
 A = [0, 0, 0]
 B = [1, 0, 0]
@@ -14,12 +18,12 @@ F = { from = "C", axis = [0, 0, 1], angle = 0.5 }
 [[body]]
 name = "bar"
 mass = 1
-inertia = [1, 1, 1]
+inertia = [1, 1, 1] # moments
 link = { from = "A", to = "B" } # link
 [[body]]
 name = "box"
-mass = 1
-inertia = [1, 1, 1]
+mass = 1 # of the box
+inertia = [[2, 0.5, 0], [0.5, 3, 0], [0, 0, 4]]
 position = "C" # place
 [[joint]]
 name = "pin"
@@ -73,7 +77,6 @@ fn the_base_scene_is_taken() {
 #[test]
 fn points_are_refused_at_their_place() {
     check(&[
-        ("duration = 1\n[points]", "duration = 1\npoints = «3\n[[tsda]]", "`points` of the scene is an integer", "A = [x, y, z]"),
         ("A = [0, 0, 0]", "A = «0", "`A` of [points] is an integer", "[x, y, z] in m"),
         ("A = [0, 0, 0]", "A = «[0, 0]", "`A` of [points] has 2 entries", "3 finite numbers in m"),
         ("A = [0, 0, 0]", "A = [0, «true, 0]", "`A`[1] of [points] is a boolean", "a finite number in m"),
@@ -115,5 +118,46 @@ fn links_and_names_are_refused_at_their_place() {
         ("link = {", "«orientation = { quaternion = [1, 0, 0, 0] }\nlink = {", "`orientation` of body `bar` contradicts `link`", "`along`"),
         ("position = \"C\"", "position = «\"Ca\"", "`position` of body `box` names no point: \"Ca\"", "there are \"A\", \"B\", \"C\", \"D\""),
         ("at = \"B\"", "at = «\"G\"", "`at` of joint `pin` names no point: \"G\"", "there are \"A\""),
+    ]);
+}
+
+#[rustfmt::skip]
+#[test]
+fn inertia_and_shapes_are_refused_at_their_place() {
+    check(&[
+        ("[[2, 0.5, 0], [0.5, 3, 0], [0, 0, 4]]", "«[[2, 0.5, 0], [0.4, 3, 0], [0, 0, 4]]", "`inertia` of body `box` is not symmetric: Ixy = 0.5, Iyx = 0.4", "Ixy = −∫x·y dm"),
+        ("[[2, 0.5, 0], [0.5, 3, 0], [0, 0, 4]]", "«[[2, 2.5, 0], [2.5, 3, 0], [0, 0, 4]]", "has the principal moments -0.0495", "Ixy² < Ixx·Iyy"),
+        ("[[2, 0.5, 0], [0.5, 3, 0], [0, 0, 4]]", "«[[2, 0.5, 0], [0.5, 3, 0], [0, 0, 6]]", "breaks the triangle inequality about its principal axes: Iz = 6.0 > 5", "Iz ≤ Ix + Iy"),
+        ("[[2, 0.5, 0], [0.5, 3, 0], [0, 0, 4]]", "«[[2, 0, 0], [0, 3, 0], [0, 0, 6]]", "breaks the triangle inequality: Iz = 6.0 > 5.0", "Iz ≤ Ix + Iy"),
+        ("[[2, 0.5, 0], [0.5, 3, 0], [0, 0, 4]]", "[[2, 0.5, 0], [0.5, «-3, 0], [0, 0, 4]]", "`inertia`[1][1] of body `box` is -3", "> 0 in kg·m²"),
+        ("[[2, 0.5, 0], [0.5, 3, 0], [0, 0, 4]]", "«[[2, 0.5, 0], [0.5, 3, 0]]", "`inertia` of body `box` has 2 entries", "or a symmetric tensor"),
+        ("[[2, 0.5, 0], [0.5, 3, 0], [0, 0, 4]]", "[[2, 0.5, 0], «[0.5, 3], [0, 0, 4]]", "`inertia`[1] of body `box` has 2 entries", "3 finite numbers"),
+        ("[[2, 0.5, 0], [0.5, 3, 0], [0, 0, 4]]", "[[2, 0.5, 0], [0.5, 3, 0], «7]", "`inertia`[2] of body `box` is an integer", "3 finite numbers"),
+        ("[1, 1, 1] # moments", "«\"heavy\"", "`inertia` of body `bar` is a string", "or a symmetric tensor"),
+        ("to = \"B\" } #", "to = \"B\", shape = «\"pipe\" } #", "is \"pipe\"", "\"tube\""),
+        ("to = \"B\" } #", "to = \"B\", shape = \"box\", «diameter = 1 } #", "`link` of body `bar` has no key `diameter`", "`section`"),
+        ("to = \"B\" } #", "to = \"B\", mass = 2, «density = 3 } #", "`density` of `link` of body `bar` contradicts `mass`", "either"),
+        ("mass = 1 # of the box", "shape = { type = \"plate\", length = 1, width = 1, «density = 3 }", "is that of a body without volume", "add `thickness`"),
+        ("to = \"B\" } #", "to = \"B\", shape = \"tube\", diameter = 1, wall = «0.6 } #", "leaves no wall or no bore", "a wall of at most half of it"),
+        ("to = \"B\" } #", "to = \"B\", shape = \"tube\", diameter = 1, «wall = 0.1, inner_diameter = 0.5 } #", "`wall` of `link` of body `bar` contradicts", "either `wall` or"),
+        ("link = {", "«shape = { type = \"rod\", length = 1 }\nlink = {", "`shape` of body `bar` contradicts `link`", "its `centre`"),
+        ("link = {", "«frame = \"box\"\nlink = {", "`frame` of body `bar` contradicts `link`", "its `centre`"),
+        ("position = \"C\"", "position = \"C\"\nshape = «{ length = 1 }", "`shape` of body `box` has no `type`", "\"rod\", \"box\""),
+        ("position = \"C\"", "position = \"C\"\nshape = «{ type = \"rod\" }", "`shape` of body `box` has no `length`", "> 0 in m"),
+        ("position = \"C\"", "position = \"C\"\nshape = { type = \"sphere\", «length = 1, diameter = 2 }", "`shape` of body `box` has no key `length`", "`diameter`"),
+        ("position = \"C\"", "position = \"C\"\nframe = «\"bix\"", "`frame` of body `box` names no body: \"bix\"", "there are \"bar\", \"box\""),
+    ]);
+}
+
+#[rustfmt::skip]
+#[test]
+fn defaults_are_refused_at_their_place() {
+    check(&[
+        ("[defaults.joint]", "[defaults.«jiont]", "[defaults] has no key `jiont`", "did you mean `joint`?"),
+        ("damping = 1", "«dampign = 1", "[defaults.joint] has no key `dampign`", "did you mean `damping`?"),
+        ("damping = 1", "«name = \"all\"", "[defaults.joint] has no key `name`", "`type`"),
+        ("damping = 1", "damping = «-1", "`damping` of joint `pin` is -1", "≥ 0 in N·s/m"),
+        ("[defaults.joint]\ndamping = 1", "[defaults]\njoint = «3", "`joint` of [defaults] is an integer", "a table of keys"),
+        ("[defaults.link]\ndensity = 10", "[defaults.revolute]\n«arm = 3", "[defaults.revolute] has no key `arm`", "`ring`"),
     ]);
 }

@@ -1,0 +1,41 @@
+//! `[defaults]`: keys that each table of a kind has unless it gives its own.
+//!
+//! `[defaults.joint], [defaults.revolute] => refusal of a kind or a key that there is not`. A table finds
+//! them by itself; those of a type of joint go before those of all joints. Their values are read, and
+//! refused, with the tables that take them.
+
+use crate::error::SceneError;
+use crate::text::Table;
+use crate::{body, inertia, input, joints, links, load, point_on_line, readout, spring};
+use crate::{torsion_spring, tsda};
+
+/// What names a thing or places it in a list is its own.
+const OWN: &[&str] = &["name"];
+
+/// Refuses defaults that no table takes.
+pub(crate) fn check(root: &Table<'_>) -> Result<(), SceneError> {
+    let Some(value) = root.value("defaults") else { return Ok(()) };
+    let defaults = value.table("tables of keys by kind: [defaults.joint]")?.called("[defaults]");
+    let mut kinds = vec![
+        ("body", vec![body::KEYS]),
+        ("link", vec![links::KEYS, inertia::KEYS]),
+        ("shape", vec![&["type", "along", "length"], &inertia::KEYS[1..]]),
+        ("tsda", vec![tsda::KEYS, spring::KEYS]),
+        ("point_on_line", vec![point_on_line::KEYS, spring::KEYS]),
+        ("torsion_spring", vec![torsion_spring::KEYS, spring::KEYS]),
+        ("load", vec![load::KEYS]),
+        ("input", input::keys()),
+        ("readout", readout::keys()),
+    ];
+    kinds.extend(joints::keys());
+    let names: Vec<&'static str> = kinds.iter().map(|(name, _)| *name).collect();
+    defaults.only(&[&names])?;
+    for (name, keys) in kinds {
+        let Some(value) = defaults.value(name) else { continue };
+        let table = value.table("a table of keys")?.called(&format!("[defaults.{name}]"));
+        let keys: Vec<&'static str> =
+            keys.concat().into_iter().filter(|key| !OWN.contains(key)).collect();
+        table.only(&[&keys])?;
+    }
+    Ok(())
+}
