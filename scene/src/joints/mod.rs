@@ -176,6 +176,11 @@ fn kind(table: &Table<'_>) -> Result<&'static JointType, SceneError> {
     Ok(&TYPES[index])
 }
 
+/// Lets a table have the keys of its type: defaults of other types are not its.
+pub(crate) fn allow(table: &Table<'_>) -> Result<(), SceneError> {
+    table.only(&[KEYS, kind(table)?.keys, spring::KEYS])
+}
+
 /// The type that goes by another name, with or without "joint" behind it.
 fn meant_by(word: &str) -> Option<&'static str> {
     let word = word.to_lowercase().replace([' ', '-'], "_").replace('\'', "");

@@ -191,9 +191,21 @@ impl<'t> Table<'t> {
 
     /// All keys with their places and values, in the order of the file.
     pub(crate) fn values(&self) -> Vec<(Range<usize>, &'t str, Value<'t>)> {
-        let keys = self.entries.keys().map(|key| (key.span(), key.get_ref().as_ref()));
-        let mut keys: Vec<(Range<usize>, &str)> = keys.collect();
-        keys.sort_by_key(|(place, _)| place.start);
+        let of = |entries: &'t DeTable<'t>| {
+            let keys = entries.keys().map(|key| (key.span(), key.get_ref().as_ref()));
+            let mut keys: Vec<(Range<usize>, &str)> = keys.collect();
+            keys.sort_by_key(|(place, _)| place.start);
+            keys
+        };
+        let mut keys = of(self.entries);
+        // Its own, then those that it has by default.
+        for defaults in &self.defaults {
+            for (place, key) in of(defaults) {
+                if keys.iter().all(|(_, known)| *known != key) {
+                    keys.push((place, key));
+                }
+            }
+        }
         let value = |(place, key)| Some((place, key, self.value(key)?));
         keys.into_iter().filter_map(value).collect()
     }

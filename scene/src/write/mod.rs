@@ -164,6 +164,7 @@ impl<'w, 't> Writer<'w, 't> {
 
     /// A joint; a spider that was set moving says how it turns.
     fn joint(&mut self, table: &Table<'t>, row: usize) -> Result<(), SceneError> {
+        crate::joints::allow(table)?;
         let info = self.scene.joints.get(row);
         let spider = info.and_then(|info| info.spider.as_ref());
         let body = spider.and_then(|name| self.scene.body_names.iter().position(|n| n == name));
