@@ -32,6 +32,7 @@ pages! {
     reference_solvers "docs/reference-solvers.md"
     scene_reference "docs/scene-reference.md"
     schemes "docs/schemes.md"
+    sweeps "docs/sweeps.md"
     target "docs/target.md"
     trade "docs/trade.md"
 }

@@ -175,6 +175,17 @@ pub fn write(folder: &Path, name: &str, content: &str) -> io::Result<()> {
     file.complete()
 }
 
+/// Writes a whole file at a path, likewise.
+///
+/// # Errors
+/// Where the path names no file, or its folder cannot be written to.
+pub fn write_at(file: &Path, content: &str) -> io::Result<()> {
+    let name = file.file_name().and_then(|name| name.to_str());
+    let name = name.ok_or_else(|| io::Error::other("it is no file's name"))?;
+    let folder = file.parent().filter(|folder| *folder != Path::new(""));
+    write(folder.unwrap_or(Path::new(".")), name, content)
+}
+
 /// The folder of a scene's results below `out`, made where it is not there yet.
 ///
 /// # Errors

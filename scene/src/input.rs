@@ -75,6 +75,11 @@ pub(crate) fn read_all(
     Ok(infos)
 }
 
+/// Lets a table have the keys of its type: defaults of other types are not its.
+pub(crate) fn allow(table: &Table<'_>) -> Result<(), SceneError> {
+    table.only(&[KEYS, kind(table)?.keys])
+}
+
 fn kind(table: &Table<'_>) -> Result<&'static InputType, SceneError> {
     if !table.has("type") {
         let mut keys = vec![KEYS];

@@ -166,6 +166,11 @@ fn another(name: &str, kind: &str) -> String {
     format!("{}_{kind}", name.replace('.', "_"))
 }
 
+/// Lets a table have the keys of its type: defaults of other types are not its.
+pub(crate) fn allow(table: &Table<'_>) -> Result<(), SceneError> {
+    table.only(&[KEYS, kind(table)?.keys])
+}
+
 fn kind(table: &Table<'_>) -> Result<&'static ReadoutType, SceneError> {
     if !table.has("type") {
         let mut keys = vec![KEYS];

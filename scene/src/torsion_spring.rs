@@ -3,9 +3,10 @@
 use crate::assembly::Assembly;
 use crate::error::SceneError;
 use crate::pair::Between;
+use crate::points::Heading;
 use crate::spring;
 use crate::target::{Elements, Target};
-use crate::text::{Direction, Number, Table};
+use crate::text::{Number, Table};
 
 pub(crate) const KEYS: &[&str] = &["name", "between", "axis", "preload"];
 
@@ -21,7 +22,7 @@ pub(crate) fn read_all(
         table.only(&[KEYS, spring::KEYS])?;
         elements.read_optional(&table, "torsion_spring", Target::TorsionSpring(names.len()))?;
         let pair = table.required("between", Between(assembly))?;
-        let axis = table.required("axis", Direction)?;
+        let axis = table.required("axis", Heading(assembly))?;
         let written = axis;
         let axis = assembly.carried_direction(pair.a, axis);
         assembly.resolve_direction(table.value("axis"), written, axis);

@@ -29,10 +29,11 @@ pub(crate) fn read_all(
         let pair = table.required("between", Between(assembly))?;
         let [a, b] = table.required("points", TwoPoints { assembly, pair: &pair })?;
         let spring = spring::read(&table, spring::AXIAL)?;
-        let free_length = table.required("free_length", Number::not_negative("m"))?;
+        let d = assembly.place(pair.b, b) - assembly.place(pair.a, a);
+        let distance = libm::sqrt(d.dot(d));
+        let free_length = table.required("free_length", FreeLength { distance })?;
         if free_length > 0.0 {
-            let d = assembly.place(pair.b, b) - assembly.place(pair.a, a);
-            if libm::sqrt(d.dot(d)) <= COINCIDENT * free_length {
+            if distance <= COINCIDENT * free_length {
                 let help = "two points apart, or `free_length = 0` for a spring that is \
                             isotropic and needs no direction";
                 let problem = "coincide, though the TSDA has a free length";
@@ -49,6 +50,32 @@ pub(crate) fn read_all(
         labels.push(pair.label(&table));
     }
     Ok(labels)
+}
+
+/// A length, or `"initial"`: the one at the initial pose.
+struct FreeLength {
+    /// \[m\] that one.
+    distance: f64,
+}
+
+const INITIAL: &str = "initial";
+
+impl Kind for FreeLength {
+    type Output = f64;
+
+    fn expected(&self) -> String {
+        format!(
+            "{}, or \"{INITIAL}\": as long as it is at t = 0",
+            Number::not_negative("m").expected()
+        )
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<f64, SceneError> {
+        match value.get().as_str() {
+            Some(INITIAL) => Ok(self.distance),
+            _ => Number::not_negative("m").read(value),
+        }
+    }
 }
 
 /// A point of the first body and one of the second.

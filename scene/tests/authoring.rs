@@ -77,11 +77,13 @@ fn the_page_shows_the_four_bar() {
     assert!(page.contains(&format!("```toml\n{scene}```")));
 }
 
-/// Legs stay as long as they are; what rests falls no further than its springs give way.
+/// The springs of the legs carry it; what rests falls no further than they give way. Besides the platform's six
+/// freedoms each leg turns about itself.
 #[test]
 fn the_stewart_platform_of_points_stands() {
     let scene = written("stewart-platform");
-    assert_eq!((scene.body_names.len(), scene.joints.len()), (7, 12));
+    assert_eq!((scene.body_names.len(), scene.joints.len()), (13, 18));
+    assert_eq!(scene.facts().freedoms_by_rank, Some(12));
     let error = scene.joints.iter().map(|joint| joint.assembly_error).fold(0.0, f64::max);
     assert!(error < 1e-14, "{error:e}");
     let step = scene.step.unwrap();
@@ -93,7 +95,7 @@ fn the_stewart_platform_of_points_stands() {
         let height = plant.state().bodies[0].position.z;
         (least, greatest) = (least.min(height), greatest.max(height));
     }
-    assert!(greatest - least < 1e-4 && least < begin, "{begin} {least} {greatest}");
+    assert!(greatest - least < 1e-3 && least < begin, "{begin} {least} {greatest}");
 }
 
 /// What random texts of points begin with is a scene.

@@ -194,3 +194,39 @@ fn unit_lengths_keep_their_bits() {
         back(&text, &[]);
     }
 }
+
+/// Of inputs and read-outs each takes the defaults of its own type alone.
+#[test]
+fn defaults_of_other_types_are_not_written() {
+    let text = r#"
+        name = "defaults"
+        duration = 1
+        defaults.input = { axis = [0, 0, 1], target = "spring", body = "bob", value = "2 N" }
+        defaults.readout = { axis = [0, 0, 1], target = "spring", body = "bob", point = [0, 0, 0] }
+        [[body]]
+        name = "bob"
+        mass = 1
+        inertia = [1, 1, 1]
+        position = [0, 0, 0]
+        [[tsda]]
+        name = "spring"
+        between = ["world", "bob"]
+        points = [[0, 1, 0], [0, 0, 0]]
+        free_length = 1
+        stiffness = 100
+        [[input]]
+        name = "push"
+        type = "force"
+        [[input]]
+        name = "pull"
+        type = "actuator"
+        [[readout]]
+        name = "tip"
+        type = "point"
+        [[readout]]
+        name = "tension"
+        type = "tsda_force"
+    "#;
+    let written = back(text, &[]);
+    assert_eq!(written.matches("target = ").count(), 2, "{written}");
+}

@@ -19,7 +19,7 @@ fn bad_input_ends_with_2_and_writes_nothing() {
         ("no-such-thing", &[], "four-bar"),
         ("no/such/file.toml", &[], "no/such/file.toml"),
         (bad, &[], "mass"),
-        (&good, &["--step", "2e-5min"], "20us"),
+        (&good, &["--step", "2e-5kg"], "20us"),
         (&good, &["--step", "0"], "positive"),
         (&good, &["--step", "fast"], "20us"),
         (&good, &["--step", "-1ms"], "positive"),

@@ -129,6 +129,11 @@ fn every_key_of_a_summary_is_in_the_reference() {
     let golden = crate::golden::bless(folder.path("a.golden").to_str().unwrap(), 1e-3);
     let summary: Value = serde_json::from_str(&golden.summary.json()).unwrap();
     written.extend(summary.as_object().unwrap().keys().cloned());
+    // And of one that is assembled.
+    let open = PENDULUM.replace("[[body]]", "[assemble]\n[[body]]");
+    let done = folder.run(&folder.scene(&open), &["--json"]);
+    let summary: Value = serde_json::from_str(&done.out).unwrap();
+    written.extend(summary.as_object().unwrap().keys().cloned());
     for key in &written {
         assert!(documented.contains(key), "`{key}` is in no line of the reference");
     }

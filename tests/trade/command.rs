@@ -88,7 +88,8 @@ fn a_window_that_is_none_is_refused_and_leaves_nothing() {
         ("0s", "a time must be positive"),
         ("-1s", "a time must be positive"),
         ("6", "beyond the scene's duration of 5s"),
-        ("1min", "a number with a unit"),
+        ("1kg", "a number with a unit"),
+        ("1min", "beyond the scene's duration of 5s"),
     ] {
         let window = format!("--window={window}");
         let (exit, said, errors) = call(&["trade", "spring-ball", &window, "--out", out]);

@@ -5,11 +5,11 @@
 //! default one before it is shortened to fit.
 
 use std::fmt;
-use std::io::{self, BufRead as _, Write as _};
+use std::io::{self, BufRead as _};
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
-use dbd_output::file::PendingFile;
+use dbd_output::file::write_at;
 use dbd_plant::plant::{check_inputs, check_step};
 use dbd_plant::time::Time;
 use dbd_plant::{
@@ -122,15 +122,7 @@ pub fn write(file: &Path, text: &str) -> Result<(), ExportError> {
     if file.exists() && !(file.is_file() && is_exported(file)) {
         return Err(ExportError::Taken { file: file.to_owned() });
     }
-    let written = || {
-        let name = file.file_name().and_then(|name| name.to_str());
-        let name = name.ok_or_else(|| io::Error::other("it is no file's name"))?;
-        let folder = file.parent().filter(|folder| *folder != Path::new(""));
-        let mut pending = PendingFile::create(folder.unwrap_or(Path::new(".")), name)?;
-        pending.write_all(text.as_bytes())?;
-        pending.complete()
-    };
-    written().map_err(|reason| ExportError::Write { file: file.to_owned(), reason })
+    write_at(file, text).map_err(|reason| ExportError::Write { file: file.to_owned(), reason })
 }
 
 /// Whether a file begins as exported source does; an empty one holds nothing to lose.

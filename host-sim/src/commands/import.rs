@@ -4,13 +4,13 @@
 //! what is written can be run.
 
 use std::fmt;
-use std::io::{self, BufRead as _, Write as _};
+use std::io::{self, BufRead as _};
 use std::path::{Path, PathBuf};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum, ValueHint};
 use dbd_import::{Imported, Kind, Options, Weld, omission};
-use dbd_output::file::PendingFile;
+use dbd_output::file::write_at;
 use dbd_plant::time::Time;
 use dbd_scene::{Scene, SceneError};
 use miette::{Diagnostic, LabeledSpan, SourceCode};
@@ -208,18 +208,11 @@ pub fn list(arguments: &ImportArguments) -> Result<String, ImportError> {
 /// # Errors
 /// [`ImportError::Taken`] where the file is none that was imported, [`ImportError::Write`].
 pub fn write(file: &Path, text: &str) -> Result<(), ImportError> {
-    if file.exists() && !is_imported(file, text) {
+    // A device, which looks empty, takes no other file's name either.
+    if file.exists() && !(file.is_file() && is_imported(file, text)) {
         return Err(ImportError::Taken { file: file.to_owned() });
     }
-    let written = || {
-        let name = file.file_name().and_then(|name| name.to_str());
-        let name = name.ok_or_else(|| io::Error::other("it is no file's name"))?;
-        let folder = file.parent().filter(|folder| *folder != Path::new(""));
-        let mut pending = PendingFile::create(folder.unwrap_or(Path::new(".")), name)?;
-        pending.write_all(text.as_bytes())?;
-        pending.complete()
-    };
-    written().map_err(|reason| ImportError::Write { file: file.to_owned(), reason })
+    write_at(file, text).map_err(|reason| ImportError::Write { file: file.to_owned(), reason })
 }
 
 /// Whether a file begins as an import of the same file does; an empty one holds nothing to lose.

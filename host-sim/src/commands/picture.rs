@@ -3,10 +3,10 @@
 //! `(scene, file) => SVG`. A file that is no SVG is not replaced.
 
 use std::fmt;
-use std::io::{self, Read as _, Write as _};
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use dbd_output::file::PendingFile;
+use dbd_output::file::write_at;
 use dbd_picture::{Mechanism, Paper, svg};
 use dbd_scene::Scene;
 use miette::Diagnostic;
@@ -65,15 +65,8 @@ pub fn write(scene: &Scene, file: &Path) -> Result<(), PictureError> {
     if file.exists() && !(file.is_file() && is_svg(file)) {
         return Err(PictureError::Taken { file: file.to_owned() });
     }
-    let written = || {
-        let name = file.file_name().and_then(|name| name.to_str());
-        let name = name.ok_or_else(|| io::Error::other("it is no file's name"))?;
-        let folder = file.parent().filter(|folder| *folder != Path::new(""));
-        let mut pending = PendingFile::create(folder.unwrap_or(Path::new(".")), name)?;
-        pending.write_all(picture(scene, Paper::File).as_bytes())?;
-        pending.complete()
-    };
-    written().map_err(|reason| PictureError::Write { file: file.to_owned(), reason })
+    write_at(file, &picture(scene, Paper::File))
+        .map_err(|reason| PictureError::Write { file: file.to_owned(), reason })
 }
 
 /// Whether a file begins as a picture does; an empty one holds nothing to lose.

@@ -3,10 +3,10 @@
 //! `(text, changes) => file whose scene has the same bits`. Nothing that is there is replaced unasked.
 
 use std::fmt;
-use std::io::{self, Write as _};
+use std::io;
 use std::path::{Path, PathBuf};
 
-use dbd_output::file::PendingFile;
+use dbd_output::file::write_at;
 use dbd_scene::{Scene, SceneError};
 use miette::Diagnostic;
 use thiserror::Error;
@@ -82,16 +82,9 @@ pub fn long_form(
 /// # Errors
 /// [`WriteError::Taken`] where there is one and it is not to be replaced, [`WriteError::Write`].
 pub fn write(file: &Path, text: &str, overwrite: bool) -> Result<(), WriteError> {
-    if file.exists() && !overwrite {
+    // A device is never replaced.
+    if file.exists() && !(overwrite && file.is_file()) {
         return Err(WriteError::Taken { file: file.to_owned() });
     }
-    let written = || {
-        let name = file.file_name().and_then(|name| name.to_str());
-        let name = name.ok_or_else(|| io::Error::other("it is no file's name"))?;
-        let folder = file.parent().filter(|folder| *folder != Path::new(""));
-        let mut pending = PendingFile::create(folder.unwrap_or(Path::new(".")), name)?;
-        pending.write_all(text.as_bytes())?;
-        pending.complete()
-    };
-    written().map_err(|reason| WriteError::Write { file: file.to_owned(), reason })
+    write_at(file, text).map_err(|reason| WriteError::Write { file: file.to_owned(), reason })
 }

@@ -13,9 +13,9 @@ use crate::joints::universal::Axes;
 use crate::joints::{Joint, JointType};
 use crate::orientation::of_axes;
 use crate::pair::{Between, Pair};
-use crate::points::Place as NamedPlace;
+use crate::points::{Heading, Place as NamedPlace};
 use crate::spring::Spring;
-use crate::text::{Direction, Kind, Table, Value};
+use crate::text::{Kind, Table, Value};
 
 /// \[m, rad\] by which a joint may be open that nothing closes: what is written has 9 digits at least.
 const CLOSED: f64 = 1e-9;
@@ -42,11 +42,13 @@ impl Site {
         let half = |body| PlaceOfHalf { assembly, body };
         let at = table.required("at", Halves([half(pair.a), half(pair.b)]))?;
         let axes = match () {
-            () if kind.keys.contains(&"axes") => table.required("axes", Axes)?,
-            () if kind.keys.contains(&"axis") => table.required("axis", Halves([Direction; 2]))?,
+            () if kind.keys.contains(&"axes") => table.required("axes", Axes(assembly))?,
+            () if kind.keys.contains(&"axis") => {
+                table.required("axis", Halves([Heading(assembly); 2]))?
+            }
             () => [Vec3::new(0.0, 0.0, 1.0); 2],
         };
-        let references = table.optional("reference", Halves([Direction; 2]))?;
+        let references = table.optional("reference", Halves([Heading(assembly); 2]))?;
         let differ = |[a, b]: [Vec3<f64>; 2]| a != b;
         let is_double = differ(at)
             || (kind.keys.contains(&"axis") && differ(axes))

@@ -17,7 +17,8 @@ use crate::joints::triad;
 use crate::joints::{Joint, JointType};
 use crate::orientation::of_axes;
 use crate::pair::Pair;
-use crate::text::{Direction, Kind, Number, Numbers, Table, Value};
+use crate::points::Heading;
+use crate::text::{Kind, Number, Numbers, Table, Value};
 
 pub(super) const TYPE: JointType = JointType {
     name: "universal",
@@ -92,9 +93,10 @@ fn orthogonal(table: &Table<'_>, [a1, a2]: [Vec3<f64>; 2]) -> Result<[Vec3<f64>;
 }
 
 /// Two directions, the first of the first body, the second of the second.
-pub(super) struct Axes;
+#[derive(Clone, Copy)]
+pub(super) struct Axes<'a>(pub(super) &'a Assembly);
 
-impl Kind for Axes {
+impl Kind for Axes<'_> {
     type Output = [Vec3<f64>; 2];
 
     fn expected(&self) -> String {
@@ -103,7 +105,7 @@ impl Kind for Axes {
 
     fn read(&self, value: &Value<'_>) -> Result<[Vec3<f64>; 2], SceneError> {
         let entries = value.entries(2, &self.expected())?;
-        Ok([Direction.read(&entries[0])?, Direction.read(&entries[1])?])
+        Ok([Heading(self.0).read(&entries[0])?, Heading(self.0).read(&entries[1])?])
     }
 }
 

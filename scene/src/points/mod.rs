@@ -5,6 +5,7 @@
 //! is there.
 
 mod forms;
+mod heading;
 mod order;
 mod place;
 
@@ -17,6 +18,7 @@ use crate::precise::PreciseVector;
 use crate::text::{Table, Value};
 
 pub(crate) use forms::{body_frame, precise_direction};
+pub(crate) use heading::Heading;
 pub(crate) use order::{Node, order};
 pub(crate) use place::{Place, PlaceOf, PrecisePlace};
 

@@ -83,6 +83,12 @@ impl<'w, 't> Writer<'w, 't> {
                 match *kind {
                     "body" => self.body(table, row)?,
                     "joint" => self.joint(table, row)?,
+                    "input" => {
+                        crate::input::allow(table).and_then(|()| self.table(table, |_| true))?
+                    }
+                    "readout" => {
+                        crate::readout::allow(table).and_then(|()| self.table(table, |_| true))?;
+                    }
                     _ => self.table(table, |_| true)?,
                 }
             }

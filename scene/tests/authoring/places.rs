@@ -194,3 +194,25 @@ fn a_name_stands_wherever_a_place_does() {
     assert_eq!(named.model, numbers.model);
     assert_eq!(named.readouts, numbers.readouts);
 }
+
+/// Numbers or two points, for a joint, the two axes of a universal one and a torsion spring: the same model.
+#[test]
+fn two_points_are_a_direction() {
+    let model = |axes: [&str; 5]| {
+        let [revolute, reference, one, other, spring] = axes;
+        let joints = format!(
+            "points = {{ A = [1, 1, 0], B = [1, 1, 2], C = [5, 1, 0], D = [1, 4, 0] }}\n\
+             defaults.joint = {{ stiffness = 1e5, span = 0.1, spider = {{ mass = 1, inertia = [1, 1, 1] }} }}\n\
+             joint = [{{ name = \"r\", type = \"revolute\", between = [\"world\", \"b0\"], at = \"A\", axis = {revolute}, \
+             reference = {reference} }},\n\
+             {{ name = \"u\", type = \"universal\", between = [\"b0\", \"b1\"], at = \"B\", axes = [{one}, {other}] }}]\n\
+             torsion_spring = [{{ between = [\"world\", \"b0\"], axis = {spring}, stiffness = 10 }}]"
+        );
+        scene(&joints, &["position = \"A\"", "position = \"B\""]).model
+    };
+    let named =
+        ["[\"A\", \"B\"]", "[\"A\", \"C\"]", "[\"C\", \"A\"]", "[\"A\", \"D\"]", "[\"B\", \"A\"]"];
+    let numbers = ["[0, 0, 1]", "[1, 0, 0]", "[-1, 0, 0]", "[0, 3, 0]", "[0, 0, -5]"];
+    assert_eq!(model(named), model(numbers));
+    assert_ne!(model(named), model(["[1, 0, 1]", numbers[1], numbers[2], numbers[3], numbers[4]]));
+}

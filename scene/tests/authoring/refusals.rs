@@ -108,6 +108,9 @@ fn points_are_refused_at_their_place() {
 #[test]
 fn links_and_names_are_refused_at_their_place() {
     check(&[
+        ("axis = [0, 0, 1]\nstiffness", "axis = «[\"A\"]\nstiffness", "`axis` of joint `pin` has 1 entry", "the names of two points"),
+        ("axis = [0, 0, 1]\nstiffness", "axis = [\"A\", «\"Q\"]\nstiffness", "`axis`[1] of joint `pin` names no point: \"Q\"", "there are \"A\", \"B\""),
+        ("axis = [0, 0, 1]\nstiffness", "axis = «[\"A\", \"A\"]\nstiffness", "`axis` of joint `pin` has points that coincide", "from the first to the second"),
         ("link = { from = \"A\", to = \"B\" }", "link = «3", "`link` of body `bar` is an integer", "{ from = \"A\", to = \"B\" }"),
         ("from = \"A\", to = \"B\" } #", "from = \"A\", «too = \"B\" } #", "`link` of body `bar` has no key `too`", "did you mean `to`?"),
         ("from = \"A\", to = \"B\" } #", "from = \"A\", to = «\"A\" } #", "`to` of `link` of body `bar` is where `from` is", "two different points"),

@@ -1,0 +1,39 @@
+//! What arguments name: a scene, a method's damping, a folder for results.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueHint};
+use dbd_plant::{DampingName, Method};
+
+use crate::arguments::SceneArgument;
+use crate::commands::folder::Destination;
+use crate::error::Error;
+use crate::terminal::{Catalogue, Found, SceneFile};
+
+#[derive(Debug, Args)]
+pub(super) struct ResultsArguments {
+    /// Folder below which results are written, each scene's in one of its file's name
+    #[arg(long, value_name = "DIR", default_value = "out", value_hint = ValueHint::DirPath)]
+    out: PathBuf,
+    /// Replace the results of another scene whose file has the same name
+    #[arg(long)]
+    overwrite: bool,
+}
+
+impl ResultsArguments {
+    pub(super) fn destination(&self, file: &SceneFile) -> Destination {
+        let Self { out, overwrite } = self;
+        Destination { out: out.clone(), file: file.clone(), overwrite: *overwrite }
+    }
+}
+
+pub(super) fn load(catalogue: &Catalogue, argument: &SceneArgument) -> Result<Found, Error> {
+    Ok(catalogue.load_with(&argument.scene, &argument.set)?)
+}
+
+pub(super) fn damped(method: Method, damping: Option<DampingName>) -> Result<Method, Error> {
+    Ok(match damping {
+        Some(damping) => method.with_damping(damping)?,
+        None => method,
+    })
+}

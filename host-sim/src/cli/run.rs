@@ -1,0 +1,131 @@
+//! `host-sim run` on the command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueHint};
+use dbd_golden::{BandList, Blessing};
+use dbd_plant::time::Time;
+use dbd_plant::{DampingName, Method, Named as _, OrientationName, PrecisionName, SchemeName};
+
+use crate::arguments::{SceneArgument, names};
+use crate::cli::named::{ResultsArguments, damped, load};
+use crate::commands::golden::GoldenOptions;
+use crate::commands::run::{Outcome, RunOptions, run};
+use crate::error::Error;
+use crate::simulate::EnergyLimit;
+use crate::terminal::text::table;
+use crate::terminal::{Catalogue, Console, Exit, Found, Progress};
+
+#[derive(Debug, Args)]
+pub(super) struct RunArguments {
+    #[command(flatten)]
+    scene: SceneArgument,
+    /// Time-stepping scheme
+    #[arg(long, value_parser = names::<SchemeName>(), default_value = SchemeName::default().name())]
+    scheme: SchemeName,
+    /// Newton iterations per step of the dbd schemes, at most 8 [default: 0]
+    #[arg(long, value_name = "N")]
+    newton: Option<u32>,
+    /// How dampers act [default: the scheme's own]
+    #[arg(long, value_parser = names::<DampingName>())]
+    damping: Option<DampingName>,
+    /// Step, e.g. 20us [default: the scene's, else the advised one, shortened to fit]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    step: Option<Time>,
+    /// Simulated time, e.g. 0.5s [default: the scene's]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    duration: Option<Time>,
+    /// Precision of all arithmetic in a step
+    #[arg(long, value_parser = names::<PrecisionName>(), default_value = PrecisionName::default().name())]
+    precision: PrecisionName,
+    /// How orientations are stored
+    #[arg(long, value_parser = names::<OrientationName>(), default_value = OrientationName::default().name())]
+    orientation: OrientationName,
+    /// Sampling interval, e.g. 1ms [default: the scene's, else about 500 samples]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    every: Option<Time>,
+    /// End the run at the first sample whose total energy has changed by more than so many joules,
+    /// or risen where only dampers change it
+    #[arg(long, value_name = "LIMIT", allow_hyphen_values = true)]
+    watch_energy: Option<EnergyLimit>,
+    /// Compare with the golden run in a file, bit for bit; DBD_BLESS=golden in the environment writes it
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    golden: Option<PathBuf>,
+    /// Compare within bands instead, by whatever scheme and precision: 1e-6 for all in SI units, or
+    /// position=1e-6,orientation=1e-6,velocity=1e-3,angular-velocity=1e-3,READOUT=1e-3
+    #[arg(long, value_name = "BANDS", requires = "golden", allow_hyphen_values = true)]
+    golden_band: Option<BandList>,
+    /// Write no report.html
+    #[arg(long)]
+    no_report: bool,
+    #[command(flatten)]
+    results: ResultsArguments,
+    /// Print nothing but errors
+    #[arg(long)]
+    quiet: bool,
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn run_scene(
+    catalogue: &Catalogue,
+    arguments: &RunArguments,
+    console: &mut Console<'_>,
+) -> Result<Exit, Error> {
+    let method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
+    let method = damped(method, arguments.damping)?.with_orientation(arguments.orientation);
+    method.check_built()?;
+    let Found { scene, file, .. } = load(catalogue, &arguments.scene)?;
+    let options = RunOptions {
+        method,
+        step: arguments.step.map(Time::seconds),
+        duration: arguments.duration.map(Time::seconds),
+        every: arguments.every.map(Time::seconds),
+        watch_energy: arguments.watch_energy,
+        golden: arguments.golden.as_ref().map(|file| GoldenOptions {
+            file: file.clone(),
+            bands: arguments.golden_band.clone(),
+            blessing: Blessing::from_environment(),
+        }),
+        out: Some(arguments.results.destination(&file)),
+        report: !arguments.no_report,
+        called: Some(arguments.scene.scene.clone()),
+    };
+    let mut progress = Progress::new(console.terminal && !arguments.quiet);
+    let outcome = run(&scene, &options, &mut |steps, all| progress.update(steps, all));
+    progress.finish();
+    let outcome = outcome?;
+    let printed = if arguments.json {
+        console.print(&outcome.summary.json())
+    } else if !arguments.quiet {
+        console.print(&summary_table(&outcome, options.report))
+    } else {
+        Ok(())
+    };
+    if arguments.json {
+        for warning in outcome.summary.warnings.iter().filter(|_| !arguments.quiet) {
+            console.warn(warning);
+        }
+    }
+    let golden = outcome.summary.golden.as_ref();
+    if let Some(golden) = golden.filter(|golden| golden.verdict == "blessed") {
+        // Never silently.
+        console.note(&golden.words);
+    }
+    let ended_by = outcome.ended_by().or(outcome.differs());
+    if let Some(ended_by) = ended_by {
+        console.report(ended_by);
+    }
+    printed?;
+    Ok(if ended_by.is_some() { Exit::Failed } else { Exit::Done })
+}
+
+fn summary_table(outcome: &Outcome, report: bool) -> String {
+    let mut rows = outcome.summary.rows();
+    if let Some(folder) = &outcome.folder {
+        let page = if report { ",report.html" } else { "" };
+        rows.push(("written", format!("{}/{{trace.csv,summary.json{page}}}", folder.display())));
+    }
+    table(&rows)
+}
