@@ -32,13 +32,11 @@ pub(crate) fn read_all(
         let d = assembly.place(pair.b, b) - assembly.place(pair.a, a);
         let distance = libm::sqrt(d.dot(d));
         let free_length = table.required("free_length", FreeLength { distance })?;
-        if free_length > 0.0 {
-            if distance <= COINCIDENT * free_length {
-                let help = "two points apart, or `free_length = 0` for a spring that is \
-                            isotropic and needs no direction";
-                let problem = "coincide, though the TSDA has a free length";
-                return Err(table.refuse_value("points", problem, help));
-            }
+        if free_length > 0.0 && distance <= COINCIDENT * free_length {
+            let help = "two points apart, or `free_length = 0` for a spring that is isotropic and \
+                        needs no direction";
+            let problem = "coincide, though the TSDA has a free length";
+            return Err(table.refuse_value("points", problem, help));
         }
         let points = Points { centres: &[a], tips: &[b], shared: false };
         if free_length > 0.0 {

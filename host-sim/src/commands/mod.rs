@@ -3,7 +3,7 @@
 //! - [`list`]: the scenes that ship.
 //! - [`warnings`]: what is probably not meant, in one place for all.
 //! - [`assembled`], [`stability`], [`derived`], [`check`]: what a scene is, without running it.
-//! - [`picture`]: the mechanism as an SVG. [`write`]: a scene in its long form.
+//! - [`picture`]: the mechanism as an SVG. [`mod@write`]: a scene in its long form.
 //! - [`folder`]: where results go.
 //! - [`golden`]: a run beside a golden file.
 //! - [`run`]: a scene becomes a trace, a summary and a report.
