@@ -75,7 +75,7 @@ impl LabelSpots {
 
     /// A stroke that labels should not hide.
     pub fn stroke(&mut self, (x0, y0): (f64, f64), (x1, y1): (f64, f64)) {
-        let count = ((x1 - x0).hypot(y1 - y0) / SAMPLING).ceil().max(1.0);
+        let count = (libm::hypot(x1 - x0, y1 - y0) / SAMPLING).ceil().max(1.0);
         for n in 0..=count as u32 {
             let share = f64::from(n) / count;
             self.strokes.push((x0 + share * (x1 - x0), y0 + share * (y1 - y0)));
@@ -100,7 +100,8 @@ impl LabelSpots {
         for ring in RINGS {
             for n in 0..DIRECTIONS {
                 let angle = f64::from(n) * std::f64::consts::TAU / f64::from(DIRECTIONS);
-                let (sine, cosine) = angle.sin_cos();
+                // The same spots on every machine.
+                let (sine, cosine) = libm::sincos(angle);
                 let rectangle = Rectangle {
                     x: anchor.0 + cosine * (width / 2.0 + ring) - width / 2.0,
                     y: anchor.1 + sine * (height / 2.0 + ring) - height / 2.0,

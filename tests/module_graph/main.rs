@@ -206,7 +206,7 @@ fn no_walk_comes_back_to_a_file() {
     let text = std::fs::read_to_string(path("docs/architecture.md")).unwrap();
     let walks: Vec<_> =
         text.split("\n### One ").skip(1).map(|walk| walk.split("\n## ").next().unwrap()).collect();
-    assert_eq!(walks.len(), 2);
+    assert_eq!(walks.len(), 3);
     for walk in walks {
         let files = named(walk);
         assert!(files.len() > 3, "{files:?}");

@@ -2,6 +2,7 @@
 //! no test can repeat in a moment.
 
 mod collect;
+mod pictures;
 mod proof;
 
 use dbd_tests::page::{block, figure, grouped, table};

@@ -142,6 +142,19 @@ impl Toolchain {
         command
     }
 
+    /// `cargo SUBCOMMAND` for several targets, a command for all that are had in the same way: cargo then
+    /// builds for them side by side.
+    pub fn cargo_for(toolchains: &[Self], subcommand: &str, libraries: &str) -> Vec<Command> {
+        let mut commands: Vec<(Way, Command)> = Vec::new();
+        for toolchain in toolchains {
+            match commands.iter_mut().find(|(way, _)| *way == toolchain.way) {
+                Some((_, command)) => drop(command.args(["--target", &toolchain.target])),
+                None => commands.push((toolchain.way, toolchain.cargo(subcommand, libraries))),
+            }
+        }
+        commands.into_iter().map(|(_, command)| command).collect()
+    }
+
     /// `cargo SUBCOMMAND` for the machine that it runs on, with the same compiler.
     pub fn host_cargo(&self, subcommand: &str) -> Command {
         let mut command = match self.way {

@@ -191,25 +191,24 @@ fn keep(run: Result<Vec<Case>>, cases: &mut Vec<Case>) -> Result<()> {
     Ok(())
 }
 
-/// The kernel compiles for every target, and with all features for the firmware's.
+/// The kernel and what compares trajectories compile for every target, the kernel with all features for
+/// the firmware's.
 fn other_targets(steps: &mut Steps) {
-    for target in [setup::TARGET].iter().chain(&OTHER_TARGETS) {
-        steps.step(&format!("kernel for {target}"), || {
-            let toolchain = Toolchain::find(target)?;
-            let check = || {
-                let mut command = toolchain.cargo("check", "core");
-                command.args(["--package", KERNEL]);
+    steps.step("kernel for the firmware's target and three more", || {
+        let targets = [setup::TARGET].into_iter().chain(OTHER_TARGETS);
+        let toolchains = targets.map(Toolchain::find).collect::<Result<Vec<_>>>()?;
+        let check = |toolchains: &[Toolchain], options: &[&str]| {
+            for mut command in Toolchain::cargo_for(toolchains, "check", "core") {
+                command.args(["--package", KERNEL]).args(options);
                 // Nothing of it runs: the library need not be optimised.
                 command.env("CARGO_PROFILE_DEV_OPT_LEVEL", "0").env("CARGO_PROFILE_DEV_DEBUG", "0");
-                command
-            };
-            run_command(check().args(["--package", TRAJECTORIES, "--no-default-features"]))?;
-            if *target == setup::TARGET {
-                run_command(check().arg("--all-features"))?;
+                run_command(&mut command)?;
             }
             Ok(())
-        });
-    }
+        };
+        check(&toolchains, &["--package", TRAJECTORIES, "--no-default-features"])?;
+        check(&toolchains[..1], &["--all-features"])
+    });
 }
 
 fn on_target(toolchain: &Toolchain, host: Option<&Host>, long: bool, steps: &mut Steps) {
