@@ -2,6 +2,7 @@
 //!
 //! `(names with wildcards, columns of the trace) => rows of the trace's columns`.
 
+use dbd_scene::parameters::is_of;
 use dbd_scene::{ENERGY_COLUMNS, Scene, nearest, shortened};
 
 use crate::refusal::Refusal;
@@ -84,51 +85,4 @@ fn readout_of<'s>(scene: &'s Scene, column: &str) -> Option<&'s str> {
         column.strip_prefix(&readout.name).is_some_and(|rest| ends.into_iter().any(|e| e == rest))
     });
     found.map(|readout| readout.name.as_str())
-}
-
-/// Whether a name is of a pattern: `*` stands for any letters, `?` for one.
-fn is_of(pattern: &str, name: &str) -> bool {
-    let [pattern, name] = [pattern, name].map(|text| text.chars().collect::<Vec<_>>());
-    // The ends of the pattern that can still come to its end, letter by letter of the name.
-    let mut reached = vec![false; pattern.len() + 1];
-    reached[0] = true;
-    let skip_stars = |reached: &mut Vec<bool>| {
-        for at in 0..pattern.len() {
-            reached[at + 1] |= reached[at] && pattern[at] == '*';
-        }
-    };
-    skip_stars(&mut reached);
-    for letter in name {
-        let mut next = vec![false; pattern.len() + 1];
-        for at in (0..pattern.len()).filter(|at| reached[*at]) {
-            next[at] |= pattern[at] == '*';
-            next[at + 1] |= pattern[at] == '?' || pattern[at] == letter;
-        }
-        skip_stars(&mut next);
-        reached = next;
-    }
-    reached[pattern.len()]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn stars_stand_for_letters() {
-        for (pattern, name, fits) in [
-            ("*", "", true),
-            ("energy.*", "energy.total", true),
-            ("energy.*", "my energy.total", false),
-            ("*.x", "crank.x", true),
-            ("*.?", "crank.vx", false),
-            ("a*b*c", "aXbXbc", true),
-            ("a*b", "abab", true),
-            ("a", "ab", false),
-            ("", "a", false),
-        ] {
-            assert_eq!(is_of(pattern, name), fits, "{pattern} {name}");
-        }
-        assert!(!is_of(&"*a".repeat(300), &"a".repeat(200)));
-    }
 }

@@ -8,6 +8,7 @@
 
 mod named;
 mod path;
+mod pattern;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -19,6 +20,7 @@ use crate::text;
 pub use named::Parameter;
 pub(crate) use named::{all, read};
 use path::{Placed, Step};
+pub use pattern::is_of;
 
 /// What a change did.
 #[derive(Clone, Debug, PartialEq, Eq)]
