@@ -10,14 +10,15 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Folders of the repository whose sources compute what a row of a sweep holds.
-const COMPUTING: [&str; 7] = [
+/// Folders and files of the repository whose sources compute what a row of a sweep holds.
+const COMPUTING: [&str; 8] = [
     "kernel/src",
     "scene/src",
     "plant/src",
     "sweep/src",
     "host-sim/src/simulate",
     "host-sim/src/report",
+    "host-sim/src/commands/run.rs",
     "host-sim/src/commands/sweep",
 ];
 
@@ -67,10 +68,10 @@ fn sources(own: &Path) -> io::Result<String> {
     Ok(format!("+{hash:016x}"))
 }
 
-fn list(folder: &Path, into: &mut Vec<PathBuf>) -> io::Result<()> {
-    for entry in fs::read_dir(folder)? {
-        let path = entry?.path();
-        if path.is_dir() { list(&path, into)? } else { into.push(path) }
+fn list(path: &Path, into: &mut Vec<PathBuf>) -> io::Result<()> {
+    if !path.is_dir() {
+        into.push(path.to_owned());
+        return Ok(());
     }
-    Ok(())
+    fs::read_dir(path)?.try_for_each(|entry| list(&entry?.path(), into))
 }

@@ -262,7 +262,7 @@ impl Scene {
         let changes = Changes::read(text, changes)?;
         let source = changes.source(file);
         let mut document = text::parse(source)?;
-        let before = match &changes.is_empty() {
+        let before = match changes.is_empty() {
             true => None,
             false => parameters::read(&text::root(source, &document), None).ok(),
         };

@@ -312,4 +312,10 @@ fn a_run_says_when_a_body_came_to_turn_too_far_in_a_step() {
         assert!(step.contains("turns by 0.5 rad in a step of 1ms at t = 0"), "{step}");
         assert_eq!(step.contains("angular momentum is lost"), lost, "{orientation}: {step}");
     }
+    // Unless it came to turn much faster than that: from 0.15 rad to 0.45.
+    let faster = rotor.replace("position", "angular_velocity = [0, 0, 150]\nposition");
+    let said = turns(warnings(&folder.summary(&folder.scene(&faster), &["--every", "1ms"])));
+    let [step, run] = &said[..] else { panic!("{said:#?}") };
+    assert!(step.contains("turns by 0.15 rad in a step of 1ms at t = 0"), "{step}");
+    assert!(run.contains("turned by 0.45 rad in a step at t = 0.3s"), "{run}");
 }

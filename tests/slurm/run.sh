@@ -14,7 +14,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 program=$(realpath "${1:-$here/../../target/release/host-sim}")
 jobs=8
 cores=$(nproc)
-work=$(mktemp -d /tmp/dbd-slurm.XXXXXX)
+work=$(mktemp -d -t dbd-slurm.XXXXXX)
 node=$(hostname -s)
 pids=()
 

@@ -329,7 +329,7 @@ fn summarise(
     };
     let mut warnings = of_step(scene, frequencies, method, plan.step, "the step");
     warnings.extend(of_run(scene, &ending.openings));
-    warnings.extend(of_turns(scene, method, plan.step, &ending.turning));
+    warnings.extend(of_turns(scene, frequencies, method, plan.step, &ending.turning));
     warnings.extend(of_scene(scene));
     Summary {
         scene: scene.name.clone(),

@@ -207,10 +207,22 @@ pub fn of_run(scene: &Scene, openings: &[Opening]) -> Vec<String> {
     vec![text + ": stiffness, masses and loads do not go together, or the step is too long"]
 }
 
+/// By so much more than at t = 0 a body must have come to turn in a step for a run to say so, too.
+const TURNS_FASTER: f64 = 1.5;
+
 /// A body that came to turn too far in a step on the way. What it does so at t = 0 is said of the step.
 #[must_use]
-pub fn of_turns(scene: &Scene, method: &Method, step: f64, turning: &Turning) -> Option<String> {
-    let since = turning.since.filter(|since| *since > 0.0)?;
+pub fn of_turns(
+    scene: &Scene,
+    frequencies: &Frequencies,
+    method: &Method,
+    step: f64,
+    turning: &Turning,
+) -> Option<String> {
+    let since = turning.since?;
+    if since == 0.0 && turning.turn <= TURNS_FASTER * frequencies.spin * step {
+        return None;
+    }
     let body = scene.body_names.get(turning.body).map_or("", String::as_str);
     Some(format!(
         "body `{body}` turned by {} rad in a step at t = {}, a body by more than {LARGEST_TURN} rad from \

@@ -24,7 +24,8 @@ impl Kind for Heading<'_> {
 
     fn read(&self, value: &Value<'_>) -> Result<Vec3<f64>, SceneError> {
         let entries = value.array(&self.expected())?;
-        if !entries.iter().any(|entry| entry.get().is_str()) || entries.len() == 3 {
+        // Three texts are components with units or names of parameters.
+        if entries.len() == 3 || !entries.iter().any(|entry| entry.get().is_str()) {
             return Direction.read(value);
         }
         let entries = value.entries(2, &self.expected())?;

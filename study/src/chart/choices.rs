@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use dbd_output::label_spots::LabelSpots;
 use dbd_output::markup::escape;
 use dbd_output::svg::label;
 
@@ -9,7 +10,6 @@ use crate::advice::choice;
 use crate::chart::drawing::{Drawing, LABEL, RIGHT, STRIP, WIDTH};
 use crate::chart::style::{FAINT, INK};
 use crate::words::shown;
-use dbd_output::label_spots::LabelSpots;
 
 /// The cheapest point for an accuracy.
 pub(super) struct Choice {

@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
+use dbd_output::label_spots::{LabelSpots, Rectangle};
 use dbd_output::svg::label;
 use dbd_plant::digits::significant;
 
 use crate::chart::drawing::{BOTTOM, Drawing, LABEL, LEFT, Line, MARK, RIGHT, STRIP, TOP, WIDTH};
 use crate::chart::style::{FAINT, GRID, INK};
 use crate::point::{Machine, Stepper};
-use dbd_output::label_spots::{LabelSpots, Rectangle};
 
 impl Drawing<'_> {
     /// What lies below the truth's own uncertainty.

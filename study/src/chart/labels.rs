@@ -2,12 +2,12 @@
 
 use std::fmt::Write as _;
 
+use dbd_output::label_spots::{LabelSpots, Rectangle};
 use dbd_output::markup::escape;
 
 use crate::chart::choices::Choice;
 use crate::chart::drawing::{BOTTOM, Drawing, LABEL, LEFT, Line, RIGHT, TOP};
 use crate::words::shown;
-use dbd_output::label_spots::{LabelSpots, Rectangle};
 
 impl Drawing<'_> {
     /// Numbers of the choices, then names: of the front's other points, of the lines where they end.
