@@ -5,6 +5,7 @@
 
 use std::fmt::Write as _;
 
+use dbd_output::dark::adapted;
 use dbd_output::markup::escape;
 use dbd_output::svg::label;
 use dbd_plant::digits::significant;
@@ -81,7 +82,8 @@ pub fn svg(heat: &Heat<'_>) -> String {
         );
         match values.len() <= SPEAKING {
             true => {
-                let said = value.map_or("not ok".into(), |value| significant(value, 5));
+                let value = value.map_or("not ok".into(), |value| significant(value, 5));
+                let said = format!("{}\n{}\n{value}", x.said(column as f64), y.said(row as f64));
                 let _ = writeln!(text, "><title>{}</title></rect>", escape(&said));
             }
             false => text.push_str("/>\n"),
@@ -102,7 +104,7 @@ pub fn svg(heat: &Heat<'_>) -> String {
     sides(&mut text, (x, y), [left, top, right, bottom], height);
     legend(&mut text, [right + 14.0, top, bottom], [low, high]);
     text.push_str("</svg>\n");
-    text
+    adapted(&text)
 }
 
 /// The colours beside their values.
