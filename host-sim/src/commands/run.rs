@@ -16,12 +16,14 @@ use dbd_plant::plant::{check_inputs, check_step};
 use dbd_plant::{Frequencies, Method, Plan, PlanError, PlantError};
 use dbd_scene::{Scene, Setting};
 use dbd_study::command::with_changes;
+use dbd_study::modes::ModesError;
 use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::commands::assembled::AssembledCheck;
 use crate::commands::folder::{Destination, FolderError};
 use crate::commands::golden::{GoldenOptions, GoldenRefusal, GoldenWatch};
+use crate::commands::modes::lowest;
 use crate::commands::warnings::{of_run, of_scene, of_step, of_turns};
 use crate::report::{
     Curves, JointOpening, ReadoutFigures, Report, SetValue, Statistics, Summary, TraceWriter, html,
@@ -47,6 +49,8 @@ pub struct RunOptions {
     pub watch_energy: Option<EnergyLimit>,
     /// What the run is compared with.
     pub golden: Option<GoldenOptions>,
+    /// How many of the lowest modes at t = 0 are found; none where `None`.
+    pub modes: Option<usize>,
     /// Where results go; `None` writes nothing.
     pub out: Option<Destination>,
     /// Whether a report is among them.
@@ -66,6 +70,7 @@ impl RunOptions {
             every: None,
             watch_energy: None,
             golden: None,
+            modes: None,
             out: None,
             report: true,
             called: None,
@@ -125,6 +130,10 @@ pub enum RunError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Golden(#[from] GoldenRefusal),
+    /// There are no modes.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Modes(#[from] ModesError),
     /// Results cannot be written.
     #[error("cannot write the results: {0}")]
     Write(io::Error),
@@ -206,6 +215,7 @@ pub fn run(
     check_inputs(scene, &options.method)?;
     let golden = options.golden.as_ref();
     let golden = golden.map(|golden| golden.begin(scene, &options.method, &plan)).transpose()?;
+    let modes = options.modes.map(|count| lowest(scene, count)).transpose()?;
     let folder = match &options.out {
         Some(out) => Some(out.folder(&scene.name)?),
         None => None,
@@ -243,6 +253,10 @@ pub fn run(
     let stop = watch.and_then(|watch| watch.stop());
     summary.of_watch(watch, stop);
     summary.of_file(options.out.as_ref().map(|out| &out.file));
+    if let Some(modes) = &modes {
+        summary.modes = Some(modes.frequencies.clone());
+        summary.warnings.extend(modes.remarks.iter().cloned());
+    }
     let called = options.called.as_deref().unwrap_or(&scene.name);
     // What did not come to its end is neither compared nor blessed.
     let golden = golden.filter(|_| failure.is_none() && stop.is_none());
@@ -361,6 +375,7 @@ fn summarise(
         assembled: AssembledCheck::of(scene).map(|assembled| assembled.sentence()),
         watch_energy: None,
         golden: None,
+        modes: None,
         widest_joint: widest(scene, &ending.openings),
         warnings,
         readouts: ReadoutFigures::of(scene, statistics.readings()),
