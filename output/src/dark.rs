@@ -47,7 +47,8 @@ pub const PAIRS: [(&str, &str); 30] = [
 /// The drawing with the rules of the colours that it has. What is no SVG is given back as it is.
 #[must_use]
 pub fn adapted(svg: &str) -> String {
-    let Some((root, rest)) = svg.split_once('>').filter(|(root, _)| root.starts_with("<svg ")) else {
+    let Some((root, rest)) = svg.split_once('>').filter(|(root, _)| root.starts_with("<svg "))
+    else {
         return svg.to_owned();
     };
     let mut rules = String::new();
@@ -90,7 +91,9 @@ mod tests {
     #[test]
     fn a_drawing_has_rules_for_its_own_colours_only() {
         let adapted = adapted(SVG);
-        assert!(adapted.starts_with("<svg class=\"drawing\" width=\"9\" fill=\"#333a45\">\n<style>"));
+        assert!(
+            adapted.starts_with("<svg class=\"drawing\" width=\"9\" fill=\"#333a45\">\n<style>")
+        );
         assert!(adapted.contains(".drawing [stroke=\"#0072b2\"]{stroke:#3d93d6}"), "{adapted}");
         assert!(adapted.contains(".drawing[fill=\"#333a45\"]"), "{adapted}");
         assert!(!adapted.contains("#d55e00") && adapted.ends_with("</svg>\n"));

@@ -49,8 +49,12 @@ pub struct Modes {
 #[derive(Clone, Copy, Debug, PartialEq, Error, Diagnostic)]
 pub enum ModesError {
     /// Too many bodies.
-    #[error("the modes of {bodies} bodies would take too long; those of {MOST_BODIES} are the most")]
-    #[diagnostic(help("without --modes; or the modes of a part of the mechanism as a scene of its own"))]
+    #[error(
+        "the modes of {bodies} bodies would take too long; those of {MOST_BODIES} are the most"
+    )]
+    #[diagnostic(help(
+        "without --modes; or the modes of a part of the mechanism as a scene of its own"
+    ))]
     TooMany {
         /// How many there are.
         bodies: usize,
@@ -60,7 +64,9 @@ pub enum ModesError {
     #[diagnostic(help("another pose: one in which every torsion spring has a twist"))]
     Pose(Cause),
     /// A stiffness beyond the range of numbers.
-    #[error("there are no modes about this pose: its stiffness over its masses is beyond all numbers")]
+    #[error(
+        "there are no modes about this pose: its stiffness over its masses is beyond all numbers"
+    )]
     #[diagnostic(help("smaller stiffnesses or larger masses and inertias"))]
     Range,
 }
@@ -79,7 +85,8 @@ impl Modes {
         let roots = roots(model);
         let raw: Vec<f64> =
             roots.iter().enumerate().map(|(row, root)| self.shapes[(row, mode)] * root).collect();
-        let largest = raw.iter().copied().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+        let largest =
+            raw.iter().copied().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
         let scale = if largest == 0.0 { 0.0 } else { 1.0 / largest };
         raw.chunks_exact(6).map(|body| std::array::from_fn(|i| body[i] * scale)).collect()
     }
@@ -157,7 +164,11 @@ fn scaled(
             }
         }
     }
-    if matrix.iter().all(|entry: &f64| entry.is_finite()) { Ok(matrix) } else { Err(ModesError::Range) }
+    if matrix.iter().all(|entry: &f64| entry.is_finite()) {
+        Ok(matrix)
+    } else {
+        Err(ModesError::Range)
+    }
 }
 
 /// `M⁻½·K·M⁻½` \[1/s²\] and its asymmetry, 0 where K is 0.
@@ -172,8 +183,7 @@ pub fn scaled_stiffness(
     let matrix = scaled(model, |freedom, by| moved(&rest, freedom, by))?;
     let transpose = matrix.transpose();
     let largest = matrix.amax();
-    let asymmetry =
-        if largest == 0.0 { 0.0 } else { (&matrix - &transpose).amax() / largest };
+    let asymmetry = if largest == 0.0 { 0.0 } else { (&matrix - &transpose).amax() / largest };
     Ok(((matrix + transpose) * 0.5, asymmetry))
 }
 
@@ -203,10 +213,7 @@ pub fn scaled_damping(
 ///
 /// # Errors
 /// Where there are more than [`MOST_BODIES`] bodies, a twist is undefined, or numbers overflow.
-pub fn modes(
-    model: &SceneModel<F64>,
-    state: &State<SceneModel<F64>>,
-) -> Result<Modes, ModesError> {
+pub fn modes(model: &SceneModel<F64>, state: &State<SceneModel<F64>>) -> Result<Modes, ModesError> {
     if model.bodies.len() > MOST_BODIES {
         return Err(ModesError::TooMany { bodies: model.bodies.len() });
     }
@@ -239,9 +246,8 @@ pub fn modes(
 pub fn remarks(scene: &Scene, modes: &Modes) -> Result<Vec<String>, ModesError> {
     let (model, state) = (&scene.model, State::initial(&scene.model));
     let mut remarks = Vec::new();
-    let moving = |body: &BodyState<F64>| {
-        body.velocity != Vec3::ZERO || body.angular_velocity != Vec3::ZERO
-    };
+    let moving =
+        |body: &BodyState<F64>| body.velocity != Vec3::ZERO || body.angular_velocity != Vec3::ZERO;
     if state.bodies.iter().any(moving) {
         remarks.push(
             "the scene moves at t = 0; its modes are those of the same pose at rest".to_owned(),

@@ -13,7 +13,7 @@ use crate::chart::{Chart, narrow_svg, steppers, svg};
 use crate::front_table::{headings, rows};
 use crate::point::{Machine, Point};
 use crate::stability::MARGIN;
-use crate::words::{percent, shown};
+use crate::words::{capital, percent, shown};
 
 const STYLE: &str = include_str!("trade.css");
 const SCRIPT: &str = include_str!("trade.js");
@@ -100,12 +100,6 @@ fn machine(page: &mut String, chart: &Chart<'_>, machine: Machine, title: &str) 
          last two and at most two decades of error far; ≤ at its largest step, which is more accurate \
          still.</p>\n",
     );
-}
-
-/// With a capital letter.
-fn capital(sentence: &str) -> String {
-    let mut letters = sentence.chars();
-    letters.next().map(char::to_uppercase).into_iter().flatten().chain(letters).collect()
 }
 
 fn reading(page: &mut String, chart: &Chart<'_>) {

@@ -223,7 +223,8 @@ fn curves<'f>(table: &Table, axis: &'f Coordinates, shown: &[Shown<'_>]) -> Opti
             points: axis.sorted(table.rows.iter().map(|row| (row, one.value(table, row)))),
         })
         .collect();
-    let label = if shown.len() > 1 { with_unit(&first.column.name, first.unit()) } else { first.label() };
+    let label =
+        if shown.len() > 1 { with_unit(&first.column.name, first.unit()) } else { first.label() };
     let title = if shown.len() > 1 { first.column.name.clone() } else { first.title() };
     drawing(axis, series, label, title, axis.is_numeric)
 }

@@ -89,7 +89,8 @@ fn damping_ratios(
 ) -> [f64; 2] {
     let shape = modes.shapes.column(mode);
     let of = |model: &SceneModel<F64>| {
-        shape.dot(&(scaled_damping(model, state).unwrap() * shape)) / (2.0 * TAU * modes.frequencies[mode])
+        shape.dot(&(scaled_damping(model, state).unwrap() * shape))
+            / (2.0 * TAU * modes.frequencies[mode])
     };
     [of(&held_by(scene, by)), of(&scene.model)]
 }

@@ -15,7 +15,7 @@ use dbd_plant::judge::{Opening, conserves_energy};
 use dbd_plant::plan::{Request, StepRequest, plan};
 use dbd_plant::plant::{check_inputs, check_step};
 use dbd_plant::{Frequencies, Method, Plan, PlanError, PlantError};
-use dbd_report::data::Text;
+use dbd_report::data::{Mode, Text};
 use dbd_report::{Data, Recorded, Recording, gltf, page};
 use dbd_scene::{Scene, Setting};
 use dbd_study::command::with_changes;
@@ -27,6 +27,7 @@ use crate::commands::assembled::AssembledCheck;
 use crate::commands::folder::{Destination, FolderError};
 use crate::commands::golden::{GoldenOptions, GoldenRefusal, GoldenWatch};
 use crate::commands::modes::lowest;
+use crate::commands::surveyed::surveyed;
 use crate::commands::warnings::{of_run, of_scene, of_step, of_turns};
 use crate::report::{
     JointOpening, ReadoutFigures, SetValue, Statistics, Summary, TraceWriter, text, trace,
@@ -267,8 +268,10 @@ pub fn run(
     let golden = golden.filter(|_| failure.is_none() && stop.is_none());
     summary.golden = golden.map(|golden| golden.finish(&plan, &with_changes(scene, called)));
     if let (Some(mut files), Some(out)) = (files, &options.out) {
-        let words = text(scene, &plan, &summary, called);
-        let written = show(scene, options, recording, words, &mut files);
+        let mut words = text(scene, &plan, &summary, called);
+        words.survey = surveyed(files.folder(), scene, &out.file);
+        let swings = modes.map(|modes| modes.of_page()).unwrap_or_default();
+        let written = show(scene, options, recording, (words, swings), &mut files);
         let written = written.and_then(|()| files.write("summary.json", &summary.json()));
         let place = files.folder().to_owned();
         let whole = written.and_then(|()| files.finish()).map_err(RunError::Write)?;
@@ -290,7 +293,7 @@ fn show(
     scene: &Scene,
     options: &RunOptions,
     recording: Option<Recording>,
-    words: Text,
+    (words, modes): (Text, Vec<Mode>),
     files: &mut FileSet,
 ) -> io::Result<()> {
     let recorded = recording.map(Recording::finish);
@@ -308,7 +311,7 @@ fn show(
     match recorded.filter(|_| options.report) {
         Some(Recorded { run, .. }) => {
             let mut data = Data::of_run(&scene.name, &scene.description, run);
-            data.text = words;
+            (data.text, data.modes) = (words, modes);
             files.write("report.html", &page::html(&data))
         }
         None => {

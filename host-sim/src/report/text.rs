@@ -39,6 +39,7 @@ pub fn text(scene: &Scene, plan: &Plan, summary: &Summary, called: &str) -> Text
         tables: vec![table("Summary", summary.rows()), table("Versions", versions(summary))],
         commands: vec![(String::new(), command(scene, plan, summary, called))],
         notes: note.into_iter().collect(),
+        survey: None,
     }
 }
 

@@ -154,11 +154,7 @@ impl Line<'_> {
 }
 
 impl<'d> Drawing<'d> {
-    pub(super) fn new(
-        chart: &'d Chart<'d>,
-        machine: Machine,
-        layout: &'d Layout,
-    ) -> Option<Self> {
+    pub(super) fn new(chart: &'d Chart<'d>, machine: Machine, layout: &'d Layout) -> Option<Self> {
         let points = chart.points;
         if remark(points, machine).is_some() {
             return None;

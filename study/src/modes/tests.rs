@@ -124,5 +124,8 @@ fn too_many_bodies_are_refused_and_numbers_beyond_all_numbers() {
     let body = scene.model.bodies[0];
     scene.model.bodies = vec![body; MOST_BODIES + 1];
     let error = modes(&scene.model, &state).unwrap_err();
-    assert!(error.to_string().contains("201 bodies") && error.to_string().contains("200"), "{error}");
+    assert!(
+        error.to_string().contains("201 bodies") && error.to_string().contains("200"),
+        "{error}"
+    );
 }

@@ -95,7 +95,8 @@ pub fn svg(drawing: &Drawing<'_>) -> String {
             if !marked && !speaking {
                 continue;
             }
-            let said = if speaking { said(x, *along, &one.name, &y.said(*value)) } else { String::new() };
+            let said =
+                if speaking { said(x, *along, &one.name, &y.said(*value)) } else { String::new() };
             let unseen = if marked { "" } else { " fill-opacity=\"0\"" };
             let _ = writeln!(
                 text,
