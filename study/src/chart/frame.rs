@@ -92,7 +92,7 @@ impl Drawing<'_> {
             text,
             "<text transform=\"translate({} {:.1}) rotate(-90)\" text-anchor=\"middle\">error: \
              distance from the truth, root mean square{}</text>",
-            if wide { 24.0 } else { 14.0 },
+            if wide { 24.0 } else { 13.0 },
             (top + bottom) / 2.0,
             if wide { " over bodies and time" } else { "" },
         );

@@ -38,7 +38,7 @@ pub(super) const WIDE: Layout = Layout {
 pub(super) const NARROW: Layout = Layout {
     width: 430.0,
     height: 640.0,
-    left: 72.0,
+    left: 80.0,
     right: 420.0,
     top: 100.0,
     bottom: 480.0,
