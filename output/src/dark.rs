@@ -1,4 +1,5 @@
-//! Drawings on dark paper: a style sheet within the SVG, which follows the reader's screen.
+//! Drawings on dark paper: a style sheet within the SVG, which follows the reader's screen, or what
+//! the root of a page says: `data-theme="light"` or `"dark"`.
 //!
 //! `SVG in light colours => the same SVG with what its colours become in the dark`. Rules go by the
 //! colours as they are written in `fill` and `stroke`, so drawing code knows of one set only; whoever
@@ -51,20 +52,23 @@ pub fn adapted(svg: &str) -> String {
     else {
         return svg.to_owned();
     };
-    let mut rules = String::new();
+    let (mut followed, mut chosen) = (String::new(), String::new());
     for (light, dark) in PAIRS {
         for property in ["fill", "stroke"] {
             let attribute = format!("{property}=\"{light}\"");
             if svg.contains(&attribute) {
-                let _ = write!(
-                    rules,
-                    ".{CLASS}[{attribute}],.{CLASS} [{attribute}]{{{property}:{dark}}}"
-                );
+                let part = format!(":is(.{CLASS},.{CLASS} *)[{attribute}]");
+                let rule = format!("{{{property}:{dark}}}");
+                // A page may let its reader choose.
+                let _ = write!(followed, "{part}:not([data-theme=\"light\"] *){rule}");
+                let _ = write!(chosen, "[data-theme=\"dark\"] {part}{rule}");
             }
         }
     }
     let root = root.replacen("<svg ", &format!("<svg class=\"{CLASS}\" "), 1);
-    format!("{root}>\n<style>@media (prefers-color-scheme:dark){{{rules}}}</style>{rest}")
+    format!(
+        "{root}>\n<style>@media (prefers-color-scheme:dark){{{followed}}}{chosen}</style>{rest}"
+    )
 }
 
 /// Colours of a drawing's `fill` and `stroke` that have no other in the dark: for tests of what draws.
@@ -94,8 +98,10 @@ mod tests {
         assert!(
             adapted.starts_with("<svg class=\"drawing\" width=\"9\" fill=\"#333a45\">\n<style>")
         );
-        assert!(adapted.contains(".drawing [stroke=\"#0072b2\"]{stroke:#3d93d6}"), "{adapted}");
-        assert!(adapted.contains(".drawing[fill=\"#333a45\"]"), "{adapted}");
+        let rule =
+            "[data-theme=\"dark\"] :is(.drawing,.drawing *)[stroke=\"#0072b2\"]{stroke:#3d93d6}";
+        assert!(adapted.contains(rule), "{adapted}");
+        assert!(adapted.contains(":is(.drawing,.drawing *)[fill=\"#333a45\"]:not("), "{adapted}");
         assert!(!adapted.contains("#d55e00") && adapted.ends_with("</svg>\n"));
         assert_eq!(super::adapted("words"), "words");
     }

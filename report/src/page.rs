@@ -100,6 +100,10 @@ pub fn json(data: &Data) -> String {
     text.replace('<', "\\u003c")
 }
 
+/// The chart is made for a wide screen; the page that it comes from has one for others.
+const SURVEY_STYLE: &str = ".survey{margin:1rem 0}.survey svg{width:100%;height:auto}\
+     @media(max-width:900px){.survey{display:none}}";
+
 fn write_survey(page: &mut String, survey: &Survey) {
     page.push_str("<section id=\"trade\">\n<h2>Speed against accuracy</h2>\n");
     if !survey.advice.is_empty() {
@@ -111,6 +115,7 @@ fn write_survey(page: &mut String, survey: &Survey) {
         page.push_str("</ul>\n");
     }
     if let Some(chart) = &survey.chart {
+        let _ = writeln!(page, "<style>{SURVEY_STYLE}</style>");
         let _ = writeln!(page, "<figure class=\"survey\">\n{chart}</figure>");
     }
     let file = escape(&survey.page);

@@ -149,3 +149,36 @@ pub(super) fn sides(
         escape(&y.label)
     );
 }
+
+#[cfg(test)]
+mod tests {
+    use dbd_output::dark::unpaired;
+
+    use super::*;
+
+    #[test]
+    fn every_case_says_its_values_and_no_colour_stays_light_in_the_dark() {
+        let scale = |values: [f64; 2], label: &str| {
+            Scale::of_numbers(values.into_iter(), false, true, label.into()).unwrap()
+        };
+        let (x, y) = (scale([0.0, 2.0], "body.cart.mass [kg]"), scale([-1.0, 1.0], "tip.max [m]"));
+        let points = |count: u32| -> Vec<(f64, Option<f64>)> {
+            (0..count).map(|i| (2.0 * f64::from(i) / f64::from(count), Some(0.25))).collect()
+        };
+        let drawn = |points: Vec<(f64, Option<f64>)>| {
+            let series = [Series { name: "a < b".into(), points }];
+            svg(&Drawing { size: (490.0, 300.0), x: &x, y: &y, series: &series, joined: true })
+        };
+        let few = drawn(vec![(0.0, Some(-0.5)), (1.0, None), (2.0, Some(1.0))]);
+        assert!(few.contains("<title>a &lt; b\nbody.cart.mass = 1 kg\nnot ok</title>"), "{few}");
+        assert!(few.contains("<title>a &lt; b\nbody.cart.mass = 0 kg\ntip.max = −0.5 m</title>"));
+        assert_eq!(unpaired(&few), [""; 0]);
+        // Of many, those between are not seen but speak; of very many none does.
+        let many = drawn(points(200));
+        assert_eq!(
+            (many.matches("<title>").count(), many.matches("opacity=\"0\"").count()),
+            (200, 200)
+        );
+        assert_eq!(drawn(points(3_000)).matches("<title>").count(), 0);
+    }
+}
