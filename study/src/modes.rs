@@ -10,12 +10,13 @@ use std::f64::consts::TAU;
 use dbd_kernel::forces::{Wrench, wrenches};
 use dbd_kernel::status::Cause;
 use dbd_kernel::{BodyState, F64, Quaternion, State, Vec3};
+use dbd_plant::digits::significant;
 use dbd_scene::{Scene, SceneModel};
 use miette::Diagnostic;
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use thiserror::Error;
 
-/// Bodies at most: time grows with the cube of their number, to half a minute at this one.
+/// Bodies at most: time grows with the cube of their number, to some seconds at this one.
 pub const MOST_BODIES: usize = 200;
 
 /// \[m, rad\] of the differences, which are of fourth order: what they leave out is of the order of
@@ -28,7 +29,7 @@ const WEIGHTS: [f64; 2] = [8.0 / 12.0, -1.0 / 12.0];
 /// Beyond it K is not that of a pose in equilibrium.
 const SYMMETRIC: f64 = 1e-3;
 
-/// \[m/s²\] from which on a pose is not in equilibrium: a thousandth of a g.
+/// \[√kg·m/s², m/s²\] from which on a pose is not in equilibrium: of a body of 1 kg a thousandth of a g.
 const CALM: f64 = 1e-2;
 
 /// The modes of a model about a pose.
@@ -89,6 +90,30 @@ impl Modes {
             raw.iter().copied().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
         let scale = if largest == 0.0 { 0.0 } else { 1.0 / largest };
         raw.chunks_exact(6).map(|body| std::array::from_fn(|i| body[i] * scale)).collect()
+    }
+
+    /// What forces, scaled by 1/√m and 1/√I, do to the bodies: how far the modes that are held give way \[m\],
+    /// and how fast the others set off \[m/s²\]; of each the body that does most, and how much.
+    fn answer(&self, model: &SceneModel<F64>, forces: &DVector<f64>) -> [(usize, f64); 2] {
+        let roots = roots(model);
+        let most = |weight: &dyn Fn(f64) -> f64| {
+            let share = |mode: usize| {
+                let shape = self.shapes.column(mode);
+                shape * (shape.dot(forces) * weight(self.frequencies[mode]))
+            };
+            let modes = 0..self.frequencies.len();
+            let sum = modes.fold(DVector::zeros(roots.len()), |sum, mode| sum + share(mode));
+            let shift = |row: usize| {
+                let parts = (6 * row..6 * row + 3).map(|i| sum[i] * roots[i]);
+                parts.map(|part| part * part).sum::<f64>().sqrt()
+            };
+            let bodies = (0..model.bodies.len()).map(|row| (row, shift(row)));
+            bodies.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default()
+        };
+        [
+            most(&|frequency| if frequency > 0.0 { (TAU * frequency).powi(-2) } else { 0.0 }),
+            most(&|frequency| if frequency > 0.0 { 0.0 } else { 1.0 }),
+        ]
     }
 
     /// How many of the lowest modes have no stiffness: rigid motions and mobilities.
@@ -254,23 +279,21 @@ pub fn remarks(scene: &Scene, modes: &Modes) -> Result<Vec<String>, ModesError> 
         );
     }
     let forces = wrenches(model, &at_rest(&state), 1e-3)?;
-    let set_off = |row: usize| {
-        let [fx, fy, fz, tx, ty, tz] = six(&forces[row]);
-        let body = &model.bodies[row];
-        // A turn counts by what it does at the radius of gyration.
-        let turning = [(tx, body.inertia.x), (ty, body.inertia.y), (tz, body.inertia.z)]
-            .map(|(torque, inertia)| torque.abs() / (inertia * body.mass).sqrt());
-        let shifting = (fx * fx + fy * fy + fz * fz).sqrt() / body.mass;
-        turning.into_iter().fold(shifting, f64::max)
-    };
-    let worst = (0..forces.len()).max_by(|a, b| set_off(*a).total_cmp(&set_off(*b)));
-    if let Some(row) = worst.filter(|row| set_off(*row) > CALM || modes.asymmetry > SYMMETRIC) {
-        let name = scene.body_names.get(row).map_or("a body", String::as_str);
+    let off: Vec<f64> =
+        forces.iter().flat_map(six).zip(roots(model)).map(|(force, root)| force * root).collect();
+    if off.iter().any(|acceleration| acceleration.abs() > CALM) || modes.asymmetry > SYMMETRIC {
+        let [held, free] = modes.answer(model, &DVector::from_vec(off));
+        let name = |row: usize| scene.body_names.get(row).map_or("a body", String::as_str);
+        let place = if free.1 > CALM {
+            let (name, rate) = (name(free.0), significant(free.1, 3));
+            format!("nothing holds `{name}`, which sets off with {rate} m/s²")
+        } else {
+            let (name, way) = (name(held.0), significant(1e3 * held.1, 3));
+            format!("forces balance some {way} mm away, as far as `{name}` goes")
+        };
         remarks.push(format!(
-            "the pose is not in equilibrium: let go at rest, `{name}` sets off with {} m/s²; the modes \
-             are those about the pose held as it is, and slow ones, which weight and preload make, \
-             differ from those where it comes to rest",
-            dbd_plant::digits::significant(set_off(row), 3)
+            "the pose is not in equilibrium: let go at rest, {place}; the modes are those about the pose \
+             held as it is, and slow ones, which weight and preload make, are others where it rests"
         ));
     }
     match modes.unstable() {

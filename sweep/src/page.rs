@@ -281,7 +281,9 @@ fn map<'f>(table: &Table, x: &Coordinates, y: &Coordinates, shown: &Shown<'_>) -
         }
     }
     let [x, y] = [x, y].map(|axis| Scale::of_names(axis.words.clone(), axis.scale.label.clone()));
-    let draw = move |size| heat::svg(&Heat { size, x: &x, y: &y, cells, values: &values });
-    let title = format!("{} [{}]", shown.title(), shown.unit());
-    Figure { title: title.replace(" []", ""), keys: Vec::new(), draw: Box::new(draw) }
+    let title = shown.label();
+    let said = title.clone();
+    let draw =
+        move |size| heat::svg(&Heat { title: &said, size, x: &x, y: &y, cells, values: &values });
+    Figure { title, keys: Vec::new(), draw: Box::new(draw) }
 }

@@ -112,7 +112,10 @@ fn a_pose_that_moves_or_falls_is_said() {
     assert_eq!(modes.frequencies, [0.0; 6]);
     let remarks = remarks(&scene, &modes).unwrap();
     assert!(remarks[0].contains("moves at t = 0"), "{remarks:?}");
-    assert!(remarks[1].contains("`stone` sets off with 9.81 m/s²"), "{remarks:?}");
+    assert!(
+        remarks[1].contains("nothing holds `stone`, which sets off with 9.81 m/s²"),
+        "{remarks:?}"
+    );
 }
 
 #[test]
@@ -128,4 +131,15 @@ fn too_many_bodies_are_refused_and_numbers_beyond_all_numbers() {
         error.to_string().contains("201 bodies") && error.to_string().contains("200"),
         "{error}"
     );
+}
+
+#[test]
+fn a_pose_that_gives_way_says_how_far() {
+    // The pivot does not carry the rod yet: it gives way by 20 µm, and there is no swing.
+    let mut scene = pendulum(-0.4);
+    scene.model.initial[0].position.y = -0.4;
+    let modes = modes_of(&scene);
+    assert_eq!(modes.free(), 3);
+    let remarks = remarks(&scene, &modes).unwrap();
+    assert!(remarks[0].contains("forces balance some 0.0196 mm away"), "{remarks:?}");
 }

@@ -15,6 +15,8 @@ use crate::plot::{FAILED, FRAME, INK, Scale};
 
 /// What is drawn.
 pub struct Heat<'h> {
+    /// What is shown: a quantity and its unit.
+    pub title: &'h str,
     /// \[pixels\] width and height.
     pub size: (f64, f64),
     /// Along, by names.
@@ -49,7 +51,9 @@ const SPEAKING: usize = 4_000;
 /// The SVG.
 #[must_use]
 pub fn svg(heat: &Heat<'_>) -> String {
-    let Heat { size: (width, height), x, y, cells: [along, above], values } = *heat;
+    let Heat { title, size: (width, height), x, y, cells: [along, above], values } = *heat;
+    let (quantity, unit) = title.split_once(" [").unwrap_or((title, ""));
+    let unit = unit.trim_end_matches(']');
     let [left, top] = [MARGINS[0], MARGINS[1]];
     let [right, bottom] = [width - MARGINS[2], height - MARGINS[3]];
     let finite = || values.iter().flatten().copied().filter(|value| value.is_finite());
@@ -82,8 +86,16 @@ pub fn svg(heat: &Heat<'_>) -> String {
         );
         match values.len() <= SPEAKING {
             true => {
-                let value = value.map_or("not ok".into(), |value| significant(value, 5));
-                let said = format!("{}\n{}\n{value}", x.said(column as f64), y.said(row as f64));
+                let value = value.map_or("not ok".into(), |value| {
+                    let figure = significant(value, 5).replace('-', "−");
+                    format!("{quantity} = {figure} {unit}")
+                });
+                let said = format!(
+                    "{}\n{}\n{}",
+                    x.said(column as f64),
+                    y.said(row as f64),
+                    value.trim_end()
+                );
                 let _ = writeln!(text, "><title>{}</title></rect>", escape(&said));
             }
             false => text.push_str("/>\n"),

@@ -4,6 +4,8 @@
 
 use dbd_plant::digits::significant;
 
+use crate::plot::SI;
+
 /// Digits of a tick.
 const DIGITS: usize = 4;
 
@@ -70,6 +72,7 @@ impl Scale {
             Some((quantity, unit)) => (quantity, unit.trim_end_matches(']')),
             None => (self.label.as_str(), ""),
         };
+        let unit = if unit == SI { "" } else { unit };
         let named = if value >= 0.0 { self.names.get(value as usize) } else { None };
         let words = named.cloned().unwrap_or_else(|| significant(value, 5).replace('-', "−"));
         format!("{quantity} = {words} {unit}").trim_end().to_owned()
