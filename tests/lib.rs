@@ -1,6 +1,5 @@
 //! Systems and measures that the tests across crates share.
 
-pub mod modes;
 pub mod page;
 pub mod results;
 

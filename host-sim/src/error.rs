@@ -88,6 +88,7 @@ impl Error {
                 | RunError::Setting(_)
                 | RunError::Plant(_)
                 | RunError::Golden(_)
+                | RunError::Modes(_)
                 | RunError::Folder(_) => Exit::Refused,
                 RunError::Write(_) => Exit::Failed,
             },

@@ -5,9 +5,11 @@
 //! - [`set`]: files that belong together.
 //! - [`markup`]: text as HTML and SVG take it, the style that pages share.
 //! - [`svg`]: what drawings are made of.
+//! - [`dark`]: what their colours become on a dark screen.
 //! - [`label_spots`]: where names go in a drawing.
 //! - [`panel`]: curves over time as an SVG.
 
+pub mod dark;
 pub mod file;
 pub mod label_spots;
 mod lock;

@@ -5,6 +5,9 @@
 /// The style sheet of every page.
 pub const PAGE_STYLE: &str = include_str!("page.css");
 
+/// The script of pages with drawings: what a mark's `<title>` says stands beside it at once, under a finger, too.
+pub const HOVER_SCRIPT: &str = include_str!("hover.js");
+
 /// Text as HTML and SVG take it.
 #[must_use]
 pub fn escape(text: &str) -> String {

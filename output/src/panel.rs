@@ -5,6 +5,7 @@
 
 use std::fmt::Write as _;
 
+use crate::dark::adapted;
 use crate::markup::escape;
 use crate::svg::{joined, label};
 
@@ -102,7 +103,7 @@ pub fn svg(panel: &Panel<'_>) -> Option<String> {
         );
     }
     text.push_str("</svg>\n");
-    Some(text)
+    Some(adapted(&text))
 }
 
 /// Whether an axis ends at its outermost values or somewhat beyond.

@@ -87,6 +87,19 @@ pub struct Text {
     pub commands: Vec<(String, String)>,
     /// Paragraphs below the commands.
     pub notes: Vec<String>,
+    /// What a survey of the same scene came to, where one lies beside.
+    pub survey: Option<Survey>,
+}
+
+/// What a survey of a scene's accuracy against speed came to.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Survey {
+    /// What to choose, a sentence without its last full stop and a command line each.
+    pub advice: Vec<(String, String)>,
+    /// Its chart as SVG; `None` where it would be too large.
+    pub chart: Option<String>,
+    /// The file beside the page with all of it.
+    pub page: String,
 }
 
 /// A table of text.

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use dbd_output::markup::escape;
 
-use crate::data::{Data, Table};
+use crate::data::{Data, Survey, Table};
 
 /// Style sheets of the page, in order.
 pub const STYLES: &[&str] = &[include_str!("../web/page.css")];
@@ -61,6 +61,9 @@ pub fn html(data: &Data) -> String {
         // Shown by the scripts where there is something to draw.
         let _ = writeln!(page, "<section id=\"{id}\" hidden>\n<h2>{heading}</h2>\n</section>");
     }
+    if let Some(survey) = &text.survey {
+        write_survey(&mut page, survey);
+    }
     for table in &text.tables {
         write_table(&mut page, table);
     }
@@ -95,6 +98,32 @@ pub fn json(data: &Data) -> String {
     // Of what the data are made nothing refuses.
     let text = serde_json::to_string(data).unwrap_or_else(|_| "null".into());
     text.replace('<', "\\u003c")
+}
+
+/// The chart is made for a wide screen; the page that it comes from has one for others.
+const SURVEY_STYLE: &str = ".survey{margin:1rem 0}.survey svg{width:100%;height:auto}\
+     @media(max-width:900px){.survey{display:none}}";
+
+fn write_survey(page: &mut String, survey: &Survey) {
+    page.push_str("<section id=\"trade\">\n<h2>Speed against accuracy</h2>\n");
+    if !survey.advice.is_empty() {
+        page.push_str("<ul class=\"advice\">\n");
+        for (sentence, command) in &survey.advice {
+            let (sentence, command) = (escape(sentence), escape(command));
+            let _ = writeln!(page, "<li>{sentence}.<br><code>{command}</code></li>");
+        }
+        page.push_str("</ul>\n");
+    }
+    if let Some(chart) = &survey.chart {
+        let _ = writeln!(page, "<style>{SURVEY_STYLE}</style>");
+        let _ = writeln!(page, "<figure class=\"survey\">\n{chart}</figure>");
+    }
+    let file = escape(&survey.page);
+    let _ = writeln!(
+        page,
+        "<p>As <code>host-sim trade</code> measured this scene; all of it is in \
+         <a href=\"{file}\">{file}</a> beside this page.</p>\n</section>"
+    );
 }
 
 fn write_table(page: &mut String, table: &Table) {

@@ -12,7 +12,7 @@ use dbd_plant::time::{display, rounded};
 use dbd_scene::Scene;
 use serde::Serialize;
 
-use crate::advice::{advice, remark};
+use crate::advice::{Advice, advice, remark};
 use crate::cache::Head;
 use crate::chart::{Chart, svg};
 use crate::command::Command;
@@ -22,7 +22,7 @@ use crate::point::{Machine, Point, front};
 use crate::stability::MARGIN;
 use crate::survey::Trade;
 use crate::timing::{CALM, ROUNDS};
-use crate::words::percent;
+use crate::words::{capital, percent};
 
 /// Columns of `trade.csv`.
 pub const COLUMNS: [&str; 23] = [
@@ -78,7 +78,16 @@ pub struct Json<'r> {
     growth: f64,
     /// \[m\] what the truth is known to.
     uncertainty: f64,
+    /// What to choose on this machine.
+    advice: Vec<Advised>,
     points: &'r [Point],
+}
+
+/// What to choose for an accuracy, and the command line that runs it.
+#[derive(Serialize)]
+struct Advised {
+    sentence: String,
+    command: String,
 }
 
 /// The chart of the target, where steps were counted.
@@ -160,7 +169,13 @@ impl<'r> Report<'r> {
         let Head { grid, growth, uncertainty, .. } = self.trade.head;
         let (scene, points) = (self.scene.name.as_str(), self.trade.points.as_slice());
         let (window, samples, period) = (grid.window(), grid.samples, self.trade.period);
-        Json { scene, window, samples, period, growth, uncertainty, points }
+        let command = Command::new(self.scene, self.called);
+        let advised = |advice: Advice| {
+            let command = command.line(&points[advice.row]).unwrap_or_default();
+            Advised { sentence: capital(&advice.sentence), command }
+        };
+        let advice = advice(points, Machine::Host, uncertainty).into_iter().map(advised).collect();
+        Json { scene, window, samples, period, growth, uncertainty, advice, points }
     }
 }
 

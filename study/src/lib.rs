@@ -3,6 +3,7 @@
 //! `scene => truth over a window => points (error, energy, cost) => fronts, chart, sentences`. The
 //! modules in the order in which they stand on each other:
 //!
+//! - [`modes`](mod@modes): small vibrations about a pose.
 //! - [`stability`](mod@stability): the largest stable step of a method about a pose.
 //! - [`point`]: what a point is, and which of them nothing beats.
 //! - [`costs`]: what a step costs on the target, as counted.
@@ -34,6 +35,7 @@ pub mod front_table;
 pub mod grid;
 pub mod limits;
 pub mod measure;
+pub mod modes;
 pub mod need;
 pub mod order;
 pub mod page;

@@ -5,15 +5,15 @@
 
 use std::fmt::Write as _;
 
-use dbd_output::markup::{PAGE_STYLE, escape};
+use dbd_output::markup::{HOVER_SCRIPT, PAGE_STYLE, escape};
 use dbd_plant::digits::significant;
 
 use crate::advice::{advice, remark};
-use crate::chart::{Chart, steppers, svg};
+use crate::chart::{Chart, narrow_svg, steppers, svg};
 use crate::front_table::{headings, rows};
 use crate::point::{Machine, Point};
 use crate::stability::MARGIN;
-use crate::words::{percent, shown};
+use crate::words::{capital, percent, shown};
 
 const STYLE: &str = include_str!("trade.css");
 const SCRIPT: &str = include_str!("trade.js");
@@ -45,7 +45,7 @@ pub fn html(chart: &Chart<'_>) -> String {
         }
         page.push_str("</ul>\n");
     }
-    let _ = write!(page, "</main>\n<script>\n{SCRIPT}</script>\n</body>\n</html>\n");
+    let _ = write!(page, "</main>\n<script>\n{HOVER_SCRIPT}{SCRIPT}</script>\n</body>\n</html>\n");
     page
 }
 
@@ -65,7 +65,11 @@ fn machine(page: &mut String, chart: &Chart<'_>, machine: Machine, title: &str) 
         }
         page.push_str("</ul>\n");
     }
-    let _ = writeln!(page, "<figure class=\"chart\">\n{}</figure>", svg(chart, machine));
+    let (wide, narrow) = (svg(chart, machine), narrow_svg(chart, machine));
+    let _ = writeln!(
+        page,
+        "<figure class=\"broad\">\n{wide}</figure>\n<figure class=\"narrow\">\n{narrow}</figure>"
+    );
     let rows = rows(chart.points, machine);
     if rows.is_empty() {
         return;
@@ -98,12 +102,6 @@ fn machine(page: &mut String, chart: &Chart<'_>, machine: Machine, title: &str) 
     );
 }
 
-/// With a capital letter.
-fn capital(sentence: &str) -> String {
-    let mut letters = sentence.chars();
-    letters.next().map(char::to_uppercase).into_iter().flatten().chain(letters).collect()
-}
-
 fn reading(page: &mut String, chart: &Chart<'_>) {
     let window = significant(chart.window, 3);
     let uncertainty = significant(chart.uncertainty, 2);
@@ -123,7 +121,7 @@ fn reading(page: &mut String, chart: &Chart<'_>) {
          precision; on a Cortex-M4F the dashed one is the same in single.</li>\n\
          <li>Hollow marks at the top ran unstable at their step; hollow marks elsewhere are \
          not advised: they have lost their way, further off than the truth goes at all, or their step is \
-         within {margin} of the largest stable one, or turns a body too far. Point at a mark for its numbers, \
+         within {margin} of the largest stable one, or turns a body too far. Point at a mark, or tap it, for its numbers, \
          at a line to see it alone.</li>\n</ul>\n"
     );
 }
@@ -213,7 +211,8 @@ mod tests {
         if let Ok(folder) = std::env::var("DBD_DRAW") {
             std::fs::write(format!("{folder}/trade.html"), &page).unwrap();
         }
-        assert_eq!(page.matches("<svg").count(), 2);
+        // Both charts, each for wide screens and for narrow ones.
+        assert_eq!(page.matches("<svg").count(), 4);
         assert_eq!(page.matches("<svg").count(), page.matches("</svg>").count());
         // Each point is a row; each of the fronts', too.
         let fronts: usize = [Machine::Host, Machine::Target]
@@ -235,6 +234,6 @@ mod tests {
         let mut uncounted = points.clone();
         uncounted.iter_mut().for_each(|point| point.target_instructions = None);
         chart.points = &uncounted;
-        assert_eq!(html(&chart).matches("<svg").count(), 1);
+        assert_eq!(html(&chart).matches("<svg").count(), 2);
     }
 }

@@ -60,3 +60,10 @@ impl fmt::Display for Cost {
         }
     }
 }
+
+/// A sentence with a capital letter.
+#[must_use]
+pub fn capital(sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    letters.next().map(char::to_uppercase).into_iter().flatten().chain(letters).collect()
+}

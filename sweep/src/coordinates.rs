@@ -6,7 +6,7 @@ use std::collections::HashMap;
 
 use dbd_plant::digits::significant;
 
-use crate::plot::Scale;
+use crate::plot::{SI, Scale};
 use crate::spec::Spec;
 use crate::table::Table;
 use crate::value::numbers;
@@ -64,6 +64,8 @@ impl Coordinates {
             let words = names.clone();
             return Some(Self { place, short, names, words, rows, is_numeric: false, scale });
         };
+        // A plain number of the scene is in the SI unit of what it is.
+        let unit = if unit.is_empty() && axis.path.contains('.') { SI } else { &unit };
         if !unit.is_empty() {
             label = format!("{label} [{unit}]");
         }

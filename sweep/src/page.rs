@@ -6,7 +6,7 @@
 
 use std::fmt::Write as _;
 
-use dbd_output::markup::{PAGE_STYLE, escape};
+use dbd_output::markup::{HOVER_SCRIPT, PAGE_STYLE, escape};
 
 use crate::columns::Column;
 use crate::coordinates::Coordinates;
@@ -66,7 +66,8 @@ pub fn html(page: &Page<'_>) -> String {
     failures(&mut text, table);
     text.push_str("<h2>Run it again</h2>\n<pre>");
     text.push_str(&escape(&page.commands.join("\n")));
-    text.push_str("</pre>\n</main>\n</body>\n</html>\n");
+    text.push_str("</pre>\n</main>\n");
+    let _ = write!(text, "<script>\n{HOVER_SCRIPT}</script>\n</body>\n</html>\n");
     text
 }
 
@@ -117,7 +118,7 @@ impl Shown<'_> {
     }
 
     fn label(&self) -> String {
-        with_unit(self.statistic.name(), self.unit())
+        with_unit(&self.title(), self.unit())
     }
 
     /// Its value in a row of the table, of a case that came to its end.
@@ -184,10 +185,15 @@ fn figures(text: &mut String, page: &Page<'_>) {
     let _ = writeln!(text, "<h2>Figures</h2>\n<div class=\"{}\">", if wide { "" } else { "grid" });
     for figure in figures {
         let _ = write!(text, "<figure>\n<figcaption><strong>{}</strong>", escape(&figure.title));
-        for (name, colour) in figure.keys.iter().zip(COLOURS.iter().cycle()) {
+        for (row, name) in figure.keys.iter().enumerate() {
+            // The page's colours are those of the drawings, in their order.
+            let colour = match row % COLOURS.len() {
+                0 => String::new(),
+                row => format!("-{}", row + 1),
+            };
             let _ = write!(
                 text,
-                "<span class=\"key\"><i style=\"background:{colour}\"></i>{}</span>",
+                "<span class=\"key\"><i style=\"background:var(--accent{colour})\"></i>{}</span>",
                 escape(name)
             );
         }
@@ -217,9 +223,10 @@ fn curves<'f>(table: &Table, axis: &'f Coordinates, shown: &[Shown<'_>]) -> Opti
             points: axis.sorted(table.rows.iter().map(|row| (row, one.value(table, row)))),
         })
         .collect();
-    let label = if shown.len() > 1 { with_unit("", first.unit()) } else { first.label() };
+    let label =
+        if shown.len() > 1 { with_unit(&first.column.name, first.unit()) } else { first.label() };
     let title = if shown.len() > 1 { first.column.name.clone() } else { first.title() };
-    drawing(axis, series, label.trim().to_owned(), title, axis.is_numeric)
+    drawing(axis, series, label, title, axis.is_numeric)
 }
 
 /// A figure over one axis, a curve for each value of another.
@@ -274,7 +281,9 @@ fn map<'f>(table: &Table, x: &Coordinates, y: &Coordinates, shown: &Shown<'_>) -
         }
     }
     let [x, y] = [x, y].map(|axis| Scale::of_names(axis.words.clone(), axis.scale.label.clone()));
-    let draw = move |size| heat::svg(&Heat { size, x: &x, y: &y, cells, values: &values });
-    let title = format!("{} [{}]", shown.title(), shown.unit());
-    Figure { title: title.replace(" []", ""), keys: Vec::new(), draw: Box::new(draw) }
+    let title = shown.label();
+    let said = title.clone();
+    let draw =
+        move |size| heat::svg(&Heat { title: &said, size, x: &x, y: &y, cells, values: &values });
+    Figure { title, keys: Vec::new(), draw: Box::new(draw) }
 }

@@ -3,6 +3,7 @@
 mod check;
 mod gltf;
 mod golden;
+mod modes;
 mod new;
 mod picture;
 mod refusal;

@@ -89,6 +89,19 @@ fn a_survey_and_a_run_share_a_folder_of_one_scene() {
     for key in ["scene", "scene_file", "scene_hash"] {
         assert_eq!(survey[key], run[key], "{key}");
     }
+    // The page of a run shows the survey of the same text and the same values.
+    let page = |options: &[&str]| {
+        assert_eq!(folder.run(&scene, options).exit, Exit::Done);
+        fs::read_to_string(folder.path("out/scene/report.html")).unwrap()
+    };
+    let shown = page(&[]);
+    assert!(shown.contains("<h2>Speed against accuracy</h2>") && shown.contains("trade.html"));
+    assert!(shown.contains("aria-label=\"pendulum: accuracy against speed on this PC\""));
+    let advice = survey["advice"].as_array().unwrap();
+    assert!(advice.iter().all(|one| shown.contains(one["sentence"].as_str().unwrap())));
+    assert!(!page(&["--set", "body.bob.mass=0.6"]).contains("Speed against accuracy"));
+    folder.scene(&format!("{PENDULUM}\n# changed"));
+    assert!(!page(&[]).contains("Speed against accuracy"));
 }
 
 /// The keys of a table `| key | … |` of a page.
@@ -112,8 +125,9 @@ fn every_key_of_a_summary_is_in_the_reference() {
     let scene =
         folder.scene(&PENDULUM.replace("free_length = 1.0", "free_length = 1.0\ndamping = 5"));
     // Of a run in the scheme's own way and in another, of one that fails and one that is warned of.
-    let runs: [&[&str]; 5] = [
+    let runs: [&[&str]; 6] = [
         &[],
+        &["--modes", "1"],
         &["--damping", "explicit"],
         &["--step", "0.25s"],
         &["--scheme", "dbd"],

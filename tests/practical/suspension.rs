@@ -7,7 +7,7 @@ use std::ops::Range;
 use dbd_kernel::readouts::Reading;
 use dbd_kernel::{F64, Leapfrog, Plant, State, Vec3};
 use dbd_scene::{Scene, SceneModel};
-use dbd_tests::modes::{Modes, after, held_by, modes, scaled_damping, scaled_stiffness};
+use dbd_study::modes::{Modes, modes, scaled_damping, scaled_stiffness};
 use dbd_tests::page::figure;
 use dbd_tests::scene;
 use nalgebra::{DVector, SymmetricEigen};
@@ -15,11 +15,37 @@ use nalgebra::{DVector, SymmetricEigen};
 /// \[s\] both scenes have settled by then and the road has not moved.
 const SETTLED: f64 = 0.5;
 
+/// The model with those joints and torsion springs only whose names `keep` likes, without
+/// gravity, loads, inputs and raw elements.
+fn held_by(scene: &Scene, keep: impl Fn(&str) -> bool) -> SceneModel<F64> {
+    let mut model = scene.model.clone();
+    model.gravity.clear();
+    model.loads.clear();
+    let kept = |group: usize| {
+        scene.joints.iter().any(|joint| joint.groups.contains(&group) && keep(&joint.name))
+    };
+    let groups: Vec<_> = (0..model.groups.len()).filter(|g| kept(*g)).collect();
+    model.groups = groups.iter().map(|g| model.groups[*g]).collect();
+    let springs = model.torsions.iter_mut().zip(&scene.torsion_names);
+    for (spring, _) in springs.filter(|(_, name)| !keep(name)) {
+        (spring.stiffness, spring.preload) = (0.0, 0.0);
+    }
+    model
+}
+
+/// The state after `time` \[s\] of the scene.
+fn after(scene: &Scene, time: f64) -> State<SceneModel<F64>> {
+    let step = scene.step.expect("the scene states its step");
+    let mut plant = Plant::new(&scene.model, Leapfrog, step).unwrap();
+    plant.advance((time / step).round() as u64).ok().unwrap();
+    plant.state().clone()
+}
+
 /// A scene, at rest on its springs, and its modes there.
 fn settled(name: &str) -> (Scene, State<SceneModel<F64>>, Modes) {
     let scene = scene(name);
     let state = after(&scene, SETTLED);
-    let modes = modes(&scene.model, &state);
+    let modes = modes(&scene.model, &state).unwrap();
     assert!(modes.asymmetry < 1e-3, "{name} is not at rest: {:e}", modes.asymmetry);
     (scene, state, modes)
 }
@@ -41,8 +67,8 @@ fn rubber_modes(
     modes: &Modes,
     rubber: impl Fn(&str) -> bool,
 ) -> Vec<f64> {
-    let whole = scaled_stiffness(&scene.model, state).0;
-    let part = scaled_stiffness(&held_by(scene, rubber), state).0;
+    let whole = scaled_stiffness(&scene.model, state).unwrap().0;
+    let part = scaled_stiffness(&held_by(scene, rubber), state).unwrap().0;
     let elastic = (0..modes.frequencies.len()).filter(|mode| modes.frequencies[*mode] > 0.5);
     elastic
         .filter(|mode| {
@@ -63,7 +89,8 @@ fn damping_ratios(
 ) -> [f64; 2] {
     let shape = modes.shapes.column(mode);
     let of = |model: &SceneModel<F64>| {
-        shape.dot(&(scaled_damping(model, state) * shape)) / (2.0 * TAU * modes.frequencies[mode])
+        shape.dot(&(scaled_damping(model, state).unwrap() * shape))
+            / (2.0 * TAU * modes.frequencies[mode])
     };
     [of(&held_by(scene, by)), of(&scene.model)]
 }
@@ -174,11 +201,11 @@ pub fn hop() -> String {
     let highest = heights.iter().map(|(_, z)| *z).fold(0.0, f64::max);
     // The pose after the step has its own modes: springs and dampers have turned a little.
     let state = plant.state();
-    let modes = modes(&scene.model, state);
+    let modes = modes(&scene.model, state).unwrap();
     let (hop, _) = heave(&modes, &[knuckle]);
     let shape = modes.shapes.column(hop);
     let omega = TAU * modes.frequencies[hop];
-    let damping = scaled_damping(&scene.model, state);
+    let damping = scaled_damping(&scene.model, state).unwrap();
     let ratio = shape.dot(&(damping * shape)) / (2.0 * omega);
     let theory = modes.frequencies[hop] * (1.0 - ratio * ratio).sqrt();
     let mut crossings = Vec::new();
@@ -211,7 +238,7 @@ pub fn macpherson() -> String {
         let arm = format!("{side} arm");
         let row = scene.body_names.iter().position(|name| *name == arm).unwrap();
         let bushings = held_by(&scene, |name| name.contains(&arm));
-        let stiffness = scaled_stiffness(&bushings, &state).0;
+        let stiffness = scaled_stiffness(&bushings, &state).unwrap().0;
         let block = stiffness.view((6 * row, 6 * row), (6, 6)).into_owned();
         let squares = SymmetricEigen::new(block).eigenvalues;
         let mut alone: Vec<f64> = squares.iter().map(|s| s.sqrt() / TAU).collect();

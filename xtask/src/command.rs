@@ -8,6 +8,16 @@ use std::process::{Command, Stdio};
 
 use anyhow::{Context as _, Result, bail};
 
+/// Where everything is built once and nobody steps through it: nothing is kept for a second build or for a
+/// backtrace, and a crate is cut into fewer parts, each of which has its own copy of what is generic.
+/// `dbd-plant`, optimised and checked as ever, then takes 58 CPU seconds instead of 105.
+const ONCE: [(&str, &str); 4] = [
+    ("CARGO_INCREMENTAL", "0"),
+    ("CARGO_PROFILE_DEV_CODEGEN_UNITS", "4"),
+    ("CARGO_PROFILE_DEV_DEBUG", "0"),
+    ("CARGO_PROFILE_RELEASE_DEBUG", "0"),
+];
+
 /// The repository's root.
 pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("xtask lies in the repository's root")
@@ -16,9 +26,8 @@ pub fn root() -> &'static Path {
 /// The cargo that runs this program.
 pub fn cargo() -> Command {
     let mut cargo = program(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    if std::env::var_os("CI").is_some() {
-        // Everything is built once there: what a second build would be quicker by is only written.
-        cargo.env("CARGO_INCREMENTAL", "0");
+    if ["CI", "DBD_ONCE"].iter().any(|name| std::env::var_os(name).is_some()) {
+        cargo.envs(ONCE);
     }
     cargo
 }

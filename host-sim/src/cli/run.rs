@@ -55,6 +55,9 @@ pub(super) struct RunArguments {
     /// position=1e-6,orientation=1e-6,velocity=1e-3,angular-velocity=1e-3,READOUT=1e-3
     #[arg(long, value_name = "BANDS", requires = "golden", allow_hyphen_values = true)]
     golden_band: Option<BandList>,
+    /// Find the N lowest modes about the pose at t = 0, undamped: at most 200 bodies
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    modes: Option<u16>,
     /// Write no report.html
     #[arg(long)]
     no_report: bool,
@@ -91,6 +94,7 @@ pub(super) fn run_scene(
             bands: arguments.golden_band.clone(),
             blessing: Blessing::from_environment(),
         }),
+        modes: arguments.modes.map(usize::from),
         out: Some(arguments.results.destination(&file)),
         report: !arguments.no_report,
         gltf: arguments.gltf,

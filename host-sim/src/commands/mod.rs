@@ -6,6 +6,8 @@
 //! - [`picture`]: the mechanism as an SVG. [`mod@write`]: a scene in its long form.
 //! - [`folder`]: where results go.
 //! - [`golden`]: a run beside a golden file.
+//! - [`modes`]: how a scene vibrates about its pose at t = 0.
+//! - [`surveyed`]: a survey that lies beside a run's results.
 //! - [`run`]: a scene becomes a trace, a summary and a report.
 //! - [`sweep`]: many values of a scene, a row per case.
 //! - [`trade`]: speed against accuracy.
@@ -23,10 +25,12 @@ pub mod folder;
 pub mod golden;
 pub mod import;
 pub mod list;
+pub mod modes;
 pub mod new;
 pub mod picture;
 pub mod run;
 pub mod stability;
+pub mod surveyed;
 pub mod sweep;
 pub mod trade;
 pub mod warnings;

@@ -15,16 +15,19 @@ use dbd_plant::judge::{Opening, conserves_energy};
 use dbd_plant::plan::{Request, StepRequest, plan};
 use dbd_plant::plant::{check_inputs, check_step};
 use dbd_plant::{Frequencies, Method, Plan, PlanError, PlantError};
-use dbd_report::data::Text;
+use dbd_report::data::{Mode, Text};
 use dbd_report::{Data, Recorded, Recording, gltf, page};
 use dbd_scene::{Scene, Setting};
 use dbd_study::command::with_changes;
+use dbd_study::modes::ModesError;
 use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::commands::assembled::AssembledCheck;
 use crate::commands::folder::{Destination, FolderError};
 use crate::commands::golden::{GoldenOptions, GoldenRefusal, GoldenWatch};
+use crate::commands::modes::lowest;
+use crate::commands::surveyed::surveyed;
 use crate::commands::warnings::{of_run, of_scene, of_step, of_turns};
 use crate::report::{
     JointOpening, ReadoutFigures, SetValue, Statistics, Summary, TraceWriter, text, trace,
@@ -50,6 +53,8 @@ pub struct RunOptions {
     pub watch_energy: Option<EnergyLimit>,
     /// What the run is compared with.
     pub golden: Option<GoldenOptions>,
+    /// How many of the lowest modes at t = 0 are found; none where `None`.
+    pub modes: Option<usize>,
     /// Where results go; `None` writes nothing.
     pub out: Option<Destination>,
     /// Whether a report is among them.
@@ -71,6 +76,7 @@ impl RunOptions {
             every: None,
             watch_energy: None,
             golden: None,
+            modes: None,
             out: None,
             report: true,
             gltf: false,
@@ -131,6 +137,10 @@ pub enum RunError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Golden(#[from] GoldenRefusal),
+    /// There are no modes.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Modes(#[from] ModesError),
     /// Results cannot be written.
     #[error("cannot write the results: {0}")]
     Write(io::Error),
@@ -212,6 +222,7 @@ pub fn run(
     check_inputs(scene, &options.method)?;
     let golden = options.golden.as_ref();
     let golden = golden.map(|golden| golden.begin(scene, &options.method, &plan)).transpose()?;
+    let modes = options.modes.map(|count| lowest(scene, count)).transpose()?;
     let folder = match &options.out {
         Some(out) => Some(out.folder(&scene.name)?),
         None => None,
@@ -248,13 +259,19 @@ pub fn run(
     let stop = watch.and_then(|watch| watch.stop());
     summary.of_watch(watch, stop);
     summary.of_file(options.out.as_ref().map(|out| &out.file));
+    if let Some(modes) = &modes {
+        summary.modes = Some(modes.frequencies.clone());
+        summary.warnings.extend(modes.remarks.iter().cloned());
+    }
     let called = options.called.as_deref().unwrap_or(&scene.name);
     // What did not come to its end is neither compared nor blessed.
     let golden = golden.filter(|_| failure.is_none() && stop.is_none());
     summary.golden = golden.map(|golden| golden.finish(&plan, &with_changes(scene, called)));
     if let (Some(mut files), Some(out)) = (files, &options.out) {
-        let words = text(scene, &plan, &summary, called);
-        let written = show(scene, options, recording, words, &mut files);
+        let mut words = text(scene, &plan, &summary, called);
+        words.survey = surveyed(files.folder(), scene, &out.file);
+        let swings = modes.map(|modes| modes.of_page()).unwrap_or_default();
+        let written = show(scene, options, recording, (words, swings), &mut files);
         let written = written.and_then(|()| files.write("summary.json", &summary.json()));
         let place = files.folder().to_owned();
         let whole = written.and_then(|()| files.finish()).map_err(RunError::Write)?;
@@ -276,7 +293,7 @@ fn show(
     scene: &Scene,
     options: &RunOptions,
     recording: Option<Recording>,
-    words: Text,
+    (words, modes): (Text, Vec<Mode>),
     files: &mut FileSet,
 ) -> io::Result<()> {
     let recorded = recording.map(Recording::finish);
@@ -294,7 +311,7 @@ fn show(
     match recorded.filter(|_| options.report) {
         Some(Recorded { run, .. }) => {
             let mut data = Data::of_run(&scene.name, &scene.description, run);
-            data.text = words;
+            (data.text, data.modes) = (words, modes);
             files.write("report.html", &page::html(&data))
         }
         None => {
@@ -402,6 +419,7 @@ fn summarise(
         assembled: AssembledCheck::of(scene).map(|assembled| assembled.sentence()),
         watch_energy: None,
         golden: None,
+        modes: None,
         widest_joint: widest(scene, &ending.openings),
         warnings,
         readouts: ReadoutFigures::of(scene, statistics.readings()),

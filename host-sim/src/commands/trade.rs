@@ -15,6 +15,7 @@ use serde::Serialize;
 use thiserror::Error;
 
 use crate::commands::folder::{Destination, FolderError};
+use crate::report::SetValue;
 use crate::terminal::SceneFile;
 use crate::terminal::text;
 
@@ -86,7 +87,10 @@ pub fn json(report: &files::Report<'_>, file: &SceneFile) -> String {
         survey: files::Json<'w>,
         scene_file: &'w str,
         scene_hash: &'w str,
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        set: Vec<SetValue>,
     }
     let SceneFile { place, hash, .. } = file;
-    text::json(&Whole { survey: report.json(), scene_file: place, scene_hash: hash })
+    let set = SetValue::of(report.scene);
+    text::json(&Whole { survey: report.json(), scene_file: place, scene_hash: hash, set })
 }

@@ -96,6 +96,10 @@ pub struct Summary {
     /// What became of the comparison with a golden run, where there was one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub golden: Option<GoldenOutcome>,
+    /// \[Hz\] the lowest modes at t = 0, ascending, where they were asked for; negative where a mode runs
+    /// away, 0 where nothing holds it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub modes: Option<Vec<f64>>,
     /// What is probably not meant.
     pub warnings: Vec<String>,
     /// What the read-outs showed, a list entry per column.
@@ -263,6 +267,8 @@ impl Summary {
             };
             rows.push(("golden", format!("{}: {words}", golden.file)));
         }
+        let modes = self.modes.as_ref().map(|modes| ("lowest modes", frequencies(modes)));
+        rows.extend(modes);
         rows.extend(self.assembled.iter().map(|moved| ("assembled", moved.clone())));
         rows.extend(self.readouts.iter().map(|figures| ("read-out", readout(figures))));
         rows.extend(self.set.iter().map(|value| ("set", value.text())));
@@ -270,6 +276,16 @@ impl Summary {
         rows.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
         rows
     }
+}
+
+/// Frequencies in words, those that nothing holds counted: `5 × 0 Hz, 3.68 Hz, 12.1 Hz`.
+fn frequencies(modes: &[f64]) -> String {
+    let alike = modes.chunk_by(|one, other| *one == 0.0 && *other == 0.0);
+    let said = alike.map(|group| match group {
+        [one] => format!("{} Hz", significant(*one, 4).replace('-', "−")),
+        free => format!("{} × 0 Hz", free.len()),
+    });
+    said.collect::<Vec<_>>().join(", ")
 }
 
 /// What people read of a column of a read-out.
@@ -284,4 +300,15 @@ fn readout(figures: &ReadoutFigures) -> String {
         shown(rms),
         shown(last),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn modes_that_nothing_holds_are_counted() {
+        assert_eq!(frequencies(&[-1.0, 0.0, 0.0, 3.67891]), "−1 Hz, 2 × 0 Hz, 3.679 Hz");
+        assert_eq!(frequencies(&[0.0]), "0 Hz");
+    }
 }

@@ -44,6 +44,7 @@ pub fn text(scene: &Scene, plan: &Plan, summary: &Summary, called: &str) -> Text
         tables: vec![table("Summary", rows), table("Versions", versions(summary))],
         commands: vec![(String::new(), command(scene, plan, summary, called))],
         notes: note.into_iter().collect(),
+        survey: None,
     }
 }
 
@@ -77,14 +78,16 @@ fn command(scene: &Scene, plan: &Plan, summary: &Summary, called: &str) -> Strin
         "quaternion" => String::new(),
         other => format!(" --orientation {other}"),
     };
+    let modes = summary.modes.as_ref().map(|modes| format!(" --modes {}", modes.len()));
     format!(
         "host-sim run {} --scheme {}{newton}{damping} --precision {}{orientation} --step {} \
-         --duration {} --every {}",
+         --duration {} --every {}{}",
         with_changes(scene, called),
         summary.scheme,
         summary.precision,
         display(plan.step),
         display(plan.duration),
         display(plan.time(plan.stride).min(plan.duration)),
+        modes.unwrap_or_default(),
     )
 }

@@ -7,7 +7,8 @@ use dbd_output::markup::escape;
 use dbd_output::svg::label;
 
 use crate::advice::choice;
-use crate::chart::drawing::{Drawing, LABEL, RIGHT, STRIP, WIDTH};
+use crate::chart::drawing::{Drawing, LABEL};
+use crate::chart::layout::Layout;
 use crate::chart::style::{FAINT, INK};
 use crate::words::shown;
 
@@ -49,14 +50,15 @@ impl Drawing<'_> {
         if choices.is_empty() {
             return;
         }
-        let x = RIGHT + 18.0;
-        label(text, (x - 10.0, STRIP.0 + 12.0), "start", INK, "the cheapest for each accuracy:");
-        label(text, (x - 10.0, STRIP.0 + 29.0), "start", FAINT, "scheme, precision, step");
+        let Layout { right, strip, width: whole, .. } = *self.layout;
+        let x = right + 18.0;
+        label(text, (x - 10.0, strip.0 + 12.0), "start", INK, "the cheapest for each accuracy:");
+        label(text, (x - 10.0, strip.0 + 29.0), "start", FAINT, "scheme, precision, step");
         for choice in choices {
             let y = self.y.at(choice.accuracy);
             let _ = writeln!(
                 text,
-                "<path d=\"M{RIGHT} {y:.1}H{:.1}\" stroke=\"{INK}\" fill=\"none\"/>",
+                "<path d=\"M{right} {y:.1}H{:.1}\" stroke=\"{INK}\" fill=\"none\"/>",
                 x - DISC
             );
             disc(text, (x, y), choice.number);
@@ -64,7 +66,7 @@ impl Drawing<'_> {
             let point = &self.chart.points[choice.row];
             let name = format!("{} · {}", point.stepper.label(), shown(point.step));
             // A long name is set narrower rather than cut.
-            let room = WIDTH - x - DISC - 12.0;
+            let room = whole - x - DISC - 12.0;
             let width = name.chars().count() as f64 * LABEL * 0.64;
             let fitted = match width > room {
                 true => format!(" textLength=\"{room:.0}\" lengthAdjust=\"spacingAndGlyphs\""),

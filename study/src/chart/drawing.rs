@@ -6,12 +6,14 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use dbd_output::dark::adapted;
 use dbd_output::markup::escape;
 use dbd_output::svg::{joined, label};
 use dbd_plant::time::display;
 
 use crate::advice::remark;
 use crate::chart::axis::Axis;
+use crate::chart::layout::{Layout, NARROW, WIDE};
 use crate::chart::style::{FRONT, INK, Style};
 use crate::command::Command;
 use crate::point::{Machine, Point, Stepper, front, is_paper};
@@ -37,40 +39,46 @@ pub struct Chart<'c> {
     pub conditions: &'c [String],
 }
 
-/// [pixels] the drawing.
-pub(super) const WIDTH: f64 = 1290.0;
-pub(super) const HEIGHT: f64 = 906.0;
-/// [pixels] where the axes lie.
-pub(super) const LEFT: f64 = 136.0;
-pub(super) const RIGHT: f64 = 950.0;
-pub(super) const TOP: f64 = 172.0;
-pub(super) const BOTTOM: f64 = 752.0;
-/// [pixels] the strip of what is unstable.
-pub(super) const STRIP: (f64, f64) = (122.0, 166.0);
 /// [pixels] of the largest text; a character is about 0.6 of that wide.
 pub(super) const LABEL: f64 = 13.0;
 pub(super) const MARK: f64 = 4.6;
 
-/// The chart for a machine.
+/// The chart for a machine, light or dark as the reader's screen is.
 #[must_use]
 pub fn svg(chart: &Chart<'_>, machine: Machine) -> String {
+    drawn(chart, machine, &WIDE)
+}
+
+/// The same for a phone: lines, marks and their legend, without words.
+#[must_use]
+pub fn narrow_svg(chart: &Chart<'_>, machine: Machine) -> String {
+    drawn(chart, machine, &NARROW)
+}
+
+fn drawn(chart: &Chart<'_>, machine: Machine, layout: &Layout) -> String {
+    let Layout { width, height, left, .. } = *layout;
     let title = escape(&title(chart, machine));
     let mut text = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{HEIGHT}\" \
-         viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"{title}\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\" \
          font-family=\"system-ui, 'DejaVu Sans', sans-serif\" font-size=\"{LABEL}\" fill=\"{INK}\">\n\
-         <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"#fff\"/>\n\
-         <text x=\"{LEFT}\" y=\"34\" font-size=\"21\" font-weight=\"600\">{title}</text>\n"
+         <rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n"
     );
-    match Drawing::new(chart, machine) {
+    if layout.wide {
+        let _ = writeln!(
+            text,
+            "<text x=\"{left}\" y=\"34\" font-size=\"21\" font-weight=\"600\">{title}</text>"
+        );
+    }
+    match Drawing::new(chart, machine, layout) {
         Some(drawing) => drawing.draw(&mut text),
         None => {
             let why = remark(chart.points, machine).unwrap_or("nothing to draw");
-            label(&mut text, (LEFT, 90.0), "start", INK, &format!("Nothing to draw: {why}."));
+            label(&mut text, (left, 90.0), "start", INK, &format!("Nothing to draw: {why}."));
         }
     }
     text.push_str("</svg>\n");
-    text
+    adapted(&text)
 }
 
 fn title(chart: &Chart<'_>, machine: Machine) -> String {
@@ -116,6 +124,7 @@ pub fn hover(point: &Point, machine: Machine, real_time: f64) -> String {
 pub(super) struct Drawing<'d> {
     pub(super) chart: &'d Chart<'d>,
     pub(super) machine: Machine,
+    pub(super) layout: &'d Layout,
     /// Cost that is just real time.
     pub(super) real_time: f64,
     pub(super) x: Axis,
@@ -145,19 +154,20 @@ impl Line<'_> {
 }
 
 impl<'d> Drawing<'d> {
-    pub(super) fn new(chart: &'d Chart<'d>, machine: Machine) -> Option<Self> {
+    pub(super) fn new(chart: &'d Chart<'d>, machine: Machine, layout: &'d Layout) -> Option<Self> {
         let points = chart.points;
         if remark(points, machine).is_some() {
             return None;
         }
         let found = || points.iter().filter_map(|point| point.kept(machine));
         let costs = points.iter().filter_map(|point| point.cost(machine));
-        let x = Axis::new(costs, (LEFT, RIGHT), (40.0, 70.0), 62.0)?;
+        let Layout { left, right, top, bottom, room, .. } = *layout;
+        let x = Axis::new(costs, (left, right), room, 62.0)?;
         let errors = found().map(|(_, error)| error);
         // The floor is in sight where it is near enough to matter.
         let least = found().map(|(_, error)| error).fold(f64::INFINITY, f64::min);
         let floor = Some(chart.uncertainty).filter(|floor| *floor > least / 100.0);
-        let y = Axis::new(errors.chain(floor), (BOTTOM, TOP), (24.0, 16.0), 16.0)?;
+        let y = Axis::new(errors.chain(floor), (bottom, top), (24.0, 16.0), 16.0)?;
         let real_time = match machine {
             Machine::Host => 1.0,
             Machine::Target => chart.real_time_instructions,
@@ -187,7 +197,7 @@ impl<'d> Drawing<'d> {
                 Line { stepper, number, style, paper, quiet, stable, hollow, unstable }
             })
             .collect();
-        Some(Self { chart, machine, real_time, x, y, lines, front })
+        Some(Self { chart, machine, layout, real_time, x, y, lines, front })
     }
 
     /// Where a point lies.
@@ -224,10 +234,13 @@ impl<'d> Drawing<'d> {
         for line in &order {
             self.marks(text, line);
         }
-        let choices = self.choices();
+        let wide = self.layout.wide;
+        let choices = if wide { self.choices() } else { Vec::new() };
         self.panel(text, &choices);
         self.labels(text, &order, &band, &choices);
-        self.key(text);
+        if wide {
+            self.key(text);
+        }
         self.legend(text);
     }
 
@@ -284,7 +297,7 @@ impl<'d> Drawing<'d> {
             text.push_str(&line.style.mark(self.at(*row), 0.75 * MARK, true, &title(*row)));
         }
         // A row of its own in the strip for each stepper.
-        let (top, bottom) = (STRIP.0 + 6.0, STRIP.1 - 6.0);
+        let (top, bottom) = (self.layout.strip.0 + 6.0, self.layout.strip.1 - 6.0);
         let share = (number as f64 + 0.5) / self.lines.len() as f64;
         for row in &line.unstable {
             let cost = self.chart.points[*row].cost(self.machine).unwrap_or(0.0);

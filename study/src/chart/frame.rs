@@ -6,38 +6,41 @@ use dbd_output::label_spots::{LabelSpots, Rectangle};
 use dbd_output::svg::label;
 use dbd_plant::digits::significant;
 
-use crate::chart::drawing::{BOTTOM, Drawing, LABEL, LEFT, Line, MARK, RIGHT, STRIP, TOP, WIDTH};
+use crate::chart::drawing::{Drawing, LABEL, Line, MARK};
+use crate::chart::layout::Layout;
 use crate::chart::style::{FAINT, GRID, INK};
 use crate::point::{Machine, Stepper};
 
 impl Drawing<'_> {
     /// What lies below the truth's own uncertainty.
     pub(super) fn floor(&self, text: &mut String) {
+        let Layout { left, right, bottom, .. } = *self.layout;
         if !self.y.holds(self.chart.uncertainty) {
             return;
         }
         let top = self.y.at(self.chart.uncertainty);
         let _ = writeln!(
             text,
-            "<rect x=\"{LEFT}\" y=\"{top:.1}\" width=\"{:.1}\" height=\"{:.1}\" \
+            "<rect x=\"{left}\" y=\"{top:.1}\" width=\"{:.1}\" height=\"{:.1}\" \
              fill=\"#dfe4ea\"/>",
-            RIGHT - LEFT,
-            BOTTOM - top
+            right - left,
+            bottom - top
         );
     }
 
     pub(super) fn grid(&self, text: &mut String) {
+        let Layout { left, right, top, bottom, strip, wide, .. } = *self.layout;
         for tick in self.x.ticks() {
             let x = self.x.at(tick.value());
             let stroke = if tick.digit == 1 { GRID } else { "#f1f3f5" };
             let _ = writeln!(
                 text,
-                "<path d=\"M{x:.1} {TOP}V{BOTTOM}\" stroke=\"{stroke}\" fill=\"none\"/>"
+                "<path d=\"M{x:.1} {top}V{bottom}\" stroke=\"{stroke}\" fill=\"none\"/>"
             );
             if tick.labelled {
                 let unit = if self.machine == Machine::Host { "s" } else { "" };
                 let name = tick.prefixed(unit);
-                label(text, (x, BOTTOM + 20.0), "middle", INK, &name);
+                label(text, (x, bottom + 20.0), "middle", INK, &name);
             }
         }
         for tick in self.y.ticks() {
@@ -45,11 +48,14 @@ impl Drawing<'_> {
             let stroke = if tick.digit == 1 { GRID } else { "#f1f3f5" };
             let _ = writeln!(
                 text,
-                "<path d=\"M{LEFT} {y:.1}H{RIGHT}\" stroke=\"{stroke}\" fill=\"none\"/>"
+                "<path d=\"M{left} {y:.1}H{right}\" stroke=\"{stroke}\" fill=\"none\"/>"
             );
             if tick.labelled {
-                label(text, (LEFT - 54.0, y + 4.5), "end", INK, &tick.prefixed("m"));
-                label(text, (LEFT - 8.0, y + 4.5), "end", FAINT, &tick.scientific());
+                let near = if wide { 54.0 } else { 8.0 };
+                label(text, (left - near, y + 4.5), "end", INK, &tick.prefixed("m"));
+                if wide {
+                    label(text, (left - 8.0, y + 4.5), "end", FAINT, &tick.scientific());
+                }
             }
         }
         let speed = self.x.inverse(self.real_time);
@@ -58,66 +64,72 @@ impl Drawing<'_> {
             let _ = writeln!(
                 text,
                 "<path d=\"M{x:.1} {:.1}v6\" stroke=\"{FAINT}\" fill=\"none\"/>",
-                STRIP.0 - 6.0
+                strip.0 - 6.0
             );
-            label(text, (x, STRIP.0 - 11.0), "middle", INK, &format!("{}×", tick.plain()));
+            label(text, (x, strip.0 - 11.0), "middle", INK, &format!("{}×", tick.plain()));
         }
-        let (width, height) = (RIGHT - LEFT, BOTTOM - TOP);
+        let (width, height) = (right - left, bottom - top);
         let _ = writeln!(
             text,
-            "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{width}\" height=\"{height}\" fill=\"none\" \
+            "<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" fill=\"none\" \
              stroke=\"#aab2bc\"/>"
         );
         let axis = match self.machine {
             Machine::Host => "cost: seconds of one core per simulated second",
             Machine::Target => "cost: instructions per simulated second",
         };
-        label(text, ((LEFT + RIGHT) / 2.0, BOTTOM + 44.0), "middle", INK, axis);
-        label(text, (LEFT, BOTTOM + 44.0), "start", FAINT, "← cheaper");
-        label(text, (RIGHT, BOTTOM + 44.0), "end", FAINT, "dearer →");
+        label(text, ((left + right) / 2.0, bottom + 44.0), "middle", INK, axis);
+        if wide {
+            label(text, (left, bottom + 44.0), "start", FAINT, "← cheaper");
+            label(text, (right, bottom + 44.0), "end", FAINT, "dearer →");
+        }
         let times = format!(
             "times faster than real time{}",
             if self.machine == Machine::Target { " on one of 168 MHz" } else { "" }
         );
-        label(text, ((LEFT + RIGHT) / 2.0, STRIP.0 - 31.0), "middle", INK, &times);
+        label(text, ((left + right) / 2.0, strip.0 - 31.0), "middle", INK, &times);
         let _ = writeln!(
             text,
-            "<text transform=\"translate(24 {:.1}) rotate(-90)\" text-anchor=\"middle\">error: \
-             distance from the truth, root mean square over bodies and time</text>",
-            (TOP + BOTTOM) / 2.0
+            "<text transform=\"translate({} {:.1}) rotate(-90)\" text-anchor=\"middle\">error: \
+             distance from the truth, root mean square{}</text>",
+            if wide { 24.0 } else { 13.0 },
+            (top + bottom) / 2.0,
+            if wide { " over bodies and time" } else { "" },
         );
     }
 
     /// The cost that is just real time, and what is too slow for it.
     pub(super) fn real_time(&self, text: &mut String) {
+        let Layout { right, top, bottom, .. } = *self.layout;
         if !self.x.holds(self.real_time) {
             return;
         }
         let x = self.x.at(self.real_time);
         let _ = writeln!(
             text,
-            "<rect x=\"{x:.1}\" y=\"{TOP}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"#d55e00\" \
-             fill-opacity=\".06\"/>\n<path d=\"M{x:.1} {TOP}V{BOTTOM}\" stroke=\"{INK}\" \
+            "<rect x=\"{x:.1}\" y=\"{top}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"#d55e00\" \
+             fill-opacity=\".06\"/>\n<path d=\"M{x:.1} {top}V{bottom}\" stroke=\"{INK}\" \
              stroke-dasharray=\"1 3\" stroke-width=\"2\" fill=\"none\"/>",
-            RIGHT - x,
-            BOTTOM - TOP
+            right - x,
+            bottom - top
         );
     }
 
     pub(super) fn strip(&self, text: &mut String) {
-        let (top, bottom) = STRIP;
+        let Layout { left, right, strip: (top, bottom), .. } = *self.layout;
         let _ = writeln!(
             text,
-            "<rect x=\"{LEFT}\" y=\"{top}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"#f4f6f8\" \
+            "<rect x=\"{left}\" y=\"{top}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"#f4f6f8\" \
              stroke=\"#aab2bc\"/>",
-            RIGHT - LEFT,
+            right - left,
             bottom - top
         );
-        label(text, (LEFT - 8.0, (top + bottom) / 2.0 + 5.0), "end", INK, "unstable");
+        label(text, (left - 8.0, (top + bottom) / 2.0 + 5.0), "end", INK, "unstable");
     }
 
     /// What is written at the floor and at real time.
     pub(super) fn remarks(&self, text: &mut String, spots: &mut LabelSpots) {
+        let Layout { left, right, top, bottom, .. } = *self.layout;
         let mut remark = |anchor: (f64, f64), to_left: bool, said: &str| {
             let width = said.chars().count() as f64 * LABEL * 0.6;
             let x = if to_left { anchor.0 - width } else { anchor.0 };
@@ -125,9 +137,9 @@ impl Drawing<'_> {
             label(text, anchor, if to_left { "end" } else { "start" }, FAINT, said);
         };
         if self.y.holds(self.chart.uncertainty) {
-            let y = (self.y.at(self.chart.uncertainty) + 15.0).min(BOTTOM - 5.0);
+            let y = (self.y.at(self.chart.uncertainty) + 15.0).min(bottom - 5.0);
             let floor = significant(self.chart.uncertainty, 2);
-            remark((LEFT + 8.0, y), false, &format!("the truth is known to {floor} m"));
+            remark((left + 8.0, y), false, &format!("the truth is known to {floor} m"));
         }
         if self.x.holds(self.real_time) {
             let x = self.x.at(self.real_time);
@@ -135,19 +147,20 @@ impl Drawing<'_> {
                 Machine::Host => "real time",
                 Machine::Target => "real time at 168 MHz",
             };
-            let to_left = RIGHT - x < 190.0;
-            remark((if to_left { x - 6.0 } else { x + 6.0 }, TOP + 18.0), to_left, said);
+            let to_left = right - x < 190.0;
+            remark((if to_left { x - 6.0 } else { x + 6.0 }, top + 18.0), to_left, said);
         }
     }
 
     /// How to read it, above and beneath.
     pub(super) fn key(&self, text: &mut String) {
+        let Layout { left, bottom, .. } = *self.layout;
         let window = significant(self.chart.window, 3);
         let above = format!(
             "Down is more accurate, left is faster; {window} s compared. Yellow band: the front, \
              where nothing measured is both faster and more accurate."
         );
-        label(text, (LEFT, 58.0), "start", FAINT, &above);
+        label(text, (left, 58.0), "start", FAINT, &above);
         let paper = match self.machine {
             Machine::Host => "Thick: the paper's scheme, dbd in f64.",
             Machine::Target => "Thick: the paper's scheme, dbd in f64 and (dashed) in f32.",
@@ -162,13 +175,14 @@ impl Drawing<'_> {
             ),
         ];
         for (row, words) in beneath.into_iter().enumerate() {
-            let y = BOTTOM + 76.0 + 19.0 * row as f64;
-            label(text, (LEFT, y), "start", FAINT, &words);
+            let y = bottom + 76.0 + 19.0 * row as f64;
+            label(text, (left, y), "start", FAINT, &words);
         }
     }
 
     /// Mark and name of every scheme.
     pub(super) fn legend(&self, text: &mut String) {
+        let Layout { width: whole, left, bottom, legend, .. } = *self.layout;
         let mut known: Vec<(String, &Line<'_>)> = Vec::new();
         let mut lines: Vec<&Line<'_>> = self.lines.iter().collect();
         // A scheme's plainest stepper stands for it: in f64, with quaternions.
@@ -188,11 +202,12 @@ impl Drawing<'_> {
                 known.push((name, line));
             }
         }
-        let (mut x, mut y) = (LEFT, BOTTOM + 116.0);
+        let start = if self.layout.wide { left } else { 12.0 };
+        let (mut x, mut y) = (start, bottom + legend);
         for (name, line) in known {
             let width = name.chars().count() as f64 * LABEL * 0.58 + 30.0;
-            if x + width > WIDTH - 8.0 {
-                (x, y) = (LEFT, y + 19.0);
+            if x + width > whole - 8.0 {
+                (x, y) = (start, y + 19.0);
             }
             text.push_str(&line.style.mark((x + 6.0, y - 4.5), MARK, false, ""));
             label(text, (x + 16.0, y), "start", line.style.text, &name);

@@ -6,7 +6,8 @@ use dbd_output::label_spots::{LabelSpots, Rectangle};
 use dbd_output::markup::escape;
 
 use crate::chart::choices::Choice;
-use crate::chart::drawing::{BOTTOM, Drawing, LABEL, LEFT, Line, RIGHT, TOP};
+use crate::chart::drawing::{Drawing, LABEL, Line};
+use crate::chart::layout::Layout;
 use crate::words::shown;
 
 impl Drawing<'_> {
@@ -18,8 +19,9 @@ impl Drawing<'_> {
         band: &[(f64, f64)],
         choices: &[Choice],
     ) {
-        let (x, y) = (LEFT + 4.0, TOP + 4.0);
-        let (width, height) = (RIGHT - LEFT - 8.0, BOTTOM - TOP - 8.0);
+        let Layout { left, right, top, bottom, wide, .. } = *self.layout;
+        let (x, y) = (left + 4.0, top + 4.0);
+        let (width, height) = (right - left - 8.0, bottom - top - 8.0);
         let mut spots = LabelSpots::new(Rectangle { x, y, width, height });
         for line in &self.lines {
             let at: Vec<_> = line.stable.iter().map(|row| self.at(*row)).collect();
@@ -28,6 +30,9 @@ impl Drawing<'_> {
         }
         band.windows(2).for_each(|pair| spots.stroke(pair[0], pair[1]));
         self.remarks(text, &mut spots);
+        if !wide {
+            return;
+        }
         self.numbers(text, &mut spots, choices);
         // The paper's lines first: everything is compared with them. The quiet ones last.
         let mut lines: Vec<&Line<'_>> = order.to_vec();

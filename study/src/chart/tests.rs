@@ -1,10 +1,12 @@
 //! Charts of ladders like those measured, from orders, floors and limits. `DBD_DRAW=folder` leaves
 //! them and a page there to look at.
 
+use dbd_output::dark::unpaired;
 use dbd_output::markup::escape;
 
 use crate::advice::choice;
 use crate::chart::drawing::*;
+use crate::chart::layout::{NARROW, WIDE};
 use crate::command::Command;
 use crate::point::tests::point;
 use crate::point::{Machine, Point};
@@ -111,13 +113,19 @@ fn every_point_is_drawn_once_with_its_numbers() {
         assert!(!drawing.contains("NaN") && !drawing.contains("inf"));
         assert!(!drawing.contains("<&>"));
         assert_eq!(drawing, svg(&chart, machine));
-        // Nothing lies outside of the drawing.
-        for (name, most) in [("x", WIDTH), ("cx", WIDTH), ("y", HEIGHT), ("cy", HEIGHT)] {
-            for value in attributes(&drawing, name) {
-                let value: f64 = value.parse().unwrap();
-                assert!((0.0..=most).contains(&value), "{name} {value}");
+        // Nothing lies outside of the drawing, nothing stays light in the dark.
+        let narrow = narrow_svg(&chart, machine);
+        for (drawing, of) in [(&drawing, &WIDE), (&narrow, &NARROW)] {
+            let mosts = [("x", of.width), ("cx", of.width), ("y", of.height), ("cy", of.height)];
+            for (name, most) in mosts {
+                for value in attributes(drawing, name) {
+                    let value: f64 = value.parse().unwrap();
+                    assert!((0.0..=most).contains(&value), "{name} {value}");
+                }
             }
+            assert_eq!(unpaired(drawing), [""; 0]);
         }
+        assert_eq!(narrow.matches("<title>").count(), drawing.matches("<title>").count());
     }
 }
 

@@ -5,6 +5,7 @@
 
 use std::fmt::Write as _;
 
+use dbd_output::dark::adapted;
 use dbd_output::markup::escape;
 use dbd_output::svg::label;
 use dbd_plant::digits::significant;
@@ -14,6 +15,8 @@ use crate::plot::{FAILED, FRAME, INK, Scale};
 
 /// What is drawn.
 pub struct Heat<'h> {
+    /// What is shown: a quantity and its unit.
+    pub title: &'h str,
     /// \[pixels\] width and height.
     pub size: (f64, f64),
     /// Along, by names.
@@ -48,7 +51,9 @@ const SPEAKING: usize = 4_000;
 /// The SVG.
 #[must_use]
 pub fn svg(heat: &Heat<'_>) -> String {
-    let Heat { size: (width, height), x, y, cells: [along, above], values } = *heat;
+    let Heat { title, size: (width, height), x, y, cells: [along, above], values } = *heat;
+    let (quantity, unit) = title.split_once(" [").unwrap_or((title, ""));
+    let unit = unit.trim_end_matches(']');
     let [left, top] = [MARGINS[0], MARGINS[1]];
     let [right, bottom] = [width - MARGINS[2], height - MARGINS[3]];
     let finite = || values.iter().flatten().copied().filter(|value| value.is_finite());
@@ -81,7 +86,16 @@ pub fn svg(heat: &Heat<'_>) -> String {
         );
         match values.len() <= SPEAKING {
             true => {
-                let said = value.map_or("not ok".into(), |value| significant(value, 5));
+                let value = value.map_or("not ok".into(), |value| {
+                    let figure = significant(value, 5).replace('-', "−");
+                    format!("{quantity} = {figure} {unit}")
+                });
+                let said = format!(
+                    "{}\n{}\n{}",
+                    x.said(column as f64),
+                    y.said(row as f64),
+                    value.trim_end()
+                );
                 let _ = writeln!(text, "><title>{}</title></rect>", escape(&said));
             }
             false => text.push_str("/>\n"),
@@ -102,7 +116,7 @@ pub fn svg(heat: &Heat<'_>) -> String {
     sides(&mut text, (x, y), [left, top, right, bottom], height);
     legend(&mut text, [right + 14.0, top, bottom], [low, high]);
     text.push_str("</svg>\n");
-    text
+    adapted(&text)
 }
 
 /// The colours beside their values.

@@ -13,6 +13,8 @@ pub use scale::Scale;
 const INK: &str = "#333a45";
 const FRAME: &str = "#8f949b";
 const GRID: &str = "#e3e7ec";
+/// In place of a unit: whichever belongs to the quantity.
+pub const SI: &str = "SI";
 /// Cases that did not come to their end.
 const FAILED: &str = "#c0392b";
 

@@ -4,6 +4,8 @@
 
 use dbd_plant::digits::significant;
 
+use crate::plot::SI;
+
 /// Digits of a tick.
 const DIGITS: usize = 4;
 
@@ -61,6 +63,19 @@ impl Scale {
         let value = if self.logarithmic { value.log10() } else { value };
         let share = (value - self.low) / (self.high - self.low);
         (-1e-9..=1.0 + 1e-9).contains(&share).then_some(share)
+    }
+
+    /// A value with its quantity and unit: `body.cart.mass = 2 kg`; of named places the value is a row.
+    #[must_use]
+    pub fn said(&self, value: f64) -> String {
+        let (quantity, unit) = match self.label.split_once(" [") {
+            Some((quantity, unit)) => (quantity, unit.trim_end_matches(']')),
+            None => (self.label.as_str(), ""),
+        };
+        let unit = if unit == SI { "" } else { unit };
+        let named = if value >= 0.0 { self.names.get(value as usize) } else { None };
+        let words = named.cloned().unwrap_or_else(|| significant(value, 5).replace('-', "−"));
+        format!("{quantity} = {words} {unit}").trim_end().to_owned()
     }
 
     /// At most about so many ticks: shares of the way and texts.
@@ -126,6 +141,10 @@ mod tests {
         let names = Scale::of_names(["a", "b"].map(String::from).to_vec(), String::new());
         assert_eq!(names.ticks(9), [(0.25, "a".to_owned()), (0.75, "b".to_owned())]);
         assert_eq!(names.at(1.0), Some(0.75));
+        let named = Scale { label: "body.cart.mass".into(), ..names };
+        assert_eq!(named.said(1.0), "body.cart.mass = b");
+        let numbered = Scale { label: "gravity [m/s²]".into(), ..scale(&[-9.81, 1.0], false) };
+        assert_eq!(numbered.said(-9.81), "gravity = −9.81 m/s²");
     }
 
     #[test]

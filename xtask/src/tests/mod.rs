@@ -46,9 +46,14 @@ pub fn run(long: bool, write_times: bool) -> Result<()> {
     linter_and_documentation(&mut steps);
     tests(&mut steps, Selection::All, &mut cases);
     documentation_tests(&mut steps);
-    bare(&mut steps);
-    let host = release(&mut steps, &mut cases);
-    other_targets(&mut steps);
+    let host = std::thread::scope(|scope| {
+        // Of two cores these steps take hardly more than one, and so does linking an image.
+        scope.spawn(|| firmware::link_ahead(&toolchain));
+        bare(&mut steps);
+        let host = release(&mut steps, &mut cases);
+        other_targets(&mut steps);
+        host
+    });
     on_target(&toolchain, host.as_ref(), long, &mut steps);
     audit::add_steps(&toolchain, &mut steps);
     let slowest = cases::slowest(&cases, SLOWEST);

@@ -1,0 +1,308 @@
+//! Small vibrations about a pose: undamped eigenfrequencies and shapes.
+//!
+//! `(model, state) => M⁻½·K·M⁻½ => frequencies, shapes`, K by differences of the kernel's wrenches.
+//! Freedoms are, per body, shifts along the world's axes and turns about the body's. Preloads and
+//! gravity are in K, which is symmetric where the pose is at rest in equilibrium. Dampers and
+//! velocities are left out; play counts as it is in the pose.
+
+use std::f64::consts::TAU;
+
+use dbd_kernel::forces::{Wrench, wrenches};
+use dbd_kernel::status::Cause;
+use dbd_kernel::{BodyState, F64, Quaternion, State, Vec3};
+use dbd_plant::digits::significant;
+use dbd_scene::{Scene, SceneModel};
+use miette::Diagnostic;
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use thiserror::Error;
+
+/// Bodies at most: time grows with the cube of their number, to some seconds at this one.
+pub const MOST_BODIES: usize = 200;
+
+/// \[m, rad\] of the differences, which are of fourth order: what they leave out is of the order of
+/// 1e-20 m⁴ over a spring's length to the fourth power, rounding of 1e-16 m over this.
+const PROBE: f64 = 1e-5;
+
+/// Weights of the differences at 1 and 2 probes.
+const WEIGHTS: [f64; 2] = [8.0 / 12.0, -1.0 / 12.0];
+
+/// Beyond it K is not that of a pose in equilibrium.
+const SYMMETRIC: f64 = 1e-3;
+
+/// \[√kg·m/s², m/s²\] from which on a pose is not in equilibrium: of a body of 1 kg a thousandth of a g.
+const CALM: f64 = 1e-2;
+
+/// The modes of a model about a pose.
+#[derive(Clone, Debug)]
+pub struct Modes {
+    /// \[Hz\] ascending; that of a negative stiffness is negative, one below `resolution` is 0.
+    pub frequencies: Vec<f64>,
+    /// Shapes in the same order, in columns: shifts and turns per body, scaled by √m and √I, of
+    /// unit length.
+    pub shapes: DMatrix<f64>,
+    /// The largest difference of K and its transpose over the largest entry, both scaled by mass.
+    pub asymmetry: f64,
+    /// \[Hz\] rounding makes frequencies up to here of none.
+    pub resolution: f64,
+}
+
+/// Why there are no modes.
+#[derive(Clone, Copy, Debug, PartialEq, Error, Diagnostic)]
+pub enum ModesError {
+    /// Too many bodies.
+    #[error(
+        "the modes of {bodies} bodies would take too long; those of {MOST_BODIES} are the most"
+    )]
+    #[diagnostic(help(
+        "without --modes; or the modes of a part of the mechanism as a scene of its own"
+    ))]
+    TooMany {
+        /// How many there are.
+        bodies: usize,
+    },
+    /// The forces near the pose are undefined, as a torsion spring's are without a twist.
+    #[error("there are no modes about this pose: a twist is undefined ({0:?})")]
+    #[diagnostic(help("another pose: one in which every torsion spring has a twist"))]
+    Pose(Cause),
+    /// A stiffness beyond the range of numbers.
+    #[error(
+        "there are no modes about this pose: its stiffness over its masses is beyond all numbers"
+    )]
+    #[diagnostic(help("smaller stiffnesses or larger masses and inertias"))]
+    Range,
+}
+
+impl From<Cause> for ModesError {
+    fn from(cause: Cause) -> Self {
+        Self::Pose(cause)
+    }
+}
+
+impl Modes {
+    /// What the bodies do in a mode: shifts along the world's axes \[m\], then turns about each body's
+    /// own \[rad\]; the largest of all numbers is 1 and positive.
+    #[must_use]
+    pub fn motion(&self, model: &SceneModel<F64>, mode: usize) -> Vec<[f64; 6]> {
+        let roots = roots(model);
+        let raw: Vec<f64> =
+            roots.iter().enumerate().map(|(row, root)| self.shapes[(row, mode)] * root).collect();
+        let largest =
+            raw.iter().copied().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+        let scale = if largest == 0.0 { 0.0 } else { 1.0 / largest };
+        raw.chunks_exact(6).map(|body| std::array::from_fn(|i| body[i] * scale)).collect()
+    }
+
+    /// What forces, scaled by 1/√m and 1/√I, do to the bodies: how far the modes that are held give way \[m\],
+    /// and how fast the others set off \[m/s²\]; of each the body that does most, and how much.
+    fn answer(&self, model: &SceneModel<F64>, forces: &DVector<f64>) -> [(usize, f64); 2] {
+        let roots = roots(model);
+        let most = |weight: &dyn Fn(f64) -> f64| {
+            let share = |mode: usize| {
+                let shape = self.shapes.column(mode);
+                shape * (shape.dot(forces) * weight(self.frequencies[mode]))
+            };
+            let modes = 0..self.frequencies.len();
+            let sum = modes.fold(DVector::zeros(roots.len()), |sum, mode| sum + share(mode));
+            let shift = |row: usize| {
+                let parts = (6 * row..6 * row + 3).map(|i| sum[i] * roots[i]);
+                parts.map(|part| part * part).sum::<f64>().sqrt()
+            };
+            let bodies = (0..model.bodies.len()).map(|row| (row, shift(row)));
+            bodies.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default()
+        };
+        [
+            most(&|frequency| if frequency > 0.0 { (TAU * frequency).powi(-2) } else { 0.0 }),
+            most(&|frequency| if frequency > 0.0 { 0.0 } else { 1.0 }),
+        ]
+    }
+
+    /// How many of the lowest modes have no stiffness: rigid motions and mobilities.
+    #[must_use]
+    pub fn free(&self) -> usize {
+        self.frequencies.iter().filter(|frequency| **frequency == 0.0).count()
+    }
+
+    /// How many run away.
+    #[must_use]
+    pub fn unstable(&self) -> usize {
+        self.frequencies.iter().filter(|frequency| **frequency < 0.0).count()
+    }
+}
+
+/// A body's state moved along freedom `c`: a shift along a world axis or a turn about its own.
+fn moved(state: &State<SceneModel<F64>>, freedom: usize, by: f64) -> State<SceneModel<F64>> {
+    let mut state = state.clone();
+    let body = &mut state.bodies[freedom / 6];
+    let axis = Vec3::axes()[freedom % 3];
+    if freedom % 6 < 3 {
+        body.position = body.position + axis * by;
+    } else {
+        let v = axis * (0.5 * by).sin();
+        let turn = Quaternion::new((0.5 * by).cos(), v.x, v.y, v.z);
+        body.orientation = body.orientation.product(turn);
+    }
+    state
+}
+
+/// 1/√m and 1/√I of every freedom.
+fn roots(model: &SceneModel<F64>) -> Vec<f64> {
+    let inertias = model
+        .bodies
+        .iter()
+        .flat_map(|b| [b.mass, b.mass, b.mass, b.inertia.x, b.inertia.y, b.inertia.z]);
+    inertias.map(|m| 1.0 / m.sqrt()).collect()
+}
+
+/// The state without velocities.
+fn at_rest(state: &State<SceneModel<F64>>) -> State<SceneModel<F64>> {
+    let mut rest = state.clone();
+    for body in &mut rest.bodies {
+        (body.velocity, body.angular_velocity) = (Vec3::ZERO, Vec3::ZERO);
+    }
+    rest
+}
+
+/// A body's wrench as six numbers.
+fn six(wrench: &Wrench<f64>) -> [f64; 6] {
+    let ([fx, fy, fz], [tx, ty, tz]) = (wrench.force.to_f64(), wrench.torque.to_f64());
+    [fx, fy, fz, tx, ty, tz]
+}
+
+/// How the mass-scaled wrenches answer, with the sign of a stiffness, to `probe(freedom, by)`.
+fn scaled(
+    model: &SceneModel<F64>,
+    probe: impl Fn(usize, f64) -> State<SceneModel<F64>>,
+) -> Result<DMatrix<f64>, ModesError> {
+    let roots = roots(model);
+    let mut matrix = DMatrix::zeros(roots.len(), roots.len());
+    for column in 0..roots.len() {
+        let at = |by: f64| wrenches(model, &probe(column, by), 1e-3);
+        for (times, weight) in (1_u8..).zip(WEIGHTS) {
+            let by = f64::from(times) * PROBE;
+            let (plus, minus) = (at(by)?, at(-by)?);
+            for (body, (plus, minus)) in plus.iter().zip(&minus).enumerate() {
+                for (i, (plus, minus)) in six(plus).into_iter().zip(six(minus)).enumerate() {
+                    let row = 6 * body + i;
+                    let change = weight * (plus - minus) / PROBE;
+                    matrix[(row, column)] -= change * roots[row] * roots[column];
+                }
+            }
+        }
+    }
+    if matrix.iter().all(|entry: &f64| entry.is_finite()) {
+        Ok(matrix)
+    } else {
+        Err(ModesError::Range)
+    }
+}
+
+/// `M⁻½·K·M⁻½` \[1/s²\] and its asymmetry, 0 where K is 0.
+///
+/// # Errors
+/// Where a twist is undefined, or an entry beyond the range of numbers.
+pub fn scaled_stiffness(
+    model: &SceneModel<F64>,
+    state: &State<SceneModel<F64>>,
+) -> Result<(DMatrix<f64>, f64), ModesError> {
+    let rest = at_rest(state);
+    let matrix = scaled(model, |freedom, by| moved(&rest, freedom, by))?;
+    let transpose = matrix.transpose();
+    let largest = matrix.amax();
+    let asymmetry = if largest == 0.0 { 0.0 } else { (&matrix - &transpose).amax() / largest };
+    Ok(((matrix + transpose) * 0.5, asymmetry))
+}
+
+/// `M⁻½·C·M⁻½` \[1/s\].
+///
+/// # Errors
+/// Where a twist is undefined, or an entry beyond the range of numbers.
+pub fn scaled_damping(
+    model: &SceneModel<F64>,
+    state: &State<SceneModel<F64>>,
+) -> Result<DMatrix<f64>, ModesError> {
+    let rest = at_rest(state);
+    scaled(model, |freedom, by| {
+        let mut state = rest.clone();
+        let body = &mut state.bodies[freedom / 6];
+        let rate = Vec3::axes()[freedom % 3] * by;
+        if freedom % 6 < 3 {
+            body.velocity = rate;
+        } else {
+            body.angular_velocity = rate;
+        }
+        state
+    })
+}
+
+/// The modes about the pose of `state`, whatever its velocities: six per body.
+///
+/// # Errors
+/// Where there are more than [`MOST_BODIES`] bodies, a twist is undefined, or numbers overflow.
+pub fn modes(model: &SceneModel<F64>, state: &State<SceneModel<F64>>) -> Result<Modes, ModesError> {
+    if model.bodies.len() > MOST_BODIES {
+        return Err(ModesError::TooMany { bodies: model.bodies.len() });
+    }
+    let (matrix, asymmetry) = scaled_stiffness(model, state)?;
+    let eigen = SymmetricEigen::new(matrix);
+    let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
+    order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
+    let far = state.bodies.iter().flat_map(|body| body.position.to_f64());
+    let far = far.fold(1.0, |far: f64, place| far.max(place.abs()));
+    let resolution = (8.0 * f64::EPSILON * far / PROBE * eigen.eigenvalues.amax()).sqrt() / TAU;
+    let frequency = |square: f64| {
+        let frequency = square.abs().sqrt() / TAU;
+        if frequency <= resolution { 0.0 } else { frequency.copysign(square) }
+    };
+    Ok(Modes {
+        frequencies: order.iter().map(|i| frequency(eigen.eigenvalues[*i])).collect(),
+        shapes: DMatrix::from_fn(order.len(), order.len(), |row, column| {
+            eigen.eigenvectors[(row, order[column])]
+        }),
+        asymmetry,
+        resolution,
+    })
+}
+
+/// What the modes of a scene at t = 0 do not say, in sentences: of a pose that moves or is not in
+/// equilibrium, of modes that run away.
+///
+/// # Errors
+/// Where a twist is undefined.
+pub fn remarks(scene: &Scene, modes: &Modes) -> Result<Vec<String>, ModesError> {
+    let (model, state) = (&scene.model, State::initial(&scene.model));
+    let mut remarks = Vec::new();
+    let moving =
+        |body: &BodyState<F64>| body.velocity != Vec3::ZERO || body.angular_velocity != Vec3::ZERO;
+    if state.bodies.iter().any(moving) {
+        remarks.push(
+            "the scene moves at t = 0; its modes are those of the same pose at rest".to_owned(),
+        );
+    }
+    let forces = wrenches(model, &at_rest(&state), 1e-3)?;
+    let off: Vec<f64> =
+        forces.iter().flat_map(six).zip(roots(model)).map(|(force, root)| force * root).collect();
+    if off.iter().any(|acceleration| acceleration.abs() > CALM) || modes.asymmetry > SYMMETRIC {
+        let [held, free] = modes.answer(model, &DVector::from_vec(off));
+        let name = |row: usize| scene.body_names.get(row).map_or("a body", String::as_str);
+        let place = if free.1 > CALM {
+            let (name, rate) = (name(free.0), significant(free.1, 3));
+            format!("nothing holds `{name}`, which sets off with {rate} m/s²")
+        } else {
+            let (name, way) = (name(held.0), significant(1e3 * held.1, 3));
+            format!("forces balance some {way} mm away, as far as `{name}` goes")
+        };
+        remarks.push(format!(
+            "the pose is not in equilibrium: let go at rest, {place}; the modes are those about the pose \
+             held as it is, and slow ones, which weight and preload make, are others where it rests"
+        ));
+    }
+    match modes.unstable() {
+        0 => {}
+        1 => remarks.push("the mode of a negative frequency runs away from the pose".to_owned()),
+        n => remarks.push(format!("{n} modes, of negative frequencies, run away from the pose")),
+    }
+    Ok(remarks)
+}
+
+#[cfg(test)]
+mod tests;
