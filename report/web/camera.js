@@ -16,6 +16,8 @@
       this.controls = new T.OrbitControls(this.camera, canvas);
       this.controls.addEventListener('change', changed);
       this.controls.addEventListener('start', () => { this.chosen = null; });
+      // A finger that goes up or down scrolls the page, across it turns the view.
+      canvas.style.touchAction = 'pan-y';
       this.preset(machine.flat ? 'start' : 'iso');
     }
 
@@ -23,7 +25,7 @@
     direction(name) {
       const [side, out, up] = this.axes;
       const shares = {
-        start: [0.22, 1, 0.16], iso: [0.75, 1, 0.62], front: [0, 1, 0], side: [1, 0, 0], top: [0, 1e-3, 1],
+        start: [0.22, 1, 0.16], iso: [0.5, 1, 0.55], front: [0, 1, 0], side: [1, 0, 0], top: [0, 1e-3, 1],
       }[name];
       return new T.Vector3().addScaledVector(side, shares[0]).addScaledVector(out, shares[1])
         .addScaledVector(up, shares[2]).normalize();

@@ -7,7 +7,9 @@
 
   const T = window.THREE;
   const { between } = dbd.batch;
-  const TURNS = 7;
+  const TURNS = 8;
+  // Coils are longer than wide by about so much: their wire is flat along them, so that it looks round when stretched.
+  const FLAT = 0.1;
 
   // A coil of radius and length 1 about y, straight for the first and the last tenth.
   function coil(many) {
@@ -15,12 +17,12 @@
     const sides = many ? 4 : 7;
     const steps = TURNS * rounds;
     const wire = 0.16;
-    const points = [[0, -0.5, 0]];
+    const points = [[0, -0.5, 0], [0, -0.43, 0]];
     for (let i = 0; i <= steps; i += 1) {
       const angle = (2 * Math.PI * TURNS * i) / steps;
       points.push([Math.cos(angle), -0.4 + (0.8 * i) / steps, Math.sin(angle)]);
     }
-    points.push([0, 0.5, 0]);
+    points.push([0, 0.43, 0], [0, 0.5, 0]);
     const [positions, index] = [[], []];
     points.forEach((point, i) => {
       const ahead = new T.Vector3().fromArray(points[Math.min(i + 1, points.length - 1)])
@@ -32,8 +34,7 @@
       for (let side = 0; side < sides; side += 1) {
         const angle = (2 * Math.PI * side) / sides;
         const [c, s] = [wire * Math.cos(angle), wire * Math.sin(angle)];
-        // Coils are far longer than wide: the wire is thinner along them, so that it looks round.
-        positions.push(point[0] + c * out.x + s * across.x, point[1] + 0.35 * (c * out.y + s * across.y),
+        positions.push(point[0] + c * out.x + s * across.x, point[1] + FLAT * (c * out.y + s * across.y),
           point[2] + c * out.z + s * across.z);
         if (i > 0) {
           const [a, b] = [(i - 1) * sides + side, (i - 1) * sides + ((side + 1) % sides)];
@@ -58,7 +59,7 @@
   class Springs {
     constructor(machine) {
       this.machine = machine;
-      const { mechanism, film, look } = machine;
+      const { mechanism, film } = machine;
       const springs = mechanism.springs;
       const many = springs.length > 200;
       this.largest = film ? film.largest('springs') : 0;
@@ -67,7 +68,7 @@
       this.rods = machine.batch('cylinder', many);
       this.balls = machine.batch('sphere', many);
       this.rows = springs.map((spring, row) => this.spring(spring, row));
-      this.ofJoints = film && film.counts.jointSprings ? this.inside(mechanism, film, look) : null;
+      this.ofJoints = film && film.counts.jointSprings ? this.inside(mechanism, film) : null;
       this.colour = new T.Color();
     }
 
