@@ -14,9 +14,7 @@
       const { mechanism, film, look } = machine;
       const forces = mechanism.forces;
       this.values = new Float32Array(forces.length);
-      this.shafts = machine.batch('cylinder');
-      this.heads = machine.batch('cone');
-      this.arcs = machine.batch('arc');
+      [this.shafts, this.heads, this.arcs] = ['cylinder', 'cone', 'arc'].map((kind) => machine.batch(kind, false, { above: true }));
       this.largest = { force: 0, torque: 0, shift: 0 };
       for (const kind of Object.keys(this.largest)) {
         if (film) this.largest[kind] = film.largest('forces', (row) => forces[row].kind === kind);
@@ -68,7 +66,7 @@
     }
 
     straight(row, from, direction, share, radius, size) {
-      const thick = 0.55 * radius;
+      const thick = 0.5 * radius;
       const head = 3.2 * thick * Math.min(1, 0.35 + share);
       const start = from.clone().addScaledVector(direction, 1.8 * radius);
       const length = 0.05 * size + 0.2 * size * share;
@@ -80,7 +78,7 @@
 
     // Three quarters of a circle about the axis, its head at the end, by the right hand.
     arc(row, from, direction, share, radius, size) {
-      const wide = Math.max(2.6 * radius, 0.045 * size) * (0.55 + 0.6 * share);
+      const wide = Math.max(4.4 * radius, 0.06 * size) * (0.6 + 0.5 * share);
       const turn = new T.Quaternion().setFromUnitVectors(new T.Vector3(0, 0, 1), direction);
       const lift = from.clone().addScaledVector(direction, 1.2 * radius);
       this.arcs.set(row.shaft, new T.Matrix4().compose(lift, turn, new T.Vector3(wide, wide, wide)));
@@ -88,7 +86,7 @@
       const end = new T.Vector3(0, -wide, 0).applyQuaternion(turn).add(lift);
       const ahead = new T.Vector3(1, 0.12, 0).normalize().applyQuaternion(turn);
       row.tip.copy(end).addScaledVector(ahead, 0.5 * wide);
-      this.heads.set(row.head, between(end.toArray(), row.tip.toArray(), 0.2 * wide));
+      this.heads.set(row.head, between(end.toArray(), row.tip.toArray(), 0.22 * wide));
     }
   }
 

@@ -20,7 +20,7 @@
         cone: () => new T.CylinderGeometry(0, 1, 1, 20),
         foot: () => new T.CylinderGeometry(0.35, 1, 1, 4),
         ring: () => new T.TorusGeometry(1, 0.16, 8, 28, 1.65 * Math.PI),
-        arc: () => new T.TorusGeometry(1, 0.05, 8, 36, 1.5 * Math.PI),
+        arc: () => new T.TorusGeometry(1, 0.075, 8, 36, 1.5 * Math.PI),
         coil: () => dbd.springs.coil(many),
       }[kind]();
     }
@@ -57,13 +57,13 @@
     const ghost = look.ghost;
     return new T.MeshPhongMaterial({
       color: 0xffffff, specular: 0x222222, shininess: 24,
-      transparent: ghost || look.opacity < 1, opacity: ghost ? 0.28 : look.opacity || 1, depthWrite: !ghost,
-      flatShading: Boolean(look.flat),
+      transparent: Boolean(ghost || look.above), opacity: ghost ? 0.28 : 1, depthWrite: !ghost,
+      flatShading: Boolean(look.flat), depthTest: !look.above,
     });
   }
 
   class Batch {
-    // look: {ghost, opacity}; `many` takes coarser shapes.
+    // look: {ghost, above: seen through what stands before it}; `many` takes coarser shapes.
     constructor(kind, look, many) {
       this.kind = kind;
       this.look = look;
@@ -83,7 +83,7 @@
       this.mesh.count = count;
       this.mesh.frustumCulled = false;
       this.mesh.userData.batch = this;
-      if (this.look.ghost) this.mesh.renderOrder = 2;
+      this.mesh.renderOrder = this.look.above ? 3 : Number(Boolean(this.look.ghost));
       this.items.forEach((item, i) => this.mesh.setMatrixAt(i, item.matrix || new T.Matrix4()));
       this.recolour();
       return this.mesh;

@@ -25,7 +25,8 @@
 
   // What the vertical axis shows.
   function axisLabel(chart, drawn) {
-    const name = drawn.length === 1 && drawn[0].name ? drawn[0].name : chart.quantity;
+    const [{ name: first } = {}] = drawn;
+    const name = first && drawn.every((line) => line.name === first) ? first : chart.quantity;
     const moved = drawn.length > 0 && drawn.every((line) => line.deviation);
     return moved ? `${name} \u2212 ${name}(0)` : chart.quantity;
   }
@@ -137,7 +138,7 @@
         const mark = element('i', line.dashed ? 'dashed' : '', item);
         mark.style.setProperty('--line', `var(${COLOURS[line.colour % COLOURS.length]})`);
         const name = line.name || (this.drawn.length > 1 ? this.chart.quantity : '');
-        if (name) element('span', '', item).textContent = name;
+        if (name) element('span', '', item).textContent = line.deviation ? `${name} \u2212 ${name}(0)` : name;
         return element('b', '', item);
       });
     }
@@ -166,24 +167,20 @@
     return share > 0 ? value + share * (values[row + 1] - value) : value;
   }
 
-  // What a chart says in words: what never moved, and where its deviations start.
+  // What a chart says in words: what never moved, and where its deviations start. Two runs that say the same say it once.
   function words(chart) {
-    const said = [];
-    const several = chart.lines.length > 1;
-    const value = (line) => withUnit(line.initial, chart.unit, 5);
-    const name = (line) => [line.run, line.name || chart.quantity].filter(Boolean).join(': ');
-    const still = chart.lines.filter((line) => line.still);
-    if (still.length) {
-      const list = still.map((line) => `${name(line)} stays at ${value(line)}`);
-      said.push(list.join(', ') + '.');
-    }
-    const moved = chart.lines.filter((line) => line.deviation && !line.still);
-    if (moved.length) {
-      const all = chart.lines.every((line) => line.still || line.deviation);
-      const list = moved.map((line) => `${name(line)} = ${value(line)}`).join(', ');
-      said.push(`At t = 0 ${list}${all || !several ? '' : '; shown from there'}.`);
-    }
-    return said.join(' ');
+    const runs = new Set(chart.lines.map((line) => line.run));
+    const listed = (lines, verb) => {
+      const of = new Map();
+      for (const line of lines) {
+        const text = `${line.name || chart.quantity} ${verb} ${withUnit(line.initial, chart.unit, 5)}`;
+        of.set(text, [...(of.get(text) || []), line.run]);
+      }
+      return [...of].map(([text, by]) => (by.length === runs.size ? text : `${text} (${by.join(', ')})`)).join(', ');
+    };
+    const still = listed(chart.lines.filter((line) => line.still), 'stays at');
+    const moved = listed(chart.lines.filter((line) => line.deviation && !line.still), '=');
+    return [still && `${still}.`, moved && `At t = 0 ${moved}.`].filter(Boolean).join(' ');
   }
 
   dbd.chart = { TimeChart, words, charts: zoom.charts, zoom: show };

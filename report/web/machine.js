@@ -52,8 +52,8 @@
       this.arrows.show(this.arrows.shown);
     }
 
-    batch(kind, many) {
-      const made = new dbd.batch.Batch(kind, this.look, many);
+    batch(kind, many, look) {
+      const made = new dbd.batch.Batch(kind, { ...this.look, ...look }, many);
       this.batches.push(made);
       return made;
     }

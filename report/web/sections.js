@@ -12,7 +12,6 @@
   function unpacked(chart, times, run, dashed) {
     return chart.lines.map((line, colour) => ({
       ...line, values: line.still || !line.values ? null : f32s(line.values), times, run, dashed, colour,
-      name: run && line.name ? line.name : line.name || (run ? chart.quantity : ''),
     }));
   }
 
