@@ -18,7 +18,7 @@
       this.controls.addEventListener('start', () => { this.chosen = null; });
       // A finger that goes up or down scrolls the page, across it turns the view.
       canvas.style.touchAction = 'pan-y';
-      this.preset(machine.flat ? 'start' : 'iso');
+      this.preset(machine.firstView);
     }
 
     // Directions towards the reader: share of side, out and up.

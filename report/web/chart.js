@@ -10,6 +10,9 @@
   const colour = (line) => dbd.theme.colour(COLOURS[line.colour % COLOURS.length]);
   const FONT = '12px system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif';
 
+  // Letters are about so many times narrower than high: what an axis is called fits beside it.
+  const LABEL = 1.9;
+
   // The part of time that all charts show; null for all of it.
   const zoom = { range: null, charts: new Set() };
 
@@ -64,6 +67,8 @@
       const axis = { stroke: quiet, font: FONT, labelFont: FONT, grid: { stroke: rule, width: 1 },
         ticks: { stroke: rule, width: 1, size: 4 }, labelSize: 20, gap: 4 };
       const unit = this.scale.unit ? ` [${this.scale.unit}]` : '';
+      const label = axisLabel(this.chart, this.drawn) + unit;
+      const small = Math.min(12, (LABEL * (this.height() - 50)) / label.length);
       return {
         width: this.width(), height: this.height(), legend: { show: false }, padding: [8, 10, 0, 0],
         cursor: {
@@ -73,7 +78,7 @@
         scales: { x: { time: false, range: (u, low, high) => zoom.range || [low, high] } },
         axes: [
           { ...axis, label: 'time [s]', size: 30, space: 60, values: (u, ticks) => ticks.map((tick) => plain(tick, 5)) },
-          { ...axis, label: axisLabel(this.chart, this.drawn) + unit, size: 52, space: 32,
+          { ...axis, label, labelFont: FONT.replace('12px', small.toFixed(1) + 'px'), size: 52, space: 32,
             values: (u, ticks) => ticks.map((tick) => plain(tick * this.scale.factor, 5)) },
         ],
         series: [{}].concat(this.drawn.map((line) => ({
@@ -180,7 +185,7 @@
     };
     const still = listed(chart.lines.filter((line) => line.still), 'stays at');
     const moved = listed(chart.lines.filter((line) => line.deviation && !line.still), '=');
-    return [still && `${still}.`, moved && `At t = 0 ${moved}.`].filter(Boolean).join(' ');
+    return [still && `${still}.`, moved && `At t = 0: ${moved}.`].filter(Boolean).join(' ');
   }
 
   dbd.chart = { TimeChart, words, charts: zoom.charts, zoom: show };

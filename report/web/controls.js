@@ -165,7 +165,7 @@
 
     look(name) { this.stage.camera.preset(name); this.stage.request(); }
 
-    reset() { this.look(this.stage.machine.flat ? 'start' : 'iso'); }
+    reset() { this.look(this.stage.machine.firstView); }
 
     legend(view) {
       const { springs, mechanism } = this.stage.machine;

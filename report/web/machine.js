@@ -82,6 +82,8 @@
       const out = across || (Math.abs(this.up[1]) === 1 ? [0, 0, 1] : [0, -1, 0]);
       this.side = cross(this.up, out);
       this.out = out;
+      // What is flat is looked at nearly across its plane, unless it lies level.
+      this.firstView = across ? 'start' : 'iso';
     }
 
     // Corners of all bodies and ends of springs, in the world, at some frames.

@@ -8,10 +8,12 @@
   const { f32s, f64s, plain, withUnit } = dbd.numbers;
   const NEAR = '400px 0px';
 
-  // A chart's lines with their values unpacked, when they are needed.
+  // A chart's lines with their values unpacked, when they are needed. Dashed lines have colours of their own, so that
+  // both are seen where they lie on each other.
   function unpacked(chart, times, run, dashed) {
-    return chart.lines.map((line, colour) => ({
-      ...line, values: line.still || !line.values ? null : f32s(line.values), times, run, dashed, colour,
+    return chart.lines.map((line, i) => ({
+      ...line, values: line.still || !line.values ? null : f32s(line.values), times, run, dashed,
+      colour: dashed ? i + chart.lines.length : i,
     }));
   }
 

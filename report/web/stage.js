@@ -8,8 +8,11 @@
   const { element } = dbd.labels;
 
   function renderer(canvas) {
+    // What is drawn is kept, for printing.
+    const wishes = { antialias: true, alpha: true, preserveDrawingBuffer: true };
     try {
-      return new T.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+      const context = canvas.getContext('webgl2', wishes);
+      return context && new T.WebGLRenderer({ canvas, context, ...wishes });
     } catch (_) {
       return null;
     }

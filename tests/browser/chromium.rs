@@ -86,6 +86,11 @@ impl Browser {
 
     /// Opens a page in a new tab and waits until it says that it is ready.
     pub fn open(&mut self, page: &Path, screen: Screen) {
+        self.open_after("", page, screen);
+    }
+
+    /// The same in a browser that a script has changed before.
+    pub fn open_after(&mut self, script: &str, page: &Path, screen: Screen) {
         if self.session.is_some() {
             self.call("Page.close", json!({}));
         }
@@ -98,6 +103,7 @@ impl Browser {
             self.call(&format!("{domain}.enable"), json!({}));
         }
         self.show(screen);
+        self.call("Page.addScriptToEvaluateOnNewDocument", json!({ "source": script }));
         self.call("Page.navigate", json!({ "url": format!("file://{}", page.display()) }));
         self.wait("window.dbd && dbd.ready === true", "the page is set up");
     }

@@ -84,6 +84,8 @@ fn reports_live() {
     browser.open(&page, Screen { calm: false, ..DESK });
     assert_eq!(browser.run("dbd.clock.playing"), true, "it plays by itself");
     quiet(&mut browser, "four-bar, operated");
+    without_webgl(&mut browser, &page);
+    quiet(&mut browser, "four-bar without WebGL");
 }
 
 /// Runs a scene and returns its page.
@@ -254,6 +256,19 @@ fn charts(browser: &mut Browser) {
     browser.run("document.querySelector('#energy .u-over').dispatchEvent(new MouseEvent('dblclick', { bubbles: true }))");
     let whole = browser.run(shown);
     assert!(whole.as_array().unwrap().iter().all(|share| share.as_f64().unwrap() > 0.99), "all again: {whole}");
+}
+
+/// The still picture is shown and said to be one; the charts are drawn all the same.
+fn without_webgl(browser: &mut Browser, page: &Path) {
+    browser.open_after("HTMLCanvasElement.prototype.getContext = ((own) => function (kind, ...rest) {
+        return kind.startsWith('webgl') ? null : own.call(this, kind, ...rest); })(
+        HTMLCanvasElement.prototype.getContext)", page, DESK);
+    let picture = "document.querySelector('#stage .still svg').getBoundingClientRect().height > 100";
+    assert_eq!(browser.run(picture), true, "the still picture is shown");
+    let said = browser.run("document.querySelector('#stage').textContent.includes('no WebGL')");
+    assert_eq!(said, true, "it is said that it stands still");
+    browser.run("document.querySelector('#energy').scrollIntoView()");
+    browser.wait("document.querySelector('#energy .u-over') !== null", "charts are drawn without WebGL");
 }
 
 fn quiet(browser: &mut Browser, scene: &str) {
