@@ -57,13 +57,14 @@
     const ghost = look.ghost;
     return new T.MeshPhongMaterial({
       color: 0xffffff, specular: 0x222222, shininess: 24,
-      transparent: Boolean(ghost || look.above), opacity: ghost ? 0.28 : 1, depthWrite: !ghost,
+      transparent: Boolean(ghost || look.above || look.glass), opacity: ghost || look.glass ? 0.28 : 1,
+      depthWrite: !ghost && !look.glass,
       flatShading: Boolean(look.flat), depthTest: !look.above,
     });
   }
 
   class Batch {
-    // look: {ghost, above: seen through what stands before it}; `many` takes coarser shapes.
+    // look: {ghost, glass: pale, above: seen through what stands before it}; `many` takes coarser shapes.
     constructor(kind, look, many) {
       this.kind = kind;
       this.look = look;

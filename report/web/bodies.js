@@ -121,12 +121,22 @@
         content.points.forEach((point) => this.link(row, [[0, 0, 0], point], 0.7 * r, paint, label));
         return;
       }
-      const mesh = new T.Mesh(hull(content.points, 0.8 * r), dbd.batch.material({ ...look, flat: true }));
+      const mesh = new T.Mesh(hull(content.points, 0.8 * r), dbd.batch.material({ ...look, flat: true, glass: this.bulky(content.points) }));
       mesh.matrixAutoUpdate = false;
       mesh.frustumCulled = false;
       mesh.userData.label = label;
       this.hulls.push({ mesh, row, paint });
       this.machine.group.add(mesh);
+    }
+
+    // Whether a hull is so large and thick that it would hide most of the rest: a car's shell.
+    bulky(points) {
+      const sides = [0, 1, 2].map((i) => {
+        const along = points.map((point) => point[i]);
+        return Math.max(...along) - Math.min(...along);
+      });
+      return Math.max(...sides) > 0.5 * this.machine.size && Math.min(...sides) > 0.15 * Math.max(...sides)
+        && this.machine.mechanism.bodies.length > 2;
     }
 
     solid(owner, solid, paint, label) {

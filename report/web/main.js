@@ -66,7 +66,10 @@
     const data = JSON.parse(document.getElementById('report').textContent);
     if (!data || data.format !== 1) throw new Error('This page holds data of a format that it cannot read.');
     document.documentElement.classList.add('alive');
-    document.querySelector('header').prepend(dbd.theme.button());
+    const header = document.querySelector('header');
+    const title = element('div', 'title');
+    title.append(...header.childNodes);
+    header.append(dbd.theme.button(), title);
     range(data.runs);
     dbd.page = { stage: stage(data), sections: new dbd.sections.Sections(data) };
     if (dbd.page.stage && data.modes && data.modes.length) dbd.page.modes = new dbd.modes.Modes(dbd.page.stage, data.modes);

@@ -45,7 +45,7 @@ const DRAWN: &str = "new Promise((done) => requestAnimationFrame(() => requestAn
 /// Visible controls that overlap another or lie outside of the window, by their names.
 const OVERLAPS: &str = "(() => {
   const all = [...document.querySelectorAll('button, select, summary, input, .legend, .axes, h1, h2, .legend-row')]
-    .filter((e) => e.offsetParent && e.getClientRects().length)
+    .filter((e) => e.checkVisibility({ visibilityProperty: true, contentVisibilityAuto: true }) && e.getClientRects().length)
     .map((e) => [e, e.getBoundingClientRect()]);
   const name = (e) => e.getAttribute('aria-label') || e.textContent.trim() || e.className;
   const found = [];
