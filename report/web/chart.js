@@ -165,11 +165,10 @@
     recolour() { this.uplot.redraw(false); }
   }
 
-  // A line's value at a time, between its samples.
+  // A line's value at the sample nearest to a time, where its bead is.
   function valueAt({ times, values }, time) {
     const [row, share] = dbd.film.between(times, time);
-    const value = values[row];
-    return share > 0 ? value + share * (values[row + 1] - value) : value;
+    return values[share > 0.5 ? row + 1 : row];
   }
 
   // What a chart says in words: what never moved, and where its deviations start. Two runs that say the same say it once.

@@ -115,7 +115,8 @@ impl Browser {
             "width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600,
         });
         self.call("Emulation.setDeviceMetricsOverride", metrics);
-        let value = |wanted, yes: &str, no: &str| if wanted { yes.to_owned() } else { no.to_owned() };
+        let value =
+            |wanted, yes: &str, no: &str| if wanted { yes.to_owned() } else { no.to_owned() };
         let features = json!({ "features": [
             { "name": "prefers-color-scheme", "value": value(dark, "dark", "light") },
             { "name": "prefers-reduced-motion", "value": value(calm, "reduce", "no-preference") },
@@ -142,7 +143,11 @@ impl Browser {
     pub fn wait(&mut self, script: &str, what: &str) {
         let start = Instant::now();
         while self.run(script) != Value::Bool(true) {
-            assert!(start.elapsed() < PATIENCE, "never so: {what}; complaints: {:?}", self.complaints);
+            assert!(
+                start.elapsed() < PATIENCE,
+                "never so: {what}; complaints: {:?}",
+                self.complaints
+            );
             std::thread::sleep(Duration::from_millis(20));
         }
     }
@@ -198,13 +203,16 @@ fn complaint(event: &Value) -> Option<String> {
     let level = |value: &Value| matches!(value.as_str(), Some("error" | "warning" | "assert"));
     match event["method"].as_str()? {
         "Runtime.exceptionThrown" => Some(parameters["exceptionDetails"].to_string()),
-        "Runtime.consoleAPICalled" if level(&parameters["type"]) => Some(parameters["args"].to_string()),
+        "Runtime.consoleAPICalled" if level(&parameters["type"]) => {
+            Some(parameters["args"].to_string())
+        }
         "Log.entryAdded" if level(&parameters["entry"]["level"]) => {
             Some(parameters["entry"]["text"].to_string()).filter(|text| !of_the_driver(text))
         }
         "Network.requestWillBeSent" => {
             let address = parameters["request"]["url"].as_str().unwrap_or_default();
-            let own = ["file:", "data:", "blob:", "about:"].iter().any(|own| address.starts_with(own));
+            let own =
+                ["file:", "data:", "blob:", "about:"].iter().any(|own| address.starts_with(own));
             (!own).then(|| format!("it asked for {address}"))
         }
         _ => None,

@@ -41,7 +41,8 @@ const CANVAS: &str = "(() => {
   return { hash, share: seen / 30000, colour: [red / seen, green / seen, blue / seen] };
 })()";
 /// Two frames later everything that was asked for is drawn.
-const DRAWN: &str = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))";
+const DRAWN: &str =
+    "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))";
 /// Visible controls that overlap another or lie outside of the window, by their names.
 const OVERLAPS: &str = "(() => {
   const all = [...document.querySelectorAll('button, select, summary, input, .legend, .axes, h1, h2, .legend-row')]
@@ -101,7 +102,9 @@ fn report(folder: &Path, scene: &str, duration: &str) -> PathBuf {
 
 /// Sets the time to a share of the run and returns what is seen then.
 fn at(browser: &mut Browser, share: f64) -> Value {
-    browser.run(&format!("dbd.clock.set(dbd.clock.start + {share} * (dbd.clock.end - dbd.clock.start))"));
+    browser.run(&format!(
+        "dbd.clock.set(dbd.clock.start + {share} * (dbd.clock.end - dbd.clock.start))"
+    ));
     browser.run(DRAWN);
     browser.run(CANVAS)
 }
@@ -182,7 +185,8 @@ fn buttons(browser: &mut Browser) {
     }
     click(browser, "Show everything");
     assert_eq!(hash(browser), started, "reset looks from where it began");
-    let names = "[...document.querySelectorAll('.labels span:not([hidden])')].map((e) => e.textContent)";
+    let names =
+        "[...document.querySelectorAll('.labels span:not([hidden])')].map((e) => e.textContent)";
     browser.run("document.querySelector('.options input').click()");
     browser.run(DRAWN);
     assert!(browser.run(names).as_array().unwrap().contains(&"coupler".into()), "names are shown");
@@ -191,7 +195,8 @@ fn buttons(browser: &mut Browser) {
 
 fn keys(browser: &mut Browser) {
     browser.run("document.querySelector('.view').focus()");
-    let time = |browser: &mut Browser| browser.run("dbd.clock.time / dbd.clock.end").as_f64().unwrap();
+    let time =
+        |browser: &mut Browser| browser.run("dbd.clock.time / dbd.clock.end").as_f64().unwrap();
     browser.press("End");
     assert_eq!(time(browser), 1.0, "End");
     browser.press("Home");
@@ -212,9 +217,17 @@ fn keys(browser: &mut Browser) {
     assert_eq!(browser.run("dbd.clock.speed"), speed, "minus is slower");
     let from = browser.run("dbd.page.stage.camera.camera.position.toArray()");
     browser.press("3");
-    assert_ne!(browser.run("dbd.page.stage.camera.camera.position.toArray()"), from, "3 looks from the top");
+    assert_ne!(
+        browser.run("dbd.page.stage.camera.camera.position.toArray()"),
+        from,
+        "3 looks from the top"
+    );
     browser.press("0");
-    assert_eq!(browser.run("dbd.page.stage.camera.camera.position.toArray()"), from, "0 looks as at first");
+    assert_eq!(
+        browser.run("dbd.page.stage.camera.camera.position.toArray()"),
+        from,
+        "0 looks as at first"
+    );
     browser.press("?");
     assert_eq!(browser.run("document.querySelector('dialog.keys').open"), true, "? lists the keys");
     browser.run("document.querySelector('dialog.keys').close()");
@@ -224,7 +237,10 @@ fn keys(browser: &mut Browser) {
 fn charts(browser: &mut Browser) {
     at(browser, 0.0);
     browser.run("document.querySelector('#energy').scrollIntoView()");
-    browser.wait("document.querySelector('#energy .u-over') !== null", "a chart is made when it is seen");
+    browser.wait(
+        "document.querySelector('#energy .u-over') !== null",
+        "a chart is made when it is seen",
+    );
     let still = browser.run(CANVAS)["hash"].clone();
     let place = browser.run(
         "(() => { const b = document.querySelector('#energy .u-over').getBoundingClientRect();
@@ -241,10 +257,14 @@ fn charts(browser: &mut Browser) {
     assert!((time - 0.5).abs() < 0.01, "the chart sets the time: {time}");
     assert_ne!(browser.run(CANVAS)["hash"], still, "the mechanism stands at that time");
     assert_ne!(browser.run(said), before, "the values of that time are shown");
-    let cursors = "[...dbd.chart.charts].map((c) => c.uplot.cursor.left / c.uplot.over.clientWidth)";
+    let cursors =
+        "[...dbd.chart.charts].map((c) => c.uplot.cursor.left / c.uplot.over.clientWidth)";
     let cursors = browser.run(cursors);
     let cursors = cursors.as_array().unwrap();
-    assert!(cursors.len() > 1 && cursors.iter().all(|at| (at.as_f64().unwrap() - 0.5).abs() < 0.02), "{cursors:?}");
+    assert!(
+        cursors.len() > 1 && cursors.iter().all(|at| (at.as_f64().unwrap() - 0.5).abs() < 0.02),
+        "{cursors:?}"
+    );
     browser.mouse("mousePressed", left + 0.25 * width, middle, true);
     browser.mouse("mouseMoved", left + 0.5 * width, middle, true);
     browser.mouse("mouseMoved", left + 0.75 * width, middle, true);
@@ -252,23 +272,37 @@ fn charts(browser: &mut Browser) {
     let shown = "[...dbd.chart.charts].map((c) => (c.uplot.scales.x.max - c.uplot.scales.x.min) / dbd.clock.end)";
     let part = browser.run(shown);
     let part = part.as_array().unwrap();
-    assert!(part.iter().all(|share| (share.as_f64().unwrap() - 0.5).abs() < 0.02), "dragging shows a part: {part:?}");
+    assert!(
+        part.iter().all(|share| (share.as_f64().unwrap() - 0.5).abs() < 0.02),
+        "dragging shows a part: {part:?}"
+    );
     browser.run("document.querySelector('#energy .u-over').dispatchEvent(new MouseEvent('dblclick', { bubbles: true }))");
     let whole = browser.run(shown);
-    assert!(whole.as_array().unwrap().iter().all(|share| share.as_f64().unwrap() > 0.99), "all again: {whole}");
+    assert!(
+        whole.as_array().unwrap().iter().all(|share| share.as_f64().unwrap() > 0.99),
+        "all again: {whole}"
+    );
 }
 
 /// The still picture is shown and said to be one; the charts are drawn all the same.
 fn without_webgl(browser: &mut Browser, page: &Path) {
-    browser.open_after("HTMLCanvasElement.prototype.getContext = ((own) => function (kind, ...rest) {
+    browser.open_after(
+        "HTMLCanvasElement.prototype.getContext = ((own) => function (kind, ...rest) {
         return kind.startsWith('webgl') ? null : own.call(this, kind, ...rest); })(
-        HTMLCanvasElement.prototype.getContext)", page, DESK);
-    let picture = "document.querySelector('#stage .still svg').getBoundingClientRect().height > 100";
+        HTMLCanvasElement.prototype.getContext)",
+        page,
+        DESK,
+    );
+    let picture =
+        "document.querySelector('#stage .still svg').getBoundingClientRect().height > 100";
     assert_eq!(browser.run(picture), true, "the still picture is shown");
     let said = browser.run("document.querySelector('#stage').textContent.includes('no WebGL')");
     assert_eq!(said, true, "it is said that it stands still");
     browser.run("document.querySelector('#energy').scrollIntoView()");
-    browser.wait("document.querySelector('#energy .u-over') !== null", "charts are drawn without WebGL");
+    browser.wait(
+        "document.querySelector('#energy .u-over') !== null",
+        "charts are drawn without WebGL",
+    );
 }
 
 fn quiet(browser: &mut Browser, scene: &str) {
