@@ -135,7 +135,7 @@
         const along = points.map((point) => point[i]);
         return Math.max(...along) - Math.min(...along);
       });
-      return Math.max(...sides) > 0.5 * this.machine.size && Math.min(...sides) > 0.15 * Math.max(...sides)
+      return Math.max(...sides) > 0.75 * this.machine.size && Math.min(...sides) > 0.15 * Math.max(...sides)
         && this.machine.mechanism.bodies.length > 2;
     }
 

@@ -5,7 +5,7 @@
   'use strict';
 
   const { element } = dbd.labels;
-  const { scale, plain, withUnit, time: timeText } = dbd.numbers;
+  const { scale, plain, withUnit, onAxis, time: timeText } = dbd.numbers;
   const COLOURS = ['--accent', '--accent-2', '--accent-3', '--accent-4', '--accent-5', '--accent-6', '--accent-7', '--accent-8'];
   const colour = (line) => dbd.theme.colour(COLOURS[line.colour % COLOURS.length]);
   const FONT = '12px system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif';
@@ -50,6 +50,7 @@
       this.data = joined.length > 1 ? uPlot.join(joined) : joined[0];
       let largest = 0;
       for (const { low, high } of this.drawn) largest = Math.max(largest, Math.abs(low) || 0, Math.abs(high) || 0);
+      this.largest = largest;
       this.scale = scale(chart.unit, largest);
       this.legend();
       this.plot = element('div', 'plot', figure);
@@ -158,7 +159,7 @@
       const spacing = times.length > 1 ? (times[times.length - 1] - times[0]) / (times.length - 1) : 0;
       this.when.textContent = timeText(time, spacing);
       this.drawn.forEach((line, i) => {
-        this.values[i].textContent = withUnit(valueAt(line, time), this.chart.unit, 4);
+        this.values[i].textContent = onAxis(valueAt(line, time), this.scale, this.largest);
       });
     }
 
@@ -174,10 +175,13 @@
   // What a chart says in words: what never moved, and where its deviations start. Two runs that say the same say it once.
   function words(chart) {
     const runs = new Set(chart.lines.map((line) => line.run));
+    const sizes = chart.lines.flatMap(({ initial, low, high }) => [initial, low, high].map((value) => Math.abs(value) || 0));
+    // What is nothing beside the rest is called nothing.
+    const value = ({ initial }) => withUnit(Math.abs(initial) < 1e-9 * Math.max(...sizes) ? 0 : initial, chart.unit, 5);
     const listed = (lines, verb) => {
       const of = new Map();
       for (const line of lines) {
-        const text = `${line.name || chart.quantity} ${verb} ${withUnit(line.initial, chart.unit, 5)}`;
+        const text = `${line.name || chart.quantity} ${verb} ${value(line)}`;
         of.set(text, [...(of.get(text) || []), line.run]);
       }
       return [...of].map(([text, by]) => (by.length === runs.size ? text : `${text} (${by.join(', ')})`)).join(', ');

@@ -15,6 +15,13 @@
     while (place.nextSibling) read.append(place.nextSibling);
     place.after(read);
     place.parentElement.classList.add('columns');
+    // Beside the charts it is as high as the window lets it be below the title.
+    const measure = () => {
+      const { bottom } = place.previousElementSibling.getBoundingClientRect();
+      document.documentElement.style.setProperty('--head', Math.min(bottom + window.scrollY, 260) + 'px');
+    };
+    measure();
+    window.addEventListener('resize', measure);
     const close = dbd.controls.button(stage.view, 'Close the small picture', '\u00d7', () => { hide(true); });
     close.className = 'close';
     let closed = false;

@@ -4,7 +4,7 @@
 (function (dbd) {
   'use strict';
 
-  const { element, } = dbd.labels;
+  const { element } = dbd.labels;
   const { f32s, plain, withUnit } = dbd.numbers;
   const { WORDS, placed } = dbd.film;
   // [Hz] of what is watched.

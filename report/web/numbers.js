@@ -53,6 +53,14 @@
     return chosen.unit ? text + '\u00a0' + chosen.unit : text;
   }
 
+  // A value in the unit of an axis, as fine as five digits of the axis' largest value.
+  function onAxis(value, { unit, factor }, largest) {
+    if (!Number.isFinite(value)) return plain(value);
+    const places = Math.min(Math.max(4 - Math.floor(Math.log10(largest * factor || 1)), 0), 12);
+    const text = plain(Number((value * factor).toFixed(places)), 6);
+    return unit ? text + '\u00a0' + unit : text;
+  }
+
   // A time with as many places as frames of so many seconds need.
   function time(value, spacing) {
     const places = spacing > 0 ? Math.min(Math.max(Math.ceil(-Math.log10(spacing)), 1), 7) : 3;
@@ -63,6 +71,6 @@
     f32s: (text) => new Float32Array(bytes(text)),
     f64s: (text) => new Float64Array(bytes(text)),
     i16s: (text) => new Int16Array(bytes(text)),
-    scale, plain, withUnit, time, MINUS,
+    scale, plain, withUnit, onAxis, time, MINUS,
   };
 }(window.dbd = window.dbd || {}));

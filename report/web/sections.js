@@ -5,7 +5,7 @@
   'use strict';
 
   const { element } = dbd.labels;
-  const { f32s, f64s, plain, withUnit } = dbd.numbers;
+  const { f32s, f64s, plain } = dbd.numbers;
   const NEAR = '400px 0px';
 
   // A chart's lines with their values unpacked, when they are needed. Dashed lines have colours of their own, so that
@@ -111,7 +111,7 @@
       if (!section.querySelector('p')) {
         const said = element('p', '', section);
         said.textContent = first
-          ? `First difference at t = ${withUnit(first.time, 's')}, step ${plain(first.step, 12)}: ${first.text}.`
+          ? `They first differ at ${first.text}.`
           : 'The two runs never differ.';
         element('p', 'quiet', section).textContent = `Solid: ${a}. Dashed, and pale on the stage: ${b}.`;
       }
