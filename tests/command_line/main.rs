@@ -6,6 +6,7 @@ mod golden;
 mod new;
 mod picture;
 mod refusal;
+mod report;
 mod results;
 mod run;
 mod set;
