@@ -66,7 +66,7 @@ impl Charts {
     pub fn of(scene: &Scene, mechanism: &Mechanism, plan: &Plan) -> Self {
         let mut charts = Self::default();
         charts.add(Section::Energy, ["Energy", "energy", "J"], &["kinetic", "potential"]);
-        let total = ["Change of the total energy", "change", "J"];
+        let total = ["Change of the total energy", "total energy", "J"];
         charts.add(Section::Energy, total, &[""]).deviation = true;
         charts.readouts(scene);
         for input in &scene.inputs {

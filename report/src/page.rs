@@ -10,10 +10,38 @@ use dbd_output::markup::escape;
 use crate::data::{Data, Survey, Table};
 
 /// Style sheets of the page, in order.
-pub const STYLES: &[&str] = &[include_str!("../web/page.css")];
+pub const STYLES: &[&str] = &[
+    include_str!("../web/vendor/uplot.min.css"),
+    include_str!("../web/theme.css"),
+    include_str!("../web/layout.css"),
+    include_str!("../web/stage.css"),
+    include_str!("../web/charts.css"),
+];
 
 /// Scripts of the page, in order: those of others first.
-pub const SCRIPTS: &[&str] = &[include_str!("../web/page.js")];
+pub const SCRIPTS: &[&str] = &[
+    include_str!("../web/vendor/three.min.js"),
+    include_str!("../web/vendor/uplot.min.js"),
+    include_str!("../web/numbers.js"),
+    include_str!("../web/clock.js"),
+    include_str!("../web/film.js"),
+    include_str!("../web/theme.js"),
+    include_str!("../web/batch.js"),
+    include_str!("../web/bodies.js"),
+    include_str!("../web/joints.js"),
+    include_str!("../web/springs.js"),
+    include_str!("../web/arrows.js"),
+    include_str!("../web/traces.js"),
+    include_str!("../web/machine.js"),
+    include_str!("../web/camera.js"),
+    include_str!("../web/labels.js"),
+    include_str!("../web/stage.js"),
+    include_str!("../web/controls.js"),
+    include_str!("../web/chart.js"),
+    include_str!("../web/sections.js"),
+    include_str!("../web/modes.js"),
+    include_str!("../web/main.js"),
+];
 
 /// Sections that scripts fill, with their headings, in order.
 const DRAWN: [(&str, &str); 6] = [

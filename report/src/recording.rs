@@ -289,7 +289,7 @@ readout = [
         let tip = chart(&run, Section::Readouts, "tip", "position");
         assert_eq!((tip.lines[0].initial, tip.lines[0].values.0[0]), (1.1, 0.0));
         assert!(tip.lines[0].deviation && film.traces[0].name == "tip");
-        let change = chart(&run, Section::Energy, "Change of the total energy", "change");
+        let change = chart(&run, Section::Energy, "Change of the total energy", "total energy");
         assert!(change.lines[0].deviation && change.lines[0].values.0[0] == 0.0);
     }
 

@@ -34,7 +34,8 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Finds or installs the target's compiler, the emulator and the tools that read its images.
+    /// Finds or installs the target's compiler, the emulator and the tools that read its images, and
+    /// the browser of the reports' tests.
     ///
     /// DBD_TOOLCHAIN=prebuilt|rust-src|debian demands one of the three compilers.
     Setup,

@@ -1,4 +1,4 @@
-//! What the target's commands need: a compiler, the emulator, tools that read images.
+//! What the target's commands need: a compiler, the emulator, tools that read images; the tests' browser.
 //!
 //! `machine => toolchain`, installing what is missing where this process may.
 
@@ -13,13 +13,27 @@ pub const TARGET: &str = "thumbv7em-none-eabihf";
 const EMULATOR: &str = "qemu-system-arm";
 const DISASSEMBLER: &str = "arm-none-eabi-objdump";
 const BINUTILS: &str = "binutils-arm-none-eabi";
+const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
 
 /// `cargo xtask setup`.
 ///
 /// # Errors
 /// Where something is missing and cannot be installed.
 pub fn run() -> Result<()> {
-    complete().map(drop)
+    let target = complete().map(drop);
+    let browser = browser();
+    target.and(browser)
+}
+
+/// Finds or installs the browser that shows reports in the tests, and prints its version.
+///
+/// # Errors
+/// Where there is none and it cannot be installed.
+pub fn browser() -> Result<()> {
+    // What the tests look for, in their order.
+    let other = BROWSERS.into_iter().find(|name| find(name).is_some());
+    let otherwise = "install Chromium or Chrome, so that it is found by its name";
+    tool("browser", other.unwrap_or(BROWSERS[0]), BROWSERS[0], otherwise)
 }
 
 /// Finds or installs everything and prints what was found.

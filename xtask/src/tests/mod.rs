@@ -8,6 +8,8 @@ mod cases;
 mod long;
 mod times;
 
+use std::process::Command;
+
 use anyhow::{Context as _, Result, bail};
 
 use crate::bits::{closed_loop, hashes, host::Host, relay};
@@ -30,6 +32,8 @@ const EVERYTHING: [&str; 2] = ["--workspace", "--all-features"];
 /// instructions for it, with a newer core.
 const OTHER_TARGETS: [&str; 3] =
     ["thumbv7em-none-eabi", "thumbv6m-none-eabi", "thumbv8m.main-none-eabihf"];
+/// The program that looks at reports in a browser; a plain `cargo test` leaves its tests out.
+const BROWSER: &str = "tests::browser";
 /// The slowest tests that are named.
 const SLOWEST: usize = 10;
 
@@ -44,7 +48,8 @@ pub fn run(long: bool, write_times: bool) -> Result<()> {
     steps.step("rustfmt", || run_command(cargo().args(["fmt", "--all", "--check"])));
     steps.step("packages of what is published", packages::check);
     linter_and_documentation(&mut steps);
-    tests(&mut steps, Selection::All, &mut cases);
+    let programs = tests(&mut steps, Selection::All, &mut cases);
+    in_a_browser(&mut steps, &programs);
     documentation_tests(&mut steps);
     let host = std::thread::scope(|scope| {
         // Of two cores these steps take hardly more than one, and so does linking an image.
@@ -74,7 +79,7 @@ pub fn quick() -> Result<()> {
     show(&cases::slowest(&cases, SLOWEST));
     println!("\nleft out:");
     println!("  linter, documentation and its tests, the kernel without features");
-    println!("  golden bits in release, everything on the target");
+    println!("  reports in a browser, golden bits in release, everything on the target");
     println!("  {} long tests:", long::LONG.len());
     for (program, test) in long::LONG {
         println!("    {program} {test}");
@@ -130,7 +135,7 @@ fn linter_and_documentation(steps: &mut Steps) {
     });
 }
 
-fn tests(steps: &mut Steps, selection: Selection, cases: &mut Vec<Case>) {
+fn tests(steps: &mut Steps, selection: Selection, cases: &mut Vec<Case>) -> Vec<Program> {
     let mut programs = Vec::new();
     steps.step("tests are built", || {
         programs = build(cargo().args(["test", "--no-run"]).args(EVERYTHING))?;
@@ -146,6 +151,18 @@ fn tests(steps: &mut Steps, selection: Selection, cases: &mut Vec<Case>) {
             Ok(())
         });
     }
+    programs
+}
+
+/// Reports as a browser shows them.
+fn in_a_browser(steps: &mut Steps, programs: &[Program]) {
+    steps.step("reports in a browser", || {
+        setup::browser()?;
+        let program = programs.iter().find(|program| program.name == BROWSER);
+        let program = program.with_context(|| format!("`{BROWSER}` was not built"))?;
+        let mut command = Command::new(&program.path);
+        run_command(command.current_dir(&program.folder).arg("--ignored"))
+    });
 }
 
 fn documentation_tests(steps: &mut Steps) {
