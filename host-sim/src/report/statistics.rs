@@ -47,6 +47,7 @@ pub struct Statistics {
     squares: f64,
     extension: f64,
     hash: Option<u64>,
+    turns: Vec<i32>,
     readings: Vec<Figures>,
 }
 
@@ -62,6 +63,7 @@ impl Statistics {
             self.extension = sample.extension;
         }
         self.hash = Some(sample.hash);
+        self.turns.clone_from(&sample.state.turns);
     }
 
     fn push_energy(&mut self, time: f64, energy: f64) {
@@ -95,6 +97,12 @@ impl Statistics {
     #[must_use]
     pub fn energy_rms_error(&self) -> f64 {
         (self.squares / self.line.count).sqrt()
+    }
+
+    /// The torsion springs' turn counts in the last sample.
+    #[must_use]
+    pub fn turns(&self) -> &[i32] {
+        &self.turns
     }
 
     /// \[m\] the largest extension of the joints' elements.
