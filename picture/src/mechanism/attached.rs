@@ -5,11 +5,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use dbd_kernel::model::Group;
+use dbd_kernel::model::{Group, Law};
 use dbd_kernel::{BodyIndex, Vec3};
 use dbd_scene::{JointInfo, Scene};
 
-use super::parts::{Along, JointKind, JointMark, Mechanism, Place};
+use super::parts::{Along, JointKind, JointMark, JointSpring, Mechanism, Place};
 
 /// A body's row, `None` for the ground, moved by an input or not.
 pub(super) fn row(body: BodyIndex) -> Option<usize> {
@@ -42,6 +42,27 @@ pub(super) fn joints(scene: &Scene, mechanism: &Mechanism) -> (Vec<JointMark>, P
         marks.push(mark);
     }
     (marks, pivots)
+}
+
+/// The TSDAs of all joints.
+pub(super) fn joint_springs(scene: &Scene) -> Vec<JointSpring> {
+    let mut springs = Vec::new();
+    for (joint, info) in scene.joints.iter().enumerate() {
+        for group in scene.model.groups.get(info.groups.clone()).unwrap_or_default() {
+            if group.law != Law::Tsda {
+                continue;
+            }
+            let (stars, arms) = (centres(scene, group), usize::from(group.arms));
+            let end = |body, point: &Vec3<f64>| Place { body: row(body), point: point.to_f64() };
+            for (star, centre) in stars.iter().enumerate() {
+                let block = if group.shared { 0 } else { star };
+                let tips = tips(scene, group).iter().skip(block * arms).take(arms);
+                let ends = tips.map(|tip| [end(group.a, centre), end(group.b, tip)]);
+                springs.extend(ends.map(|ends| JointSpring { joint, ends }));
+            }
+        }
+    }
+    springs
 }
 
 /// Where joints are, by what they join and by the groups that they are made of.

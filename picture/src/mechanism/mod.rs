@@ -14,8 +14,8 @@ use dbd_scene::Scene;
 
 pub(crate) use parts::Bounds;
 pub use parts::{
-    Along, BodyShape, ForceKind, ForceMark, GuideMark, JointKind, JointMark, Mechanism, Outline,
-    Place, SpringMark, TorsionMark,
+    Along, BodyShape, ForceKind, ForceMark, GuideMark, JointKind, JointMark, JointSpring,
+    Mechanism, Outline, Place, SpringMark, TorsionMark,
 };
 
 impl Mechanism {
@@ -37,6 +37,7 @@ impl Mechanism {
                 })
                 .collect(),
             joints: Vec::new(),
+            joint_springs: attached::joint_springs(scene),
             springs: Vec::new(),
             guides: Vec::new(),
             torsions: Vec::new(),

@@ -14,6 +14,8 @@ pub struct Mechanism {
     pub bodies: Vec<BodyShape>,
     /// The joints in scene order.
     pub joints: Vec<JointMark>,
+    /// The TSDAs that joints are made of, in the model's order.
+    pub joint_springs: Vec<JointSpring>,
     /// Raw TSDAs and point bushings.
     pub springs: Vec<SpringMark>,
     /// Raw points on lines.
@@ -113,6 +115,15 @@ pub struct JointMark {
     /// The axes about which or along which it moves: two of a universal joint, one of a revolute,
     /// cylindrical and translational joint, else none.
     pub axes: Vec<Along>,
+}
+
+/// A TSDA of a joint.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct JointSpring {
+    /// The joint's row.
+    pub joint: usize,
+    /// Its ends.
+    pub ends: [Place; 2],
 }
 
 /// A spring and damper between two points.

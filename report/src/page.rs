@@ -1,0 +1,124 @@
+//! The page: data, and what is read without scripts, in one file.
+//!
+//! `data => HTML`. What people can read is written here; the animation and the curves are drawn by
+//! the page's scripts into sections that are empty until then. Nothing is fetched from anywhere.
+
+use std::fmt::Write as _;
+
+use dbd_output::markup::escape;
+
+use crate::data::{Data, Table};
+
+/// Style sheets of the page, in order.
+pub const STYLES: &[&str] = &[include_str!("../web/page.css")];
+
+/// Scripts of the page, in order: those of others first.
+pub const SCRIPTS: &[&str] = &[include_str!("../web/page.js")];
+
+/// Sections that scripts fill, with their headings, in order.
+const DRAWN: [(&str, &str); 6] = [
+    ("readouts", "Read-outs"),
+    ("inputs", "Inputs"),
+    ("energy", "Energy"),
+    ("joints", "Joints"),
+    ("motion", "Motion"),
+    ("modes", "Modes"),
+];
+
+/// The page of a run or of a comparison.
+#[must_use]
+pub fn html(data: &Data) -> String {
+    let Data { name, description, text, .. } = data;
+    let name = escape(name);
+    let mut page = format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{name}</title>\n"
+    );
+    for style in STYLES {
+        let _ = writeln!(page, "<style>\n{style}</style>");
+    }
+    let _ = writeln!(page, "</head>\n<body>\n<main>\n<header>\n<h1>{name}</h1>");
+    if !description.is_empty() {
+        let _ = writeln!(page, "<p class=\"lead\">{}</p>", escape(description));
+    }
+    page.push_str("</header>\n");
+    for failure in &text.failures {
+        let failure = escape(failure);
+        let _ = writeln!(page, "<p class=\"failed\"><strong>Failed:</strong> {failure}.</p>");
+    }
+    for warning in &text.warnings {
+        let warning = escape(warning);
+        let _ = writeln!(page, "<p class=\"warning\"><strong>Warning:</strong> {warning}.</p>");
+    }
+    page.push_str("<section id=\"stage\">\n");
+    if let Some(picture) = &text.picture {
+        let _ = writeln!(page, "<figure class=\"still\">\n{picture}</figure>");
+    }
+    page.push_str("</section>\n");
+    page.push_str("<noscript><p>The animation and the curves need JavaScript.</p></noscript>\n");
+    for (id, heading) in DRAWN {
+        // Shown by the scripts where there is something to draw.
+        let _ = writeln!(page, "<section id=\"{id}\" hidden>\n<h2>{heading}</h2>\n</section>");
+    }
+    for table in &text.tables {
+        write_table(&mut page, table);
+    }
+    if !text.commands.is_empty() {
+        page.push_str("<section id=\"again\">\n<h2>Run it again</h2>\n");
+        for (makes, command) in &text.commands {
+            if !makes.is_empty() {
+                let _ = writeln!(page, "<p>{}</p>", escape(makes));
+            }
+            let _ = writeln!(page, "<pre>{}</pre>", escape(command));
+        }
+        for note in &text.notes {
+            let _ = writeln!(page, "<p>{}</p>", escape(note));
+        }
+        page.push_str("</section>\n");
+    }
+    let _ = writeln!(
+        page,
+        "</main>\n<script type=\"application/json\" id=\"report\">{}</script>",
+        json(data)
+    );
+    for script in SCRIPTS {
+        let _ = writeln!(page, "<script>\n{script}</script>");
+    }
+    page.push_str("</body>\n</html>\n");
+    page
+}
+
+/// The data as JSON that ends no script: nothing in it opens a tag or a comment.
+#[must_use]
+pub fn json(data: &Data) -> String {
+    // Of what the data are made nothing refuses.
+    let text = serde_json::to_string(data).unwrap_or_else(|_| "null".into());
+    text.replace('<', "\\u003c")
+}
+
+fn write_table(page: &mut String, table: &Table) {
+    let id = table.title.to_lowercase().replace(' ', "-");
+    let (id, title) = (escape(&id), escape(&table.title));
+    let _ = writeln!(page, "<section id=\"{id}\">\n<h2>{title}</h2>\n<table>");
+    if !table.columns.is_empty() {
+        page.push_str("<thead><tr>");
+        for column in &table.columns {
+            let _ = write!(page, "<th scope=\"col\">{}</th>", escape(column));
+        }
+        page.push_str("</tr></thead>\n");
+    }
+    page.push_str("<tbody>\n");
+    for row in &table.rows {
+        page.push_str("<tr>");
+        for (column, cell) in row.iter().enumerate() {
+            let cell = escape(cell);
+            let _ = match column {
+                0 => write!(page, "<th scope=\"row\">{cell}</th>"),
+                _ => write!(page, "<td>{cell}</td>"),
+            };
+        }
+        page.push_str("</tr>\n");
+    }
+    page.push_str("</tbody>\n</table>\n</section>\n");
+}
