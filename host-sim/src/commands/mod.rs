@@ -8,6 +8,7 @@
 //! - [`golden`]: a run beside a golden file.
 //! - [`run`]: a scene becomes a trace, a summary and a report.
 //! - [`sweep`]: many values of a scene, a row per case.
+//! - [`compare`]: two recorded runs in one report.
 //! - [`trade`]: speed against accuracy.
 //! - [`export`]: Rust source of a scene's const model and its plant.
 //! - [`mod@import`]: another program's file becomes a scene.
@@ -16,6 +17,7 @@
 
 pub mod assembled;
 pub mod check;
+pub mod compare;
 pub mod completions;
 pub mod derived;
 pub mod export;
