@@ -5,12 +5,13 @@
 
 use core::ops::Deref;
 
+use crate::body::BodyState;
 use crate::elements::element::Element;
 use crate::elements::input::InputKind;
 use crate::forces::{self, ExplicitDampers, Record};
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, InputIndex};
-use crate::model::{FrameOf, ModelOwner, RealOf};
+use crate::model::{FrameOf, Group, ModelOwner, ModelRef, RealOf, Terms};
 use crate::plant::Plant;
 use crate::pose::{End, Places, place_bodies, placed, twist_of};
 use crate::real::Real;
@@ -179,25 +180,7 @@ pub fn read<M: ModelOwner>(
         Readout::TsdaForce { group, element } => {
             let row = group as usize;
             let group = view.groups.get(row)?;
-            let placed = placed(&view, places, (row, group), element as usize)?;
-            let Element::Tsda(tsda) = view.element(group.law, placed.index)? else { return None };
-            let d = placed.stretch.displacement;
-            let (a, b) = (end(group.a), end(group.b));
-            let v_rel = b.point_velocity(placed.arm_b) - a.point_velocity(placed.arm_a);
-            let clearance = view.clearance(group);
-            let damping =
-                group.damper.row().and_then(|row| view.dampers.get(row + element as usize));
-            let force = match damping {
-                Some(&damping) => tsda.damped_force(damping, d, v_rel, clearance),
-                None => tsda.force(d, clearance),
-            };
-            let mut tension = force.dot(d) * d.dot(d).sqrt().reciprocal_or_zero();
-            for (input, signal) in view.inputs.iter().zip(state.signals.as_ref()) {
-                let this = InputKind::Actuator { group: row as u16, element };
-                if input.kind == this {
-                    tension = tension + signal.value;
-                }
-            }
+            let tension = tension(&view, places, bodies, (row, group), element as usize)?;
             Some(Reading::Scalar(tension))
         }
         Readout::JointForce { group } => {
@@ -226,5 +209,76 @@ pub fn read<M: ModelOwner>(
             let signal = state.signals.as_ref().get(input.0 as usize)?;
             Some(Reading::Scalar(signal.value))
         }
+    }
+}
+
+/// The tension of a group's TSDA: spring, damper and actuators; `None` of another law.
+#[inline(always)]
+fn tension<P: Geometry, T: Terms>(
+    view: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    bodies: &[BodyState<P>],
+    (row, group): (usize, &Group),
+    element: usize,
+) -> Option<P::Real> {
+    let placed = placed(view, places, (row, group), element)?;
+    let Element::Tsda(tsda) = view.element(group.law, placed.index)? else { return None };
+    let end = |body: BodyIndex| End::new(view, places, body, Some(bodies));
+    let d = placed.stretch.displacement;
+    let (a, b) = (end(group.a), end(group.b));
+    let v_rel = b.point_velocity(placed.arm_b) - a.point_velocity(placed.arm_a);
+    let clearance = view.clearance(group);
+    let damping = group.damper.row().and_then(|row| view.dampers.get(row + element));
+    let force = match damping {
+        Some(&damping) => tsda.damped_force(damping, d, v_rel, clearance),
+        None => tsda.force(d, clearance),
+    };
+    let mut tension = force.dot(d) * d.dot(d).sqrt().reciprocal_or_zero();
+    for (input, signal) in view.inputs.iter().zip(places.signals) {
+        let this = InputKind::Actuator { group: row as u16, element: element as u16 };
+        if input.kind == this {
+            tension = tension + signal.value;
+        }
+    }
+    Some(tension)
+}
+
+/// Visits the tension \[N\] of every TSDA in the order of the groups, as
+/// [`Readout::TsdaForce`] reads it, with the index of its group.
+pub fn each_tension<M: ModelOwner>(
+    model: &M,
+    state: &State<M>,
+    mut visit: impl FnMut(usize, RealOf<M>),
+) {
+    let view = model.view();
+    let bodies = state.bodies.as_ref();
+    let mut frames = model.per_body(FrameOf::<M>::default());
+    place_bodies::<M::Precision>(bodies, frames.as_mut());
+    let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
+    for (row, group) in view.groups.iter().enumerate() {
+        for element in 0..group.elements() {
+            if let Some(tension) = tension(&view, places, bodies, (row, group), element) {
+                visit(row, tension);
+            }
+        }
+    }
+}
+
+/// Visits the force \[N\] of every group on its second body, world axes, in their order, as
+/// [`Readout::JointForce`] reads it, with the index of the group.
+pub fn each_force<M: ModelOwner>(
+    model: &M,
+    state: &State<M>,
+    mut visit: impl FnMut(usize, Vec3<RealOf<M>>),
+) {
+    let view = model.view();
+    let bodies = state.bodies.as_ref();
+    let mut frames = model.per_body(FrameOf::<M>::default());
+    place_bodies::<M::Precision>(bodies, frames.as_mut());
+    let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
+    for (row, group) in view.groups.iter().enumerate() {
+        let record: Record<RealOf<M>> =
+            forces::record::<M::Precision, M::Terms, ExplicitDampers>(&view, places, bodies, group);
+        visit(row, -record.force);
     }
 }

@@ -105,9 +105,10 @@ pub struct Judge {
     owners: Vec<usize>,
     /// \[m\] the clearance of each of its groups.
     clearances: Vec<f64>,
-    /// \[m\] the largest extension of each joint in the state that was judged last, and of that
-    /// what is beyond its clearance.
-    present: Vec<[f64; 2]>,
+    /// \[m\] the largest extension of each joint in the state that was judged last.
+    extensions: Vec<f64>,
+    /// \[m\] of that what is beyond its clearance.
+    beyond: Vec<f64>,
     openings: Vec<Opening>,
     turning: Turning,
     /// \[m\] the extension of a joint's element at which it counts as torn.
@@ -147,14 +148,15 @@ impl Judge {
         let torn = TORN * stars.map(|group| free_length(model, group)).fold(0.0, f64::max);
         let start = State::initial(model);
         let budget = Budget::new(model, &start, &energy(model, &start, step_size), unit(plant));
-        let present = vec![[0.0; 2]; scene.joints.len()];
+        let [extensions, beyond] = [(); 2].map(|()| vec![0.0; scene.joints.len()]);
         let (model, turning) = (model.clone(), Turning::default());
         Self {
             model,
             joints,
             owners,
             clearances,
-            present,
+            extensions,
+            beyond,
             openings,
             turning,
             torn,
@@ -167,6 +169,13 @@ impl Judge {
     #[must_use]
     pub fn openings(&self) -> &[Opening] {
         &self.openings
+    }
+
+    /// \[m\] the largest extension of each joint's elements in the state that was judged last, in scene
+    /// order.
+    #[must_use]
+    pub fn extensions(&self) -> &[f64] {
+        &self.extensions
     }
 
     /// The body that turned furthest in a step so far.
@@ -219,16 +228,17 @@ impl Judge {
 
     /// Takes note of every joint's extension; the joint with the largest, and that.
     fn look(&mut self, state: &State<SceneModel<F64>>) -> (usize, f64) {
-        self.present.fill([0.0; 2]);
-        let Self { present, owners, clearances, .. } = self;
+        self.extensions.fill(0.0);
+        self.beyond.fill(0.0);
+        let Self { extensions, beyond, owners, clearances, .. } = self;
         each_extension(&self.joints, state, |group, extension| {
-            let [whole, beyond] = &mut present[owners[group]];
             let extension = extension.abs();
+            let [whole, open] = [&mut extensions[owners[group]], &mut beyond[owners[group]]];
             *whole = whole.max(extension);
-            *beyond = beyond.max(extension - clearances[group]);
+            *open = open.max(extension - clearances[group]);
         });
         let time = state.step as f64 * self.step_size;
-        for (opening, [_, beyond]) in self.openings.iter_mut().zip(&self.present) {
+        for (opening, beyond) in self.openings.iter_mut().zip(&self.beyond) {
             if *beyond > opening.extension {
                 (opening.extension, opening.time) = (*beyond, time);
                 if *beyond > OPENED * opening.free_length {
@@ -236,7 +246,7 @@ impl Judge {
                 }
             }
         }
-        let rows = self.present.iter().map(|[whole, _]| *whole).enumerate();
+        let rows = self.extensions.iter().copied().enumerate();
         rows.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
     }
 }

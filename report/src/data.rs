@@ -5,7 +5,8 @@
 
 use dbd_picture::Mechanism;
 use dbd_picture::mechanism::Place;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
+use serde_json::Value;
 
 use crate::packed::{F32s, F64s, I16s};
 
@@ -40,6 +41,25 @@ pub struct Data {
     /// What is read without scripts; it stands in the page as HTML instead.
     #[serde(skip)]
     pub text: Text,
+}
+
+impl Data {
+    /// A page about one run; its text is yet to come.
+    #[must_use]
+    pub fn of_run(name: &str, description: &str, run: Run) -> Self {
+        Self {
+            format: FORMAT,
+            kind: Kind::Run,
+            name: name.into(),
+            description: description.into(),
+            runs: vec![run],
+            differences: Vec::new(),
+            difference_times: F64s::default(),
+            first_difference: None,
+            modes: Vec::new(),
+            text: Text::default(),
+        }
+    }
 }
 
 /// What a page is about.
@@ -86,7 +106,8 @@ pub struct Table {
 pub struct Run {
     /// What tells it from another on the same page; empty for the only one.
     pub label: String,
-    /// The mechanism at t = 0.
+    /// The mechanism at t = 0, its numbers rounded as far as nobody sees it.
+    #[serde(serialize_with = "rounded")]
     pub mechanism: Option<Mechanism>,
     /// How it moved; `None` where nothing was seen of it.
     pub film: Option<Film>,
@@ -97,6 +118,9 @@ pub struct Run {
     /// Bodies of which there is no chart; 0 where all have theirs.
     #[serde(skip_serializing_if = "is_zero")]
     pub bodies_left_out: usize,
+    /// Joints of which there is no chart.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub joints_left_out: usize,
     /// Curves over time.
     pub charts: Vec<Chart>,
 }
@@ -221,6 +245,34 @@ pub struct Mode {
     pub frequency: f64,
     /// Body by body the shift \[m\] in world axes and the turn \[rad\] about the body's axes, the largest 1.
     pub shape: F32s,
+}
+
+/// Significant digits of a mechanism's numbers.
+const DIGITS: usize = 7;
+
+/// With numbers that are as short as they may be.
+fn rounded<S: Serializer>(mechanism: &Option<Mechanism>, to: S) -> Result<S::Ok, S::Error> {
+    let mut value = serde_json::to_value(mechanism).map_err(serde::ser::Error::custom)?;
+    shorten(&mut value);
+    value.serialize(to)
+}
+
+fn shorten(value: &mut Value) {
+    match value {
+        Value::Array(values) => values.iter_mut().for_each(shorten),
+        Value::Object(values) => values.values_mut().for_each(shorten),
+        Value::Number(number) if number.is_f64() => {
+            let exact = number.as_f64().unwrap_or_default();
+            let short = format!("{exact:.*e}", DIGITS - 1).parse().unwrap_or(exact);
+            // A whole number needs no point.
+            if short == short.trunc() && short.abs() < 1e15 {
+                *value = Value::from(short as i64);
+            } else {
+                *value = Value::from(short);
+            }
+        }
+        _ => {}
+    }
 }
 
 fn no_times(times: &F64s) -> bool {

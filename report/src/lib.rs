@@ -4,8 +4,23 @@
 //!
 //! - [`packed`]: numbers as text.
 //! - [`data`]: what the page draws from.
+//! - [`turn`]: how far a body has turned, without jumps.
+//! - [`loading`]: what pulls and pushes at a state.
+//! - [`film`]: frames at evenly spread samples.
+//! - [`curves`]: curves on one grid of times, thinned.
+//! - [`charts`]: which curves there are, and which of them are shown.
+//! - [`recording`]: a run as it goes on.
 //! - [`page`]: the page.
 
+pub mod charts;
+pub mod curves;
 pub mod data;
+pub mod film;
+pub mod loading;
 pub mod packed;
 pub mod page;
+pub mod recording;
+pub mod turn;
+
+pub use data::Data;
+pub use recording::{Recorded, Recording, Sample};
