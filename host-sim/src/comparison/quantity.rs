@@ -21,8 +21,9 @@ pub struct Quantity {
     pub body: Option<String>,
     /// \[s\] when it is.
     pub time: Option<f64>,
-    /// The most numbers of the coarser precision between the numbers of A and of B.
-    pub ulps: u64,
+    /// Numbers of the coarser precision between the two there, of the component that is furthest off; `None` from
+    /// a NaN.
+    pub ulps: Option<u64>,
     /// How far it may be off.
     pub band: Option<f64>,
     #[serde(skip)]
@@ -42,7 +43,7 @@ impl Quantity {
             largest: Some(0.0),
             body: None,
             time: None,
-            ulps: 0,
+            ulps: Some(0),
             band: None,
             sum: 0.0,
             count: 0,
@@ -56,7 +57,7 @@ impl Quantity {
     }
 
     /// Takes the distance at a sample; one that is no number is larger than any.
-    pub(super) fn push(&mut self, distance: f64, time: f64, body: Option<&str>) {
+    pub(super) fn push(&mut self, distance: f64, time: f64, body: Option<&str>, ulps: Option<u64>) {
         self.count += 1;
         self.sum += distance * distance;
         self.rms = Some((self.sum / self.count as f64).sqrt()).filter(|rms| rms.is_finite());
@@ -68,6 +69,7 @@ impl Quantity {
             self.largest = Some(distance).filter(|distance| distance.is_finite());
             self.body = body.map(str::to_owned);
             self.time = Some(time);
+            self.ulps = ulps;
         }
     }
 }
@@ -96,12 +98,13 @@ mod tests {
         for (distance, time, body) in
             [(0.0, 0.0, "a"), (3.0, 1.0, "a"), (4.0, 1.0, "b"), (1.0, 2.0, "a")]
         {
-            quantity.push(distance, time, Some(body));
+            quantity.push(distance, time, Some(body), Some(distance as u64));
         }
         assert_eq!((quantity.rms, quantity.largest), (Some(6.5_f64.sqrt()), Some(4.0)));
         assert_eq!((quantity.body.as_deref(), quantity.time), (Some("b"), Some(1.0)));
-        quantity.push(f64::INFINITY, 3.0, None);
-        quantity.push(9.0, 4.0, None);
+        assert_eq!(quantity.ulps, Some(4));
+        quantity.push(f64::INFINITY, 3.0, None, None);
+        quantity.push(9.0, 4.0, None, Some(9));
         assert_eq!((quantity.rms, quantity.largest, quantity.time), (None, None, Some(3.0)));
     }
 

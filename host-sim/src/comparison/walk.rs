@@ -179,6 +179,7 @@ impl<'h> Walk<'h> {
             // Both signs are one orientation; what is nearer counts.
             let dot: f64 = (3..7).map(|column| of_a[column] * of_b[column]).sum();
             let mut equal = [true; 4];
+            let mut most: [(f64, Option<u64>); 4] = [(-1.0, None); 4];
             for column in 0..BODY_COLUMNS.len() {
                 let of = BodyQuantity::of_column(column);
                 let values = [of_a[column], of_b[column]];
@@ -197,12 +198,15 @@ impl<'h> Walk<'h> {
                     values,
                     ulps,
                 });
-                self.bodies[row].ulps = self.bodies[row].ulps.max(ulps.unwrap_or(u64::MAX));
+                let off = (values[0] - sign * values[1]).abs();
+                if off > most[row].0 {
+                    most[row] = (off, ulps);
+                }
             }
             for of in BodyQuantity::ALL {
                 let row = of as usize;
                 let distance = if equal[row] { 0.0 } else { of.distance(of_a, of_b) };
-                self.bodies[row].push(distance, a.time, Some(&pair.name));
+                self.bodies[row].push(distance, a.time, Some(&pair.name), most[row].1);
                 if distance > furthest[row].0 {
                     furthest[row] = (distance, &pair.name);
                 }
@@ -271,8 +275,7 @@ fn number(
         values,
         ulps: between,
     });
-    quantity.ulps = quantity.ulps.max(between.unwrap_or(u64::MAX));
-    quantity.push(apart(values[0], values[1]), a.time, None);
+    quantity.push(apart(values[0], values[1]), a.time, None, between);
 }
 
 /// Keeps the first sample at which a quantity is beyond its band.

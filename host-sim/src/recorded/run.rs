@@ -104,6 +104,18 @@ fn files(path: &Path) -> Result<Files, Unreadable> {
     }
 }
 
+/// The runs in the folders of a folder, a few of them.
+fn below(folder: &Path) -> String {
+    let folders = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut runs: Vec<String> = folders
+        .filter(|folder| folder.join(SUMMARY).is_file())
+        .map(|folder| folder.display().to_string())
+        .collect();
+    runs.sort();
+    runs.truncate(4);
+    runs.join(" or ")
+}
+
 /// A trace and its summary, where both are there.
 fn both(called: &Path, file: PathBuf, summary: PathBuf) -> Result<Files, Unreadable> {
     let remedy = "a trace is read with the summary.json beside it, which says of what it is: precision, step, how far \
@@ -112,6 +124,9 @@ fn both(called: &Path, file: PathBuf, summary: PathBuf) -> Result<Files, Unreada
         (true, true) => Ok(Files::Run { file, summary }),
         (false, false) => {
             let problem = format!("holds no run: there is neither {TRACE} nor {SUMMARY}");
+            let meant = below(called);
+            let remedy =
+                if meant.is_empty() { remedy.to_owned() } else { format!("did you mean {meant}?") };
             Err(Unreadable::new(called, problem).with_remedy(remedy))
         }
         (true, false) => {

@@ -66,7 +66,6 @@ pub struct Summary {
     /// FNV-1a 64 over the state's words, 16 hexadecimal digits; `None` without a sample.
     pub state_hash: Option<String>,
     /// The torsion springs' turn counts in the last row, which the hash holds and no column shows.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub turns: Vec<i32>,
     /// FNV-1a 64 over the bytes of `trace.csv`, 16 hexadecimal digits; `None` where none was written.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -77,10 +77,63 @@ pub fn differs(comparison: &Comparison) -> Vec<Differs> {
     all
 }
 
+/// The same with what was set alike in many places in one line each.
+#[must_use]
+pub fn grouped(all: Vec<Differs>) -> Vec<Differs> {
+    let mut groups: Vec<(Differs, usize)> = Vec::new();
+    let key = |what: &str| Some(what.strip_prefix("set ")?.rsplit_once('.')?.1.to_owned());
+    for one in all {
+        let own = key(&one.what);
+        let like = |(of, _): &&mut (Differs, usize)| {
+            own.is_some() && key(&of.what) == own && (&of.a, &of.b) == (&one.a, &one.b)
+        };
+        match groups.iter_mut().find(like) {
+            Some((_, more)) => *more += 1,
+            None => groups.push((one, 0)),
+        }
+    }
+    let told = groups.into_iter().map(|(one, more)| match more {
+        0 => one,
+        more => Differs { what: format!("{} and {more} more", one.what), ..one },
+    });
+    told.collect()
+}
+
 impl Differs {
     /// The fact of A and of B, in words.
     #[must_use]
     pub fn sides(&self) -> [&str; 2] {
         [&self.a, &self.b].map(|side| side.as_deref().unwrap_or("–"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_set_alike_is_told_once() {
+        let set = |what: &str, b: &str| Differs {
+            what: what.into(),
+            a: Some("1".into()),
+            b: Some(b.into()),
+        };
+        let all = vec![
+            set("scheme", "2"),
+            set("set joint.a.stiffness", "2"),
+            set("set joint.b.stiffness", "2"),
+            set("set joint.c.stiffness", "3"),
+            set("set joint.c.damping", "2"),
+            set("step", "2"),
+        ];
+        let told: Vec<String> = grouped(all).into_iter().map(|one| one.what).collect();
+        let wanted = [
+            "scheme",
+            "set joint.a.stiffness and 1 more",
+            "set joint.c.stiffness",
+            "set joint.c.damping",
+            "step",
+        ];
+        assert_eq!(told, wanted);
     }
 }

@@ -6,10 +6,15 @@
 //! - [`words`]: what people read.
 //! - [`record`]: what programs read.
 //! - [`folder`]: where it is written.
+//! - [`scene`], [`charts`], [`replay`], [`page`]: what people look at.
 
+pub mod charts;
 pub mod differs;
 pub mod folder;
+pub mod page;
 pub mod record;
+pub mod replay;
+pub mod scene;
 pub mod words;
 
 use std::io;
@@ -21,8 +26,10 @@ use dbd_output::set::FileSet;
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::commands::compare::folder::Place;
+use crate::commands::compare::folder::{PAGE, Place, SEAL};
+use crate::commands::compare::page::{Differences, page};
 use crate::commands::compare::record::Record;
+use crate::commands::compare::scene::scenes;
 use crate::commands::folder::FolderError;
 use crate::comparison::{CompareError, Comparison, compare};
 use crate::recorded::{Recorded, Unreadable};
@@ -117,22 +124,25 @@ pub fn compare_runs(
     let runs = [a?, b?];
     let all = runs[0].head.samples.min(runs[1].head.samples);
     let mut done = 0;
-    let comparison = compare(runs, arguments.band.as_ref(), &mut |_, _| {
+    let mut differences = Differences::new([&runs[0].head, &runs[1].head]);
+    let comparison = compare(runs, arguments.band.as_ref(), &mut |a, b| {
+        differences.look(a, b);
         done += 1;
         if done % 1024 == 0 {
             progress(done.min(all), all);
         }
     })?;
-    let _ = catalogue;
     let record = Record::of(&comparison);
     let mut folder = None;
     if !arguments.no_report {
+        let called = paths.map(PathBuf::as_path);
         let files = comparison.heads.each_ref().map(|head| head.file.as_path());
-        let place =
-            Place::of(&arguments.out, paths.map(PathBuf::as_path), files, arguments.overwrite);
+        let place = Place::of(&arguments.out, called, files, arguments.overwrite);
         let at = place.folder()?;
+        let scenes = scenes(catalogue, &comparison.heads);
+        let page = page(&comparison, differences, &scenes, called)?;
         let mut files = FileSet::new(&at);
-        let written = files.write("compare.json", &json(&record));
+        let written = files.write(PAGE, &page).and_then(|()| files.write(SEAL, &json(&record)));
         let whole = written.and_then(|()| files.finish()).map_err(CompareRefusal::Write)?;
         // Another comparison may have come there meanwhile.
         place.claim(&at)?;

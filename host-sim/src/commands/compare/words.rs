@@ -3,7 +3,7 @@
 use dbd_plant::digits::significant;
 use dbd_plant::time::{display, rounded};
 
-use crate::commands::compare::differs::{Differs, differs};
+use crate::commands::compare::differs::{Differs, differs, grouped};
 use crate::comparison::{Comparison, Quantity, Verdict};
 use crate::recorded::{Head, Kind};
 use crate::terminal::text::{aligned, table};
@@ -82,12 +82,14 @@ pub fn notes(comparison: &Comparison) -> Vec<String> {
 /// How to find the very step, where it lies between two samples.
 fn finer(comparison: &Comparison) -> Option<String> {
     let first = comparison.first.as_ref()?;
-    let [a, b] = &comparison.heads;
+    let [a, _] = &comparison.heads;
     let [before, _] = first.equal_steps?;
-    // By another method every step differs.
-    let alike = |of: fn(&Head) -> String| of(a) == of(b);
-    let one_method = alike(|head| format!("{} {} {:?}", head.scheme, head.precision, head.step));
-    if !one_method || before + 1 >= first.steps[0] {
+    // By another method, or of another scene, every step differs.
+    const OTHER: [&str; 7] =
+        ["scene", "scheme", "precision", "orientation", "step", "newton", "damping"];
+    let other = |what: &str| OTHER.contains(&what) || what.starts_with("set ");
+    let alike = !differs(comparison).iter().any(|fact| other(&fact.what));
+    if !alike || before + 1 >= first.steps[0] {
         return None;
     }
     Some(format!(
@@ -106,6 +108,9 @@ fn list(names: &[String]) -> String {
         false => shown.join(", "),
     }
 }
+
+/// Numbers between one and its double: counting more tells nothing.
+const NOTHING_ALIKE: u64 = 1 << 52;
 
 /// The columns of the table of quantities.
 pub const COLUMNS: [&str; 6] = ["quantity", "RMS", "largest", "of", "at", "ULP"];
@@ -128,9 +133,10 @@ pub fn quantity(quantity: &Quantity, banded: bool) -> [String; 6] {
     }
     let time = time.map_or("–".into(), |time| display(rounded(time, 6)));
     let ulps = match *ulps {
-        u64::MAX => "–".into(),
-        ulps if ulps < 10_000_000 => ulps.to_string(),
-        ulps => significant(ulps as f64, 3),
+        None => "–".into(),
+        Some(ulps) if ulps < 10_000_000 => ulps.to_string(),
+        Some(ulps) if ulps < NOTHING_ALIKE => significant(ulps as f64, 3),
+        Some(_) => "> 2^52".into(),
     };
     [name.clone(), number(rms), largest, body.clone().unwrap_or_else(|| "–".into()), time, ulps]
 }
@@ -139,7 +145,7 @@ pub fn quantity(quantity: &Quantity, banded: bool) -> [String; 6] {
 #[must_use]
 pub fn text(comparison: &Comparison) -> String {
     let mut rows = vec![("A", run(comparison, 0)), ("B", run(comparison, 1))];
-    for Differs { what, a, b } in differs(comparison) {
+    for Differs { what, a, b } in grouped(differs(comparison)) {
         let side = |side: Option<String>| side.unwrap_or_else(|| "–".into());
         rows.push(("differs", format!("{what}: {} in A, {} in B", side(a), side(b))));
     }
