@@ -3,7 +3,8 @@
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::energy::energy;
 use dbd_kernel::index::InputIndex;
-use dbd_kernel::readouts::{Reading, Readout};
+use dbd_kernel::model::Law;
+use dbd_kernel::readouts::{Reading, Readout, each_force, each_tension, read};
 use dbd_kernel::{BodyIndex, BodyState, F64, Geometry, Leapfrog, Plant, Vec3};
 use dbd_tests::{Bench, at, scene, scene_names, turned};
 
@@ -145,4 +146,31 @@ fn what_a_table_drives_is_read_at_its_time() {
     let mut other = Plant::new(&model, Leapfrog, h).unwrap();
     other.restore(&bytes).unwrap();
     assert_eq!(scalar(&other, Readout::Input { input: InputIndex(1) }), Some(100.0));
+}
+
+/// Looking at all of them at once shows what reading each does, dampers and actuators included.
+#[test]
+fn all_tensions_and_forces_are_those_read_one_by_one() {
+    for name in ["double-wishbone", "delta-pick-and-place", "gripper"] {
+        let scene = scene(name);
+        let model = &scene.model;
+        let mut plant = Plant::new(model, Leapfrog, 1e-4).unwrap();
+        plant.advance(100).ok().unwrap();
+        let one = |readout| read(model, plant.state(), 1e-4, &readout).unwrap();
+        let (mut tensions, mut forces) = (Vec::new(), Vec::new());
+        each_tension(model, plant.state(), |group, tension| tensions.push((group, tension)));
+        each_force(model, plant.state(), |group, force| forces.push((group, force)));
+        let (mut expected_tensions, mut expected_forces) = (Vec::new(), Vec::new());
+        for (row, group) in model.groups.iter().enumerate() {
+            let force = one(Readout::JointForce { group: row as u16 });
+            expected_forces.push((row, force.vector().unwrap()));
+            let elements = if group.law == Law::Tsda { group.elements() } else { 0 };
+            for element in 0..elements as u16 {
+                let tension = one(Readout::TsdaForce { group: row as u16, element });
+                expected_tensions.push((row, tension.scalar().unwrap()));
+            }
+        }
+        assert!(tensions == expected_tensions && forces == expected_forces, "{name}");
+        assert!(tensions.iter().any(|(_, tension)| tension.abs() > 1.0), "{name}");
+    }
 }

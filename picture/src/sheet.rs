@@ -21,7 +21,7 @@ use crate::view::{Frame, View, Views, extent, reach};
 pub enum Paper {
     /// A file of its own: with the scene's name, dark where the reader's screen is.
     File,
-    /// A light page that has a heading.
+    /// A page that has a heading and a background, dark where the reader's screen is.
     Page,
 }
 
@@ -273,7 +273,7 @@ impl Sheet<'_> {
             "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"{ROOT}\" width=\"{WIDTH}\" \
              height=\"{height}\" viewBox=\"0 0 {WIDTH} {height}\" role=\"img\">\n\
              <title>The mechanism {name}</title>\n<style>\n{}</style>\n{background}{}</svg>\n",
-            sheet(paper == Paper::File),
+            sheet(),
             self.text
         )
     }

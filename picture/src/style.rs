@@ -19,10 +19,7 @@ const SHEET: &str = include_str!("picture.css");
 /// What changes where the reader's screen is dark.
 const DARK: &str = include_str!("dark.css");
 
-/// The style sheet; `dark` where it may follow the reader's screen.
-pub(crate) fn sheet(dark: bool) -> String {
-    if !dark {
-        return SHEET.into();
-    }
+/// The style sheet, which follows the reader's screen.
+pub(crate) fn sheet() -> String {
     format!("{SHEET}@media (prefers-color-scheme: dark) {{\n{DARK}}}\n")
 }

@@ -13,6 +13,7 @@ use dbd_scene::Scene;
 
 use crate::curves::{Curves, Drawn, Extent, MOST_POINTS};
 use crate::data::{Chart, Line, Section, Thinned};
+use crate::measure::{joint_sizes, size};
 use crate::packed::{F32s, F64s};
 
 /// Values of all lines of a page: 5.4 bytes of text each.
@@ -111,14 +112,14 @@ impl Charts {
     }
 
     fn joints(&mut self, scene: &Scene, mechanism: &Mechanism) {
+        let sizes = joint_sizes(mechanism);
         for (row, joint) in mechanism.joints.iter().enumerate() {
             let info = scene.joints.iter().find(|info| info.name == joint.name);
             let second = info.map_or("its second body", |info| info.between[1].as_str());
-            let reach = joint_reach(mechanism, row);
             let title = format!("{}: largest extension of its springs", joint.name);
             let planned = self.add(Section::Joints, [&title, "extension", "m"], &[""]);
             planned.chart.joint = Some(row);
-            planned.scale = reach;
+            planned.scale = sizes[row];
             let title = format!("{}: force on {second}", joint.name);
             let planned = self.add(Section::Joints, [&title, "force", "N"], &[""]);
             planned.chart.joint = Some(row);
@@ -269,30 +270,6 @@ fn left_out(
     };
     let first = order.iter().position(beyond).unwrap_or(order.len());
     order[first..].iter().map(|(part, _)| *part).collect()
-}
-
-/// \[m\] the longest side of the box about all centres of mass and outlines at t = 0.
-fn size(mechanism: &Mechanism) -> f64 {
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    let corners = (0..mechanism.bodies.len()).flat_map(|row| mechanism.corners(row));
-    let centres = mechanism.bodies.iter().map(|body| body.position);
-    for point in corners.map(dbd_kernel::Vec3::to_f64).chain(centres) {
-        for axis in 0..3 {
-            low[axis] = low[axis].min(point[axis]);
-            high[axis] = high[axis].max(point[axis]);
-        }
-    }
-    low.iter().zip(high).map(|(low, high)| high - low).fold(0.0, f64::max)
-}
-
-/// \[m\] the longest of a joint's springs at t = 0.
-fn joint_reach(mechanism: &Mechanism, row: usize) -> f64 {
-    let springs = mechanism.joint_springs.iter().filter(|spring| spring.joint == row);
-    let length = |ends: &[dbd_picture::mechanism::Place; 2]| {
-        let [a, b] = ends.map(|end| mechanism.place(&end));
-        (b - a).dot(b - a).sqrt()
-    };
-    springs.map(|spring| length(&spring.ends)).fold(0.0, f64::max)
 }
 
 /// What a read-out of a type shows.

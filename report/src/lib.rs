@@ -4,6 +4,7 @@
 //!
 //! - [`packed`]: numbers as text.
 //! - [`data`]: what the page draws from.
+//! - [`measure`]: how large a mechanism and its joints are.
 //! - [`turn`]: how far a body has turned, without jumps.
 //! - [`loading`]: what pulls and pushes at a state.
 //! - [`film`]: frames at evenly spread samples.
@@ -11,12 +12,15 @@
 //! - [`charts`]: which curves there are, and which of them are shown.
 //! - [`recording`]: a run as it goes on.
 //! - [`page`]: the page.
+//! - [`gltf`]: the animation as a file for programs that show models.
 
 pub mod charts;
 pub mod curves;
 pub mod data;
 pub mod film;
+pub mod gltf;
 pub mod loading;
+pub mod measure;
 pub mod packed;
 pub mod page;
 pub mod recording;

@@ -122,3 +122,71 @@ fn write_table(page: &mut String, table: &Table) {
     }
     page.push_str("</tbody>\n</table>\n</section>\n");
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::{Run, Text};
+
+    fn page() -> String {
+        let name = "a \"b\" </script><b>&amp; ü –";
+        let mut data = Data::of_run(name, "<!-- what it is", Run::default());
+        data.text = Text {
+            failures: vec!["it <broke>".into()],
+            warnings: vec!["too \"soft\"".into()],
+            picture: Some("<svg id=\"still\"></svg>\n".into()),
+            tables: vec![Table {
+                title: "Summary".into(),
+                columns: vec!["of".into(), "first".into()],
+                rows: vec![vec!["energy".into(), "1 < 2".into()]],
+            }],
+            commands: vec![(String::new(), "host-sim run 'a' && b".into())],
+            notes: vec!["bits".into()],
+        };
+        html(&data)
+    }
+
+    #[test]
+    fn names_cannot_become_markup_or_end_a_script() {
+        let page = page();
+        assert!(page.contains("<h1>a &quot;b&quot; &lt;/script&gt;&lt;b&gt;&amp;amp; ü –</h1>"));
+        assert!(page.contains("&lt;!-- what it is") && page.contains("it &lt;broke&gt;."));
+        let start = "<script type=\"application/json\" id=\"report\">";
+        let data = page.split(start).nth(1).unwrap().split("</script>").next().unwrap();
+        assert!(!data.contains('<'));
+        let data: serde_json::Value = serde_json::from_str(data).unwrap();
+        assert_eq!(data["name"], "a \"b\" </script><b>&amp; ü –");
+        assert_eq!((&data["format"], &data["kind"]), (&1.into(), &"run".into()));
+        assert_eq!(data["runs"][0]["film"], serde_json::Value::Null);
+    }
+
+    #[test]
+    fn what_is_read_without_scripts_stands_in_its_order() {
+        let page = page();
+        let parts = [
+            "<h1>",
+            "Failed:",
+            "too &quot;soft&quot;.",
+            "id=\"stage\"",
+            "id=\"still\"",
+            "id=\"readouts\"",
+            "id=\"inputs\"",
+            "id=\"energy\"",
+            "id=\"joints\"",
+            "id=\"motion\"",
+            "id=\"modes\"",
+            "id=\"summary\"",
+            "<th scope=\"col\">first</th>",
+            "<th scope=\"row\">energy</th><td>1 &lt; 2</td>",
+            "host-sim run 'a' &amp;&amp; b",
+            "bits",
+            "id=\"report\"",
+        ];
+        let places: Vec<_> = parts.iter().map(|part| page.find(part).unwrap_or(0)).collect();
+        assert!(places[0] > 0 && places.is_sorted_by(|a, b| a < b), "{parts:?} {places:?}");
+        // One file: nothing is fetched.
+        for fetch in ["src=\"", "href=\"http", "@import", "url(http"] {
+            assert!(!page.contains(fetch), "{fetch}");
+        }
+    }
+}

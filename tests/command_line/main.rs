@@ -2,6 +2,7 @@
 
 mod check;
 mod compare;
+mod gltf;
 mod golden;
 mod new;
 mod picture;

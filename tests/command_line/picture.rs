@@ -48,7 +48,7 @@ fn what_is_no_picture_is_not_replaced() {
     assert_eq!(left.len(), 1, "{left:?}");
 }
 
-/// Before all else, light whatever the reader's screen is, for the page is.
+/// Before all else; for readers without scripts, and light or dark as their screen is.
 #[test]
 fn a_report_begins_with_the_picture() {
     let folder = Folder::new();
@@ -58,5 +58,5 @@ fn a_report_begins_with_the_picture() {
     let (picture, summary) = (page.find("class=\"mechanism\""), page.find("<h2>Summary"));
     assert!(picture.unwrap() < summary.unwrap());
     assert!(page.contains(">TSDA<") && page.contains(">bob<"));
-    assert!(!page.contains("prefers-color-scheme"));
+    assert!(picture < page.find("<script") && page.contains("prefers-color-scheme: dark"));
 }

@@ -21,6 +21,7 @@ const CRATES: &[&str] = &[
     "sweep",
     "output",
     "picture",
+    "report",
     "golden",
     "import",
     "host-sim",

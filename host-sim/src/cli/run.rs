@@ -10,7 +10,7 @@ use dbd_plant::{DampingName, Method, Named as _, OrientationName, PrecisionName,
 use crate::arguments::{SceneArgument, names};
 use crate::cli::named::{ResultsArguments, damped, load};
 use crate::commands::golden::GoldenOptions;
-use crate::commands::run::{Outcome, RunOptions, run};
+use crate::commands::run::{Outcome, RunOptions, gltf_name, run};
 use crate::error::Error;
 use crate::simulate::EnergyLimit;
 use crate::terminal::text::table;
@@ -58,6 +58,9 @@ pub(super) struct RunArguments {
     /// Write no report.html
     #[arg(long)]
     no_report: bool,
+    /// Write the animation as glTF, too: SCENE.glb
+    #[arg(long)]
+    gltf: bool,
     #[command(flatten)]
     results: ResultsArguments,
     /// Print nothing but errors
@@ -90,6 +93,7 @@ pub(super) fn run_scene(
         }),
         out: Some(arguments.results.destination(&file)),
         report: !arguments.no_report,
+        gltf: arguments.gltf,
         called: Some(arguments.scene.scene.clone()),
     };
     let mut progress = Progress::new(console.terminal && !arguments.quiet);
@@ -99,7 +103,7 @@ pub(super) fn run_scene(
     let printed = if arguments.json {
         console.print(&outcome.summary.json())
     } else if !arguments.quiet {
-        console.print(&summary_table(&outcome, options.report))
+        console.print(&summary_table(&outcome, &options))
     } else {
         Ok(())
     };
@@ -121,11 +125,14 @@ pub(super) fn run_scene(
     Ok(if ended_by.is_some() { Exit::Failed } else { Exit::Done })
 }
 
-fn summary_table(outcome: &Outcome, report: bool) -> String {
+fn summary_table(outcome: &Outcome, options: &RunOptions) -> String {
     let mut rows = outcome.summary.rows();
     if let Some(folder) = &outcome.folder {
-        let page = if report { ",report.html" } else { "" };
-        rows.push(("written", format!("{}/{{trace.csv,summary.json{page}}}", folder.display())));
+        let page = if options.report { ",report.html" } else { "" };
+        let animation = options.out.as_ref().filter(|_| options.gltf);
+        let animation = animation.map(|out| format!(",{}", gltf_name(out))).unwrap_or_default();
+        let files = format!("trace.csv,summary.json{page}{animation}");
+        rows.push(("written", format!("{}/{{{files}}}", folder.display())));
     }
     table(&rows)
 }

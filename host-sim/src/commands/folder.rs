@@ -90,7 +90,9 @@ impl Destination {
         let wanted = self.out.join(&self.file.stem);
         let failed = |reason| FolderError::Unwritable { folder: wanted.clone(), reason };
         let folder = file::folder(&self.out, &self.file.stem).map_err(failed)?;
-        file::sweep(&folder, &[&OF_A_RUN[..], &OF_A_SURVEY, &["writable"]].concat());
+        let animation = format!("{}.glb", self.file.stem);
+        let own = [animation.as_str(), "writable"];
+        file::sweep(&folder, &[&OF_A_RUN[..], &OF_A_SURVEY, &own].concat());
         self.claim(&folder, scene)?;
         Ok(folder)
     }
@@ -144,10 +146,11 @@ fn clear(folder: &Path) -> io::Result<()> {
             _ => {}
         }
     }
+    let animation = folder.file_name().map(|name| format!("{}.glb", name.to_string_lossy()));
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
         let name = entry.file_name().to_string_lossy().into_owned();
-        let of_a_run = OF_A_RUN.contains(&name.as_str());
+        let of_a_run = OF_A_RUN.contains(&name.as_str()) || animation.as_ref() == Some(&name);
         let of_a_survey = name.starts_with("trade")
             && [".csv", ".json", ".svg", ".html", ".cache"].iter().any(|end| name.ends_with(end));
         if of_a_run || of_a_survey {

@@ -1,10 +1,11 @@
 //! `host-sim run`: a scene becomes a trace, a summary and a report.
 //!
-//! `(scene, options) => plan => samples => OUT/SCENE/{trace.csv,report.html,summary.json}`. The
+//! `(scene, options) => plan => samples => OUT/SCENE/{trace.csv,SCENE.glb,report.html,summary.json}`. The
 //! folder is made once the input is known to be good; the files appear together when they are complete,
-//! the summary last. A run that fails keeps its trace up to there. The report may be left out.
+//! the summary last. A run that fails keeps its trace up to there. The report may be left
+//! out, and the animation is there where it is asked for.
 
-use std::io;
+use std::io::{self, Write as _};
 use std::path::PathBuf;
 
 use dbd_kernel::damping::Damping;
@@ -14,6 +15,8 @@ use dbd_plant::judge::{Opening, conserves_energy};
 use dbd_plant::plan::{Request, StepRequest, plan};
 use dbd_plant::plant::{check_inputs, check_step};
 use dbd_plant::{Frequencies, Method, Plan, PlanError, PlantError};
+use dbd_report::data::Text;
+use dbd_report::{Data, Recorded, Recording, gltf, page};
 use dbd_scene::{Scene, Setting};
 use dbd_study::command::with_changes;
 use miette::Diagnostic;
@@ -24,7 +27,7 @@ use crate::commands::folder::{Destination, FolderError};
 use crate::commands::golden::{GoldenOptions, GoldenRefusal, GoldenWatch};
 use crate::commands::warnings::{of_run, of_scene, of_step, of_turns};
 use crate::report::{
-    Curves, JointOpening, ReadoutFigures, Report, SetValue, Statistics, Summary, TraceWriter, html,
+    JointOpening, ReadoutFigures, SetValue, Statistics, Summary, TraceWriter, text, trace,
 };
 use crate::simulate::{
     Ending, EnergyLimit, EnergyStop, EnergyWatch, FailedRun, Observer, Sample, SimulationError,
@@ -51,6 +54,8 @@ pub struct RunOptions {
     pub out: Option<Destination>,
     /// Whether a report is among them.
     pub report: bool,
+    /// Whether the animation is among them as glTF.
+    pub gltf: bool,
     /// What a command line calls the scene; its name where `None`.
     pub called: Option<String>,
 }
@@ -68,6 +73,7 @@ impl RunOptions {
             golden: None,
             out: None,
             report: true,
+            gltf: false,
             called: None,
         }
     }
@@ -218,19 +224,18 @@ pub fn run(
         }
         None => None,
     };
-    let columns = scene.readouts.iter().map(|readout| readout.columns.len()).sum();
-    let curves = folder.as_ref().filter(|_| options.report);
-    let curves = curves.map(|_| Curves::new(scene.body_names.len(), columns, plan.samples()));
+    let recorded = folder.is_some() && (options.report || options.gltf);
+    let recording = recorded.then(|| Recording::new(scene, &options.method, &plan)).transpose()?;
     let mut recorder = Recorder {
         trace,
-        curves,
+        recording,
         statistics: Statistics::default(),
         watch: options.watch_energy.map(|limit| EnergyWatch::new(scene, limit)),
         golden,
         progress: &mut |steps| progress(steps, plan.steps),
     };
     let ending = simulate(scene, &options.method, &plan, &mut recorder)?;
-    let Recorder { trace, curves, statistics, watch, golden, .. } = recorder;
+    let Recorder { trace, recording, statistics, watch, golden, .. } = recorder;
     let mut trace_hash = None;
     if let (Some(files), Some(trace)) = (&mut files, trace) {
         let (file, hash) = trace.finish().map_err(RunError::Write)?;
@@ -252,19 +257,8 @@ pub fn run(
     let golden = golden.filter(|_| failure.is_none() && stop.is_none());
     summary.golden = golden.map(|golden| golden.finish(&plan, &with_changes(scene, called)));
     if let (Some(mut files), Some(out)) = (files, &options.out) {
-        let written = match curves {
-            Some(mut curves) => {
-                curves.close();
-                let report =
-                    Report { scene, plan: &plan, summary: &summary, curves: &curves, called };
-                files.write("report.html", &html(&report))
-            }
-            // That of an earlier run is not this one's.
-            None => {
-                files.without("report.html");
-                Ok(())
-            }
-        };
+        let words = text(scene, &plan, &summary, called);
+        let written = show(scene, options, recording, words, &mut files);
         let written = written.and_then(|()| files.write("summary.json", &summary.json()));
         let place = files.folder().to_owned();
         let whole = written.and_then(|()| files.finish()).map_err(RunError::Write)?;
@@ -275,10 +269,49 @@ pub fn run(
     Ok(Outcome { summary, folder, failure, stop })
 }
 
-/// Passes samples on to trace, curves and statistics.
+/// The file of the animation in the folder of a scene's results.
+#[must_use]
+pub fn gltf_name(out: &Destination) -> String {
+    format!("{}.glb", out.file.stem)
+}
+
+/// Writes what people look at. What was not asked for is not left there by an earlier run either.
+fn show(
+    scene: &Scene,
+    options: &RunOptions,
+    recording: Option<Recording>,
+    words: Text,
+    files: &mut FileSet,
+) -> io::Result<()> {
+    let recorded = recording.map(Recording::finish);
+    let animation = options.out.as_ref().map(gltf_name).unwrap_or_default();
+    match recorded.as_ref().filter(|_| options.gltf) {
+        Some(Recorded { run, frames }) => {
+            let mut file = files.begin(&animation)?;
+            if let Some(mechanism) = &run.mechanism {
+                file.write_all(&gltf::glb(mechanism, frames)?)?;
+            }
+            files.add(file);
+        }
+        None => files.without(&animation),
+    }
+    match recorded.filter(|_| options.report) {
+        Some(Recorded { run, .. }) => {
+            let mut data = Data::of_run(&scene.name, &scene.description, run);
+            data.text = words;
+            files.write("report.html", &page::html(&data))
+        }
+        None => {
+            files.without("report.html");
+            Ok(())
+        }
+    }
+}
+
+/// Passes samples on to trace, recording and statistics.
 struct Recorder<'p> {
     trace: Option<TraceWriter<PendingFile>>,
-    curves: Option<Curves>,
+    recording: Option<Recording>,
     statistics: Statistics,
     watch: Option<EnergyWatch>,
     golden: Option<GoldenWatch<'p>>,
@@ -294,8 +327,9 @@ impl Observer for Recorder<'_> {
         if let Some(golden) = &mut self.golden {
             golden.sample(sample).map_err(io::Error::other)?;
         }
-        if let Some(curves) = &mut self.curves {
-            curves.push(sample);
+        if let Some(recording) = &mut self.recording {
+            let Sample { time, state, readings, energy, extensions, .. } = *sample;
+            recording.push(&dbd_report::Sample { time, state, readings, energy, extensions });
         }
         match &mut self.trace {
             Some(trace) => trace.row(sample),
@@ -345,6 +379,7 @@ fn summarise(
         step: plan.step,
         steps: ending.steps,
         duration,
+        samples: statistics.samples(),
         force_evaluations: ending.evaluations,
         evaluations_per_step: method.evaluations(),
         wall_seconds,
@@ -354,6 +389,10 @@ fn summarise(
         energy_drift_rate: statistics.energy_drift_rate(),
         energy_rms_error: conserves_energy(scene).then(|| statistics.energy_rms_error()),
         max_joint_extension: statistics.max_joint_extension(),
+        max_joint_extension_at: statistics
+            .widest()
+            .joint
+            .map(|joint| (scene.joints[joint].name.clone(), statistics.widest().time)),
         frequency_bound_hz: frequencies.bound_hz(),
         frequency_estimate_hz: frequencies.estimate_hz(),
         advised_step: frequencies.advised_step(),
@@ -361,6 +400,8 @@ fn summarise(
         turns: statistics.turns().to_vec(),
         trace_hash: None,
         status,
+        version: env!("CARGO_PKG_VERSION"),
+        trace_format: trace::FORMAT,
         scene_file: None,
         scene_hash: None,
         set: SetValue::of(scene),

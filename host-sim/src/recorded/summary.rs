@@ -11,9 +11,7 @@ use serde::Deserialize;
 
 use crate::recorded::unreadable::Unreadable;
 use crate::report::summary::SetValue;
-
-/// The format of traces that is read.
-pub const TRACE_FORMAT: u64 = 1;
+use crate::report::trace::FORMAT;
 
 /// No summary is larger.
 const MOST_BYTES: u64 = 64 << 20;
@@ -97,10 +95,10 @@ impl RunSummary {
             wrong.with_remedy("run the scene again: its trace and its summary belong together")
         })?;
         let wrong = |problem: String| Unreadable::new(file, problem);
-        if let Some(format) = summary.trace_format.filter(|format| *format != TRACE_FORMAT) {
+        if let Some(format) = summary.trace_format.filter(|format| *format != u64::from(FORMAT)) {
             let by = summary.version.as_ref().map(|of| format!(" by host-sim {of}"));
             return Err(wrong(format!(
-                "its trace is of format {format}, written{}; this program, {}, reads format {TRACE_FORMAT}",
+                "its trace is of format {format}, written{}; this program, {}, reads format {FORMAT}",
                 by.unwrap_or_default(),
                 env!("CARGO_PKG_VERSION"),
             ))

@@ -37,6 +37,17 @@ impl Line {
     }
 }
 
+/// The largest extension of a joint's element.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Widest {
+    /// \[m\].
+    pub extension: f64,
+    /// The joint's row; `None` where none opened.
+    pub joint: Option<usize>,
+    /// \[s\] when.
+    pub time: f64,
+}
+
 /// Accumulates the samples of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Statistics {
@@ -45,7 +56,8 @@ pub struct Statistics {
     last_time: f64,
     line: Line,
     squares: f64,
-    extension: f64,
+    widest: Widest,
+    samples: u64,
     hash: Option<u64>,
     turns: Vec<i32>,
     readings: Vec<Figures>,
@@ -59,9 +71,12 @@ impl Statistics {
             figures.push(sample.time, *value);
         }
         self.push_energy(sample.time, sample.energy.total());
-        if sample.extension > self.extension {
-            self.extension = sample.extension;
+        if sample.extension > self.widest.extension {
+            let widest = |extension: &f64| *extension == sample.extension;
+            let joint = sample.extensions.iter().position(widest);
+            self.widest = Widest { extension: sample.extension, joint, time: sample.time };
         }
+        self.samples += 1;
         self.hash = Some(sample.hash);
         self.turns.clone_from(&sample.state.turns);
     }
@@ -108,7 +123,19 @@ impl Statistics {
     /// \[m\] the largest extension of the joints' elements.
     #[must_use]
     pub fn max_joint_extension(&self) -> f64 {
-        self.extension
+        self.widest.extension
+    }
+
+    /// The same with its joint and time.
+    #[must_use]
+    pub fn widest(&self) -> Widest {
+        self.widest
+    }
+
+    /// How many samples there were.
+    #[must_use]
+    pub fn samples(&self) -> u64 {
+        self.samples
     }
 
     /// \[s\] the time of the last sample.

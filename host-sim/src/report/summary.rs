@@ -38,6 +38,8 @@ pub struct Summary {
     pub steps: u64,
     /// \[s\] simulated time.
     pub duration: f64,
+    /// Samples: rows of the trace.
+    pub samples: u64,
     /// Force evaluations performed.
     pub force_evaluations: u64,
     /// Those of a step of the method where nothing changes between steps; no key.
@@ -57,6 +59,9 @@ pub struct Summary {
     pub energy_rms_error: Option<f64>,
     /// \[m\] largest |L − L0| or |e| over samples and the joints' elements.
     pub max_joint_extension: f64,
+    /// The joint of that and its time \[s\]; `None` where none opened; no key.
+    #[serde(skip)]
+    pub max_joint_extension_at: Option<(String, f64)>,
     /// \[Hz\] upper bound of the highest frequency at t = 0.
     pub frequency_bound_hz: f64,
     /// \[Hz\] estimate of the highest frequency at t = 0.
@@ -72,6 +77,10 @@ pub struct Summary {
     pub trace_hash: Option<String>,
     /// `ok`, or a sentence that names the failure.
     pub status: String,
+    /// The version of host-sim that ran it.
+    pub version: &'static str,
+    /// The format of the trace.
+    pub trace_format: u32,
     /// The whole path of the scene's file, or `built in` or `standard input`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scene_file: Option<String>,
@@ -173,6 +182,17 @@ impl Summary {
         format!("{count} ({each} per step, {anew} anew where a table or a load had changed)")
     }
 
+    /// The largest extension with its joint and time.
+    fn extension(&self) -> String {
+        let extension = format!("{} m", significant(self.max_joint_extension, 4));
+        match &self.max_joint_extension_at {
+            Some((joint, time)) => {
+                format!("{extension}, of `{joint}` at t = {}", display(rounded(*time, 6)))
+            }
+            None => extension,
+        }
+    }
+
     /// What people read: a name and a text with units each.
     #[must_use]
     pub fn rows(&self) -> Vec<(&'static str, String)> {
@@ -198,7 +218,13 @@ impl Summary {
             significant(self.wall_seconds, 3),
             significant(self.srt, 3),
         );
-        let span = format!("{} × {} = {}", self.steps, display(self.step), display(self.duration));
+        let span = format!(
+            "{} × {} = {}, {} samples",
+            self.steps,
+            display(self.step),
+            display(self.duration),
+            self.samples,
+        );
         let advised = advised_text(self.advised_step, self.frequency_bound_hz);
         let widest = match &self.widest_joint {
             Some(JointOpening { name, extension, free_length, time }) => format!(
@@ -219,7 +245,7 @@ impl Summary {
             ("energy, final", format!("{} J", significant(self.energy_final, 10))),
             ("energy, drift rate", format!("{} W", significant(self.energy_drift_rate, 4))),
             ("energy, RMS error", rms),
-            ("joint extension, largest", format!("{} m", significant(self.max_joint_extension, 4))),
+            ("joint extension, largest", self.extension()),
             ("widest joint", widest),
             ("highest frequency", frequency),
             ("advised step", advised),

@@ -13,6 +13,10 @@ use dbd_scene::Scene;
 use crate::report::summary::SetValue;
 use crate::simulate::Sample;
 
+/// The format of a trace: what its lines and columns mean. A change that readers would misread counts
+/// it up.
+pub const FORMAT: u32 = 1;
+
 /// How a line begins that says which value was changed.
 pub const SET: &str = "# set ";
 

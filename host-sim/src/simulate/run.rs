@@ -35,6 +35,8 @@ pub struct Sample<'s> {
     pub energy: Energy<f64>,
     /// \[m\] the largest extension of the joints' elements.
     pub extension: f64,
+    /// \[m\] the largest of each joint's, in scene order.
+    pub extensions: &'s [f64],
     /// The hash of the stored words.
     pub hash: u64,
 }
@@ -113,7 +115,10 @@ pub fn simulate(
         observer.progress(done);
         if done == next_sample {
             read(scene, plant.as_ref(), &mut readings);
-            let sample = Sample::new(plant.as_ref(), &state, &readings, &verdict);
+            let sample = Sample {
+                extensions: judge.extensions(),
+                ..Sample::new(plant.as_ref(), &state, &readings, &verdict)
+            };
             observer.sample(&sample).map_err(SimulationError::Observer)?;
             next_sample = plan.steps.min(next_sample + plan.stride);
         }
@@ -154,6 +159,7 @@ impl<'s> Sample<'s> {
             readings,
             energy: verdict.energy,
             extension: verdict.extension,
+            extensions: &[],
             hash: plant.hash(),
         }
     }

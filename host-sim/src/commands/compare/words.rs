@@ -5,7 +5,7 @@ use dbd_plant::time::{display, rounded};
 
 use crate::commands::compare::differs::{Differs, differs, grouped};
 use crate::comparison::{Comparison, Quantity, Verdict};
-use crate::recorded::{Head, Kind};
+use crate::recorded::Kind;
 use crate::terminal::text::{aligned, table};
 
 /// Lists of names are no longer.

@@ -1,0 +1,75 @@
+//! What the page of a run says in words.
+//!
+//! `(scene, plan, summary) => failures, warnings, picture, tables, command line`, in HTML that needs no
+//! scripts.
+
+use dbd_picture::{Mechanism, Paper};
+use dbd_plant::Plan;
+use dbd_plant::time::display;
+use dbd_report::data::{FORMAT, Table, Text};
+use dbd_scene::Scene;
+use dbd_study::command::with_changes;
+
+use crate::report::summary::Summary;
+
+/// Of more bodies there is no still picture: nobody could tell them apart.
+const MOST_PICTURED: usize = 300;
+
+/// The words of a run's page. `called` is what a command line calls the scene.
+#[must_use]
+pub fn text(scene: &Scene, plan: &Plan, summary: &Summary, called: &str) -> Text {
+    let failures = (summary.status != "ok").then(|| summary.status.clone());
+    let pictured = scene.body_names.len() <= MOST_PICTURED;
+    let cells = |(row, text): (&str, String)| vec![row.into(), text];
+    let table = |title: &str, rows: Vec<(&'static str, String)>| Table {
+        title: title.into(),
+        columns: Vec::new(),
+        rows: rows.into_iter().map(cells).collect(),
+    };
+    let note = summary.state_hash.as_ref().map(|hash| {
+        format!(
+            "The same state hash, {hash}, means the same bits: every position, orientation and \
+             velocity at the end of the run."
+        )
+    });
+    Text {
+        failures: failures.into_iter().collect(),
+        warnings: summary.warnings.clone(),
+        picture: pictured.then(|| dbd_picture::svg(&Mechanism::of(scene), Paper::Page)),
+        tables: vec![table("Summary", summary.rows()), table("Versions", versions(summary))],
+        commands: vec![(String::new(), command(scene, plan, summary, called))],
+        notes: note.into_iter().collect(),
+    }
+}
+
+/// What made the run and its files.
+fn versions(summary: &Summary) -> Vec<(&'static str, String)> {
+    let mut rows = vec![
+        ("host-sim", summary.version.to_owned()),
+        ("format of the trace", summary.trace_format.to_string()),
+        ("format of this page's data", FORMAT.to_string()),
+    ];
+    rows.extend(summary.scene_file.iter().map(|file| ("scene file", file.clone())));
+    rows.extend(summary.scene_hash.iter().map(|hash| ("hash of its text", hash.clone())));
+    rows
+}
+
+/// The command line of the run, with all that was chosen for it spelled out.
+fn command(scene: &Scene, plan: &Plan, summary: &Summary, called: &str) -> String {
+    let newton = summary.newton.map(|n| format!(" --newton {n}")).unwrap_or_default();
+    let damping = summary.damping.map(|way| format!(" --damping {way}")).unwrap_or_default();
+    let orientation = match summary.orientation {
+        "quaternion" => String::new(),
+        other => format!(" --orientation {other}"),
+    };
+    format!(
+        "host-sim run {} --scheme {}{newton}{damping} --precision {}{orientation} --step {} \
+         --duration {} --every {}",
+        with_changes(scene, called),
+        summary.scheme,
+        summary.precision,
+        display(plan.step),
+        display(plan.duration),
+        display(plan.time(plan.stride).min(plan.duration)),
+    )
+}
