@@ -384,7 +384,10 @@ fn the_page_holds_both_runs_and_their_differences() {
     assert!(done.out.contains("scene-a-and-b/{report.html,compare.json}"), "{}", done.out);
     let data = page(&bench, 2);
     let labels = data["runs"].as_array().unwrap().iter().map(|run| run["label"].clone());
-    assert_eq!(labels.collect::<Vec<_>>(), ["A: tsda.1.stiffness 2e3", "B: tsda.1.stiffness 4e3"]);
+    assert_eq!(
+        labels.collect::<Vec<_>>(),
+        ["A: tsda.1.stiffness = 2e3", "B: tsda.1.stiffness = 4e3"]
+    );
     for run in data["runs"].as_array().unwrap() {
         assert!(run["mechanism"].is_object() && run["film"].is_object(), "{run}");
         let titles: Vec<&str> = run["charts"]

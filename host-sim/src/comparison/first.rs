@@ -38,29 +38,37 @@ impl fmt::Display for First {
         let [step, other] = self.steps;
         write!(f, "t = {}, ", display(self.time))?;
         match step == other {
-            true => write!(f, "step {step}: ")?,
-            false => write!(f, "step {step} of A and {other} of B: ")?,
+            true => write!(f, "step {step}: {}", self.what()),
+            false => write!(f, "step {step} of A and {other} of B: {}", self.what()),
         }
+    }
+}
+
+impl First {
+    /// What differs, without when.
+    #[must_use]
+    pub fn what(&self) -> String {
         if self.component == "state" {
-            return write!(
-                f,
+            return format!(
                 "the hash of the stored state, though all {} numbers that both hold are equal",
                 self.numbers
             );
         }
         let [a, b] = self.values;
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
-        write!(f, "{} is {a:?}{unit} in A, {b:?}{unit} in B", self.component)?;
         let apart = significant((b - a).abs(), 3);
-        match self.ulps {
+        let apart = match self.ulps {
             // Of values whose rounding to the coarser precision is the same.
             Some(0) => {
-                write!(f, " ({apart}{unit} apart, equal when rounded to the coarser precision)")?
+                format!(" ({apart}{unit} apart, equal when rounded to the coarser precision)")
             }
-            Some(ulps) => write!(f, " ({apart}{unit} apart, {ulps} ULP)")?,
-            None => {}
-        }
-        write!(f, "; {} of {} numbers differ there", self.differing, self.numbers)
+            Some(ulps) => format!(" ({apart}{unit} apart, {ulps} ULP)"),
+            None => String::new(),
+        };
+        format!(
+            "{} is {a:?}{unit} in A, {b:?}{unit} in B{apart}; {} of {} numbers differ there",
+            self.component, self.differing, self.numbers
+        )
     }
 }
 

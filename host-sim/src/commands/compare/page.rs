@@ -3,6 +3,8 @@
 //! `comparison, scenes, rows => data => HTML`. The rows are read a second time, one run after the other, so that runs of
 //! any length fit into memory.
 
+use std::path::Path;
+
 use dbd_golden::Quantity as BodyQuantity;
 use dbd_picture::{Mechanism, Paper, svg};
 use dbd_plant::time::display;
@@ -22,6 +24,9 @@ use crate::recorded::{Head, Recorded, Row, Unreadable};
 
 /// Mechanisms of more bodies have no still picture.
 const MOST_PICTURED: usize = 500;
+
+/// Letters of what tells two runs apart in a title.
+const LONGEST_TITLE: usize = 60;
 
 /// The differences of two runs, as they are compared.
 pub struct Differences {
@@ -85,7 +90,7 @@ pub fn labels(comparison: &Comparison) -> [String; 2] {
         .map(|fact| {
             let sides = fact.sides();
             let name = fact.what.strip_prefix("set ").or((fact.what == "step").then_some("step"));
-            sides.map(|side| name.map_or(side.to_owned(), |name| format!("{name} {side}")))
+            sides.map(|side| name.map_or(side.to_owned(), |name| format!("{name} = {side}")))
         })
         .collect();
     ["A", "B"].map(|run| {
@@ -106,7 +111,7 @@ pub fn page(
     comparison: &Comparison,
     differences: Differences,
     scenes: &[Result<Scene, String>; 2],
-    called: [&std::path::Path; 2],
+    called: [&Path; 2],
 ) -> Result<String, Unreadable> {
     let labels = labels(comparison);
     let mut runs = Vec::new();
@@ -132,7 +137,7 @@ pub fn page(
     let first = comparison.first.as_ref().map(|first| FirstDifference {
         time: first.time,
         step: first.steps[0],
-        text: first.to_string(),
+        text: first.what(),
     });
     let [a, b] = &comparison.heads;
     let name =
@@ -142,11 +147,7 @@ pub fn page(
     let data = Data {
         format: FORMAT,
         kind: Kind::Compare,
-        name: format!(
-            "{name}: {} and {}",
-            short(&labels[0], called[0]),
-            short(&labels[1], called[1])
-        ),
+        name: title(&name, &labels, called),
         description: lead(comparison),
         runs,
         differences: differences.charts,
@@ -165,24 +166,29 @@ pub fn page(
     Ok(html(&data))
 }
 
-/// A run's label without the letter; where there is nothing else, its place.
-fn short(label: &str, called: &std::path::Path) -> String {
-    label
-        .split_once(": ")
-        .map_or_else(|| called.display().to_string(), |(_, facts)| facts.to_owned())
+/// The title: the scene, and what tells the runs apart where that is short, else their places.
+fn title(name: &str, labels: &[String; 2], called: [&Path; 2]) -> String {
+    let facts = labels.each_ref().map(|label| label.split_once(": ").map(|(_, facts)| facts));
+    match facts {
+        [Some(a), Some(b)] if a.len() + b.len() <= LONGEST_TITLE => format!("{name}: {a} and {b}"),
+        _ => format!("{name}: {} and {}", called[0].display(), called[1].display()),
+    }
 }
 
 fn lead(comparison: &Comparison) -> String {
     let verdict = words::verdict(comparison);
-    match &comparison.first {
-        Some(first) => {
-            format!("The bits of the two runs are {verdict}. They first differ at {first}.")
-        }
-        None => format!("The bits of the two runs are {verdict}."),
+    let apart = comparison.quantities.iter().take(2).filter(|of| !of.is_equal()).map(|of| {
+        let [name, _, largest, body, time, _] = words::quantity(of, false);
+        format!("in {name} {largest} ({body}, t = {time})")
+    });
+    let apart = apart.collect::<Vec<_>>().join(", ");
+    match apart.is_empty() {
+        true => format!("The two runs are {verdict}."),
+        false => format!("The two runs are {verdict}. At most they are apart {apart}."),
     }
 }
 
-fn command(called: [&std::path::Path; 2]) -> String {
+fn command(called: [&Path; 2]) -> String {
     let [a, b] = called.map(|path| quoted(&path.display().to_string()));
     format!("host-sim compare {a} {b}")
 }
