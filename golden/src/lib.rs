@@ -4,7 +4,8 @@
 //! in the order in which they stand on each other:
 //!
 //! - `number`, `component`, [`head`], `chain`: what lines are made of.
-//! - [`subject`]: what is recorded. `distance`: how far two bodies are apart.
+//! - [`subject`]: what is recorded.
+//! - `distance`: how far two bodies are apart.
 //! - [`record`]: a run becomes lines.
 //! - [`mismatch`]: what can be wrong, with both values.
 //! - [`mod@text`]: a file's lines become numbers, or damage is named.

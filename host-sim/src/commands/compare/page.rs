@@ -121,14 +121,14 @@ pub fn page(
         let end = comparison.ends[side];
         let of = match &scenes[side] {
             Ok(scene) => of_scene(scene, again, end)?,
-            Err(why) => {
-                warnings.push(format!("no animation of {}: {why}", ["A", "B"][side]));
-                None
-            }
+            Err(why) => Err(why.clone()),
         };
         let run = match of {
-            Some(run) => run,
-            None => of_rows(Recorded::open(called[side])?, end)?,
+            Ok(run) => run,
+            Err(why) => {
+                warnings.push(format!("no animation of {}: {why}", ["A", "B"][side]));
+                of_rows(Recorded::open(called[side])?, end)?
+            }
         };
         runs.push(Run { label: labels[side].clone(), ..run });
     }

@@ -18,15 +18,22 @@ use crate::commands::compare::charts::ChartList;
 use crate::comparison::run::End;
 use crate::recorded::{Head, Recorded, Row, Unreadable};
 
-/// The run of a scene.
+/// The run of a scene; or why it cannot be seen.
 ///
 /// # Errors
 /// Where its rows cannot be read again.
-pub fn of_scene(scene: &Scene, mut run: Recorded, end: End) -> Result<Option<Run>, Unreadable> {
+pub fn of_scene(
+    scene: &Scene,
+    mut run: Recorded,
+    end: End,
+) -> Result<Result<Run, String>, Unreadable> {
     let head = run.head.clone();
     let method = method(&head).unwrap_or_default();
     let plan = plan(&head, end);
-    let Ok((mut recording, mut plant)) = begun(scene, &method, &plan) else { return Ok(None) };
+    let (mut recording, mut plant) = match begun(scene, &method, &plan) {
+        Ok(begun) => begun,
+        Err(why) => return Ok(Err(why.to_string())),
+    };
     let mut judge = Judge::new(scene, plant.as_ref());
     let initial = plant.state();
     let readings = scene.readouts.iter().map(|readout| readout.columns.len()).sum::<usize>();
@@ -50,7 +57,7 @@ pub fn of_scene(scene: &Scene, mut run: Recorded, end: End) -> Result<Option<Run
         let extensions = judge.extensions();
         recording.push(&Sample { time: row.time, state: &state, readings, energy, extensions });
     }
-    Ok(Some(recording.finish().run))
+    Ok(Ok(recording.finish().run))
 }
 
 fn begun(
