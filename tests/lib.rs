@@ -22,6 +22,7 @@ pages! {
     authoring "docs/authoring.md"
     board "docs/board.md"
     command_line "docs/command-line.md"
+    compare "docs/compare.md"
     development "docs/development.md"
     extremes "docs/extremes.md"
     golden "docs/golden.md"

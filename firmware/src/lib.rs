@@ -19,6 +19,7 @@ pub mod relay;
 pub mod root;
 pub mod sample;
 pub mod sensors;
+pub mod trajectory;
 pub mod wiring;
 
 #[cfg(target_os = "none")]

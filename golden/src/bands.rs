@@ -55,8 +55,9 @@ impl<'a> Bands<'a> {
         named.map(|(_, band)| *band).or(self.others)
     }
 
-    /// The first name of a value that is none of these.
-    pub(crate) fn unknown(&self, values: &[&str]) -> Option<&'a str> {
+    /// The first name with a band that is that of none of these values.
+    #[must_use]
+    pub fn unknown(&self, values: &[&str]) -> Option<&'a str> {
         let known = |of: &str| values.iter().any(|name| is_of(name, of));
         self.values.iter().map(|(of, _)| *of).find(|of| !known(of))
     }

@@ -296,10 +296,7 @@ impl<'t, 'a> Tally<'t, 'a> {
             if of.iter().zip(is).all(|(of, is)| same(*of, *is)) {
                 continue;
             }
-            let distance = match quantity {
-                Quantity::Orientation => turn(of, is),
-                _ => length(of.iter().zip(is).map(|(of, is)| is - of)),
-            };
+            let distance = quantity.distance(&golden, &present);
             if let Some(place) = self.furthest.quantities.get_mut::<usize>(far) {
                 Furthest::take(place, distance, body);
             }
@@ -342,36 +339,5 @@ impl<'t, 'a> Tally<'t, 'a> {
         if !within && most.is_none_or(|most| ratio(beyond) > most) {
             self.found = Some(self.found(at, pair, Some(beyond)));
         }
-    }
-}
-
-fn length(components: impl Iterator<Item = f64>) -> f64 {
-    libm::sqrt(components.map(|component| component * component).sum())
-}
-
-/// \[rad\] the angle of the turn between two unit quaternions, whichever their signs.
-fn turn(a: &[f64], b: &[f64]) -> f64 {
-    let apart = length(a.iter().zip(b).map(|(a, b)| b - a));
-    let opposite = length(a.iter().zip(b).map(|(a, b)| b + a));
-    let chord = if opposite < apart { opposite } else { apart };
-    // The sine of a quarter of the turn; no NaN is lost on the way.
-    let sine = 0.5 * chord;
-    4.0 * libm::asin(if sine > 1.0 { 1.0 } else { sine })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::turn;
-
-    #[test]
-    fn a_turn_is_the_angle_between() {
-        let about_z = |angle: f64| [(0.5 * angle).cos(), 0.0, 0.0, (0.5 * angle).sin()];
-        for angle in [0.0, 1e-12, 1e-3, 1.0, 3.0] {
-            let (a, b) = (about_z(0.3), about_z(0.3 + angle));
-            for b in [b, b.map(|c| -c)] {
-                assert!((turn(&a, &b) - angle).abs() < 1e-15 + 1e-14 * angle, "{angle}");
-            }
-        }
-        assert!(turn(&[f64::NAN, 0.0, 0.0, 0.0], &[1.0, 0.0, 0.0, 0.0]).is_nan());
     }
 }

@@ -27,8 +27,9 @@ impl Quantity {
     pub const ALL: [Quantity; 4] =
         [Quantity::Position, Quantity::Orientation, Quantity::Velocity, Quantity::AngularVelocity];
 
-    /// That of a column of a body.
-    pub(crate) const fn of_column(column: usize) -> Self {
+    /// That of one of the 13 columns of a body.
+    #[must_use]
+    pub const fn of_column(column: usize) -> Self {
         match column {
             0..3 => Quantity::Position,
             3..7 => Quantity::Orientation,
@@ -37,8 +38,9 @@ impl Quantity {
         }
     }
 
-    /// Its columns of a body.
-    pub(crate) const fn columns(self) -> core::ops::Range<usize> {
+    /// Its columns among the 13 of a body.
+    #[must_use]
+    pub const fn columns(self) -> core::ops::Range<usize> {
         match self {
             Quantity::Position => 0..3,
             Quantity::Orientation => 3..7,

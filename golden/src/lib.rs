@@ -5,6 +5,7 @@
 //!
 //! - `number`, `component`, [`head`], `chain`: what lines are made of.
 //! - [`subject`]: what is recorded.
+//! - `distance`: how far two bodies are apart.
 //! - [`record`]: a run becomes lines.
 //! - [`mismatch`]: what can be wrong, with both values.
 //! - [`mod@text`]: a file's lines become numbers, or damage is named.
@@ -60,6 +61,7 @@ pub mod blessing;
 mod chain;
 pub mod compare;
 mod component;
+mod distance;
 #[cfg(feature = "std")]
 pub mod file;
 pub mod head;
@@ -84,11 +86,11 @@ pub use component::{Component, Quantity};
 pub use file::{GoldenError, GoldenFile, Verdict};
 pub use head::{Head, Identity};
 pub use mismatch::{Damage, Difference, Mismatch};
-pub use number::Digits;
+pub use number::{Digits, same};
 #[cfg(feature = "std")]
 pub use plants::Readable;
 pub use record::{RecordError, Recorder};
 #[cfg(feature = "std")]
 pub use recording::Recording;
 pub use subject::{Moment, Subject};
-pub use text::Golden;
+pub use text::{Golden, Row, Rows};

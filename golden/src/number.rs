@@ -50,8 +50,10 @@ impl Digits {
         }
     }
 
-    /// How many numbers of this precision one is from the other; none from a NaN.
-    pub(crate) fn ulps(self, a: f64, b: f64) -> Option<u64> {
+    /// How many numbers of this precision one is from the other; none from a NaN. Among singles a double that is
+    /// none is counted in doubles.
+    #[must_use]
+    pub fn ulps(self, a: f64, b: f64) -> Option<u64> {
         if a.is_nan() || b.is_nan() {
             return None;
         }
@@ -74,7 +76,8 @@ fn is_single(value: f64) -> bool {
 }
 
 /// Whether two numbers have the same bits; one NaN is like another.
-pub(crate) fn same(a: f64, b: f64) -> bool {
+#[must_use]
+pub fn same(a: f64, b: f64) -> bool {
     Word::F64(a).bits() == Word::F64(b).bits()
 }
 

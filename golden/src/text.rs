@@ -23,11 +23,13 @@ pub struct Golden<'g> {
     samples: u64,
 }
 
-/// A row.
+/// A row: what was recorded at a step.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Row<'g> {
-    pub(crate) step: u64,
-    pub(crate) hash: u64,
+pub struct Row<'g> {
+    /// The step.
+    pub step: u64,
+    /// FNV-1a 64 over the state's stored words.
+    pub hash: u64,
     /// The numbers, of bodies, turns and values.
     fields: &'g str,
 }
@@ -154,6 +156,29 @@ impl<'g> Golden<'g> {
         self.samples
     }
 
+    /// The scene's name.
+    #[must_use]
+    pub fn scene(&self) -> &'g str {
+        self.scene
+    }
+
+    /// What its bits belong to.
+    #[must_use]
+    pub fn identity(&self) -> &Identity<'g> {
+        &self.identity
+    }
+
+    /// Steps from sample to sample.
+    #[must_use]
+    pub fn every(&self) -> u64 {
+        self.every
+    }
+
+    /// The names of the numbers of a row, in order: 13 of each body, the turn counts, the recorded values.
+    pub fn columns(&self) -> impl Iterator<Item = &'g str> + use<'g> {
+        self.header.split('\t').take(self.numbers())
+    }
+
     /// The step of its first sample.
     #[must_use]
     pub fn first_step(&self) -> Option<u64> {
@@ -237,13 +262,14 @@ impl<'g> Golden<'g> {
         }
     }
 
-    /// The rows.
-    pub(crate) fn rows(&self) -> Rows<'g> {
+    /// The rows in their order.
+    #[must_use]
+    pub fn rows(&self) -> Rows<'g> {
         Rows(self.lines)
     }
 
-    /// The numbers of a row.
-    pub(crate) fn numbers_of(&self, row: &Row<'g>) -> impl Iterator<Item = f64> + use<'g> {
+    /// The numbers of a row, widened exactly.
+    pub fn numbers_of(&self, row: &Row<'g>) -> impl Iterator<Item = f64> + use<'g> {
         let golden = *self;
         let numbers = row.fields.split('\t').enumerate();
         // All were read once before.
@@ -257,7 +283,7 @@ fn step_of(row: &str) -> Option<u64> {
 
 /// The rows of a file that was found whole.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Rows<'g>(Lines<'g>);
+pub struct Rows<'g>(Lines<'g>);
 
 impl<'g> Iterator for Rows<'g> {
     type Item = Row<'g>;

@@ -5,6 +5,7 @@ use dbd_study::SurveyError;
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::commands::compare::CompareRefusal;
 use crate::commands::export::ExportError;
 use crate::commands::import::ImportError;
 use crate::commands::new::NewError;
@@ -63,6 +64,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Sweep(#[from] SweepError),
+    /// Two runs were not compared.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Compare(#[from] CompareRefusal),
     /// Standard output does not take the results.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -83,6 +88,8 @@ impl Error {
             Self::LongForm(WriteError::Write { .. } | WriteError::Differs) => Exit::Failed,
             Self::LongForm(_) => Exit::Refused,
             Self::Output(_) => Exit::Failed,
+            // 1 means that the runs differ.
+            Self::Compare(_) => Exit::Refused,
             Self::Run(error) => match error {
                 RunError::Plan(_)
                 | RunError::Setting(_)

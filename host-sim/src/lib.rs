@@ -7,8 +7,10 @@
 //! - [`simulate`]: a planned run, sample by sample; where one failed and which step works.
 //! - [`compliance`]: how far joints give way under the forces at t = 0.
 //! - [`report`]: what is left of a run: trace, summary, page.
+//! - [`recorded`]: runs that were recorded, read back.
+//! - [`comparison`]: two of them beside each other.
 //! - [`arguments`]: what several commands take.
-//! - [`commands`]: `list`, `check`, `run`, `sweep`, `trade`, `export`, `import`, `new`, `completions`.
+//! - [`commands`]: `list`, `check`, `run`, `compare`, `sweep`, `trade`, `export`, `import`, `new`, `completions`.
 //! - [`error`]: what ends a command early.
 //! - [`cli`]: arguments in, exit code out.
 //!
@@ -18,8 +20,10 @@
 pub mod arguments;
 pub mod cli;
 pub mod commands;
+pub mod comparison;
 pub mod compliance;
 pub mod error;
+pub mod recorded;
 pub mod report;
 pub mod simulate;
 pub mod terminal;

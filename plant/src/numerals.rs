@@ -8,6 +8,8 @@ use std::io::{self, Write};
 use dbd_kernel::words::{Word, WordVisitor, Words};
 use dbd_kernel::{Geometry, Real};
 
+use crate::names::{Named as _, OrientationName, PrecisionName};
+
 /// Which number a text must read back to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Digits {
@@ -77,6 +79,42 @@ impl Digits {
             Digits::Double => write!(to, "{value:?}"),
         }
     }
+
+    /// Reads back what [`Self::write`] has written, widened exactly; `None` for any other text, be it a
+    /// number elsewhere.
+    #[must_use]
+    pub fn read(self, text: &str) -> Option<f64> {
+        match text {
+            "NaN" => return Some(f64::NAN),
+            "inf" => return Some(f64::INFINITY),
+            "-inf" => return Some(f64::NEG_INFINITY),
+            _ => {}
+        }
+        let plain = text.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'e' | b'-'));
+        let number = match self {
+            _ if !plain => None,
+            Digits::Single => text.parse::<f32>().ok().map(f64::from),
+            Digits::Double => text.parse().ok(),
+        };
+        number.filter(|number: &f64| number.is_finite())
+    }
+}
+
+impl Numerals {
+    /// The numerals of a precision and a way of storing orientations, by their names; `None` where there is no
+    /// such precision.
+    #[must_use]
+    pub fn of_names(precision: &str, orientation: &str) -> Option<Self> {
+        let precision = PrecisionName::of_name(precision)?;
+        let number = match precision {
+            PrecisionName::F64 => Digits::Double,
+            PrecisionName::F32 | PrecisionName::F32Micromath => Digits::Single,
+        };
+        // Angles are stored otherwise than they are shown.
+        let quaternion = orientation == OrientationName::Quaternion.name();
+        let orientation = if quaternion { number } else { Digits::Double };
+        Some(Self { position: number, orientation, velocity: number, reading: number })
+    }
 }
 
 #[cfg(test)]
@@ -99,17 +137,40 @@ mod tests {
     }
 
     #[test]
+    fn numerals_are_known_by_their_names() {
+        let known = |precision, orientation| Numerals::of_names(precision, orientation);
+        assert_eq!(known("f32", "quaternion"), Some(Numerals::of::<F32>()));
+        assert_eq!(known("f64", "quaternion"), Some(Numerals::of::<F64>()));
+        assert_eq!(known("f32", "euler-321"), Some(Numerals::of::<dbd_kernel::euler::EulerF32>()));
+        assert_eq!(known("f16", "quaternion"), None);
+    }
+
+    #[test]
+    fn nothing_is_read_but_what_is_written() {
+        for wrong in [
+            "", "-", "nan", "infinity", "+1.0", "1,5", "0x1", "1E5", " 1.0", "1.0d", "1e999",
+            "1..0",
+        ] {
+            for digits in [Digits::Single, Digits::Double] {
+                assert_eq!(digits.read(wrong), None, "{wrong}");
+            }
+        }
+        assert_eq!(Digits::Single.read("1e39"), None);
+        assert!(Digits::Double.read("NaN").is_some_and(f64::is_nan));
+    }
+
+    #[test]
     fn texts_are_short_and_exact() {
         assert_eq!(text(Digits::Single, f64::from(0.1_f32)), "0.1");
         assert_eq!(text(Digits::Double, f64::from(0.1_f32)), "0.10000000149011612");
         assert_eq!(text(Digits::Double, -0.0), "-0.0");
         for value in [1.0 / 3.0, f64::MIN_POSITIVE, 5e-324, f64::MAX, 2e-5] {
-            let read: f64 = text(Digits::Double, value).parse().unwrap();
+            let read = Digits::Double.read(&text(Digits::Double, value)).unwrap();
             assert_eq!(read.to_bits(), value.to_bits());
             let single = value as f32;
             if single.is_finite() {
-                let read: f32 = text(Digits::Single, f64::from(single)).parse().unwrap();
-                assert_eq!(read.to_bits(), single.to_bits());
+                let read = Digits::Single.read(&text(Digits::Single, f64::from(single))).unwrap();
+                assert_eq!((read as f32).to_bits(), single.to_bits());
             }
         }
     }

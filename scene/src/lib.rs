@@ -51,7 +51,7 @@ use std::ops::Range;
 use std::path::Path;
 
 pub use build::{Build, build};
-pub use columns::{BODY_COLUMNS, ENERGY_COLUMNS};
+pub use columns::{BODY_COLUMNS, ENERGY_COLUMNS, TIME_COLUMN, TraceColumns, UnlikeColumn};
 pub use derived::DerivedBody;
 pub use error::{Refusal, SceneError};
 pub use facts::{ElementDamping, ElementFrequency, Facts, Island, JointElement, JointFacts};

@@ -1,6 +1,7 @@
 //! The command line as users and their scripts meet it: exit codes, files, numbers, messages.
 
 mod check;
+mod compare;
 mod gltf;
 mod golden;
 mod modes;

@@ -8,6 +8,7 @@
 //! - `root`: square roots in single precision, see [`firmware::root`].
 //! - `sample`: what a step costs, of some models and schemes, see `firmware::cost` (target only).
 //! - `sensors`: bits of sensors and motors, see [`firmware::sensors`].
+//! - `trajectory`: a run as a golden file, see [`firmware::trajectory`].
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 use core::str::FromStr;
@@ -15,7 +16,7 @@ use core::str::FromStr;
 use firmware::console::{argument, exit};
 use firmware::hash::Limits;
 use firmware::relay::Part;
-use firmware::{hash, relay, root, say, sensors};
+use firmware::{hash, relay, root, say, sensors, trajectory};
 
 enum Program {
     Board,
@@ -24,6 +25,7 @@ enum Program {
     Root,
     Sample,
     Sensors,
+    Trajectory,
 }
 
 impl FromStr for Program {
@@ -37,6 +39,7 @@ impl FromStr for Program {
             "root" => Ok(Self::Root),
             "sample" => Ok(Self::Sample),
             "sensors" => Ok(Self::Sensors),
+            "trajectory" => Ok(Self::Trajectory),
             _ => Err(()),
         }
     }
@@ -51,8 +54,11 @@ fn main() -> ! {
         Some(Program::Root) => root::run(),
         Some(Program::Sample) => machine::sample(),
         Some(Program::Sensors) => sensors::run(),
+        Some(Program::Trajectory) => trajectory::run(),
         None => {
-            say!("the first argument names a program: board, hash, relay, root, sample or sensors");
+            say!(
+                "the first argument names a program: board, hash, relay, root, sample, sensors or trajectory"
+            );
             false
         }
     })

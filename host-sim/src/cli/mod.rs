@@ -4,6 +4,7 @@
 //! further commands need no binary.
 
 mod check;
+mod compare;
 mod named;
 mod run;
 mod trade;
@@ -16,9 +17,11 @@ use clap_complete::Shell;
 use dbd_import::omission;
 
 use crate::cli::check::{CheckArguments, check_scene};
+use crate::cli::compare::compare;
 use crate::cli::named::load;
 use crate::cli::run::{RunArguments, run_scene};
 use crate::cli::trade::{TradeArguments, trade_scene};
+use crate::commands::compare::CompareArguments;
 use crate::commands::completions::script;
 use crate::commands::export::{self, ExportArguments};
 use crate::commands::import::{self, ImportArguments};
@@ -55,6 +58,9 @@ enum Command {
     /// Runs a scene with many values: writes OUT/SPEC/sweep.{csv,html,json}, a row per case; finished cases
     /// never run again
     Sweep(SweepArguments),
+    /// Compares two recorded runs, two schemes or a PC and a chip: bits, first difference, how far apart; writes
+    /// OUT/compare/NAME/{report.html,compare.json}; exit code 0 where they are equal, 1 where not
+    Compare(CompareArguments),
     /// Prints Rust source of a scene's const model and of its plant, for a firmware
     Export(ExportArguments),
     /// Makes a scene of MuJoCo's MJCF: each part with the line it comes from; what has no counterpart is
@@ -87,6 +93,7 @@ where
         Command::Check(arguments) => check_scene(&catalogue, &arguments, console),
         Command::Trade(arguments) => trade_scene(&catalogue, &arguments, console),
         Command::Sweep(arguments) => sweep_scene(&catalogue, &arguments, console),
+        Command::Compare(arguments) => compare(&catalogue, &arguments, console),
         Command::Export(arguments) => export_scene(&catalogue, &arguments, console),
         Command::Import(arguments) => import_file(&arguments, console),
         Command::New(NewCommand::Firmware(arguments)) => {

@@ -10,6 +10,7 @@
 //! - [`surveyed`]: a survey that lies beside a run's results.
 //! - [`run`]: a scene becomes a trace, a summary and a report.
 //! - [`sweep`]: many values of a scene, a row per case.
+//! - [`compare`]: two recorded runs in one report.
 //! - [`trade`]: speed against accuracy.
 //! - [`export`]: Rust source of a scene's const model and its plant.
 //! - [`mod@import`]: another program's file becomes a scene.
@@ -18,6 +19,7 @@
 
 pub mod assembled;
 pub mod check;
+pub mod compare;
 pub mod completions;
 pub mod derived;
 pub mod export;

@@ -247,8 +247,11 @@ pub fn run(
     };
     let ending = simulate(scene, &options.method, &plan, &mut recorder)?;
     let Recorder { trace, recording, statistics, watch, golden, .. } = recorder;
+    let mut trace_hash = None;
     if let (Some(files), Some(trace)) = (&mut files, trace) {
-        files.add(trace.finish().map_err(RunError::Write)?);
+        let (file, hash) = trace.finish().map_err(RunError::Write)?;
+        trace_hash = Some(hash.text());
+        files.add(file);
     }
     let every = options.every.or(scene.every);
     let failure = ending
@@ -256,6 +259,7 @@ pub fn run(
         .map(|trouble| FailedRun::new(scene, &options.method, &plan, every, &ending, trouble));
     let mut summary =
         summarise(scene, &options.method, &plan, &frequencies, &ending, &statistics, &failure);
+    summary.trace_hash = trace_hash;
     let stop = watch.and_then(|watch| watch.stop());
     summary.of_watch(watch, stop);
     summary.of_file(options.out.as_ref().map(|out| &out.file));
@@ -410,6 +414,8 @@ fn summarise(
         frequency_estimate_hz: frequencies.estimate_hz(),
         advised_step: frequencies.advised_step(),
         state_hash: statistics.hash().map(|hash| format!("{hash:016x}")),
+        turns: statistics.turns().to_vec(),
+        trace_hash: None,
         status,
         version: env!("CARGO_PKG_VERSION"),
         trace_format: trace::FORMAT,

@@ -59,6 +59,7 @@ pub struct Statistics {
     widest: Widest,
     samples: u64,
     hash: Option<u64>,
+    turns: Vec<i32>,
     readings: Vec<Figures>,
 }
 
@@ -77,6 +78,7 @@ impl Statistics {
         }
         self.samples += 1;
         self.hash = Some(sample.hash);
+        self.turns.clone_from(&sample.state.turns);
     }
 
     fn push_energy(&mut self, time: f64, energy: f64) {
@@ -110,6 +112,12 @@ impl Statistics {
     #[must_use]
     pub fn energy_rms_error(&self) -> f64 {
         (self.squares / self.line.count).sqrt()
+    }
+
+    /// The torsion springs' turn counts in the last sample.
+    #[must_use]
+    pub fn turns(&self) -> &[i32] {
+        &self.turns
     }
 
     /// \[m\] the largest extension of the joints' elements.

@@ -8,7 +8,7 @@ use dbd_plant::frequencies::advised_text;
 use dbd_plant::time::{display, rounded};
 use dbd_scene::Scene;
 use dbd_scene::parameters::Changed;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::report::golden::GoldenOutcome;
 use crate::report::statistics::ReadoutFigures;
@@ -70,6 +70,11 @@ pub struct Summary {
     pub advised_step: Option<f64>,
     /// FNV-1a 64 over the state's words, 16 hexadecimal digits; `None` without a sample.
     pub state_hash: Option<String>,
+    /// The torsion springs' turn counts in the last row, which the hash holds and no column shows.
+    pub turns: Vec<i32>,
+    /// FNV-1a 64 over the bytes of `trace.csv`, 16 hexadecimal digits; `None` where none was written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trace_hash: Option<String>,
     /// `ok`, or a sentence that names the failure.
     pub status: String,
     /// The version of host-sim that ran it.
@@ -120,7 +125,7 @@ pub struct JointOpening {
 }
 
 /// A value of the scene's file that was changed.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SetValue {
     /// Its path, `body.cart.mass`.
     pub path: String,

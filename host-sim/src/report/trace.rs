@@ -3,7 +3,7 @@
 //! `samples => rows`, streamed. A changed value is a line of its own that begins with `#`; without changes
 //! the header is the first line. Columns: time, per body position, quaternion, velocity and angular
 //! velocity, then the energies, then the read-outs ([`Scene::columns`]). Every number is the
-//! shortest text that reads back to its bits.
+//! shortest text that reads back to its bits. [`crate::recorded::trace`] reads it.
 
 use std::io::{self, Write};
 
@@ -17,9 +17,55 @@ use crate::simulate::Sample;
 /// it up.
 pub const FORMAT: u32 = 1;
 
+/// How a line begins that says which value was changed.
+pub const SET: &str = "# set ";
+
+/// FNV-1a 64 over bytes (offset 0xcbf29ce484222325, prime 0x100000001b3), as they come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TextHash(u64);
+
+impl Default for TextHash {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl TextHash {
+    /// Takes the next bytes.
+    pub fn add(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+
+    /// 16 hexadecimal digits.
+    #[must_use]
+    pub fn text(self) -> String {
+        format!("{:016x}", self.0)
+    }
+}
+
+/// Hashes what passes.
+struct Hashed<W> {
+    to: W,
+    hash: TextHash,
+}
+
+impl<W: Write> Write for Hashed<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.to.write(bytes)?;
+        self.hash.add(&bytes[..written]);
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.to.flush()
+    }
+}
+
 /// Writes a trace.
 pub struct TraceWriter<W: Write> {
-    rows: csv::Writer<W>,
+    rows: csv::Writer<Hashed<W>>,
     text: Vec<u8>,
 }
 
@@ -28,9 +74,10 @@ impl<W: Write> TraceWriter<W> {
     ///
     /// # Errors
     /// Where the writer cannot take it.
-    pub fn new(mut to: W, scene: &Scene) -> io::Result<Self> {
+    pub fn new(to: W, scene: &Scene) -> io::Result<Self> {
+        let mut to = Hashed { to, hash: TextHash::default() };
         for value in SetValue::of(scene) {
-            writeln!(to, "# set {}", value.text())?;
+            writeln!(to, "{SET}{}", value.text())?;
         }
         let mut rows = csv::Writer::from_writer(to);
         for column in scene.columns() {
@@ -69,11 +116,13 @@ impl<W: Write> TraceWriter<W> {
         Ok(())
     }
 
-    /// Writes what is buffered and returns the writer.
+    /// Writes what is buffered and returns the writer, with the hash of all that was written.
     ///
     /// # Errors
     /// Where the writer cannot take it.
-    pub fn finish(self) -> io::Result<W> {
-        self.rows.into_inner().map_err(|error| io::Error::other(error.to_string()))
+    pub fn finish(self) -> io::Result<(W, TextHash)> {
+        let Hashed { to, hash } =
+            self.rows.into_inner().map_err(|error| io::Error::other(error.to_string()))?;
+        Ok((to, hash))
     }
 }

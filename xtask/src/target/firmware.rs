@@ -26,7 +26,7 @@ const AUDIT: &str = "audit";
 pub const LIBRARIES: &str = "core,alloc";
 
 /// Programs that can be run, each with the image that holds it.
-const PROGRAMS: [(&str, &str); 9] = [
+const PROGRAMS: [(&str, &str); 10] = [
     ("board", SHARED),
     ("cost", "cost"),
     ("guards", "guards"),
@@ -36,6 +36,7 @@ const PROGRAMS: [(&str, &str); 9] = [
     ("root", SHARED),
     ("sample", SHARED),
     ("sensors", SHARED),
+    ("trajectory", SHARED),
 ];
 
 /// `cargo xtask fw NAME`.

@@ -7,5 +7,6 @@ pub mod project;
 pub mod serial;
 pub mod setup;
 mod toolchain;
+pub mod trajectory;
 
 pub use toolchain::Toolchain;

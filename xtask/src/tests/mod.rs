@@ -16,7 +16,7 @@ use crate::bits::{closed_loop, hashes, host::Host, relay};
 use crate::built::{Program, build};
 use crate::command::{cargo, run as run_command, succeeds};
 use crate::steps::Steps;
-use crate::target::{Toolchain, firmware, project, setup};
+use crate::target::{Toolchain, firmware, project, setup, trajectory};
 use crate::{audit, boards, cost, packages};
 
 use cases::{Case, Selection};
@@ -240,6 +240,7 @@ fn on_target(toolchain: &Toolchain, host: Option<&Host>, long: bool, steps: &mut
     steps.step("same bits of sensors on host and target", || {
         firmware::execute(toolchain, "sensors", false, &[]).map(drop)
     });
+    steps.step("a run recorded on the target", || trajectory::compare(toolchain));
     let host = || host.context("the host's programs were not built");
     steps.step("same bits on host and target", || hashes::compare(toolchain, host()?, long));
     steps.step("runs that change machines", || relay::compare(toolchain, host()?));

@@ -1,0 +1,152 @@
+//! A recorded run once more, as its page shows it.
+//!
+//! `scene, rows => film, curves`; without a scene the curves of what was recorded alone. Where a table drives an
+//! input, its value follows from the time; forces follow from poses and velocities.
+
+use dbd_kernel::{BodyState, Energy, F64, State};
+use dbd_plant::judge::Judge;
+use dbd_plant::plan::Plan;
+use dbd_plant::{
+    AnyPlant, DampingName, Method, Named as _, OrientationName, PlantError, PrecisionName,
+    SchemeName, plant,
+};
+use dbd_report::data::{Run, Section};
+use dbd_report::{Recording, Sample};
+use dbd_scene::{Scene, SceneModel};
+
+use crate::commands::compare::charts::ChartList;
+use crate::comparison::run::End;
+use crate::recorded::{Head, Recorded, Row, Unreadable};
+
+/// The run of a scene; or why it cannot be seen.
+///
+/// # Errors
+/// Where its rows cannot be read again.
+pub fn of_scene(
+    scene: &Scene,
+    mut run: Recorded,
+    end: End,
+) -> Result<Result<Run, String>, Unreadable> {
+    let head = run.head.clone();
+    let method = method(&head).unwrap_or_default();
+    let plan = plan(&head, end);
+    let (mut recording, mut plant) = match begun(scene, &method, &plan) {
+        Ok(begun) => begun,
+        Err(why) => return Ok(Err(why.to_string())),
+    };
+    let mut judge = Judge::new(scene, plant.as_ref());
+    let initial = plant.state();
+    let readings = scene.readouts.iter().map(|readout| readout.columns.len()).sum::<usize>();
+    let missing = vec![f64::NAN; readings];
+    while let Some(row) = run.next()? {
+        let state = state_of(&initial, row);
+        // A plant in this state knows what its tables give now.
+        let state = match plant.set_state(&state) {
+            Ok(()) => plant.state(),
+            Err(_) => state,
+        };
+        let judged = judge.judge(&state);
+        let energy = match (row.energies, judged) {
+            (Some([kinetic, potential, _]), _) => {
+                Energy { kinetic, gravity: potential, ..Energy::default() }
+            }
+            (None, Ok(verdict)) => verdict.energy,
+            (None, Err(_)) => Energy::default(),
+        };
+        let readings = if row.values.len() == readings { &row.values } else { &missing };
+        let extensions = judge.extensions();
+        recording.push(&Sample { time: row.time, state: &state, readings, energy, extensions });
+    }
+    Ok(Ok(recording.finish().run))
+}
+
+fn begun(
+    scene: &Scene,
+    method: &Method,
+    plan: &Plan,
+) -> Result<(Recording, Box<dyn AnyPlant>), PlantError> {
+    Ok((Recording::new(scene, method, plan)?, plant(scene, method, plan.step)?))
+}
+
+/// The method of a run; `None` where this program does not hold it.
+fn method(head: &Head) -> Option<Method> {
+    let scheme = SchemeName::of_name(&head.scheme)?;
+    let precision = PrecisionName::of_name(&head.precision)?;
+    let method = Method::new(scheme, head.newton, precision).ok()?;
+    let method = match &head.damping {
+        Some(damping) => method.with_damping(DampingName::of_name(damping)?).ok()?,
+        None => method,
+    };
+    let method = method.with_orientation(OrientationName::of_name(&head.orientation)?);
+    method.check_built().ok().map(|()| method)
+}
+
+/// A plan of as many samples.
+fn plan(head: &Head, end: End) -> Plan {
+    let steps = |time: f64| (time / head.step).round() as u64;
+    let stride = steps(end.every.unwrap_or(head.step)).max(1);
+    Plan { step: head.step, duration: end.until, steps: steps(end.until - end.from).max(1), stride }
+}
+
+fn state_of(initial: &State<SceneModel<F64>>, row: &Row) -> State<SceneModel<F64>> {
+    let mut state = initial.clone();
+    for (body, numbers) in state.bodies.iter_mut().zip(&row.bodies) {
+        let [x, y, z, qw, qx, qy, qz, vx, vy, vz, wx, wy, wz] = *numbers;
+        *body = BodyState::from_f64([x, y, z], [qw, qx, qy, qz], [vx, vy, vz], [wx, wy, wz]);
+    }
+    if let Some(turns) = row.turns.as_ref().filter(|turns| turns.len() == state.turns.len()) {
+        state.turns.clone_from(turns);
+    }
+    state.step = row.step;
+    state
+}
+
+/// The curves of a run whose scene is not known.
+///
+/// # Errors
+/// Where its rows cannot be read again.
+pub fn of_rows(mut run: Recorded, end: End) -> Result<Run, Unreadable> {
+    let head = run.head.clone();
+    let mut list = ChartList::default();
+    let energies = head.kind == crate::recorded::Kind::Run;
+    if energies {
+        list.add(Section::Energy, ["Energy", "energy", "J"], &["kinetic", "potential"]);
+        list.add(Section::Energy, ["Change of the total energy", "change", "J"], &[""]).deviation();
+    }
+    for value in &head.values {
+        let unit = value.unit.as_deref().unwrap_or_default();
+        list.add(Section::Readouts, [&value.name, "value", unit], &[""]);
+    }
+    for (body, name) in head.bodies.iter().enumerate() {
+        let texts = [&*format!("{name}: position"), "position", "m"];
+        list.add(Section::Motion, texts, &["x", "y", "z"]).of_body(body).deviation();
+        let texts = [&*format!("{name}: speed"), "speed", "m/s"];
+        list.add(Section::Motion, texts, &[""]).of_body(body);
+        let texts = [&*format!("{name}: rate"), "rate", "rad/s"];
+        list.add(Section::Motion, texts, &[""]).of_body(body);
+    }
+    let mut curves = list.curves(end.samples);
+    let mut values = Vec::new();
+    let length = |of: &[f64]| of.iter().map(|c| c * c).sum::<f64>().sqrt();
+    while let Some(row) = run.next()? {
+        values.clear();
+        values.extend(row.energies.iter().flatten());
+        values.extend(&row.values);
+        for body in &row.bodies {
+            values.extend(&body[..3]);
+            values.extend([length(&body[7..10]), length(&body[10..])]);
+        }
+        curves.push(row.time, &values);
+    }
+    let drawn = list.finish(curves);
+    Ok(Run {
+        label: String::new(),
+        mechanism: None,
+        film: None,
+        times: drawn.times,
+        thinned: drawn.thinned,
+        bodies_left_out: drawn.bodies_left_out,
+        joints_left_out: 0,
+        charts: drawn.charts,
+    })
+}

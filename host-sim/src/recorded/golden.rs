@@ -1,0 +1,131 @@
+//! A golden file as a recorded run, by itself or within what a console showed.
+//!
+//! `text => head, rows`. So a run that a chip has printed is compared as it came.
+
+use std::fs;
+use std::path::Path;
+
+use dbd_golden::subject::BodyNumbers;
+use dbd_golden::{Damage, Digits, Golden, Mismatch, recording};
+use dbd_plant::numerals::{Digits as StoredDigits, Numerals};
+use dbd_scene::BODY_COLUMNS;
+
+use crate::recorded::head::{Head, Kind, Value};
+use crate::recorded::row::Row;
+use crate::recorded::unreadable::Unreadable;
+
+/// A golden file is looked at by people: none is larger.
+const MOST_BYTES: u64 = 1 << 30;
+
+/// What a golden file begins with.
+pub const FIRST: &str = "# dbd golden ";
+
+/// Reads a golden file.
+///
+/// # Errors
+/// Where it cannot be read, is damaged, or holds none.
+pub fn read(file: &Path) -> Result<(Head, Vec<Row>), Unreadable> {
+    let failed = |reason| Unreadable::system(file, &reason);
+    if fs::metadata(file).map_err(failed)?.len() > MOST_BYTES {
+        return Err(Unreadable::new(file, "is far larger than any golden file"));
+    }
+    let bytes = fs::read(file).map_err(failed)?;
+    // What a console shows besides may be anything.
+    let text = String::from_utf8_lossy(&bytes);
+    let Some(record) = recording::within(&text).or(text.starts_with(FIRST).then_some(&text)) else {
+        let problem = match text.contains(FIRST) {
+            true => "the record is cut: its last line, `# end: …`, is missing",
+            false => "holds neither a run nor a golden file",
+        };
+        return Err(Unreadable::new(file, problem));
+    };
+    let before = record.as_ptr() as usize - text.as_ptr() as usize;
+    let lines_before = text[..before].matches('\n').count() as u64;
+    let golden = Golden::read(record).map_err(|mismatch| match mismatch {
+        Mismatch::Damaged { line, damage } => {
+            let wrong =
+                Unreadable::new(file, damage.to_string()).at_line(lines_before + line as u64);
+            match damage {
+                Damage::Number(column) => {
+                    let line = record.lines().nth(line - 1).unwrap_or_default();
+                    let before: usize = line
+                        .split('\t')
+                        .take(column - 1)
+                        .map(|text| text.chars().count() + 1)
+                        .sum();
+                    wrong.at_column(before + 1)
+                }
+                _ => wrong,
+            }
+        }
+        other => Unreadable::new(file, other.to_string()).at_line(lines_before + 1),
+    })?;
+    let head = head(file, &golden)?;
+    let rows = rows(&golden, &head);
+    Ok((head, rows))
+}
+
+fn head(file: &Path, golden: &Golden<'_>) -> Result<Head, Unreadable> {
+    let identity = golden.identity();
+    let columns: Vec<&str> = golden.columns().collect();
+    let numbers = BODY_COLUMNS.len() * identity.bodies;
+    let bodies = columns[..numbers].chunks(BODY_COLUMNS.len()).map(|of| {
+        let name = of[0].strip_suffix(BODY_COLUMNS[0])?;
+        let own =
+            of.iter().zip(BODY_COLUMNS).all(|(column, end)| column.strip_prefix(name) == Some(end));
+        own.then(|| name.to_owned())
+    });
+    let Some(bodies) = bodies.collect::<Option<Vec<String>>>() else {
+        return Err(Unreadable::new(file, "the columns are not those of bodies"));
+    };
+    let digits = |digits| match digits {
+        Digits::Single => StoredDigits::Single,
+        Digits::Double => StoredDigits::Double,
+    };
+    let values = columns[numbers + identity.turns..].iter();
+    Ok(Head {
+        file: file.to_owned(),
+        kind: Kind::Golden,
+        scene: golden.scene().to_owned(),
+        scheme: identity.scheme.name.to_owned(),
+        newton: None,
+        damping: Some(identity.scheme.damping.to_owned()),
+        precision: identity.precision.name.to_owned(),
+        orientation: identity.precision.orientation.to_owned(),
+        step: identity.step_size,
+        samples: golden.samples(),
+        numerals: Numerals {
+            position: digits(identity.numerals.position),
+            orientation: digits(identity.numerals.orientation),
+            velocity: digits(identity.numerals.velocity),
+            reading: digits(identity.numerals.value),
+        },
+        bodies,
+        values: values.map(|name| Value { name: (*name).to_owned(), unit: None }).collect(),
+        status: None,
+        set: Vec::new(),
+        scene_file: None,
+        scene_hash: None,
+        model: Some(identity.model),
+        version: None,
+        unchecked: Vec::new(),
+    })
+}
+
+fn rows(golden: &Golden<'_>, head: &Head) -> Vec<Row> {
+    let turns = golden.identity().turns;
+    let rows = golden.rows().map(|row| {
+        let mut numbers = golden.numbers_of(&row);
+        let mut next = || numbers.next().unwrap_or(f64::NAN);
+        Row {
+            time: row.step as f64 * head.step,
+            step: row.step,
+            bodies: head.bodies.iter().map(|_| BodyNumbers::default().map(|_| next())).collect(),
+            energies: None,
+            turns: Some((0..turns).map(|_| next() as i32).collect()),
+            values: head.values.iter().map(|_| next()).collect(),
+            hash: Some(row.hash),
+        }
+    });
+    rows.collect()
+}

@@ -1,0 +1,125 @@
+//! A text of any size, line by line, with what tells whether it is the one that was written.
+//!
+//! `file => lines, their numbers, a hash of all`. Only a line is in memory at a time. Line ends may have been
+//! turned to those of another system; nothing else may.
+
+use std::fs::File;
+use std::io::{BufRead as _, BufReader, Read as _};
+use std::path::{Path, PathBuf};
+
+use crate::recorded::unreadable::Unreadable;
+use crate::report::trace::TextHash;
+
+/// What is to be done about a file that another program has written.
+const AS_WRITTEN: &str = "compare takes the file as `run` has written it; what a spreadsheet or an editor has saved \
+                          is another";
+
+/// The lines of a file.
+#[derive(Debug)]
+pub struct Lines {
+    file: PathBuf,
+    input: BufReader<File>,
+    buffer: Vec<u8>,
+    number: u64,
+    whole: bool,
+    hash: TextHash,
+}
+
+/// How files begin that are not UTF-8, or no text.
+const BEGINNINGS: [(&[u8], &str); 5] = [
+    (&[0xff, 0xfe], "it is UTF-16"),
+    (&[0xfe, 0xff], "it is UTF-16"),
+    (&[0xef, 0xbb, 0xbf], "it begins with a byte order mark, which `run` does not write"),
+    (&[0x1f, 0x8b], "it is compressed (gzip)"),
+    (b"PK", "it is an archive (zip)"),
+];
+
+impl Lines {
+    /// Opens a file.
+    ///
+    /// # Errors
+    /// Where it cannot be read, or is no UTF-8 text as its first bytes show.
+    pub fn open(file: &Path) -> Result<Self, Unreadable> {
+        let failed = |reason| Unreadable::system(file, &reason);
+        let opened = File::open(file).map_err(failed)?;
+        if opened.metadata().map_err(failed)?.is_dir() {
+            return Err(Unreadable::new(file, "is a folder"));
+        }
+        let mut input = BufReader::new(opened);
+        let start = input.fill_buf().map_err(failed)?;
+        if start.is_empty() {
+            return Err(Unreadable::new(file, "is empty"));
+        }
+        if let Some((_, what)) = BEGINNINGS.iter().find(|(bytes, _)| start.starts_with(bytes)) {
+            let wrong = Unreadable::new(file, *what).at_line(1).at_column(1);
+            return Err(wrong.with_remedy(AS_WRITTEN));
+        }
+        let (buffer, hash) = (Vec::new(), TextHash::default());
+        Ok(Self { file: file.to_owned(), input, buffer, number: 0, whole: true, hash })
+    }
+
+    /// The next line without its end; `None` after the last. A line of more than `limit` bytes is none of a trace.
+    ///
+    /// # Errors
+    /// Where it cannot be read, is longer, or is not UTF-8.
+    pub fn next(&mut self, limit: u64) -> Result<Option<&str>, Unreadable> {
+        self.buffer.clear();
+        let read = (&mut self.input).take(limit + 2).read_until(b'\n', &mut self.buffer);
+        if read.map_err(|reason| Unreadable::system(&self.file, &reason))? == 0 {
+            return Ok(None);
+        }
+        self.number += 1;
+        self.whole = self.buffer.pop_if(|byte| *byte == b'\n').is_some();
+        if self.whole {
+            self.buffer.pop_if(|byte| *byte == b'\r');
+        } else if self.buffer.len() as u64 > limit {
+            return Err(self.wrong(format!("the line is longer than {limit} bytes: no row is")));
+        }
+        self.hash.add(&self.buffer);
+        if self.whole {
+            self.hash.add(b"\n");
+        }
+        match std::str::from_utf8(&self.buffer) {
+            Ok(line) => Ok(Some(line)),
+            Err(error) => {
+                let column = 1 + String::from_utf8_lossy(&self.buffer[..error.valid_up_to()])
+                    .chars()
+                    .count();
+                let byte = self.buffer[error.valid_up_to()];
+                let wrong =
+                    self.wrong(format!("the byte {byte:#04x} is not UTF-8")).at_column(column);
+                Err(wrong.with_remedy(AS_WRITTEN))
+            }
+        }
+    }
+
+    /// The file.
+    #[must_use]
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// The number of the last line read, from 1.
+    #[must_use]
+    pub fn number(&self) -> u64 {
+        self.number
+    }
+
+    /// Whether the last line read had an end; where it has not, the file was cut within it.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.whole
+    }
+
+    /// The hash of all lines read, each with one byte for its end.
+    #[must_use]
+    pub fn hash(&self) -> TextHash {
+        self.hash
+    }
+
+    /// Something is wrong with the last line read.
+    #[must_use]
+    pub fn wrong(&self, problem: impl Into<String>) -> Unreadable {
+        Unreadable::new(&self.file, problem).at_line(self.number.max(1))
+    }
+}
