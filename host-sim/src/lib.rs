@@ -7,6 +7,7 @@
 //! - [`simulate`]: a planned run, sample by sample; where one failed and which step works.
 //! - [`compliance`]: how far joints give way under the forces at t = 0.
 //! - [`report`]: what is left of a run: trace, summary, page.
+//! - [`examples`]: the examples in the help of each command.
 //! - [`arguments`]: what several commands take.
 //! - [`commands`]: `list`, `check`, `run`, `sweep`, `trade`, `export`, `import`, `new`, `completions`.
 //! - [`error`]: what ends a command early.
@@ -20,6 +21,7 @@ pub mod cli;
 pub mod commands;
 pub mod compliance;
 pub mod error;
+pub mod examples;
 pub mod report;
 pub mod simulate;
 pub mod terminal;

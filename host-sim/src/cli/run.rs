@@ -13,13 +13,12 @@ use crate::commands::golden::GoldenOptions;
 use crate::commands::run::{Outcome, RunOptions, run};
 use crate::error::Error;
 use crate::simulate::EnergyLimit;
-use crate::terminal::text::table;
-use crate::terminal::{Catalogue, Console, Exit, Found, Progress};
+use crate::terminal::{Catalogue, Console, Exit, Found, Look, Progress};
 
 #[derive(Debug, Args)]
 pub(super) struct RunArguments {
     #[command(flatten)]
-    scene: SceneArgument,
+    pub(super) scene: SceneArgument,
     /// Time-stepping scheme
     #[arg(long, value_parser = names::<SchemeName>(), default_value = SchemeName::default().name())]
     scheme: SchemeName,
@@ -92,14 +91,14 @@ pub(super) fn run_scene(
         report: !arguments.no_report,
         called: Some(arguments.scene.scene.clone()),
     };
-    let mut progress = Progress::new(console.terminal && !arguments.quiet);
+    let mut progress = Progress::new(console.bars && !arguments.quiet);
     let outcome = run(&scene, &options, &mut |steps, all| progress.update(steps, all));
     progress.finish();
     let outcome = outcome?;
     let printed = if arguments.json {
         console.print(&outcome.summary.json())
     } else if !arguments.quiet {
-        console.print(&summary_table(&outcome, options.report))
+        console.print(&summary_table(&outcome, options.report, console.look))
     } else {
         Ok(())
     };
@@ -121,11 +120,11 @@ pub(super) fn run_scene(
     Ok(if ended_by.is_some() { Exit::Failed } else { Exit::Done })
 }
 
-fn summary_table(outcome: &Outcome, report: bool) -> String {
+fn summary_table(outcome: &Outcome, report: bool, look: Look) -> String {
     let mut rows = outcome.summary.rows();
     if let Some(folder) = &outcome.folder {
         let page = if report { ",report.html" } else { "" };
         rows.push(("written", format!("{}/{{trace.csv,summary.json{page}}}", folder.display())));
     }
-    table(&rows)
+    look.table(&rows)
 }

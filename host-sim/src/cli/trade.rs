@@ -16,7 +16,7 @@ use crate::terminal::{Catalogue, Console, Exit, Found, Progress};
 #[derive(Debug, Args)]
 pub(super) struct TradeArguments {
     #[command(flatten)]
-    scene: SceneArgument,
+    pub(super) scene: SceneArgument,
     /// Longest window of comparison, e.g. 0.2s; it ends before chaos takes over [default: 0.5s or
     /// the scene's duration]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
@@ -53,7 +53,7 @@ pub(super) fn trade_scene(
     };
     let mut silence = std::io::sink();
     let lines = if arguments.quiet { &mut silence as &mut dyn Write } else { &mut *console.err };
-    let bars = console.terminal && !arguments.quiet;
+    let bars = console.bars && !arguments.quiet;
     let mut progress = Progress::of(bars, "evaluations", lines);
     let done = trade(&scene, &request, &mut |phase| match phase {
         Phase::Window => progress.begin("how long before chaos"),
