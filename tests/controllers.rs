@@ -3,6 +3,8 @@
 #[allow(dead_code, reason = "an example has a main function of its own")]
 #[path = "../host-sim/examples/balance.rs"]
 mod balance;
+#[path = "controllers/examples.rs"]
+mod examples;
 #[allow(dead_code, reason = "an example has a main function of its own")]
 #[path = "../host-sim/examples/follow.rs"]
 mod follow;
