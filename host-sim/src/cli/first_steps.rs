@@ -7,11 +7,11 @@ use crate::terminal::{Catalogue, Look};
 
 /// What to type first, and what it does.
 const STEPS: [(&str, &str); 5] = [
-    ("host-sim run four-bar", "simulates a scene; then open out/four-bar/report.html"),
-    ("host-sim check four-bar", "what a scene is made of, and what is probably not meant"),
-    ("host-sim run four-bar --set body.crank.mass=2", "the same with another value"),
-    ("host-sim trade four-bar", "which scheme and step for which accuracy; takes minutes"),
-    ("host-sim new firmware my-plant", "a project that steps a scene on a microcontroller"),
+    ("host-sim run four-bar", "simulates; then open out/four-bar/report.html"),
+    ("host-sim check four-bar", "what it is made of, what is probably not meant"),
+    ("host-sim run my.toml", "the same with a mechanism of your own"),
+    ("host-sim trade four-bar", "which scheme and step are best; takes minutes"),
+    ("host-sim new firmware my-plant", "a project that steps one on a microcontroller"),
 ];
 
 /// What the program is, first steps, commands and scenes.

@@ -35,11 +35,21 @@ use crate::terminal::{Catalogue, Console, Exit, Progress};
 /// Discrete Body Dynamics: simulates mechanisms of rigid bodies and springs.
 #[derive(Debug, Parser)]
 #[command(name = "host-sim", version, disable_help_subcommand = true, max_term_width = 100)]
+#[command(
+    after_help = "Without a command it shows the first steps. The help of each command ends with examples."
+)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
     /// Colours: on a terminal alone, always or never
-    #[arg(long, alias = "colour", global = true, value_name = "WHEN", default_value = "auto")]
+    #[arg(
+        long,
+        alias = "colour",
+        global = true,
+        value_name = "WHEN",
+        default_value = "auto",
+        display_order = 900
+    )]
     color: ColorChoice,
 }
 

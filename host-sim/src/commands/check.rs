@@ -309,7 +309,7 @@ impl Check {
             "holds",
             "TSDAs",
             "L0 [m]",
-            "L at t = 0",
+            "L(0) [m]",
             "error [m]",
             "rate [m/s]",
         ];

@@ -4,8 +4,6 @@
 //! texts go on in the next line, below their beginning, and names that do not fit lose their middle; elsewhere
 //! all stands in one line.
 
-use std::iter;
-
 use anstyle::Style;
 use serde::Serialize;
 use textwrap::core::display_width;
@@ -20,7 +18,10 @@ const GAP: usize = 2;
 const LEAST_TEXT: usize = 24;
 
 /// Columns that a name keeps at least.
-const LEAST_NAME: usize = 8;
+const LEAST_NAME: usize = 9;
+
+/// Where a text begins that has a line of its own.
+const BELOW: usize = 4;
 
 /// A value as JSON, indented, with a final line feed. What JSON cannot hold becomes `null`.
 #[must_use]
@@ -69,62 +70,30 @@ impl Look {
     #[must_use]
     pub fn columns<const N: usize>(self, head: Option<[&str; N]>, lines: &[[String; N]]) -> String {
         let head = head.map(|head| head.map(str::to_owned));
-        let is_number: [bool; N] = std::array::from_fn(|column| {
+        let is_number = std::array::from_fn(|column| {
             lines.iter().all(|line| line[column] == "–" || line[column].parse::<f64>().is_ok())
         });
-        let widths = self.widths(&is_number, head.iter().chain(lines));
-        let mut text = String::new();
-        for (line, style) in
-            head.iter().map(|head| (head, Some(HEAD))).chain(lines.iter().zip(iter::repeat(None)))
-        {
-            text += &self.line(line, &widths, &is_number, style);
-        }
-        text
-    }
-
-    /// How wide each column is: the last text gives way first, then names do, the widest before others.
-    fn widths<'l, const N: usize>(
-        self,
-        is_number: &[bool; N],
-        lines: impl Iterator<Item = &'l [String; N]>,
-    ) -> [usize; N] {
-        let mut widths = [0; N];
-        for line in lines {
-            for (width, cell) in widths.iter_mut().zip(line) {
-                *width = (*width).max(display_width(cell));
-            }
-        }
-        let Some(room) = self.width else { return widths };
-        let all: usize = widths.iter().sum::<usize>() + GAP * N.saturating_sub(1);
-        let mut excess = all.saturating_sub(room);
-        if let (Some(last), Some(false)) = (widths.last_mut(), is_number.last()) {
-            let given = excess.min(last.saturating_sub(LEAST_TEXT));
-            *last -= given;
-            excess -= given;
-        }
-        let names = || (0..N.saturating_sub(1)).filter(|column| !is_number[*column]);
-        while excess > 0 {
-            let widest = names().max_by_key(|column| widths[*column]);
-            let Some(widest) = widest.filter(|column| widths[*column] > LEAST_NAME) else { break };
-            widths[widest] -= 1;
-            excess -= 1;
-        }
-        widths
+        let layout = Layout::of(self.width, is_number, head.iter().chain(lines));
+        let heads = head.iter().map(|head| self.line(head, &layout, Some(HEAD)));
+        heads.chain(lines.iter().map(|line| self.line(line, &layout, None))).collect()
     }
 
     /// One line of cells, or more where the last does not fit into one.
     fn line<const N: usize>(
         self,
         cells: &[String; N],
-        widths: &[usize; N],
-        is_number: &[bool; N],
+        layout: &Layout<N>,
         style: Option<Style>,
     ) -> String {
         let (mut line, mut further, mut indent) = (String::new(), Vec::new(), 0);
-        for (column, (cell, width)) in cells.iter().zip(*widths).enumerate() {
-            let is_last = column + 1 == N;
+        let last = N.saturating_sub(1);
+        for (column, (cell, width)) in cells.iter().zip(layout.widths).enumerate() {
             let mut cell = cell.clone();
-            if display_width(&cell) > width && is_last && self.width.is_some() {
+            if layout.is_below && column == last {
+                indent = BELOW;
+                further = self.broken(&cell, indent);
+                break;
+            } else if display_width(&cell) > width && column == last && self.width.is_some() {
                 let mut pieces = self.broken(&cell, indent).into_iter();
                 cell = pieces.next().unwrap_or_default();
                 further = pieces.collect();
@@ -133,20 +102,71 @@ impl Look {
             }
             let space = " ".repeat(width.saturating_sub(display_width(&cell)));
             let painted = style.map_or_else(|| cell.clone(), |style| self.paint(style, &cell));
-            line += &match (is_number[column], is_last) {
-                (true, _) => format!("{space}{painted}"),
-                (false, true) => painted,
-                (false, false) => format!("{painted}{space}"),
+            line += &match layout.is_number[column] {
+                true => format!("{space}{painted}"),
+                false => format!("{painted}{space}"),
             };
-            if !is_last {
-                line += &" ".repeat(GAP);
+            if column < last {
+                line += &" ".repeat(layout.gap);
+                indent += width + layout.gap;
             }
-            indent += width + GAP;
         }
-        let indent = indent - widths.last().map_or(0, |width| width + GAP);
         line.truncate(line.trim_end().len());
         let further = further.iter().map(|piece| format!("\n{:indent$}{piece}", ""));
         line + &further.collect::<String>() + "\n"
+    }
+}
+
+/// Where the columns of a table lie.
+struct Layout<const N: usize> {
+    widths: [usize; N],
+    is_number: [bool; N],
+    gap: usize,
+    /// Whether the last column has lines of its own, below the others.
+    is_below: bool,
+}
+
+impl<const N: usize> Layout<N> {
+    /// The layout of lines in a room: the last text gives way first, then the gaps do, then names, the widest before
+    /// others.
+    fn of<'l>(
+        room: Option<usize>,
+        is_number: [bool; N],
+        lines: impl Iterator<Item = &'l [String; N]>,
+    ) -> Self {
+        let mut widths = [0; N];
+        for line in lines {
+            for (width, cell) in widths.iter_mut().zip(line) {
+                *width = (*width).max(display_width(cell));
+            }
+        }
+        let mut layout = Self { widths, is_number, gap: GAP, is_below: false };
+        let (Some(room), Some(last)) = (room, N.checked_sub(1)) else { return layout };
+        let mut names = 0..N;
+        if !is_number[last] {
+            names = 0..last;
+            let others: usize = layout.widths[..last].iter().map(|width| width + GAP).sum();
+            let left = room.saturating_sub(others);
+            layout.is_below = left < layout.widths[last].min(LEAST_TEXT);
+            let least = if layout.is_below { 0 } else { LEAST_TEXT };
+            layout.widths[last] = layout.widths[last].min(left.max(least));
+            if layout.is_below {
+                layout.widths[last] = 0;
+            }
+        }
+        let gaps = |gap: usize| gap * if layout.is_below { last.saturating_sub(1) } else { last };
+        let all = |widths: &[usize; N], gap| widths.iter().sum::<usize>() + gaps(gap);
+        if all(&layout.widths, GAP) > room {
+            layout.gap = 1;
+        }
+        while all(&layout.widths, layout.gap) > room {
+            let shrinks =
+                |column: &usize| !is_number[*column] && layout.widths[*column] > LEAST_NAME;
+            let widest = names.clone().filter(shrinks).max_by_key(|column| layout.widths[*column]);
+            let Some(widest) = widest else { break };
+            layout.widths[widest] -= 1;
+        }
+        layout
     }
 }
 
@@ -218,13 +238,20 @@ mod tests {
             ["upper-wishbone-front", "12", "holds the upright at its front, on rubber"],
             ["上のリンクの前側のジョイント", "1", "short"],
         ]);
-        for width in [40, 50, 70, 100] {
+        for width in [30, 40, 50, 70, 100] {
             let look = Look { colours: false, width: Some(width) };
             let text = look.columns(None, &lines);
             assert!(text.lines().all(|line| display_width(line) <= width), "{width}:\n{text}");
+            // Whoever has to type a name needs all of it; the text behind it goes below.
+            assert_eq!(text.contains("upper-wishbone-front"), width > 30, "{text}");
+            assert!(text.contains("rubber"), "{text}");
         }
-        let text = NARROW.columns(None, &lines);
-        assert!(text.contains("uppe") && text.contains('…') && text.contains("rubber"), "{text}");
+        assert!(NARROW.columns(None, &lines).contains("12\n    holds the upright"));
+        let numbers =
+            lines.iter().map(|[name, count, _]| [name.clone(), name.clone(), count.clone()]);
+        let text = NARROW.columns(Some(["name", "between", "count"]), &numbers.collect::<Vec<_>>());
+        assert!(text.lines().all(|line| display_width(line) <= 40), "{text}");
+        assert!(text.contains("…"), "{text}");
     }
 
     #[test]
