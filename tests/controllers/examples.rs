@@ -37,7 +37,7 @@ fn the_small_examples_do_what_they_say() {
     let off = lift::off_target().unwrap();
     assert!(off < 1e-4, "{off}");
 
-    let stiffnesses = [1e5, 1e6, 1e7, 1e8];
+    let stiffnesses = [1e6, 1e7, 1e8, 1e9];
     let swept = stiffness::sweep(&stiffnesses).unwrap();
     for pair in swept.windows(2) {
         // The step follows the root of the stiffness, and what is off falls with it.
@@ -77,7 +77,7 @@ fn the_small_examples_do_what_they_say() {
             "-p dbd-plant --example stiffness",
             "a parameter swept by a program",
             format!(
-                "from 1e5 to 1e8 N/m: steps of {} to {} µs",
+                "from 1e6 to 1e9 N/m: steps of {} to {} µs",
                 figure(1e6 * swept[0][0], 2),
                 figure(1e6 * swept[3][0], 2)
             ),
