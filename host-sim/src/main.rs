@@ -15,7 +15,7 @@ fn main() -> ExitCode {
     let mut console = Console {
         look: Look::of(&io::stdout()),
         err_look: Look::of(&io::stderr()),
-        bars: io::stderr().is_terminal(),
+        terminal: io::stderr().is_terminal(),
         out: &mut out,
         err: &mut err,
     };

@@ -1,7 +1,7 @@
-//! The examples of the kernel and of `dbd-plant` come to what their pages say.
+//! The smaller examples of the kernel and of `host-sim` come to what their pages say.
 
 #[allow(dead_code, reason = "an example has a main function of its own")]
-#[path = "../../plant/examples/coupler_curve.rs"]
+#[path = "../../host-sim/examples/coupler_curve.rs"]
 mod coupler_curve;
 #[allow(dead_code, reason = "an example has a main function of its own")]
 #[path = "../../kernel/examples/hand_over.rs"]
@@ -16,7 +16,7 @@ mod own_scheme;
 #[path = "../../kernel/examples/pendulum.rs"]
 mod pendulum;
 #[allow(dead_code, reason = "an example has a main function of its own")]
-#[path = "../../plant/examples/stiffness.rs"]
+#[path = "../../host-sim/examples/stiffness.rs"]
 mod stiffness;
 
 use dbd_tests::page::{block, figure, table};
@@ -74,7 +74,7 @@ fn the_small_examples_do_what_they_say() {
             format!("{} m from its target", figure(off, 1)),
         ),
         row(
-            "-p dbd-plant --example stiffness",
+            "--example stiffness",
             "a parameter swept by a program",
             format!(
                 "from 1e6 to 1e9 N/m: steps of {} to {} µs",
@@ -83,7 +83,7 @@ fn the_small_examples_do_what_they_say() {
             ),
         ),
         row(
-            "-p dbd-plant --example coupler_curve",
+            "--example coupler_curve",
             "a read-out that the scene does not have",
             format!("{width:.2} m by {height:.2} m, up to {} kN", figure(1e-3 * force, 2)),
         ),

@@ -162,7 +162,7 @@ fn sweep_scene(
 ) -> Result<Exit, Error> {
     let mut silence = std::io::sink();
     let lines = if arguments.quiet { &mut silence as &mut dyn Write } else { &mut *console.err };
-    let bars = console.bars && !arguments.quiet;
+    let bars = console.terminal && !arguments.quiet;
     let mut progress = Progress::of_many(bars, "cases", lines);
     let done = sweep(catalogue, arguments, &mut |done, all| progress.update(done, all));
     progress.finish();

@@ -91,7 +91,7 @@ pub(super) fn run_scene(
         report: !arguments.no_report,
         called: Some(arguments.scene.scene.clone()),
     };
-    let mut progress = Progress::new(console.bars && !arguments.quiet);
+    let mut progress = Progress::new(console.terminal && !arguments.quiet);
     let outcome = run(&scene, &options, &mut |steps, all| progress.update(steps, all));
     progress.finish();
     let outcome = outcome?;

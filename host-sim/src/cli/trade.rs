@@ -53,7 +53,7 @@ pub(super) fn trade_scene(
     };
     let mut silence = std::io::sink();
     let lines = if arguments.quiet { &mut silence as &mut dyn Write } else { &mut *console.err };
-    let bars = console.bars && !arguments.quiet;
+    let bars = console.terminal && !arguments.quiet;
     let mut progress = Progress::of(bars, "evaluations", lines);
     let done = trade(&scene, &request, &mut |phase| match phase {
         Phase::Window => progress.begin("how long before chaos"),

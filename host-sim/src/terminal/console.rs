@@ -23,8 +23,8 @@ pub struct Console<'c> {
     pub look: Look,
     /// How errors look.
     pub err_look: Look,
-    /// Whether progress is shown by a bar.
-    pub bars: bool,
+    /// Whether errors go to a terminal, and progress is shown by a bar.
+    pub terminal: bool,
 }
 
 /// Standard output does not take what is written to it.
@@ -36,7 +36,7 @@ impl<'c> Console<'c> {
     /// Results and errors as files have them.
     #[must_use]
     pub fn plain(out: &'c mut dyn Write, err: &'c mut dyn Write) -> Self {
-        Self { out, err, look: Look::PLAIN, err_look: Look::PLAIN, bars: false }
+        Self { out, err, look: Look::PLAIN, err_look: Look::PLAIN, terminal: false }
     }
 
     /// Takes what a user says about colours.

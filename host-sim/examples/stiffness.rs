@@ -1,4 +1,4 @@
-//! A parameter is swept by a program: `cargo run --release -p dbd-plant --example stiffness`.
+//! A parameter is swept by a program: `cargo run --release --example stiffness`.
 //!
 //! `host-sim sweep` does the same from a file, keeps what is done and draws it.
 
@@ -7,7 +7,7 @@ use std::error::Error;
 use dbd_plant::{Frequencies, Method, plant};
 use dbd_scene::Scene;
 
-const SCENE: &str = include_str!("../../scenes/four-bar.toml");
+const SCENE: &str = include_str!("../scenes/four-bar.toml");
 
 /// Of four-bars with joints of a stiffness \[N/m\]: the advised step \[s\], and how far the coupler is \[m\] after
 /// 50 ms from where the stiffest of them has it.

@@ -1,5 +1,5 @@
 //! A read-out that the scene does not have: the curve of a point of the coupler, and the largest force in a joint:
-//! `cargo run --release -p dbd-plant --example coupler_curve`.
+//! `cargo run --release --example coupler_curve`.
 
 use std::error::Error;
 
@@ -8,7 +8,7 @@ use dbd_kernel::{BodyIndex, Vec3};
 use dbd_plant::{Method, plant};
 use dbd_scene::Scene;
 
-const SCENE: &str = include_str!("../../scenes/four-bar.toml");
+const SCENE: &str = include_str!("../scenes/four-bar.toml");
 
 /// Width and height \[m\] of the curve of a point 1 m beside the middle of the coupler, and the largest force \[N\]
 /// in the joint between crank and coupler, over 0.25 s.
