@@ -9,7 +9,6 @@ use dbd_golden::{
     Recording, Subject as _, Tolerance,
 };
 use dbd_kernel::{F32, F64, Leapfrog, Pefrl, Plant};
-use dbd_scene::SceneModel;
 use shared::{four_bar, plant, record, scene};
 use std::sync::LazyLock;
 

@@ -3,6 +3,7 @@
 use dbd_golden::{Bands, Component, Mismatch, Moment, Recording, Tolerance};
 use dbd_kernel::words::{Word, WordSource, WordVisitor, Words};
 use dbd_kernel::{F32, F64, Geometry, ModelOwner, State};
+use dbd_scene::SceneModel;
 use proptest::prelude::*;
 
 use crate::shared::{plant, scene};

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::{call, delays, done, limited, names, program, text, with_ball};
+use crate::{ball, call, delays, done, limited, names, program, text, with_ball};
 
 const SURVEY: [&str; 5] = ["trade", "ball.toml", "--window", "10ms", "--quiet"];
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
-use crate::{ball, call, done, limited, names, program, text, with_ball};
+use crate::{call, done, limited, names, program, text, with_ball};
 
 const SWEEP: [&str; 4] = ["sweep", "ball.sweep.toml", "--jobs", "2"];
 
