@@ -3,9 +3,13 @@
 #[allow(dead_code, reason = "an example has a main function of its own")]
 #[path = "../host-sim/examples/balance.rs"]
 mod balance;
+#[path = "controllers/examples.rs"]
+mod examples;
 #[allow(dead_code, reason = "an example has a main function of its own")]
 #[path = "../host-sim/examples/follow.rs"]
 mod follow;
+#[path = "controllers/late.rs"]
+mod late;
 
 use dbd_kernel::readouts::Reading;
 use dbd_kernel::{F32, Leapfrog, Plant, Real};

@@ -117,7 +117,8 @@ fn main() -> ExitCode {
 
 /// The command line itself, as its own program runs it.
 fn as_host_sim() -> ExitCode {
-    let mut console = Console { out: &mut io::stdout(), err: &mut io::stderr(), terminal: false };
+    let (mut out, mut err) = (io::stdout(), io::stderr());
+    let mut console = Console::plain(&mut out, &mut err);
     main_with(std::env::args_os().skip(1), &mut console).into()
 }
 

@@ -9,6 +9,7 @@
 //! - [`report`]: what is left of a run: trace, summary, page.
 //! - [`recorded`]: runs that were recorded, read back.
 //! - [`comparison`]: two of them beside each other.
+//! - [`examples`]: the examples in the help of each command.
 //! - [`arguments`]: what several commands take.
 //! - [`commands`]: `list`, `check`, `run`, `compare`, `sweep`, `trade`, `export`, `import`, `new`, `completions`.
 //! - [`error`]: what ends a command early.
@@ -23,6 +24,7 @@ pub mod commands;
 pub mod comparison;
 pub mod compliance;
 pub mod error;
+pub mod examples;
 pub mod recorded;
 pub mod report;
 pub mod simulate;

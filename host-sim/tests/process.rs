@@ -99,6 +99,31 @@ fn a_reader_that_has_gone_is_no_failure() {
     }
 }
 
+/// Nothing is coloured in a pipe unasked; the command line goes before the environment.
+#[test]
+fn colours_are_for_terminals_unless_they_are_asked_for() {
+    let here = tempfile::tempdir().unwrap();
+    let coloured = |arguments: &[&str], variables: &[(&str, &str)]| {
+        let mut command = program(here.path(), arguments);
+        for name in ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
+            command.env_remove(name);
+        }
+        let done = command.envs(variables.iter().copied()).output().unwrap();
+        [done.stdout, done.stderr].map(|bytes| bytes.contains(&0x1b))
+    };
+    let check = ["check", "four-bar"];
+    let asked = ["check", "four-bar", "--color", "always"];
+    assert_eq!(coloured(&check, &[]), [false; 2]);
+    assert_eq!(coloured(&asked, &[]), [true, false]);
+    assert_eq!(coloured(&asked, &[("NO_COLOR", "1")]), [true, false]);
+    let forced = [("CLICOLOR_FORCE", "1")];
+    assert_eq!(coloured(&check, &forced), [true, false]);
+    assert_eq!(coloured(&["check", "four-bar", "--color=never"], &forced), [false; 2]);
+    assert_eq!(coloured(&["check", "none"], &forced), [false, true]);
+    assert_eq!(coloured(&["run", "--help"], &forced), [true, false]);
+    assert_eq!(coloured(&["run", "--help"], &[]), [false; 2]);
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn results_that_cannot_be_written_end_with_1() {

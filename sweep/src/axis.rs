@@ -10,7 +10,7 @@ use dbd_plant::{
 };
 use dbd_scene::nearest;
 
-use crate::value::Value;
+use crate::value::{Value, dimension};
 
 /// What an axis changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -128,6 +128,12 @@ pub struct Axis {
 }
 
 impl Axis {
+    /// The SI unit of its values, where they are quantities and the table has them as numbers.
+    #[must_use]
+    pub fn unit(&self) -> Option<String> {
+        dimension(self.values.iter()).map(|dimension| dimension.to_string())
+    }
+
     /// Whether a plan of steps hangs on it.
     #[must_use]
     pub fn is_time(path: &str) -> bool {

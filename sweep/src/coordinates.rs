@@ -9,7 +9,6 @@ use dbd_plant::digits::significant;
 use crate::plot::{SI, Scale};
 use crate::spec::Spec;
 use crate::table::Table;
-use crate::value::numbers;
 
 /// Ratio of the ends from which on a list of positive numbers is drawn logarithmically.
 const DECADES: f64 = 100.0;
@@ -56,18 +55,18 @@ impl Coordinates {
         if names.len() < 2 {
             return None;
         }
-        let found = numbers(names.iter().map(String::as_str));
-        let mut label = axis.path.clone();
+        let numbers = names.iter().map(|name| name.parse().ok().filter(|n: &f64| n.is_finite()));
+        let numbers: Option<Vec<f64>> = numbers.collect();
+        let mut label = table.header[place].clone();
         let short = axis.path.rsplit('.').next().unwrap_or_default().to_owned();
-        let Some((values, unit)) = found else {
+        let Some(values) = numbers else {
             let scale = Scale::of_names(names.clone(), label);
             let words = names.clone();
             return Some(Self { place, short, names, words, rows, is_numeric: false, scale });
         };
         // A plain number of the scene is in the SI unit of what it is.
-        let unit = if unit.is_empty() && axis.path.contains('.') { SI } else { &unit };
-        if !unit.is_empty() {
-            label = format!("{label} [{unit}]");
+        if axis.unit().is_none() && axis.path.contains('.') {
+            label = format!("{label} [{SI}]");
         }
         let mut sorted: Vec<(f64, String)> = values.iter().copied().zip(names).collect();
         sorted.sort_by(|one, other| one.0.total_cmp(&other.0));

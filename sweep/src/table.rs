@@ -1,10 +1,12 @@
 //! The table: a row per case, in the order of the cases.
 //!
-//! `(spec, columns, rows) => header, CSV`. Number of the case from 1, a cell per axis, what the case came to,
+//! `(spec, columns, rows) => header, CSV`. Number of the case from 1, a cell per axis, in SI where it
+//! has a unit, which the header names, what the case came to,
 //! the asked figures of each column.
 
 use std::io::{self, Write};
 
+use crate::axis::Axis;
 use crate::cases::Cases;
 use crate::columns::Column;
 use crate::row::RESULTS;
@@ -31,7 +33,11 @@ impl Table {
         row: &dyn Fn(usize) -> Option<Vec<String>>,
     ) -> Self {
         let mut header = vec!["case".to_owned()];
-        header.extend(spec.axes.iter().map(|axis| axis.path.clone()));
+        let units: Vec<Option<String>> = spec.axes.iter().map(Axis::unit).collect();
+        header.extend(spec.axes.iter().zip(&units).map(|(axis, unit)| match unit {
+            Some(unit) => format!("{} [{unit}]", axis.path),
+            None => axis.path.clone(),
+        }));
         let axes = header.len();
         header.extend(RESULTS.map(str::to_owned));
         for column in columns {
@@ -45,7 +51,11 @@ impl Table {
         for case in 0..cases.len() {
             let Some(cells) = row(case) else { continue };
             let mut line = vec![(case + 1).to_string()];
-            line.extend(cases.values(case).into_iter().map(|value| value.cell.clone()));
+            let values = cases.values(case).into_iter().zip(&units);
+            line.extend(values.map(|(value, unit)| match unit {
+                Some(_) => value.in_si(),
+                None => value.cell.clone(),
+            }));
             let (results, figures) = cells.split_at(RESULTS.len().min(cells.len()));
             line.extend(results.iter().cloned());
             for column in figures.chunks(Statistic::ALL.len()) {

@@ -1,9 +1,10 @@
 //! What an axis may hold: one value as the scene takes it and as the table shows it.
 //!
 //! `TOML value => text after PATH=, cell`. A number is written in one way whatever it was in the file, so
-//! that 1e3 and 1000.0 are one case; any other value stays as it is written.
+//! that 1e3 and 1000.0 are one case; any other value stays as it is written. Where all values of an axis measure
+//! one thing, the table has them as numbers in SI.
 
-use dbd_plant::time::Time;
+use dbd_scene::quantity::{Dimension, evaluate};
 use toml::Spanned;
 use toml::de::DeValue;
 
@@ -14,7 +15,7 @@ use crate::refusal::Source;
 pub struct Value {
     /// As a change of the scene has it after `PATH=`: TOML.
     pub toml: String,
-    /// As the table shows it.
+    /// As the table shows it where not all of its axis are quantities.
     pub cell: String,
 }
 
@@ -66,22 +67,28 @@ pub fn split(text: &str) -> Option<(f64, &str)> {
     Some((text[..end].parse().ok()?, &text[end..]))
 }
 
-/// Values as numbers, where all are such, and their unit: plain numbers, times in seconds, or numbers
-/// before one and the same unit.
+/// What values measure that are numbers, some of them with a unit: `None` where one is something else, where two
+/// measure different things, and where none has a unit.
 #[must_use]
-pub fn numbers<'c>(cells: impl Iterator<Item = &'c str> + Clone) -> Option<(Vec<f64>, String)> {
-    let plain = cells.clone().map(|cell| cell.parse().ok().filter(|n: &f64| n.is_finite()));
-    if let Some(plain) = plain.collect() {
-        return Some((plain, String::new()));
+pub fn dimension<'v>(values: impl Iterator<Item = &'v Value>) -> Option<Dimension> {
+    let mut common = None;
+    for value in values {
+        let found = evaluate(&value.cell).ok()?.dimension;
+        // A plain number is in the SI unit of what it is given to.
+        if !found.is_none() && *common.get_or_insert(found) != found {
+            return None;
+        }
     }
-    let times = cells.clone().map(|cell| cell.parse::<Time>().ok().map(Time::seconds));
-    if let Some(times) = times.collect() {
-        return Some((times, "s".into()));
+    common
+}
+
+impl Value {
+    /// The number of a quantity, in SI; the text as it is where it is none.
+    #[must_use]
+    pub fn in_si(&self) -> String {
+        evaluate(&self.cell)
+            .map_or_else(|_| self.cell.clone(), |found| format!("{:?}", found.value))
     }
-    let parts: Vec<(f64, &str)> = cells.map(split).collect::<Option<_>>()?;
-    let unit = parts.first()?.1;
-    let same = parts.iter().all(|(_, other)| *other == unit);
-    same.then(|| (parts.iter().map(|(number, _)| *number).collect(), unit.trim().to_owned()))
 }
 
 #[cfg(test)]
@@ -102,13 +109,20 @@ mod tests {
     }
 
     #[test]
-    fn values_are_numbers_where_all_are() {
-        let numbers = |cells: &[&str]| numbers(cells.iter().copied());
-        assert_eq!(numbers(&["1", "2.5"]), Some((vec![1.0, 2.5], String::new())));
-        assert_eq!(numbers(&["20us", "1ms"]), Some((vec![2e-5, 1e-3], "s".into())));
-        assert_eq!(numbers(&["1 kN/m", "3 kN/m"]), Some((vec![1.0, 3.0], "kN/m".into())));
-        for cells in [&["1 kN/m", "3 N/m"][..], &["rk4"], &["1", "rk4"], &["[0, 1]"]] {
-            assert_eq!(numbers(cells), None, "{cells:?}");
+    fn values_are_numbers_in_si_where_all_measure_one_thing() {
+        let read = |cells: &[&str]| {
+            let value = |cell: &&str| Value { toml: String::new(), cell: (*cell).to_owned() };
+            let values: Vec<Value> = cells.iter().map(value).collect();
+            let unit = dimension(values.iter())?.to_string();
+            Some((unit, values.iter().map(Value::in_si).collect::<Vec<_>>().join(" ")))
+        };
+        let si = |unit: &str, cells: &str| Some((unit.to_owned(), cells.to_owned()));
+        assert_eq!(read(&["380.0 mm", "0.5 m"]), si("m", "0.38 0.5"));
+        assert_eq!(read(&["20us", "1ms"]), si("s", "2e-5 0.001"));
+        assert_eq!(read(&["1 kN/m", "3e3"]), si("N/m", "1000.0 3000.0"));
+        assert_eq!(read(&["90 deg", "0.0 deg"]), si("rad", "1.5707963267948966 0.0"));
+        for cells in [&["1 kN/m", "3 mm"][..], &["rk4"], &["1 mm", "2 * L"], &["[0, 1]"], &["1"]] {
+            assert_eq!(read(cells), None, "{cells:?}");
         }
     }
 }

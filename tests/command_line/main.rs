@@ -34,7 +34,7 @@ struct Done {
 
 fn call(arguments: &[&str]) -> Done {
     let (mut out, mut err) = (Vec::new(), Vec::new());
-    let mut console = Console { out: &mut out, err: &mut err, terminal: false };
+    let mut console = Console::plain(&mut out, &mut err);
     let exit =
         main_with(std::iter::once("host-sim").chain(arguments.iter().copied()), &mut console);
     let text = |bytes| String::from_utf8(bytes).unwrap();

@@ -192,6 +192,29 @@ fn what_goes_along_is_no_axis_of_its_own_and_equal_cases_run_once() {
     assert!(hashes[0] == hashes[1] && hashes[1] != hashes[2]);
 }
 
+/// Whatever unit a file has: whoever reads the table computes with numbers.
+#[test]
+fn values_with_units_are_numbers_in_si_and_their_column_names_the_unit() {
+    let folder = Folder::new();
+    let axes = "[axes]\ntsda.1.free_length = { from = \"900 mm\", to = \"1000 mm\", count = 3 }\n\
+                duration = [\"10 ms\", 0.02]\nbody.bob.mass = [1, 2]\n";
+    let spec = folder.sweep(&format!("{}{axes}", FIXED.replace("duration = \"10ms\"\n", "")));
+    let done = folder.swept(&spec, &["--json"]);
+    let outcome: serde_json::Value = serde_json::from_str(&done.out).expect(&done.err);
+    assert_eq!(outcome["axes"][0]["unit"], "m");
+    assert!(outcome["axes"][2]["unit"].is_null());
+    let lengths = folder.column("tsda.1.free_length [m]");
+    assert_eq!([&lengths[0], &lengths[4], &lengths[8]], ["0.9", "0.95", "1.0"]);
+    assert_eq!(folder.column("duration [s]")[1..4], ["0.01", "0.02", "0.02"]);
+    assert_eq!(folder.column("body.bob.mass")[..2], ["1", "2"]);
+    let options = ["--step", "1ms", "--duration", "10ms", "--every", "1ms"];
+    let set = ["--set", "tsda.1.free_length=0.95", "--set", "body.bob.mass=1"];
+    let summary = folder.summary(&folder.scene(PENDULUM), &[&options[..], &set].concat());
+    assert_eq!(summary["state_hash"], folder.column("state_hash")[4].as_str());
+    let page = fs::read_to_string(folder.path("out/s/sweep.html")).unwrap();
+    assert!(page.contains("free_length [m]"), "{page}");
+}
+
 /// The file, its line and column, and words of the message and the help.
 #[test]
 fn what_is_wrong_is_shown_in_its_place_and_nothing_is_written() {

@@ -4,6 +4,7 @@
 mod collect;
 mod pictures;
 mod proof;
+mod real_time;
 
 use dbd_tests::page::{block, figure, grouped, table};
 use dbd_tests::results::{Row, cost, rows};

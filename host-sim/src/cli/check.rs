@@ -19,7 +19,7 @@ use crate::terminal::{Catalogue, Console, Exit, Found};
 #[derive(Debug, Args)]
 pub(super) struct CheckArguments {
     #[command(flatten)]
-    scene: SceneArgument,
+    pub(super) scene: SceneArgument,
     /// As JSON
     #[arg(long)]
     json: bool,
@@ -88,7 +88,7 @@ pub(super) fn check_scene(
     if arguments.stability {
         check.stability = Some(StabilityCheck::of(&scene, &method)?);
     }
-    let mut text = if arguments.json { json(&check) } else { check.text() };
+    let mut text = if arguments.json { json(&check) } else { check.text(console.look) };
     if !arguments.json {
         let written = arguments.svg.iter().chain(&arguments.write);
         written.for_each(|file| text += &format!("\nwritten  {}\n", file.display()));

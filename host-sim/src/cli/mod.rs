@@ -5,6 +5,7 @@
 
 mod check;
 mod compare;
+mod first_steps;
 mod named;
 mod run;
 mod trade;
@@ -12,12 +13,13 @@ mod trade;
 use std::ffi::OsString;
 use std::io::Write;
 
-use clap::{CommandFactory as _, Parser, Subcommand};
+use clap::{ColorChoice, CommandFactory as _, Parser, Subcommand};
 use clap_complete::Shell;
 use dbd_import::omission;
 
 use crate::cli::check::{CheckArguments, check_scene};
 use crate::cli::compare::compare;
+use crate::cli::first_steps::first_steps;
 use crate::cli::named::load;
 use crate::cli::run::{RunArguments, run_scene};
 use crate::cli::trade::{TradeArguments, trade_scene};
@@ -29,47 +31,69 @@ use crate::commands::list::list;
 use crate::commands::new::{FirmwareArguments, NewCommand, firmware};
 use crate::commands::sweep::{SweepArguments, sweep};
 use crate::error::Error;
-use crate::terminal::text::{json, table};
+use crate::examples;
+use crate::terminal::text::json;
 use crate::terminal::{Catalogue, Console, Exit, Progress};
 
 /// Discrete Body Dynamics: simulates mechanisms of rigid bodies and springs.
 #[derive(Debug, Parser)]
-#[command(name = "host-sim", version, disable_help_subcommand = true)]
+#[command(name = "host-sim", version, disable_help_subcommand = true, max_term_width = 100)]
+#[command(
+    after_help = "Without a command it shows the first steps. The help of each command ends with examples."
+)]
 struct Cli {
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
+    /// Colours: on a terminal alone, always or never
+    #[arg(
+        long,
+        alias = "colour",
+        global = true,
+        value_name = "WHEN",
+        default_value = "auto",
+        display_order = 900
+    )]
+    color: ColorChoice,
 }
 
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Lists the scenes that have a name: those in scenes/ and those that are built in
+    #[command(after_help = examples::LIST)]
     List {
         /// As JSON
         #[arg(long)]
         json: bool,
     },
     /// Runs a scene: writes OUT/SCENE/{trace.csv,summary.json,report.html}, prints the summary
+    #[command(after_help = examples::RUN)]
     Run(RunArguments),
     /// Reads and assembles a scene without running it: counts, joints, frequencies, warnings
+    #[command(after_help = examples::CHECK)]
     Check(CheckArguments),
     /// Surveys speed against accuracy: writes OUT/SCENE/trade.{csv,svg,html,json}, trade-cortex-m4f.svg
     /// where steps were counted, and trade-*.cache; prints what to choose
+    #[command(after_help = examples::TRADE)]
     Trade(TradeArguments),
     /// Runs a scene with many values: writes OUT/SPEC/sweep.{csv,html,json}, a row per case; finished cases
     /// never run again
+    #[command(after_help = examples::SWEEP)]
     Sweep(SweepArguments),
     /// Compares two recorded runs, two schemes or a PC and a chip: bits, first difference, how far apart; writes
     /// OUT/compare/NAME/{report.html,compare.json}; exit code 0 where they are equal, 1 where not
     Compare(CompareArguments),
     /// Prints Rust source of a scene's const model and of its plant, for a firmware
+    #[command(after_help = examples::EXPORT)]
     Export(ExportArguments),
     /// Makes a scene of MuJoCo's MJCF: each part with the line it comes from; what has no counterpart is
     /// listed with its size and refused, unless its kind is ignored
+    #[command(after_help = examples::IMPORT)]
     Import(ImportArguments),
     /// Writes a new project that builds and runs as it is
     #[command(subcommand, disable_help_subcommand = true)]
     New(NewCommand),
     /// Prints a script that completes commands, options and scenes for a shell
+    #[command(after_help = examples::COMPLETIONS)]
     Completions {
         /// The shell
         shell: Shell,
@@ -87,7 +111,13 @@ where
         Err(error) => return usage(&error, console),
     };
     let catalogue = Catalogue::default();
-    let done = match cli.command {
+    console.choose(cli.color);
+    let Some(command) = cli.command else {
+        let text = first_steps(&Cli::command(), &catalogue, console.err_look);
+        let _ = console.err.write_all(text.as_bytes());
+        return Exit::Refused;
+    };
+    let done = match command {
         Command::List { json } => list(&catalogue, json, console).map_err(Error::from),
         Command::Run(arguments) => run_scene(&catalogue, &arguments, console),
         Command::Check(arguments) => check_scene(&catalogue, &arguments, console),
@@ -113,7 +143,8 @@ fn finish(done: Result<Exit, Error>, console: &mut Console<'_>) -> Exit {
 
 /// Prints help, version or what is wrong with the arguments.
 fn usage(error: &clap::Error, console: &mut Console<'_>) -> Exit {
-    let text = match console.terminal {
+    let look = if error.use_stderr() { console.err_look } else { console.look };
+    let text = match look.colours {
         true => error.render().ansi().to_string(),
         false => error.render().to_string(),
     };
@@ -147,7 +178,7 @@ fn sweep_scene(
     if arguments.json {
         console.print(&json(&outcome))?;
     } else if !arguments.quiet {
-        console.print(&table(&outcome.rows()))?;
+        console.print(&console.look.table(&outcome.rows()))?;
     }
     Ok(Exit::Done)
 }
@@ -203,6 +234,70 @@ mod tests {
         Cli::command().debug_assert();
     }
 
+    /// The commands that do something, each with the words that call it.
+    fn leaves(command: &clap::Command, words: &str) -> Vec<(String, clap::Command)> {
+        let below: Vec<_> = command.get_subcommands().collect();
+        if below.is_empty() {
+            return vec![(words.to_owned(), command.clone())];
+        }
+        let leaf = |sub: &&clap::Command| leaves(sub, &format!("{words} {}", sub.get_name()));
+        below.iter().flat_map(leaf).collect()
+    }
+
+    /// What ends a command in a shell.
+    const SHELL: [&str; 2] = [" | ", " > "];
+
+    /// Every command has examples; each calls the command, has a comment before it, and is taken; the scenes that
+    /// it names are there.
+    #[test]
+    fn the_examples_of_the_help_are_command_lines() {
+        let names = Catalogue::default().names();
+        for (words, command) in leaves(&Cli::command(), "host-sim") {
+            let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+            let mut lines = help.lines();
+            assert_eq!(lines.next(), Some("Examples:"), "{words} has no examples");
+            let lines: Vec<&str> = lines.collect();
+            assert!(lines.len() >= 2, "{words}: {help}");
+            for pair in lines.chunks(2) {
+                let [comment, line] = pair else { panic!("{words}: {pair:?}") };
+                assert!(comment.starts_with("  # ") && line.starts_with("  "), "{words}: {pair:?}");
+                let line = SHELL.iter().fold(line.trim(), |line, end| {
+                    line.split_once(end).map_or(line, |(before, _)| before)
+                });
+                assert!(line == words || line.starts_with(&format!("{words} ")), "{line}");
+                let cli = Cli::try_parse_from(shlex::split(line).unwrap());
+                let cli = cli.unwrap_or_else(|error| panic!("{error}"));
+                let scene = match cli.command.unwrap() {
+                    Command::Run(RunArguments { scene, .. })
+                    | Command::Check(CheckArguments { scene, .. })
+                    | Command::Trade(TradeArguments { scene, .. })
+                    | Command::Export(ExportArguments { scene, .. }) => scene.scene,
+                    _ => continue,
+                };
+                assert!(scene == "my.toml" || names.contains(&scene), "{line}: no such scene");
+            }
+        }
+    }
+
+    /// Without a command nothing is done; what is shown are command lines, too.
+    #[test]
+    fn without_a_command_the_first_steps_are_shown() {
+        let (mut said, mut wrong) = (Vec::new(), Vec::new());
+        let exit = main_with(["host-sim"], &mut Console::plain(&mut said, &mut wrong));
+        assert_eq!((exit, said.len()), (Exit::Refused, 0));
+        let text = String::from_utf8(wrong).unwrap();
+        let steps: Vec<&str> = text.lines().filter(|line| line.starts_with("  host-sim")).collect();
+        assert_eq!(steps.len(), 5, "{text}");
+        for step in steps {
+            let (line, _) = step.trim().split_once("  ").unwrap();
+            assert!(Cli::try_parse_from(shlex::split(line).unwrap()).is_ok(), "{line}");
+        }
+        for sub in Cli::command().get_subcommands() {
+            assert!(text.contains(sub.get_name()), "{text}");
+        }
+        assert!(text.contains("four-bar, gripper"), "{text}");
+    }
+
     /// With the feature, `run` takes Euler angles; without, it says what to do.
     #[test]
     fn what_is_for_comparison_is_refused_with_its_remedy_where_it_is_not_built() {
@@ -212,7 +307,7 @@ mod tests {
         let options = [["--orientation", "euler-321"], ["--precision", "f32-micromath"]];
         for option in options {
             let (mut said, mut wrong) = (Vec::new(), Vec::new());
-            let mut console = Console { out: &mut said, err: &mut wrong, terminal: false };
+            let mut console = Console::plain(&mut said, &mut wrong);
             let line = ["host-sim"].into_iter().chain(words).chain(option);
             let exit = main_with(line, &mut console);
             let wrong = String::from_utf8(wrong).unwrap();

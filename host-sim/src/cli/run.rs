@@ -13,13 +13,12 @@ use crate::commands::golden::GoldenOptions;
 use crate::commands::run::{Outcome, RunOptions, gltf_name, run};
 use crate::error::Error;
 use crate::simulate::EnergyLimit;
-use crate::terminal::text::table;
-use crate::terminal::{Catalogue, Console, Exit, Found, Progress};
+use crate::terminal::{Catalogue, Console, Exit, Found, Look, Progress};
 
 #[derive(Debug, Args)]
 pub(super) struct RunArguments {
     #[command(flatten)]
-    scene: SceneArgument,
+    pub(super) scene: SceneArgument,
     /// Time-stepping scheme
     #[arg(long, value_parser = names::<SchemeName>(), default_value = SchemeName::default().name())]
     scheme: SchemeName,
@@ -107,7 +106,7 @@ pub(super) fn run_scene(
     let printed = if arguments.json {
         console.print(&outcome.summary.json())
     } else if !arguments.quiet {
-        console.print(&summary_table(&outcome, &options))
+        console.print(&summary_table(&outcome, &options, console.look))
     } else {
         Ok(())
     };
@@ -129,7 +128,7 @@ pub(super) fn run_scene(
     Ok(if ended_by.is_some() { Exit::Failed } else { Exit::Done })
 }
 
-fn summary_table(outcome: &Outcome, options: &RunOptions) -> String {
+fn summary_table(outcome: &Outcome, options: &RunOptions, look: Look) -> String {
     let mut rows = outcome.summary.rows();
     if let Some(folder) = &outcome.folder {
         let page = if options.report { ",report.html" } else { "" };
@@ -138,5 +137,5 @@ fn summary_table(outcome: &Outcome, options: &RunOptions) -> String {
         let files = format!("trace.csv,summary.json{page}{animation}");
         rows.push(("written", format!("{}/{{{files}}}", folder.display())));
     }
-    table(&rows)
+    look.table(&rows)
 }

@@ -16,7 +16,7 @@ use crate::terminal::{Catalogue, Console, Exit, Found, Progress};
 #[derive(Debug, Args)]
 pub(super) struct TradeArguments {
     #[command(flatten)]
-    scene: SceneArgument,
+    pub(super) scene: SceneArgument,
     /// Longest window of comparison, e.g. 0.2s; it ends before chaos takes over [default: 0.5s or
     /// the scene's duration]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]

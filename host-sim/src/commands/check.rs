@@ -17,7 +17,7 @@ use crate::commands::assembled::AssembledCheck;
 use crate::commands::derived::{DerivedCheck, derived, lines as derived_lines};
 use crate::commands::stability::StabilityCheck;
 use crate::commands::warnings::{notes, of_scene, of_step};
-use crate::terminal::text::{aligned, table};
+use crate::terminal::Look;
 
 /// What is known of a scene before it runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -235,7 +235,7 @@ fn note_count(planar_loops: usize, check: &mut Check) {
 impl Check {
     /// What people read.
     #[must_use]
-    pub fn text(&self) -> String {
+    pub fn text(&self, look: Look) -> String {
         let advised = advised_text(self.advised_step, self.frequency_bound_hz);
         let step = self.step.map_or_else(|| "– (the advised one)".into(), display);
         let fastest = match &self.fastest_element {
@@ -285,23 +285,23 @@ impl Check {
         rows.extend(self.stability.iter().flat_map(StabilityCheck::rows));
         rows.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
         rows.extend(self.notes.iter().map(|note| ("note", note.clone())));
-        let mut text = table(&rows);
+        let mut text = look.table(&rows);
         if !self.joints.is_empty() {
             text.push('\n');
-            text.push_str(&self.joint_lines());
+            text.push_str(&self.joint_lines(look));
         }
         if !self.derived.is_empty() {
             text.push('\n');
-            text.push_str(&derived_lines(&self.derived));
+            text.push_str(&derived_lines(&self.derived, look));
         }
         if !(self.inputs.is_empty() && self.readouts.is_empty()) {
             text.push('\n');
-            text.push_str(&self.signal_lines());
+            text.push_str(&self.signal_lines(look));
         }
         text
     }
 
-    fn joint_lines(&self) -> String {
+    fn joint_lines(&self, look: Look) -> String {
         let head = [
             "joint",
             "type",
@@ -309,12 +309,11 @@ impl Check {
             "holds",
             "TSDAs",
             "L0 [m]",
-            "L at t = 0",
+            "L(0) [m]",
             "error [m]",
             "rate [m/s]",
         ];
-        let mut lines = vec![head.map(str::to_owned)];
-        lines.extend(self.joints.iter().map(|joint| {
+        let line = |joint: &JointCheck| {
             [
                 joint.name.clone(),
                 joint.kind.into(),
@@ -326,12 +325,12 @@ impl Check {
                 significant(joint.assembly_error, 3),
                 significant(joint.stretching_rate, 3),
             ]
-        }));
-        aligned(&lines)
+        };
+        look.columns(Some(head), &self.joints.iter().map(line).collect::<Vec<_>>())
     }
 
-    fn signal_lines(&self) -> String {
-        let mut lines = vec![["signal", "type", "unit", "driven by"].map(str::to_owned)];
+    fn signal_lines(&self, look: Look) -> String {
+        let mut lines = Vec::new();
         lines.extend(self.inputs.iter().map(|input| {
             let by = if input.table { "table" } else { "caller" };
             [&input.name, input.kind, input.unit, by].map(str::to_owned)
@@ -341,7 +340,7 @@ impl Check {
             units.dedup();
             [&readout.name, readout.kind, &units.join(", "), "read-out"].map(str::to_owned)
         }));
-        aligned(&lines)
+        look.columns(Some(["signal", "type", "unit", "driven by"]), &lines)
     }
 }
 

@@ -6,7 +6,7 @@ use dbd_plant::digits::significant;
 use dbd_scene::{DerivedBody, Scene};
 use serde::Serialize;
 
-use crate::terminal::text::aligned;
+use crate::terminal::Look;
 
 /// What came of a body that is given by a link, a shape or a tensor with products.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -40,10 +40,9 @@ pub fn derived(scene: &Scene) -> Vec<DerivedCheck> {
 }
 
 /// A table of them.
-pub(crate) fn lines(bodies: &[DerivedCheck]) -> String {
+pub(crate) fn lines(bodies: &[DerivedCheck], look: Look) -> String {
     let head = ["body", "shape", "length [m]", "mass [kg]", "inertia [kg·m²]", "axes turned [°]"];
-    let mut lines = vec![head.map(str::to_owned)];
-    lines.extend(bodies.iter().map(|body| {
+    let line = |body: &DerivedCheck| {
         [
             body.body.clone(),
             body.shape.unwrap_or("–").into(),
@@ -52,6 +51,6 @@ pub(crate) fn lines(bodies: &[DerivedCheck]) -> String {
             body.inertia.map(|moment| significant(moment, 4)).join(", "),
             significant(body.turned_degrees, 4),
         ]
-    }));
-    aligned(&lines)
+    };
+    look.columns(Some(head), &bodies.iter().map(line).collect::<Vec<_>>())
 }

@@ -6,7 +6,7 @@ use serde::Serialize;
 use crate::terminal::catalogue::BUILT_IN;
 use crate::terminal::console::OutputError;
 use crate::terminal::text::json;
-use crate::terminal::{Catalogue, Console, Exit, Found};
+use crate::terminal::{Catalogue, Console, Exit, Found, Look};
 
 /// A scene of the list.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -49,29 +49,21 @@ pub fn list(
             }
         }
     }
-    console.print(&if as_json { json(&entries) } else { lines(&entries) })?;
+    console.print(&if as_json { json(&entries) } else { lines(&entries, console.look) })?;
     Ok(exit)
 }
 
-fn lines(entries: &[Entry]) -> String {
-    let widest = |text: fn(&Entry) -> String| {
-        entries.iter().map(|entry| text(entry).chars().count()).max().unwrap_or(0)
-    };
-    let name = widest(|entry| entry.name.clone());
-    let bodies = widest(|entry| counted(entry.bodies, "body", "bodies"));
-    let tsdas = widest(|entry| counted(entry.tsdas, "TSDA", "TSDAs"));
-    let from = widest(|entry| origin(&entry.from).into());
-    let line = |entry: &Entry| {
-        format!(
-            "{:<name$}  {:<bodies$}  {:<tsdas$}  {:<from$}  {}\n",
-            entry.name,
+fn lines(entries: &[Entry], look: Look) -> String {
+    let cells = |entry: &Entry| {
+        [
+            entry.name.clone(),
             counted(entry.bodies, "body", "bodies"),
             counted(entry.tsdas, "TSDA", "TSDAs"),
-            origin(&entry.from),
-            entry.shows,
-        )
+            origin(&entry.from).to_owned(),
+            entry.shows.clone(),
+        ]
     };
-    entries.iter().map(line).collect()
+    look.columns(None, &entries.iter().map(cells).collect::<Vec<_>>())
 }
 
 /// What a line has room for: all files lie in one folder.
@@ -112,8 +104,10 @@ mod tests {
             shows: "swings".into(),
             from: from.into(),
         };
-        let text =
-            lines(&[entry("four-bar", 3, 24, BUILT_IN), entry("top", 1, 0, "/a/scenes/top.toml")]);
+        let text = lines(
+            &[entry("four-bar", 3, 24, BUILT_IN), entry("top", 1, 0, "/a/scenes/top.toml")],
+            Look::PLAIN,
+        );
         assert_eq!(
             text,
             "four-bar    3 bodies   24 TSDAs  built in  swings\n\

@@ -7,8 +7,11 @@ use std::io::{self, Write};
 
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use clap::ColorChoice;
 use miette::{Diagnostic, LabeledSpan, SourceSpan};
 use thiserror::Error;
+
+use crate::terminal::look::{DOUBTFUL, GOOD_TO_KNOW, Look};
 
 /// Standard output and standard error, or what stands for them.
 pub struct Console<'c> {
@@ -16,7 +19,11 @@ pub struct Console<'c> {
     pub out: &'c mut dyn Write,
     /// Errors.
     pub err: &'c mut dyn Write,
-    /// Whether errors may be coloured and progress be shown.
+    /// How results look.
+    pub look: Look,
+    /// How errors look.
+    pub err_look: Look,
+    /// Whether errors go to a terminal, and progress is shown by a bar.
     pub terminal: bool,
 }
 
@@ -25,7 +32,24 @@ pub struct Console<'c> {
 #[error("cannot write to standard output: {0}")]
 pub struct OutputError(io::Error);
 
-impl Console<'_> {
+impl<'c> Console<'c> {
+    /// Results and errors as files have them.
+    #[must_use]
+    pub fn plain(out: &'c mut dyn Write, err: &'c mut dyn Write) -> Self {
+        Self { out, err, look: Look::PLAIN, err_look: Look::PLAIN, terminal: false }
+    }
+
+    /// Takes what a user says about colours.
+    pub fn choose(&mut self, choice: ColorChoice) {
+        let colours = match choice {
+            ColorChoice::Auto => return,
+            ColorChoice::Always => true,
+            ColorChoice::Never => false,
+        };
+        self.look.colours = colours;
+        self.err_look.colours = colours;
+    }
+
     /// Writes results.
     ///
     /// # Errors
@@ -40,24 +64,24 @@ impl Console<'_> {
 
     /// Writes a warning.
     pub fn warn(&mut self, warning: &str) {
-        let _ = writeln!(self.err, "warning: {warning}");
+        let _ = writeln!(self.err, "{} {warning}", self.err_look.paint(DOUBTFUL, "warning:"));
     }
 
     /// Writes what must not go unseen, though nothing is wrong.
     pub fn note(&mut self, note: &str) {
-        let _ = writeln!(self.err, "note: {note}");
+        let _ = writeln!(self.err, "{} {note}", self.err_look.paint(GOOD_TO_KNOW, "note:"));
     }
 
     /// Writes an error with its place and its help.
     pub fn report(&mut self, error: &dyn Diagnostic) {
-        let text = rendered(error, self.terminal);
+        let text = rendered(error, self.err_look);
         let _ = writeln!(self.err, "{text}");
     }
 }
 
 /// An error as people read it: what is wrong; file, line, column and the line itself with a mark;
 /// what would be right.
-fn rendered(error: &dyn Diagnostic, colours: bool) -> String {
+fn rendered(error: &dyn Diagnostic, look: Look) -> String {
     let message = error.to_string();
     let mut group = Group::with_title(Level::ERROR.primary_title(&message));
     let source = Source::of(error);
@@ -72,7 +96,11 @@ fn rendered(error: &dyn Diagnostic, colours: bool) -> String {
     if let Some(help) = &help {
         group = group.element(Level::HELP.message(help));
     }
-    let renderer = if colours { Renderer::styled() } else { Renderer::plain() };
+    let renderer = if look.colours { Renderer::styled() } else { Renderer::plain() };
+    let renderer = match look.width {
+        Some(width) => renderer.term_width(width),
+        None => renderer,
+    };
     renderer.decor_style(DecorStyle::Unicode).render(&[group])
 }
 
@@ -128,7 +156,7 @@ mod tests {
     fn a_full_disk_is_a_failure_and_a_reader_that_has_gone_is_none() {
         let fails = |kind| {
             let (mut out, mut err) = (Failing(kind), Vec::new());
-            Console { out: &mut out, err: &mut err, terminal: false }.print("text").is_err()
+            Console::plain(&mut out, &mut err).print("text").is_err()
         };
         assert!(fails(io::ErrorKind::StorageFull));
         assert!(!fails(io::ErrorKind::BrokenPipe));
@@ -138,11 +166,12 @@ mod tests {
     fn an_error_shows_file_line_column_message_the_line_and_help() {
         let text = "name = \"ö\"\nduration = 1\n[[body]]\nname = \"b\"\nmass = -1\n";
         let error = Scene::parse(text, "slope.toml").unwrap_err();
-        let shown = rendered(&error, false);
+        let shown = rendered(&error, Look::PLAIN);
         for part in ["slope.toml:5:8", &error.message(), error.help(), "mass = -1"] {
             assert!(shown.contains(part), "{part}: {shown}");
         }
-        assert!(rendered(&error, true).contains("\u{1b}["));
+        let coloured = Look { colours: true, width: None };
+        assert!(rendered(&error, coloured).contains("\u{1b}["));
     }
 
     /// What is wrong may lie at the very end, in an empty file or behind letters of many bytes.
@@ -156,7 +185,7 @@ mod tests {
                 error.line().unwrap_or_default(),
                 error.column().unwrap_or_default()
             );
-            let shown = rendered(&error, false);
+            let shown = rendered(&error, Look::PLAIN);
             assert!(shown.contains(&place), "{place}: {shown}");
             assert!(shown.contains(error.help()), "{shown}");
         }

@@ -1,10 +1,12 @@
 //! What a run that takes its time says meanwhile: a bar on a terminal, lines elsewhere.
 
+use std::fmt;
 use std::io::Write;
 use std::time::{Duration, Instant};
 
 use dbd_plant::digits::significant;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::style::TemplateError;
+use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 
 /// Runs that are shorter show nothing.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -103,13 +105,8 @@ impl<'p> Progress<'p> {
             waiting.finish_and_clear();
         }
         let bar = self.bar.get_or_insert_with(|| {
-            let unit = self.unit;
-            let pace = if self.counts_alone { "{per_sec}  " } else { "" };
-            let template = format!(
-                "{{bar:40}} {{percent:>3}} %  {{human_pos}} of {{human_len}} {unit}  {pace}{{eta}} left"
-            );
             let bar = ProgressBar::new(all).with_elapsed(self.start.elapsed());
-            match ProgressStyle::with_template(&template) {
+            match style(self.unit, self.counts_alone) {
                 Ok(style) => bar.with_style(style),
                 Err(_) => bar,
             }
@@ -123,6 +120,17 @@ impl<'p> Progress<'p> {
             bar.finish_and_clear();
         }
     }
+}
+
+/// How a bar looks: it takes what the figures leave, which come first on a narrow terminal.
+fn style(unit: &'static str, has_pace: bool) -> Result<ProgressStyle, TemplateError> {
+    let pace = if has_pace { "{pace}  " } else { "" };
+    let template =
+        format!("{{percent:>3}} % of {{human_len}} {unit}  {pace}{{eta}} left  {{wide_bar}}");
+    let style = ProgressStyle::with_template(&template)?;
+    Ok(style.with_key("pace", move |state: &ProgressState, to: &mut dyn fmt::Write| {
+        let _ = write!(to, "{} a second", HumanCount(state.per_sec() as u64));
+    }))
 }
 
 #[cfg(test)]

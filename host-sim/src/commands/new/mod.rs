@@ -19,6 +19,7 @@ use dbd_scene::export::{constant_name, type_name};
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::examples;
 use crate::terminal::Found;
 use dependencies::Dependencies;
 
@@ -50,6 +51,7 @@ const TEMPLATES: &[(&str, &str)] = &[
 #[derive(Clone, Debug, Subcommand)]
 pub enum NewCommand {
     /// Writes a project with a scene as a plant in firmware: builds, runs in QEMU and on the PC
+    #[command(after_help = examples::NEW_FIRMWARE)]
     Firmware(FirmwareArguments),
 }
 

@@ -64,6 +64,8 @@ pub struct SweepOutcome {
 pub struct AxisOutcome {
     /// Its path.
     pub path: String,
+    /// The SI unit of its values, where they are quantities.
+    pub unit: Option<String>,
     /// How many values it has.
     pub values: usize,
 }
@@ -92,6 +94,7 @@ impl SweepOutcome {
         };
         let axis = |axis: &dbd_sweep::axis::Axis| AxisOutcome {
             path: axis.path.clone(),
+            unit: axis.unit(),
             values: axis.values.len(),
         };
         let damage = |damage: &dbd_sweep::store::Damage| {
