@@ -119,6 +119,20 @@ fn every_link_leads_somewhere() {
 }
 
 #[test]
+fn every_picture_is_shown_by_a_page() {
+    let files = [vec![path("README.md")], pages(&path("docs"))].concat();
+    let shown: BTreeSet<String> = files
+        .iter()
+        .flat_map(|file| Page::read(file).links)
+        .map(|link| name(Path::new(&link)))
+        .collect();
+    for picture in fs::read_dir(path("docs/pictures")).unwrap() {
+        let picture = name(&picture.unwrap().path());
+        assert!(shown.contains(&picture), "no page shows docs/pictures/{picture}");
+    }
+}
+
+#[test]
 fn every_page_says_whom_it_is_for_and_where_to_go_next() {
     for file in pages(&path("docs")) {
         let page = name(&file);
