@@ -160,7 +160,7 @@ fn the_readme_is_read_in_a_minute() {
     let text = fs::read_to_string(path("README.md")).unwrap();
     let lines = text.lines().count();
     assert!(lines <= 150, "README.md has {lines} lines: move something into docs/");
-    let wide = text.lines().filter(|line| !line.starts_with('|') && line.chars().count() > 125);
+    let wide = text.lines().filter(|line| !line.starts_with(['|', '<']) && line.chars().count() > 125);
     assert_eq!(wide.collect::<Vec<_>>(), [""; 0]);
 }
 
