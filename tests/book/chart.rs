@@ -135,12 +135,9 @@ fn drawn(
         .unwrap();
     for curve in curves {
         let style = curve.colour.stroke_width(2);
-        // What leaves the chart stops at its edge.
-        let inside = |&(a, b): &(f64, f64)| {
-            x.range.contains(&a) && b.is_finite() && (b > 0.0 || !y.logarithmic)
-        };
-        let clipped = |(a, b): (f64, f64)| (a, b.clamp(y.range.start, y.range.end));
-        let points: Vec<_> = curve.points.iter().copied().filter(inside).map(clipped).collect();
+        // What leaves the chart ends there.
+        let inside = |&(a, b): &(f64, f64)| x.range.contains(&a) && y.range.contains(&b);
+        let points: Vec<_> = curve.points.iter().copied().filter(inside).collect();
         let colour = curve.colour;
         let series = if curve.dashed {
             chart.draw_series(DashedLineSeries::new(points, 6, 4, style))
