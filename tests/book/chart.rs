@@ -112,8 +112,7 @@ fn drawn(
     legend: SeriesLabelPosition,
 ) {
     area.fill(&WHITE).unwrap();
-    let scale =
-        |axis: &Axis| Scale { range: axis.range.clone(), logarithmic: axis.logarithmic };
+    let scale = |axis: &Axis| Scale { range: axis.range.clone(), logarithmic: axis.logarithmic };
     let mut chart = ChartBuilder::on(area)
         .margin(12)
         .x_label_area_size(44)

@@ -22,7 +22,8 @@ struct Page {
 
 impl Page {
     fn read(file: &Path) -> Self {
-        let text = fs::read_to_string(file).unwrap_or_else(|why| panic!("{}: {why}", file.display()));
+        let text =
+            fs::read_to_string(file).unwrap_or_else(|why| panic!("{}: {why}", file.display()));
         let (mut links, mut anchors) = (Vec::new(), BTreeSet::new());
         let mut heading: Option<String> = None;
         for event in Parser::new_ext(&text, Options::ENABLE_TABLES) {
@@ -160,7 +161,8 @@ fn the_readme_is_read_in_a_minute() {
     let text = fs::read_to_string(path("README.md")).unwrap();
     let lines = text.lines().count();
     assert!(lines <= 150, "README.md has {lines} lines: move something into docs/");
-    let wide = text.lines().filter(|line| !line.starts_with(['|', '<']) && line.chars().count() > 125);
+    let wide =
+        text.lines().filter(|line| !line.starts_with(['|', '<']) && line.chars().count() > 125);
     assert_eq!(wide.collect::<Vec<_>>(), [""; 0]);
 }
 

@@ -65,8 +65,8 @@ fn the_figure_of_growth_is_what_steps_do() {
         assert!((a.1 - b.1).abs() < 1e-9, "{a:?} {b:?}");
     }
     let x = Axis { label: "z = ω·h", range: 0.0..3.4, logarithmic: false };
-    let y = Axis { label: "growth per step", range: 0.4..1.4, logarithmic: false };
-    drawn("stability", &svg(&x, &y, &curves, SeriesLabelPosition::UpperLeft));
+    let y = Axis { label: "growth per step", range: 0.1..1.4, logarithmic: false };
+    drawn("stability", &svg(&x, &y, &curves, SeriesLabelPosition::LowerLeft));
 }
 
 #[test]
@@ -81,7 +81,9 @@ fn the_figure_of_energy_is_what_runs_give() {
     let names = ["dbd", "rk4", "leapfrog", "pefrl"];
     let colours = [0, 3, 1, 2];
     let curves: Vec<Curve> = (0..4)
-        .map(|i| curve(names[i], colours[i], runs[i].1.iter().map(|&(t, e)| (1e3 * t, e)).collect()))
+        .map(|i| {
+            curve(names[i], colours[i], runs[i].1.iter().map(|&(t, e)| (1e3 * t, e)).collect())
+        })
         .collect();
     let x = Axis { label: "time [ms]", range: 0.0..500.1, logarithmic: false };
     let y = Axis { label: "|E − E(0)| [J]", range: 1e-6..1e3, logarithmic: true };
@@ -165,7 +167,8 @@ fn the_figures_of_steps_are_what_runs_give() {
         let steep = (e / f).ln() / (h / k).ln();
         assert!((steep - order).abs() < 0.3, "{}: {steep}", curve.name);
     }
-    let single = |name, colour, points| Curve { name, points, colour: COLOURS[colour], dashed: true };
+    let single =
+        |name, colour, points| Curve { name, points, colour: COLOURS[colour], dashed: true };
     let [_, leapfrog, _, pefrl] = curves;
     let curves = [
         Curve { name: "leapfrog, f64", ..leapfrog },

@@ -50,5 +50,9 @@ fn the_page_shows_what_was_shown() {
         vec![format!("`{name}`"), size, shown().to_owned()]
     });
     let rows: Vec<_> = rows.collect();
-    block("docs/measured.md", "practical", &table(&["scene", "bodies / TSDAs, step", "shown"], &rows));
+    block(
+        "docs/measured.md",
+        "practical",
+        &table(&["scene", "bodies / TSDAs, step", "shown"], &rows),
+    );
 }
