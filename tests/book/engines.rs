@@ -28,7 +28,7 @@ fn bits() -> String {
     let builds = rows("docs/results/bits.csv");
     let hashes: Vec<&str> = builds.iter().map(|row| row.text("hashes")).collect();
     assert!(hashes.iter().all(|count| *count == hashes[0]), "{hashes:?}");
-    format!("equal: {} hashes on {} builds and machines", hashes[0], builds.len())
+    format!("{} hashes equal on {} builds and machines", hashes[0], builds.len())
 }
 
 fn own(name: &str, [scheme, precision]: [&str; 2], off: f64) -> Vec<String> {
