@@ -96,8 +96,8 @@ impl Reader {
     fn write(&self, line: &str) {
         let file = self.file("wiper.toml");
         let text = fs::read_to_string(&file).unwrap();
-        let (before, after) = text.split_once("\npoints").unwrap();
-        fs::write(&file, format!("{before}\n{line}\npoints{after}")).unwrap();
+        let (before, after) = text.split_once("\npoints.O").unwrap();
+        fs::write(&file, format!("{before}\n{line}\npoints.O{after}")).unwrap();
     }
 }
 
