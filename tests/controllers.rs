@@ -37,7 +37,11 @@ fn the_examples_do_what_they_say() {
             ),
         ],
     ];
-    block("README.md", "examples", &table(&["example, under 40 lines of code", "does"], &rows));
+    block(
+        "docs/measured.md",
+        "examples",
+        &table(&["example, under 40 lines of code", "does"], &rows),
+    );
 }
 
 /// How far from upright \[rad\] it is in the last second.

@@ -130,5 +130,5 @@ fn figures_are_those_of_the_paper() {
     })
     .collect();
     let head: Vec<&str> = head.iter().map(String::as_str).collect();
-    block("README.md", "crank-slider", &table(&head, &rows));
+    block("docs/measured.md", "crank-slider", &table(&head, &rows));
 }

@@ -18,6 +18,7 @@ macro_rules! pages {
 
 pages! {
     contributing "CONTRIBUTING.md"
+    the_book "docs/README.md"
     architecture "docs/architecture.md"
     authoring "docs/authoring.md"
     board "docs/board.md"
@@ -29,14 +30,20 @@ pages! {
     golden "docs/golden.md"
     import "docs/import.md"
     joints "docs/joints.md"
+    measured "docs/measured.md"
+    method "docs/method.md"
+    precision "docs/precision.md"
     proof "docs/proof.md"
     real_time "docs/real-time.md"
     reference_solvers "docs/reference-solvers.md"
     scene_reference "docs/scene-reference.md"
     schemes "docs/schemes.md"
+    step "docs/step.md"
+    contents "docs/SUMMARY.md"
     sweeps "docs/sweeps.md"
     target "docs/target.md"
     trade "docs/trade.md"
+    tutorial "docs/tutorial.md"
 }
 
 /// The page whose program compiles in the firmware, too, for it includes a model.

@@ -16,10 +16,10 @@ pub struct Bands<'a> {
     pub velocity: f64,
     /// \[rad/s\].
     pub angular_velocity: f64,
-    /// Of recorded values by name, each in its own unit; the name of a read-out is that of all its
+    /// \[unit of each\] of recorded values by name; the name of a read-out is that of all its
     /// columns.
     pub values: &'a [(&'a str, f64)],
-    /// Of values that are not named; without it every one must be.
+    /// \[unit of each\] of values that are not named; without it every one must be.
     pub others: Option<f64>,
 }
 

@@ -165,13 +165,13 @@ pub struct Difference<N> {
     /// Bit for bit: the first number that differs. Within bands: the one furthest off in the quantity
     /// that is furthest beyond its band.
     pub component: Component<N>,
-    /// Its golden value.
+    /// \[unit of the component\] its golden value.
     pub golden: f64,
-    /// Its present value.
+    /// \[unit of the component\] its present value.
     pub present: f64,
     /// How many numbers of the precision lie between them; none from a NaN.
     pub ulps: Option<u64>,
-    /// Within bands: the distance of the quantity, and its band.
+    /// \[unit of the quantity\] within bands: its distance, and its band.
     pub beyond: Option<(f64, f64)>,
     /// Numbers that differ at this sample.
     pub differing: usize,

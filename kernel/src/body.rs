@@ -21,9 +21,9 @@ pub struct Body<R> {
     pub inverse_mass: R,
     /// \[1/(kg·m²)\] inverse inertia.
     pub inverse_inertia: Vec3<R>,
-    /// (Iz/Iy, Ix/Iz, Iy/Ix): how a rotation about x, y, z carries the next axis' rate over.
+    /// \[1\] (Iz/Iy, Ix/Iz, Iy/Ix): how a rotation about x, y, z carries the next axis' rate over.
     pub ratio: Vec3<R>,
-    /// (Iy/Iz, Iz/Ix, Ix/Iy).
+    /// \[1\] (Iy/Iz, Iz/Ix, Ix/Iy).
     pub inverse_ratio: Vec3<R>,
 }
 

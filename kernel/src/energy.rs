@@ -17,19 +17,19 @@ use crate::state::State;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Energy<R> {
-    /// `½·m·v² + ½·ω·I·ω` of all bodies.
+    /// \[J\] `½·m·v² + ½·ω·I·ω` of all bodies.
     pub kinetic: R,
-    /// `−m·g·x` of all bodies.
+    /// \[J\] `−m·g·x` of all bodies.
     pub gravity: R,
-    /// TSDAs.
+    /// \[J\] TSDAs.
     pub tsda: R,
-    /// Point bushings.
+    /// \[J\] point bushings.
     pub bushing: R,
-    /// Points on lines.
+    /// \[J\] points on lines.
     pub line: R,
-    /// Torsion springs, preload included.
+    /// \[J\] torsion springs, preload included.
     pub torsion: R,
-    /// World-frame force loads while they act.
+    /// \[J\] world-frame force loads while they act.
     pub load: R,
 }
 

@@ -86,9 +86,9 @@ impl<R: Real> KnotStep<R> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Signal<R> {
-    /// N, N·m or m.
+    /// \[N, N·m or m\] by the kind of its input.
     pub value: R,
-    /// m/s, of an anchor; unused by other kinds.
+    /// \[m/s\] of an anchor; unused by other kinds.
     pub rate: R,
 }
 

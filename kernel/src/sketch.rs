@@ -29,7 +29,7 @@ const POINTS: usize = 256;
 pub struct Start {
     /// \[m\] centre of mass, world.
     pub position: [f64; 3],
-    /// Unit quaternion, scalar first, body → world.
+    /// \[1\] unit quaternion, scalar first, body → world.
     pub orientation: [f64; 4],
     /// \[m/s\] world.
     pub velocity: [f64; 3],

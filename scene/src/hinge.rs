@@ -16,7 +16,7 @@ pub struct Hinge {
     pub a: BodyIndex,
     /// The second body; its turn about the axis, seen from the first, counts.
     pub b: BodyIndex,
-    /// Unit axis in the first body's axes.
+    /// \[1\] unit axis in the first body's axes.
     pub axis: Vec3<f64>,
 }
 

@@ -27,13 +27,13 @@ pub struct SceneModel<P: Geometry> {
     pub gravity: Vec<Vec3<P::Real>>,
     /// Groups in the order of their records' sums.
     pub groups: Vec<Group>,
-    /// Points of the groups.
+    /// \[m\] points of the groups, in the axes of their bodies.
     pub points: Vec<P::Local>,
     /// TSDAs of the groups.
     pub tsdas: Vec<Tsda<P::Real>>,
     /// Point bushings of the groups.
     pub bushings: Vec<PointBushing<P::Real>>,
-    /// Damping coefficients of groups and torsion springs.
+    /// \[N·s/m, N·m·s/rad\] damping coefficients of groups and torsion springs.
     pub dampers: Vec<P::Real>,
     /// Torsion springs.
     pub torsions: Vec<TorsionSpring<P::Real>>,

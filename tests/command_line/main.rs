@@ -13,6 +13,7 @@ mod results;
 mod run;
 mod set;
 mod sweep;
+mod tutorial;
 mod warnings;
 mod watch;
 

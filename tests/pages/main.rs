@@ -10,7 +10,7 @@ use dbd_tests::page::{block, figure, grouped, table};
 use dbd_tests::results::{Row, cost, rows};
 use dbd_tests::{scene, scene_names};
 
-/// The mechanisms of the tables in README.md.
+/// The mechanisms of the tables in docs/measured.md.
 const SHOWN: [&str; 5] = ["four-bar", "six-bar", "3rrr", "crank-slider", "3ruu"];
 
 const ACCURACIES: [&str; 4] = ["1e-4", "1e-5", "1e-6", "1e-7"];
@@ -33,26 +33,24 @@ fn choice(row: &Row) -> String {
     format!("{scheme} {precision}, {far}{}", if soft { " (f64)" } else { "" })
 }
 
-/// The choices of all scenes that `shown` names on a machine; `windows` as a column or not.
-fn choices(machine: &str, shown: impl Fn(&str) -> bool, windows: bool) -> String {
+/// The choices of all scenes on a machine.
+fn choices(machine: &str) -> String {
     let all = rows("docs/results/trade.csv");
-    let of = |row: &&Row| row.text("machine") == machine && shown(row.text("scene"));
+    let of = |row: &&Row| row.text("machine") == machine;
     let mut lines: Vec<Vec<String>> = Vec::new();
     for row in all.iter().filter(of) {
         let name = row.text("scene");
         if lines.last().is_none_or(|line| line[0] != name) {
-            let window = windows.then(|| format!("{} s", row.text("window_s")));
-            lines.push([name.to_owned()].into_iter().chain(window).collect());
+            lines.push(vec![name.to_owned(), format!("{} s", row.text("window_s"))]);
         }
         let line = lines.last_mut().unwrap();
-        let place = line.len() - usize::from(windows) - 1;
+        let place = line.len() - 2;
         assert_eq!(row.text("accuracy_m"), ACCURACIES[place], "{row:?}");
         line.push(choice(row));
     }
     assert!(!lines.is_empty());
     let accuracies = ACCURACIES.map(|accuracy| format!("{accuracy} m"));
-    let mut head = vec!["`host-sim trade`"];
-    head.extend(windows.then_some("window"));
+    let mut head = vec!["`host-sim trade`", "window"];
     head.extend(accuracies.iter().map(String::as_str));
     table(&head, &lines)
 }
@@ -60,11 +58,8 @@ fn choices(machine: &str, shown: impl Fn(&str) -> bool, windows: bool) -> String
 #[test]
 fn what_to_choose_is_as_surveyed() {
     collect::collect();
-    let readme =
-        ["four-bar", "five-bar-a", "five-bar-b", "six-bar", "3rrr", "crank-slider", "3ruu"];
-    block("README.md", "choices", &choices("pc", |name| readme.contains(&name), false));
-    block("docs/trade.md", "pc", &choices("pc", |_| true, true));
-    block("docs/trade.md", "cortex-m4f", &choices("cortex-m4f", |_| true, true));
+    block("docs/trade.md", "pc", &choices("pc"));
+    block("docs/trade.md", "cortex-m4f", &choices("cortex-m4f"));
 }
 
 fn line(title: &str, cell: impl Fn(&str) -> String) -> Vec<String> {
@@ -93,7 +88,7 @@ fn times_are_as_measured() {
             grouped(row.text("ns_per_step"))
         }));
     }
-    block("README.md", "times", &table(&[&["ns per step"], &SHOWN[..]].concat(), &lines));
+    block("docs/measured.md", "times", &table(&[&["ns per step"], &SHOWN[..]].concat(), &lines));
 }
 
 #[test]
@@ -111,7 +106,7 @@ fn counts_are_those_of_the_costs() {
         line("highest rate at 168 MHz, an estimate", rate),
         line("at the scene's own step", own),
     ];
-    block("README.md", "counts", &table(&[&["leapfrog, f32"], &SHOWN[..]].concat(), &lines));
+    block("docs/measured.md", "counts", &table(&[&["leapfrog, f32"], &SHOWN[..]].concat(), &lines));
 
     let counted = rows("docs/costs.csv");
     let all = scene_names().into_iter().filter_map(|name| {
@@ -187,5 +182,5 @@ fn bits_are_the_golden_ones() {
         format!("`{}`", row.unwrap().text("hash"))
     };
     let lines = ["f64", "f32"].map(|p| vec![p.to_owned(), hash("dbd", p), hash("leapfrog", p)]);
-    block("README.md", "bits", &table(&["", "dbd", "leapfrog"], &lines));
+    block("docs/measured.md", "bits", &table(&["", "dbd", "leapfrog"], &lines));
 }

@@ -1,4 +1,4 @@
-//! Scenes of machines that one meets do what such machines do; the README shows how well.
+//! Scenes of machines that one meets do what such machines do; docs/measured.md shows how well.
 
 mod driven;
 mod machines;
@@ -41,7 +41,7 @@ shown! {
 }
 
 #[test]
-fn the_readme_shows_what_was_shown() {
+fn the_page_shows_what_was_shown() {
     let rows = SCENES.iter().map(|(name, shown)| {
         let scene = scene(name);
         let (bodies, tsdas) = (scene.model.bodies.len(), scene.model.tsda_count());
@@ -50,5 +50,9 @@ fn the_readme_shows_what_was_shown() {
         vec![format!("`{name}`"), size, shown().to_owned()]
     });
     let rows: Vec<_> = rows.collect();
-    block("README.md", "practical", &table(&["scene", "bodies / TSDAs, step", "shown"], &rows));
+    block(
+        "docs/measured.md",
+        "practical",
+        &table(&["scene", "bodies / TSDAs, step", "shown"], &rows),
+    );
 }

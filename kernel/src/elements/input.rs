@@ -61,7 +61,7 @@ pub enum InputKind<P: Geometry> {
 pub struct Input<P: Geometry> {
     /// What its signal does.
     pub kind: InputKind<P>,
-    /// Its value at t = 0 where no table drives it.
+    /// \[N, N·m or m\] its value at t = 0 where no table drives it.
     pub value: P::Real,
     /// Its first knot among the model's knots.
     pub knot: u16,
@@ -109,7 +109,7 @@ impl<P: Geometry> Input<P> {
 pub struct Knot<R> {
     /// \[s\] from when it holds.
     pub time: f64,
-    /// The value at its time.
+    /// \[N, N·m or m\] the value at its time.
     pub value: R,
     /// The value's rate \[1/s\] until the next knot; 0 where the table is held.
     pub slope: R,

@@ -12,7 +12,7 @@ use crate::vector::Vec3;
 pub struct Stretch<R> {
     /// \[m\] from its first point to its second; on a line from the foot to the point.
     pub displacement: Vec3<R>,
-    /// The direction of its line; 0 where the law knows no line.
+    /// \[1\] the direction of its line; 0 where the law knows no line.
     pub direction: Vec3<R>,
 }
 

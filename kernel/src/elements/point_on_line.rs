@@ -18,7 +18,7 @@ use crate::vector::Vec3;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PointOnLine<R> {
-    /// Unit direction of the line in A's axes.
+    /// \[1\] unit direction of the line in A's axes.
     pub direction: Vec3<R>,
     /// \[N/m\] stiffness normal to the line, ≥ 0.
     pub stiffness: R,

@@ -8,9 +8,9 @@ use crate::real::Real;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Share<R> {
-    /// Its own, above 0, 1 at most.
+    /// \[1\] its own, above 0, 1 at most.
     pub own: R,
-    /// Of all dampers that come after it in ascending order.
+    /// \[1\] of all dampers that come after it in ascending order.
     pub later: R,
 }
 

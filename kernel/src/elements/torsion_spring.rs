@@ -24,9 +24,9 @@ pub struct TorsionSpring<R> {
     pub a: BodyIndex,
     /// Second body; its twist is measured.
     pub b: BodyIndex,
-    /// Unit axis in A's axes.
+    /// \[1\] unit axis in A's axes.
     pub axis: Vec3<R>,
-    /// Inverse of B's orientation in A at t = 0.
+    /// \[1\] inverse of B's orientation in A at t = 0.
     pub reference: Quaternion<R>,
     /// \[N·m/rad\] stiffness k, ≥ 0.
     pub stiffness: R,
@@ -42,7 +42,7 @@ pub struct TorsionSpring<R> {
 pub struct Twist<R> {
     /// \[rad\] unwrapped twist θ of B in A since t = 0.
     pub angle: R,
-    /// Gradient g of the twist with respect to a rotation of B, A's axes.
+    /// \[1\] gradient g of the twist with respect to a rotation of B, A's axes.
     pub gradient: Vec3<R>,
 }
 

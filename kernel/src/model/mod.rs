@@ -106,13 +106,13 @@ pub struct ModelRef<'m, P: Geometry, T> {
     pub gravity: &'m [Vec3<P::Real>],
     /// Groups in the order of their records' sums.
     pub groups: &'m [Group],
-    /// Points of the groups.
+    /// \[m\] points of the groups, in the axes of their bodies.
     pub points: &'m [P::Local],
     /// TSDAs of the groups.
     pub tsdas: &'m [Tsda<P::Real>],
     /// Point bushings of the groups.
     pub bushings: &'m [PointBushing<P::Real>],
-    /// Damping coefficients of groups and torsion springs.
+    /// \[N·s/m, N·m·s/rad\] damping coefficients of groups and torsion springs.
     pub dampers: &'m [P::Real],
     /// Torsion springs, summed after all groups.
     pub torsions: &'m [TorsionSpring<P::Real>],

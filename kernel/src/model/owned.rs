@@ -43,13 +43,13 @@ pub struct Model<
     pub gravity: [Vec3<P::Real>; GRAVITY],
     /// Groups in the order of their records' sums.
     pub groups: [Group; GROUPS],
-    /// Points of the groups.
+    /// \[m\] points of the groups, in the axes of their bodies.
     pub points: [P::Local; POINTS],
     /// TSDAs of the groups.
     pub tsdas: [Tsda<P::Real>; TSDAS],
     /// Point bushings of the groups.
     pub bushings: [PointBushing<P::Real>; BUSHINGS],
-    /// Damping coefficients of groups and torsion springs.
+    /// \[N·s/m, N·m·s/rad\] damping coefficients of groups and torsion springs.
     pub dampers: [P::Real; DAMPERS],
     /// Torsion springs, summed after all groups.
     pub torsions: [TorsionSpring<P::Real>; TORSIONS],

@@ -31,9 +31,9 @@ pub struct JointElement {
     pub bodies: [Option<usize>; 2],
     /// \[m\] from the bodies' centres of mass to its points, body axes.
     pub points: [Vec3<f64>; 2],
-    /// The direction along which it pulls, unit length, in the axes of either body.
+    /// \[1\] the direction along which it pulls, unit length, in the axes of either body.
     pub directions: [Vec3<f64>; 2],
-    /// The same in the world.
+    /// \[1\] the same in the world.
     pub direction_w: Vec3<f64>,
     /// \[N/m\].
     pub stiffness: f64,

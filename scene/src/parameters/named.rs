@@ -17,7 +17,7 @@ use crate::text::{Kind as _, Measure, Table, Value};
 pub struct Parameter {
     /// Its name.
     pub name: String,
-    /// In [`unit`](Self::unit).
+    /// \[[`unit`](Self::unit)\] its value.
     pub value: f64,
     /// The SI unit of its dimension, `N/m`; empty for a plain number.
     pub unit: String,

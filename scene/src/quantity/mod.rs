@@ -24,7 +24,7 @@ pub(crate) use word::words;
 /// A value in SI units with its dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantity {
-    /// In the SI unit of its dimension, finite.
+    /// \[SI unit of its dimension\] finite.
     pub value: f64,
     /// What it measures; none for a plain number.
     pub dimension: Dimension,

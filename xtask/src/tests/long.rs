@@ -6,7 +6,8 @@ use super::cases::Case;
 const LIMIT: f64 = 3.0;
 
 /// Program and test, each longer than [`LIMIT`].
-pub const LONG: [(&str, &str); 17] = [
+pub const LONG: [(&str, &str); 18] = [
+    ("tests::command_line", "tutorial::the_tutorial_does_what_it_says"),
     ("tests::frequency", "the_bound_holds_along_the_run_of_every_scene::test"),
     ("tests::frequency", "written_in_the_page"),
     ("tests::reference_implicit", "large_steps_are_calm"),
