@@ -6,7 +6,7 @@
 
 use crate::error::SceneError;
 use crate::text::Table;
-use crate::{body, inertia, input, joints, links, load, point_on_line, readout, spring};
+use crate::{body, geometry, inertia, input, joints, links, load, point_on_line, readout, spring};
 use crate::{torsion_spring, tsda};
 
 /// What names a thing or places it in a list is its own.
@@ -26,6 +26,7 @@ pub(crate) fn check(root: &Table<'_>) -> Result<(), SceneError> {
         ("load", vec![load::KEYS]),
         ("input", input::keys()),
         ("readout", readout::keys()),
+        ("geometry", geometry::keys()),
     ];
     kinds.extend(joints::keys());
     let names: Vec<&'static str> = kinds.iter().map(|(name, _)| *name).collect();

@@ -6,6 +6,7 @@
 mod assemble;
 mod cylindrical;
 mod fixed;
+mod info;
 mod rates;
 mod revolute;
 mod site;
@@ -16,10 +17,10 @@ mod universal;
 
 pub(crate) use assemble::read as assemble;
 pub use assemble::{Assembled, Moved, OpenJoint};
+pub use info::JointInfo;
 
 use dbd_kernel::Vec3;
 
-use crate::JointInfo;
 use crate::assembly::Assembly;
 use crate::closure::{Place, Turn};
 use crate::error::SceneError;
