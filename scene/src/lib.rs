@@ -45,6 +45,7 @@ mod text;
 pub mod time;
 mod torsion_spring;
 mod tsda;
+pub mod vocabulary;
 mod write;
 mod written;
 

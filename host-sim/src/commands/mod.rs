@@ -11,7 +11,8 @@
 //! - [`trade`]: speed against accuracy.
 //! - [`export`]: Rust source of a scene's const model and its plant.
 //! - [`mod@import`]: another program's file becomes a scene.
-//! - [`new`]: a project with a plant in firmware.
+//! - [`schema`]: what a scene file may hold, for editors.
+//! - [`new`]: a project with a plant in firmware, a scene to begin with.
 //! - [`completions`]: a script for a shell.
 
 pub mod assembled;
@@ -26,6 +27,7 @@ pub mod list;
 pub mod new;
 pub mod picture;
 pub mod run;
+pub mod schema;
 pub mod stability;
 pub mod sweep;
 pub mod trade;

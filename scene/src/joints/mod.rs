@@ -87,6 +87,19 @@ pub(crate) fn keys() -> Vec<(&'static str, Vec<&'static [&'static str]>)> {
     std::iter::once(("joint", with(&all))).chain(each).collect()
 }
 
+/// The types, each with all its keys.
+pub(crate) fn types() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
+    TYPES.iter().map(|kind| (kind.name, [KEYS, spring::KEYS, kind.keys].concat()))
+}
+
+/// The keys of tables within a joint and within `[assemble]`.
+pub(crate) const WITHIN: [(&str, &[&str]); 4] = [
+    ("assemble", assemble::KEYS),
+    ("spider", universal::SPIDER),
+    ("halves", site::HALVES),
+    ("rate", rates::RATES),
+];
+
 /// What other programs and people call the types.
 const OTHER_NAMES: [(&str, &[&str]); 6] = [
     ("spherical", &["ball", "ball_and_socket", "ball_socket", "socket", "point", "globular"]),
