@@ -4,6 +4,7 @@
 //! - [`warnings`]: what is probably not meant, in one place for all.
 //! - [`assembled`], [`stability`], [`derived`], [`check`]: what a scene is, without running it.
 //! - [`picture`]: the mechanism as an SVG. [`mod@write`]: a scene in its long form.
+//! - [`watch`]: a file is looked at again each time it has changed.
 //! - [`folder`]: where results go.
 //! - [`golden`]: a run beside a golden file.
 //! - [`run`]: a scene becomes a trace, a summary and a report.
@@ -32,4 +33,5 @@ pub mod stability;
 pub mod sweep;
 pub mod trade;
 pub mod warnings;
+pub mod watch;
 pub mod write;

@@ -218,7 +218,15 @@ fn complete(table: &str, tables: &[TableKeys]) -> Value {
             rules.push(when(table, "cylinder", any(&[ends, middle])));
             json!({ "required": required(table), "allOf": rules })
         }
-        _ => json!({ "required": required(table), "allOf": rules(table) }),
+        _ => {
+            let mut schema = json!({ "required": required(table) });
+            // None is not taken for all of none.
+            let rules = rules(table);
+            if !rules.is_empty() {
+                schema["allOf"] = json!(rules);
+            }
+            schema
+        }
     }
 }
 
@@ -250,10 +258,14 @@ fn of_defaults(tables: &[TableKeys]) -> Value {
     let kinds = defaults();
     let joint_types: Vec<&str> = of_kinds("joint", tables).map(|(kind, _)| kind).collect();
     let all = kinds.iter().map(|(kind, keys)| {
-        // The keys of a type of joint are those of joints.
-        let table = if joint_types.contains(kind) { "joint" } else { kind };
-        let keys = keys.iter().filter_map(|key| Some((*key, keys::schema(table, key, tables)?)));
-        (*kind, object(keys, &[]))
+        // The keys of a type of joint are those of joints; links and shapes stand in bodies.
+        let table = match *kind {
+            "link" | "shape" => format!("body/items/properties/{kind}"),
+            kind if joint_types.contains(&kind) => "joint/items".into(),
+            kind => format!("{kind}/items"),
+        };
+        let like = |key: &str| json!({ "$ref": format!("#/properties/{table}/properties/{key}") });
+        (*kind, object(keys.iter().map(|key| (*key, like(key))), &[]))
     });
     let mut schema = object(all, &[]);
     schema["description"] =
