@@ -96,8 +96,7 @@ pub(crate) fn block_face(corners_w: &[Vec3<f64>], frame: &Frame) -> Face {
     let all: Vec<Point> = corners_w.iter().map(|corner| frame.at(*corner)).collect();
     // The three edges that meet at the nearest corner lie within the outline.
     let depth = |corner: &usize| frame.depth(corners_w[*corner]);
-    let nearest =
-        (0..corners_w.len()).max_by(|a, b| depth(a).total_cmp(&depth(b))).unwrap_or(0);
+    let nearest = (0..corners_w.len()).max_by(|a, b| depth(a).total_cmp(&depth(b))).unwrap_or(0);
     let edge = |bit: usize| vec![all[nearest], all[nearest ^ (1 << bit)]];
     Face { edges: vec![edge(0), edge(1), edge(2)], ..Face::new(hull(&all)) }
 }

@@ -21,7 +21,8 @@ pub struct TableKeys {
 /// All tables but `[parameters]` and `[points]`, whose keys are names, and `[defaults]`, whose are kinds.
 #[must_use]
 pub fn vocabulary() -> Vec<TableKeys> {
-    let one = |table, keys: &[&[&'static str]]| TableKeys { table, kind: None, keys: keys.concat() };
+    let one =
+        |table, keys: &[&[&'static str]]| TableKeys { table, kind: None, keys: keys.concat() };
     let mut all = vec![
         one("scene", &[super::KEYS]),
         one("point", &[points::KEYS]),

@@ -7,6 +7,7 @@ mod picture;
 mod refusal;
 mod results;
 mod run;
+mod schema;
 mod set;
 mod sweep;
 mod warnings;

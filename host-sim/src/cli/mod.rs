@@ -96,9 +96,7 @@ where
             new_firmware(&catalogue, &arguments, console)
         }
         Command::New(NewCommand::Scene(arguments)) => new_scene(&catalogue, &arguments, console),
-        Command::Schema => {
-            console.print(&schema::text()).map(|()| Exit::Done).map_err(Error::from)
-        }
+        Command::Schema => console.print(&schema::text()).map(|()| Exit::Done).map_err(Error::from),
         Command::Completions { shell } => complete(&catalogue, shell, console),
     };
     finish(done, console)

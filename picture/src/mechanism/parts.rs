@@ -227,7 +227,12 @@ impl Mechanism {
         let Some(body) = self.bodies.get(row) else { return Vec::new() };
         let place = |point: &[f64; 3]| self.place(&Place { body: Some(row), point: *point });
         if !body.shapes.is_empty() {
-            return body.shapes.iter().flat_map(Solid::corners).map(|point| place(&point)).collect();
+            return body
+                .shapes
+                .iter()
+                .flat_map(Solid::corners)
+                .map(|point| place(&point))
+                .collect();
         }
         match &body.outline {
             Outline::Bar { ends } => ends.iter().map(place).collect(),

@@ -53,8 +53,7 @@ pub fn scene(path: &Path, copied: Option<&str>) -> Result<String, NewError> {
         return Err(NewError::Write { path: folder.to_owned(), reason });
     }
     let put = |path: &Path, text: &str| {
-        write_at(path, text)
-            .map_err(|reason| NewError::Write { path: path.to_owned(), reason })
+        write_at(path, text).map_err(|reason| NewError::Write { path: path.to_owned(), reason })
     };
     put(&schema_file, &schema::text())?;
     put(&file, &text)?;
@@ -107,7 +106,8 @@ mod tests {
 
     #[test]
     fn a_copy_has_its_own_name_and_one_schema() {
-        let text = "#:schema ./x.json\n# name = 1\nname=\"a\" # old\nnames = 2\n[[body]]\nname = \"b\"\n";
+        let text =
+            "#:schema ./x.json\n# name = 1\nname=\"a\" # old\nnames = 2\n[[body]]\nname = \"b\"\n";
         let copy = renamed(text, "mine");
         assert_eq!(copy, "# name = 1\nname = \"mine\"\nnames = 2\n[[body]]\nname = \"b\"\n");
         assert_eq!(quoted(Path::new("a b/it's.toml")), "'a b/it'\\''s.toml'");

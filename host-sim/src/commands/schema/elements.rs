@@ -12,10 +12,7 @@ use super::values::{Key, any, array, choice, halves, heading, name, number, numb
 pub(super) fn of_spring(key: &str, tables: &[TableKeys]) -> Option<Key> {
     Some(match key {
         "stiffness" => Key(
-            any(&[
-                number(NotNegative),
-                within("stiffness", tables, &["load", "deflection"]),
-            ]),
+            any(&[number(NotNegative), within("stiffness", tables, &["load", "deflection"])]),
             "N/m (about an axis N·m/rad), ≥ 0; or { load = N, deflection = m }",
             "",
         ),
@@ -24,9 +21,7 @@ pub(super) fn of_spring(key: &str, tables: &[TableKeys]) -> Option<Key> {
             Key(number(NotNegative), "≥ 0, in place of `damping`: the ratio at `frequency`", "")
         }
         "frequency" => Key(number(Positive), "Hz, > 0: where `damping_ratio` holds", ""),
-        "clearance" => {
-            Key(number(NotNegative), "m, ≥ 0: a dead band about the free length", "0")
-        }
+        "clearance" => Key(number(NotNegative), "m, ≥ 0: a dead band about the free length", "0"),
         _ => return None,
     })
 }
@@ -76,9 +71,7 @@ pub(super) fn of_joint(key: &str, tables: &[TableKeys]) -> Option<Key> {
         "span" => Key(number(Positive), "m, > 0: how far its points lie apart along the axis", ""),
         "ring" => Key(number(Positive), "m, > 0: radius of the ring of points", "span/√2"),
         "arm" => Key(number(Positive), "m, > 0: length of its elements", ""),
-        "offset" => {
-            Key(number(Positive), "m, > 0: distance of the points from their line", "")
-        }
+        "offset" => Key(number(Positive), "m, > 0: distance of the points from their line", ""),
         "gauge" => Key(number(Positive), "m, > 0: distance of the two lines", ""),
         "offsets" => Key(
             choice(&["alike", "outward"]),
@@ -114,14 +107,14 @@ pub(super) fn of_line(key: &str) -> Option<Key> {
             "[first, second]: the first body owns the line, the second the point; one may be \"world\"",
             "",
         ),
-        "line_point" => Key(place(), "A point of the line: [x, y, z] m in the first body's axes, or a name", ""),
+        "line_point" => {
+            Key(place(), "A point of the line: [x, y, z] m in the first body's axes, or a name", "")
+        }
         "line_direction" => {
             Key(numbers(3, Any), "[x, y, z] of any length but 0, in the first body's axes", "")
         }
         "point" => Key(place(), "The point: [x, y, z] m in the second body's axes, or a name", ""),
-        "free_length" => {
-            Key(number(NotNegative), "m, ≥ 0: distance from the line at rest", "")
-        }
+        "free_length" => Key(number(NotNegative), "m, ≥ 0: distance from the line at rest", ""),
         _ => return None,
     })
 }
@@ -158,11 +151,9 @@ pub(super) fn of_input(key: &str, tables: &[TableKeys]) -> Option<Key> {
             "[[time in s, value], …], times ascending: the scene drives the input",
             "none",
         ),
-        "interpolate" => Key(
-            choice(&["held", "linear"]),
-            "How a table goes on between its times",
-            "held",
-        ),
+        "interpolate" => {
+            Key(choice(&["held", "linear"]), "How a table goes on between its times", "held")
+        }
         "body" => Key(name(), "The body that it acts on", ""),
         "point" => Key(
             place(),
@@ -186,14 +177,10 @@ pub(super) fn of_readout(key: &str, tables: &[TableKeys]) -> Option<Key> {
         "name" => Key(name(), "A name of its own among read-outs: it heads a column", ""),
         "type" => Key(kinds("readout", tables), "What it shows", ""),
         "body" => Key(name(), "The body that it looks at", ""),
-        "point" => Key(
-            place(),
-            "Where: [x, y, z] m in the body's axes, or a point",
-            "the centre of mass",
-        ),
-        "target" => {
-            Key(name(), "The joint, tsda, torsion spring or input that it looks at", "")
+        "point" => {
+            Key(place(), "Where: [x, y, z] m in the body's axes, or a point", "the centre of mass")
         }
+        "target" => Key(name(), "The joint, tsda, torsion spring or input that it looks at", ""),
         "axis" => Key(numbers(3, Any), "[x, y, z]: of a spherical joint, world at t = 0", ""),
         "about" => Key(choice(&["first", "second"]), "Which axis of a universal joint", ""),
         _ => return None,

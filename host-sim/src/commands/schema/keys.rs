@@ -41,8 +41,7 @@ pub(super) fn within(table: &'static str, tables: &[TableKeys], required: &[&str
     for known in tables.iter().filter(|known| known.table == table) {
         keys.extend(&known.keys);
     }
-    let properties =
-        keys.into_iter().filter_map(|key| Some((key, schema(table, key, tables)?)));
+    let properties = keys.into_iter().filter_map(|key| Some((key, schema(table, key, tables)?)));
     object(properties, required)
 }
 
@@ -84,9 +83,7 @@ fn of_assemble(key: &str, tables: &[TableKeys]) -> Option<Key> {
             "m, > 0: the length at which a turn by a radian counts as a shift by a metre",
             "the distance of joints from centres of mass, root mean square",
         ),
-        "tolerance" => {
-            Key(number(Positive), "m, > 0: by how much a joint may stay open", "1e-9")
-        }
+        "tolerance" => Key(number(Positive), "m, > 0: by how much a joint may stay open", "1e-9"),
         "iterations" => Key(
             json!({ "type": "integer", "minimum": 1 }),
             "A whole number > 0: most steps for bodies that hang together",
@@ -195,9 +192,7 @@ fn of_shape(table: &str, key: &str, tables: &[TableKeys]) -> Option<Key> {
             "[x, y, z], not along the link: the next axis of the body lies on its side",
             "the shortest turn",
         ),
-        "centre" => {
-            Key(number(Any), "Share of the way at which the centre of mass lies", "0.5")
-        }
+        "centre" => Key(number(Any), "Share of the way at which the centre of mass lies", "0.5"),
         "length" if table == "link" => Key(
             number(Positive),
             "m, > 0: its own length where that is not the distance of its points; only with [assemble]",

@@ -143,8 +143,7 @@ fn one(table: &'static str, meaning: &str, tables: &[TableKeys]) -> Value {
         "body" | "joint" | "input" | "readout" => &["name"],
         _ => &[],
     };
-    let properties =
-        keys.iter().filter_map(|key| Some((*key, keys::schema(table, key, tables)?)));
+    let properties = keys.iter().filter_map(|key| Some((*key, keys::schema(table, key, tables)?)));
     let mut schema = object(properties, named);
     schema["description"] = json!(format!("{meaning}."));
     let rules = own_keys(table, tables);
