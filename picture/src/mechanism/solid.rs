@@ -52,7 +52,7 @@ pub enum Solid {
 }
 
 /// Points of a circle.
-const AROUND: usize = 36;
+const AROUND: usize = 60;
 
 impl From<&GeometryInfo> for Solid {
     fn from(geometry: &GeometryInfo) -> Self {

@@ -5,7 +5,7 @@
 use dbd_scene::vocabulary::{TableKeys, colours};
 use serde_json::{Value, json};
 
-use super::keys::{kinds, within};
+use super::keys::{kinds, orientation, within};
 use super::values::Range::{Any, NotNegative, Positive};
 use super::values::{Key, any, array, choice, halves, heading, name, number, numbers, place};
 
@@ -203,7 +203,7 @@ pub(super) fn of_geometry(key: &str, tables: &[TableKeys]) -> Option<Key> {
         ),
         "size" => Key(numbers(3, Positive), "[x, y, z] m, > 0: the sides of a box", ""),
         "orientation" => Key(
-            within("orientation", tables, &[]),
+            orientation(tables),
             "How a box is turned in the body: { axis, angle }, { quaternion } or { euler_321 }",
             "not at all",
         ),

@@ -45,6 +45,14 @@ pub(super) fn within(table: &'static str, tables: &[TableKeys], required: &[&str
     object(properties, required)
 }
 
+/// One of the forms of an orientation.
+pub(super) fn orientation(tables: &[TableKeys]) -> Value {
+    let mut schema = within("orientation", tables, &[]);
+    let forms: [&[&str]; 3] = [&["axis", "angle"], &["quaternion"], &["euler_321"]];
+    schema["oneOf"] = json!(forms.map(|keys| json!({ "required": keys })));
+    schema
+}
+
 /// The types or shapes of a table.
 pub(super) fn kinds(table: &str, tables: &[TableKeys]) -> Value {
     let kinds = tables.iter().filter(|known| known.table == table);
@@ -151,7 +159,7 @@ fn of_body(key: &str, tables: &[TableKeys]) -> Option<Key> {
             "that of its link",
         ),
         "orientation" => Key(
-            within("orientation", tables, &[]),
+            orientation(tables),
             "Body → world: { axis, angle }, { quaternion } or { euler_321 }",
             "none, or that of its link",
         ),
