@@ -5,7 +5,7 @@
 use dbd_scene::vocabulary::{TableKeys, colours};
 use serde_json::{Value, json};
 
-use super::keys::{kinds, orientation, within};
+use super::inner::{kinds, orientation, within};
 use super::values::Range::{Any, NotNegative, Positive};
 use super::values::{Key, any, array, choice, halves, heading, name, number, numbers, place};
 

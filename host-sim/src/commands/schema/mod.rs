@@ -1,10 +1,11 @@
 //! `host-sim schema`: the JSON Schema of scene files, from which editors complete keys and show what they mean.
 //!
 //! `() => schema`. Which tables and keys there are says the reader itself ([`dbd_scene::vocabulary`]), what they mean
-//! `keys.rs` and `elements.rs`. Keys that must be there are asked for where the scene has no `[defaults]`, which may give
+//! `keys.rs`, `elements.rs` and `inner.rs`. Keys that must be there are asked for where the scene has no `[defaults]`, which may give
 //! them.
 
 mod elements;
+mod inner;
 mod keys;
 mod values;
 
@@ -239,7 +240,7 @@ fn parameters() -> Value {
 }
 
 fn points(tables: &[TableKeys]) -> Value {
-    let form = keys::within("point", tables, &[]);
+    let form = inner::within("point", tables, &[]);
     json!({
         "type": "object",
         "description": "Places in the world at the initial pose, by name: [x, y, z] m, or how they lie to others.",
@@ -248,7 +249,9 @@ fn points(tables: &[TableKeys]) -> Value {
 }
 
 fn assemble(tables: &[TableKeys]) -> Value {
-    let mut schema = keys::within("assemble", tables, &[]);
+    let keys = keys_of("assemble", tables);
+    let keys = keys.iter().filter_map(|key| Some((*key, keys::schema("assemble", key, tables)?)));
+    let mut schema = object(keys, &[]);
     schema["description"] = json!("Bodies are moved until all joints are closed.");
     schema
 }
