@@ -13,6 +13,7 @@ use crate::commands::picture::PictureError;
 use crate::commands::run::RunError;
 use crate::commands::sweep::error::SweepError;
 use crate::commands::trade::TradeError;
+use crate::commands::watch::WatchError;
 use crate::commands::write::WriteError;
 use crate::terminal::console::OutputError;
 use crate::terminal::{Exit, LoadError};
@@ -44,7 +45,7 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Picture(#[from] PictureError),
-    /// There is no new project.
+    /// There is no new project or scene.
     #[error(transparent)]
     #[diagnostic(transparent)]
     New(#[from] NewError),
@@ -52,6 +53,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     LongForm(#[from] WriteError),
+    /// A scene is not watched.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Watch(#[from] WatchError),
     /// A run was refused, or its results could not be written.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -86,7 +91,7 @@ impl Error {
             | Self::Picture(PictureError::Write { .. }) => Exit::Failed,
             Self::Export(_) | Self::Import(_) | Self::New(_) | Self::Picture(_) => Exit::Refused,
             Self::LongForm(WriteError::Write { .. } | WriteError::Differs) => Exit::Failed,
-            Self::LongForm(_) => Exit::Refused,
+            Self::LongForm(_) | Self::Watch(_) => Exit::Refused,
             Self::Output(_) => Exit::Failed,
             // 1 means that the runs differ.
             Self::Compare(_) => Exit::Refused,

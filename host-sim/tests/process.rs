@@ -237,3 +237,72 @@ fn a_golden_file_is_blessed_by_the_environment() {
     assert!(fs::read_to_string(&file).unwrap().lines().count() == 12 + 11 + 1);
     assert_eq!(run(&[], &[]), (Some(0), String::new()));
 }
+
+/// A scene that is watched is checked at each save, whatever becomes of it meanwhile, and Ctrl-C ends it as it ends
+/// any program.
+#[cfg(unix)]
+#[test]
+fn a_watched_scene_is_checked_at_each_save() {
+    use std::io::{BufRead as _, BufReader};
+    use std::os::unix::process::ExitStatusExt as _;
+
+    let here = tempfile::tempdir().unwrap();
+    let file = here.path().join("ball.toml");
+    fs::write(&file, ball("1")).unwrap();
+    let arguments =
+        ["check", "ball.toml", "--watch", "--svg", "ball.svg", "--write", "long.toml", "--json"];
+    let mut command = program(here.path(), &arguments);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+    // All that is said up to the end of a check.
+    let mut next = || {
+        let mut said = String::new();
+        for line in lines.by_ref() {
+            said += &(line.unwrap() + "\n");
+            if said.contains("Ctrl-C ends") {
+                break;
+            }
+        }
+        said
+    };
+    assert!(next().contains("check 1 of ball.toml: OK"));
+    let long = || fs::read_to_string(here.path().join("long.toml")).unwrap();
+    assert!(long().contains("duration = 1\n"));
+
+    // Broken in place, mended by a file that takes its place, gone for good, back again.
+    fs::write(&file, ball("-1")).unwrap();
+    let said = next();
+    assert!(
+        said.contains("ball.toml:2:12") && said.contains("check 2 of ball.toml: refused"),
+        "{said}"
+    );
+    let other = here.path().join("other");
+    fs::write(&other, ball("2")).unwrap();
+    fs::rename(&other, &file).unwrap();
+    let said = next();
+    assert!(said.contains("check 3 of ball.toml: OK"), "{said}");
+    assert!(long().contains("duration = 2\n") && here.path().join("ball.svg").exists());
+    fs::remove_file(&file).unwrap();
+    let said = next();
+    assert!(said.contains("ball.toml") && said.contains("refused"), "{said}");
+    fs::write(&file, ball("3")).unwrap();
+    let said = next();
+    assert!(said.contains("check 5 of ball.toml: OK"), "{said}");
+    assert!(long().contains("duration = 3\n"));
+
+    let id = child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().signal(), Some(2));
+    for (arguments, said) in [
+        (&["check", "four-bar", "--watch"][..], "no file that could change"),
+        (&["check", "-", "--watch"], "no file that could change"),
+        (&["check", "four-baa", "--watch"], "did you mean four-bar?"),
+        (&["check", "none.toml", "--watch"], "none.toml"),
+        (&["check", "ball.toml", "--watch", "--svg", "-"], "something else"),
+        (&["check", "ball.toml", "--watch", "--write", "./ball.toml"], "is the scene"),
+    ] {
+        let done = call(here.path(), arguments);
+        assert_eq!(done.status.code(), Some(2), "{arguments:?}");
+        assert!(text(&done.stderr).contains(said), "{arguments:?}: {}", text(&done.stderr));
+    }
+}

@@ -14,6 +14,7 @@
 //! - `settings`: what the file says of itself: units, sequences, gravity.
 //! - `mass`: mass, centre and inertia, of shapes, too.
 //! - `body`: one body, its joints, geoms and sites.
+//! - `geom`: geoms beside their mass: what touches, what can be seen.
 //! - `lacks`: what a joint has that a scene has no counterpart for.
 //! - `tree`: all of them, in their frames.
 //! - `contact`: which geoms can touch.
@@ -36,6 +37,7 @@ mod body;
 mod contact;
 mod defaults;
 mod element;
+mod geom;
 mod joints;
 mod lacks;
 mod loops;

@@ -11,6 +11,7 @@ use crate::body::{self, Freedom, Geom, Joint};
 use crate::defaults::{Attributes, Defaults, MAIN};
 use crate::element::{Attribute, Element};
 use crate::error::Fault;
+use crate::geom::{Look, Surface};
 use crate::lacks;
 use crate::mass::{Mass, Solid};
 use crate::omission::{Kind, Omissions};
@@ -43,21 +44,6 @@ pub(crate) struct Body {
     pub(crate) weightless: f64,
 }
 
-/// A geom that might touch another.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Surface {
-    /// Its body.
-    pub(crate) body: usize,
-    /// Where it stands.
-    pub(crate) place: Place,
-    /// What it is, in words.
-    pub(crate) words: String,
-    /// The bits that it shows to others.
-    pub(crate) kind: u32,
-    /// The bits of others that it meets.
-    pub(crate) affinity: u32,
-}
-
 /// All bodies.
 #[derive(Clone, Debug)]
 pub(crate) struct Tree {
@@ -65,6 +51,8 @@ pub(crate) struct Tree {
     pub(crate) bodies: Vec<Body>,
     /// The geoms.
     pub(crate) surfaces: Vec<Surface>,
+    /// What of them can be seen.
+    pub(crate) looks: Vec<Look>,
     /// Sites by name: the body and the pose in its frame.
     pub(crate) sites: BTreeMap<String, (usize, Isometry3<f64>)>,
     names: BTreeMap<String, usize>,
@@ -118,6 +106,7 @@ pub(crate) fn read(
     let tree = Tree {
         bodies: vec![world],
         surfaces: Vec::new(),
+        looks: Vec::new(),
         sites: BTreeMap::new(),
         names: BTreeMap::from([("world".into(), WORLD)]),
     };
@@ -306,6 +295,10 @@ impl Reader<'_> {
         let massless = mass.map_or(density == 0.0, |mass| mass == 0.0);
         // Geoms that touch nothing are gone where that is asked for, mass and all.
         let dropped = self.settings.discard_visual && unseen;
+        if let Some(solid) = geom.solid.filter(|_| !dropped) {
+            let pose = within.frame * geom.pose;
+            self.tree.looks.extend(Look::of(&given, within.body, solid, pose, &words)?);
+        }
         let counted = (least..=most).contains(&group) && !dropped;
         if !counted || massless || matches!(geom.word, "plane" | "hfield") {
             return Ok(());

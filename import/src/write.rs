@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 
 use nalgebra::Vector3;
 
+use crate::mass::Solid;
 use crate::mechanism::{Mechanism, Side, Signal, Source, Type};
 use crate::notation::{line, number, snapped, text, vector};
 use crate::omission::Kind;
@@ -42,6 +43,7 @@ pub(crate) fn scene(
             write_signal(&mut out, table, signal, head.texts);
         }
     }
+    looks(&mut out, mechanism, head.texts);
     out
 }
 
@@ -196,6 +198,49 @@ fn springs(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
         comment(out, &load.source, texts);
         let _ = writeln!(out, "[[load]]\nbody = {}", text(mechanism.name(Some(load.part))));
         let _ = writeln!(out, "force = {}", vector(load.force, 0.0));
+    }
+}
+
+/// What of geoms can be seen, in the axes of their bodies.
+fn looks(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
+    let size = mechanism.size();
+    for look in &mechanism.tree.looks {
+        let side = mechanism.side(look.body);
+        let pose = mechanism.pose.start[look.body] * look.pose;
+        let pose = side.map_or(pose, |part| mechanism.placed(part).inverse() * pose);
+        let at = |along: f64| {
+            let point = pose.translation.vector + pose.rotation * Vector3::new(0.0, 0.0, along);
+            vector(point, size)
+        };
+        let keys = match look.solid {
+            Solid::Sphere(radius) => {
+                format!("shape = \"sphere\"\nat = {}\nradius = {}", at(0.0), number(radius))
+            }
+            Solid::Capsule(radius, half) | Solid::Cylinder(radius, half) => {
+                let is_round = matches!(look.solid, Solid::Capsule(..));
+                let shape = if is_round { "link" } else { "cylinder" };
+                let (from, to, radius) = (at(-half), at(half), number(radius));
+                format!("shape = \"{shape}\"\nfrom = {from}\nto = {to}\nradius = {radius}")
+            }
+            Solid::Box(half) => {
+                let turn = pose.rotation;
+                let [w, x, y, z] =
+                    [turn.w, turn.i, turn.j, turn.k].map(|q| number(snapped(q, 1.0)));
+                let sides = vector(Vector3::from(half) * 2.0, 0.0);
+                format!(
+                    "shape = \"box\"\nat = {}\nsize = {sides}\n\
+                     orientation = {{ quaternion = [{w}, {x}, {y}, {z}] }}",
+                    at(0.0)
+                )
+            }
+            Solid::Ellipsoid(_) => continue,
+        };
+        out.push('\n');
+        comment(out, &(look.words.clone(), look.place), texts);
+        let _ = writeln!(out, "[[geometry]]\nbody = {}\n{keys}", text(mechanism.name(side)));
+        if let Some(colour) = &look.colour {
+            let _ = writeln!(out, "colour = \"{colour}\"");
+        }
     }
 }
 

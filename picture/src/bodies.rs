@@ -5,7 +5,8 @@
 
 use dbd_kernel::Vec3;
 
-use crate::ink::{Point, begin, circle, end, line, path, through};
+use crate::faces::{Face, block_face, solids};
+use crate::ink::{Point, begin, circle, end, line, path};
 use crate::mechanism::{Mechanism, Outline};
 use crate::paths::{between, hull};
 use crate::style::COLOURS;
@@ -41,10 +42,8 @@ pub(crate) struct Drawn {
     pub(crate) strokes: Vec<[Point; 2]>,
     /// How far out of the paper it lies \[m\].
     pub(crate) depth: f64,
-    /// Its corners on paper.
-    corners: Vec<Point>,
-    /// Edges that its outline does not have.
-    edges: Vec<[Point; 2]>,
+    /// What it is drawn as, the farthest first.
+    faces: Vec<Face>,
     /// Its centre of mass.
     pub(crate) centre: Point,
 }
@@ -56,56 +55,41 @@ pub(crate) fn body(mechanism: &Mechanism, row: usize, frame: &Frame) -> Option<D
     if corners_w.is_empty() {
         return None;
     }
-    let all: Vec<Point> = corners_w.iter().map(|corner| frame.at(*corner)).collect();
+    let faces = match shape.shapes.is_empty() {
+        false => solids(mechanism, Some(row), &shape.shapes, frame),
+        true => vec![match &shape.outline {
+            Outline::Block { .. } => block_face(&corners_w, frame),
+            Outline::Plate { .. } => {
+                let all: Vec<Point> = corners_w.iter().map(|corner| frame.at(*corner)).collect();
+                Face::new(hull(&all))
+            }
+            Outline::Bar { .. } | Outline::Spider => {
+                Face::new(corners_w.iter().map(|corner| frame.at(*corner)).collect())
+            }
+        }],
+    };
     let centre = frame.at(Vec3::from_f64(shape.position));
     let share = 1.0 / corners_w.len() as f64;
     let depth = corners_w.iter().map(|corner| frame.depth(*corner) * share).sum();
-    let (corners, edges) = match &shape.outline {
-        Outline::Bar { .. } | Outline::Spider => (all, Vec::new()),
-        Outline::Plate { .. } => (hull(&all), Vec::new()),
-        Outline::Block { .. } => {
-            // The three edges that meet at the nearest corner lie within the outline.
-            let depth = |corner: &usize| frame.depth(corners_w[*corner]);
-            let nearest = (0..8).max_by(|a, b| depth(a).total_cmp(&depth(b))).unwrap_or(0);
-            let edge = |bit: usize| [all[nearest], all[nearest ^ (1 << bit)]];
-            (hull(&all), vec![edge(0), edge(1), edge(2)])
-        }
-    };
-    let closed = if corners.len() > 2 { corners.first() } else { None };
-    let around: Vec<Point> = corners.iter().chain(closed).copied().collect();
-    let strokes = around.windows(2).map(|pair| [pair[0], pair[1]]).collect();
-    let anchor = match corners[..] {
-        [a, b] => between(a, b, 0.5),
-        _ => {
-            let share = 1.0 / corners.len() as f64;
-            corners.iter().fold((0.0, 0.0), |(x, y), c| (x + share * c.0, y + share * c.1))
-        }
-    };
-    Some(Drawn { anchor, strokes, depth, corners, edges, centre })
+    let strokes = faces.iter().flat_map(Face::strokes).collect();
+    let largest = faces.iter().max_by(|a, b| a.area().total_cmp(&b.area()))?;
+    Some(Drawn { anchor: largest.middle(), strokes, depth, faces, centre })
 }
 
 impl Drawn {
     /// Draws it in a colour; `title` is what pointing at it shows.
     pub(crate) fn draw(&self, text: &mut String, colour: usize, title: &str) {
         begin(text, title);
-        if self.corners.len() < 3 {
-            line(text, "case", &self.corners);
-            line(text, &format!("bar k{colour}"), &self.corners);
-        } else {
-            let outline = through(&self.corners, true);
-            path(text, "veil", &outline);
-            path(text, &format!("plate k{colour} m{colour}"), &outline);
-            let edges: String = self.edges.iter().map(|edge| through(edge, false)).collect();
-            if !edges.is_empty() {
-                path(text, &format!("edge k{colour}"), &edges);
-            }
-        }
+        let (stroke, fill) = (format!("k{colour}"), format!("m{colour}"));
+        self.faces.iter().for_each(|face| face.draw(text, &stroke, &fill));
         end(text);
     }
 
     /// Its centre of mass, with a line to the bar that it does not lie on.
     pub(crate) fn centre_of_mass(&self, text: &mut String, symbols: f64) {
-        if let [from, to] = self.corners[..] {
+        if let [Face { corners, .. }] = &self.faces[..]
+            && let [from, to] = corners[..]
+        {
             let nearest = nearest_on(from, to, self.centre);
             if libm::hypot(nearest.0 - self.centre.0, nearest.1 - self.centre.1) > 5.0 {
                 line(text, "thin", &[nearest, self.centre]);
@@ -116,10 +100,7 @@ impl Drawn {
 
     /// The outline as the data of a path, as short as it goes.
     pub(crate) fn short(&self) -> String {
-        let round = |(x, y): &Point| (libm::round(*x), libm::round(*y));
-        let mut corners: Vec<Point> = self.corners.iter().map(round).collect();
-        corners.dedup();
-        through(&corners, corners.len() > 2)
+        self.faces.iter().map(Face::short).collect()
     }
 }
 

@@ -10,6 +10,7 @@ use std::fmt::Write as _;
 use dbd_output::label_spots::{LabelSpots, Rectangle};
 
 use crate::bodies::{Drawn, body};
+use crate::faces::{Face, solids};
 use crate::ink::{Point, begin, end, path, through};
 use crate::mechanism::{Bounds, ForceKind, Mechanism, Outline};
 use crate::names::{self, Label};
@@ -64,6 +65,12 @@ impl Drawing<'_> {
             }
             by_colour[colour].push_str(&drawn.short());
         }
+        let ground = solids(mechanism, None, &mechanism.ground, self.frame);
+        let data: String =
+            picked(ground.len(), LINES).map(|row| Face::short(&ground[row])).collect();
+        if !data.is_empty() {
+            path(text, "thin", &data);
+        }
         let springs = picked(mechanism.springs.len(), LINES).map(|row| {
             let ends = mechanism.springs[row].ends;
             self.rounded(&ends.map(|end| self.frame.at(mechanism.place(&end))))
@@ -110,6 +117,9 @@ impl Drawing<'_> {
         let mut joints: Vec<_> = mechanism.joints.iter().collect();
         joints.sort_by_key(|joint| joint.kind);
         let named = room.is_some();
+        for face in solids(mechanism, None, &mechanism.ground, self.frame) {
+            layer.add(|text| face.draw(text, "still", "stands"));
+        }
         for part in self.by_depth(&bodies) {
             layer.add(|text| match part {
                 Part::Body(row) => {
@@ -159,12 +169,14 @@ impl Drawing<'_> {
         let corners = (0..bodies.len()).flat_map(|row| mechanism.corners(row));
         corners.for_each(|corner| reach.add(corner));
         let around = |row: usize| {
-            let bar = matches!(mechanism.bodies[row].outline, Outline::Bar { .. });
+            let body = &mechanism.bodies[row];
+            let bar = body.shapes.is_empty() && matches!(body.outline, Outline::Bar { .. });
             !bar && mechanism.size(row).is_some_and(|size| size > AROUND * reach.longest())
         };
         for (row, drawn) in bodies.iter().enumerate() {
             if let Some(drawn) = drawn {
                 let layer = match mechanism.bodies[row].outline {
+                    _ if !mechanism.bodies[row].shapes.is_empty() => 1,
                     Outline::Block { .. } => 0,
                     Outline::Plate { .. } => 1,
                     Outline::Bar { .. } | Outline::Spider => 2,

@@ -44,6 +44,11 @@ pub(crate) fn path(text: &mut String, class: &str, data: &str) {
     let _ = writeln!(text, "<path class=\"{class}\" d=\"{data}\"/>");
 }
 
+/// A path with a style of its own.
+pub(crate) fn path_in(text: &mut String, class: &str, style: &str, data: &str) {
+    let _ = writeln!(text, "<path class=\"{class}\" style=\"{style}\" d=\"{data}\"/>");
+}
+
 /// Straight lines through points.
 pub(crate) fn line(text: &mut String, class: &str, points: &[Point]) {
     path(text, class, &through(points, false));

@@ -9,6 +9,7 @@
 //! - `ink`: SVG elements as text.
 //! - `paths`: lines of symbols: springs, hatching, arrows.
 //! - `symbols`: joints, springs, ground, forces in a view.
+//! - `faces`: outlines of bars, plates and solids in a view.
 //! - `bodies`: bodies in a view.
 //! - `names`: what is written beside what, in the room that there is.
 //! - `drawing`: one view, what is far first.
@@ -17,6 +18,7 @@
 
 mod bodies;
 mod drawing;
+mod faces;
 mod ink;
 mod legend;
 pub mod mechanism;

@@ -7,7 +7,7 @@
 
 use dbd_kernel::Vec3;
 
-use crate::mechanism::{Bounds, JointKind, Mechanism, Place};
+use crate::mechanism::{Bounds, JointKind, Mechanism, Place, Solid};
 
 /// A direction to look from.
 #[derive(Clone, Debug, PartialEq)]
@@ -176,8 +176,9 @@ fn points(mechanism: &Mechanism) -> impl Iterator<Item = Vec3<f64>> {
 /// All that is drawn of a mechanism to scale.
 pub(crate) fn reach(mechanism: &Mechanism) -> Vec<Vec3<f64>> {
     let corners = (0..mechanism.bodies.len()).flat_map(|row| mechanism.corners(row));
+    let ground = mechanism.ground.iter().flat_map(Solid::corners).map(Vec3::from_f64);
     let forces = mechanism.forces.iter().map(|force| mechanism.place(&force.at));
-    points(mechanism).chain(corners).chain(forces).collect()
+    points(mechanism).chain(corners).chain(ground).chain(forces).collect()
 }
 
 /// The normal of the plane that a mechanism lies in, `None` where it lies in none.

@@ -139,3 +139,27 @@ fn a_place_and_its_local_are_one() {
         assert!(near(three.place(&place), point.to_f64()));
     }
 }
+
+/// What the scene says of looks is drawn in place of an outline, in the axes of its body, and travels as data.
+#[test]
+fn solids_of_a_scene_stand_in_place_of_outlines() {
+    let wishbone = mechanism("double-wishbone");
+    let knuckle = wishbone.bodies.iter().position(|body| body.name == "knuckle").unwrap();
+    let low = wishbone.corners(knuckle).iter().map(|corner| corner.z).fold(f64::MAX, f64::min);
+    // The wheel of 0.31 m about a centre 0.31 m high stands on the road.
+    assert!(low.abs() < 1e-12, "{low}");
+    let cart = mechanism("cart-pendulum");
+    let shown = serde_json::to_value(&cart).unwrap();
+    assert_eq!(
+        shown["bodies"][0]["shapes"][0],
+        serde_json::json!({
+            "kind": "box", "at": [0.0, 0.0, 0.0], "turn": [1.0, 0.0, 0.0, 0.0],
+            "half": [0.06, 0.04, 0.04], "colour": null,
+        })
+    );
+    assert_eq!(shown["ground"][0]["kind"], "box");
+    let drawn = dbd_picture::svg(&wishbone, dbd_picture::Paper::File);
+    assert!(drawn.contains("style=\"stroke:#8a939e;fill:#8a939e\""));
+    let ground = dbd_picture::svg(&cart, dbd_picture::Paper::File);
+    assert!(ground.contains("class=\"plate still stands\"") && !drawn.contains("still stands"));
+}

@@ -30,6 +30,9 @@ pub(crate) const KEYS: &[&str] = &[
     "shape",
 ];
 
+/// The keys of a shape that does not belong to a link, besides those of its section.
+pub(crate) const SHAPE: &[&str] = &["type", "along", "length"];
+
 /// A body that was read.
 struct Read {
     body: Body<f64>,
@@ -211,7 +214,7 @@ fn shape(root: &Table<'_>, table: &Table<'_>) -> Result<Option<Section>, SceneEr
         "a uniform body: { type = \"box\", length = m, section = [m, m], density = kg/m³ }";
     let Some(value) = table.value("shape") else { return Ok(None) };
     let shape = value.table(expected)?.with_defaults(root, "shape")?;
-    shape.only(&[&["type", "along", "length"], &inertia::KEYS[1..]])?;
+    shape.only(&[SHAPE, &inertia::KEYS[1..]])?;
     if !shape.has("type") {
         return Err(shape.missing("type", &Choice(&inertia::NAMES).expected()));
     }

@@ -6,28 +6,35 @@
 
 use crate::error::SceneError;
 use crate::text::Table;
-use crate::{body, inertia, input, joints, links, load, point_on_line, readout, spring};
+use crate::{body, geometry, inertia, input, joints, links, load, point_on_line, readout, spring};
 use crate::{torsion_spring, tsda};
 
 /// What names a thing or places it in a list is its own.
-const OWN: &[&str] = &["name"];
+pub(crate) const OWN: &[&str] = &["name"];
 
-/// Refuses defaults that no table takes.
-pub(crate) fn check(root: &Table<'_>) -> Result<(), SceneError> {
-    let Some(value) = root.value("defaults") else { return Ok(()) };
-    let defaults = value.table("tables of keys by kind: [defaults.joint]")?.called("[defaults]");
+/// The kinds that have defaults, each with all keys of its tables.
+pub(crate) fn kinds() -> Vec<(&'static str, Vec<&'static [&'static str]>)> {
     let mut kinds = vec![
         ("body", vec![body::KEYS]),
         ("link", vec![links::KEYS, inertia::KEYS]),
-        ("shape", vec![&["type", "along", "length"], &inertia::KEYS[1..]]),
+        ("shape", vec![body::SHAPE, &inertia::KEYS[1..]]),
         ("tsda", vec![tsda::KEYS, spring::KEYS]),
         ("point_on_line", vec![point_on_line::KEYS, spring::KEYS]),
         ("torsion_spring", vec![torsion_spring::KEYS, spring::KEYS]),
         ("load", vec![load::KEYS]),
         ("input", input::keys()),
         ("readout", readout::keys()),
+        ("geometry", geometry::keys()),
     ];
     kinds.extend(joints::keys());
+    kinds
+}
+
+/// Refuses defaults that no table takes.
+pub(crate) fn check(root: &Table<'_>) -> Result<(), SceneError> {
+    let Some(value) = root.value("defaults") else { return Ok(()) };
+    let defaults = value.table("tables of keys by kind: [defaults.joint]")?.called("[defaults]");
+    let kinds = kinds();
     let names: Vec<&'static str> = kinds.iter().map(|(name, _)| *name).collect();
     defaults.only(&[&names])?;
     for (name, keys) in kinds {

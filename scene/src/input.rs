@@ -54,6 +54,11 @@ pub(crate) fn keys() -> Vec<&'static [&'static str]> {
     std::iter::once(KEYS).chain(types).collect()
 }
 
+/// The types, each with all its keys.
+pub(crate) fn types() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
+    TYPES.iter().map(|kind| (kind.name, [KEYS, kind.keys].concat()))
+}
+
 /// Reads all inputs in scene order.
 pub(crate) fn read_all(
     root: &Table<'_>,

@@ -16,6 +16,7 @@ mod error;
 pub mod export;
 mod facts;
 mod file_lines;
+mod geometry;
 mod hinge;
 mod inertia;
 mod input;
@@ -23,6 +24,7 @@ mod joints;
 mod links;
 mod lint;
 mod load;
+mod lookup;
 mod names;
 mod nearest;
 mod orientation;
@@ -43,11 +45,11 @@ mod text;
 pub mod time;
 mod torsion_spring;
 mod tsda;
+pub mod vocabulary;
 mod write;
 mod written;
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 use std::path::Path;
 
 pub use build::{Build, build};
@@ -55,19 +57,19 @@ pub use columns::{BODY_COLUMNS, ENERGY_COLUMNS, TIME_COLUMN, TraceColumns, Unlik
 pub use derived::DerivedBody;
 pub use error::{Refusal, SceneError};
 pub use facts::{ElementDamping, ElementFrequency, Facts, Island, JointElement, JointFacts};
+pub use geometry::{GeometryInfo, Solid};
 pub use hinge::Hinge;
 pub use input::InputInfo;
-pub use joints::{Assembled, Moved, OpenJoint};
+pub use joints::{Assembled, JointInfo, Moved, OpenJoint};
 pub use lint::{Severity, Warning};
+pub use lookup::{UnfitInput, UnknownName};
 pub use nearest::nearest;
 pub use origin::Setting;
 pub use readout::ReadoutInfo;
 pub use runtime::{SceneModel, widen};
 pub use shortened::shortened;
 
-use dbd_kernel::index::InputIndex;
-use dbd_kernel::readouts::Readout;
-use dbd_kernel::{F64, Geometry};
+use dbd_kernel::F64;
 
 use crate::assembly::{Assembly, Resolved};
 use crate::error::Source;
@@ -99,6 +101,7 @@ const KEYS: &[&str] = &[
     "load",
     "input",
     "readout",
+    "geometry",
 ];
 
 /// A checked and assembled scene.
@@ -128,6 +131,8 @@ pub struct Scene {
     pub inputs: Vec<InputInfo>,
     /// The read-outs in scene order.
     pub readouts: Vec<ReadoutInfo>,
+    /// What bodies and the ground look like, in scene order; the model knows nothing of it.
+    pub geometry: Vec<GeometryInfo>,
     /// What came of bodies whose mass, inertia or axes are not written as numbers, in scene order.
     pub derived: Vec<DerivedBody>,
     /// The values that `[parameters]` names, in the order of the file, as they are with the changes.
@@ -143,59 +148,6 @@ pub struct Scene {
     written_angles: Vec<WrittenAngle>,
     /// What messages call raw TSDAs, then points on lines.
     raw_names: Vec<String>,
-}
-
-/// A name that a scene does not have.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the scene `{scene}` has no {kind} `{name}`{}", .meant.as_ref().map_or(String::new(), |m| format!("; did you mean `{m}`?")))]
-pub struct UnknownName {
-    /// The scene.
-    pub scene: String,
-    /// `input` or `readout`.
-    pub kind: &'static str,
-    /// The name that was asked for.
-    pub name: String,
-    /// The one that was probably meant.
-    pub meant: Option<String>,
-}
-
-/// An input whose value or table a precision cannot hold.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "the input `{input}` (line {line}) has a value, a rise or a time that {precision} cannot hold"
-)]
-pub struct UnfitInput {
-    /// The input.
-    pub input: String,
-    /// The line on which it begins.
-    pub line: usize,
-    /// The precision's name.
-    pub precision: &'static str,
-}
-
-/// What reports say of a joint.
-#[derive(Clone, Debug, PartialEq)]
-pub struct JointInfo {
-    /// Its name.
-    pub name: String,
-    /// Its type as in the scene file, e.g. `revolute`.
-    pub kind: &'static str,
-    /// The names of its two bodies (`world` for the ground).
-    pub between: [String; 2],
-    /// Degrees of freedom that it holds: 5 for a revolute, 3 for a spherical joint. A universal
-    /// joint holds 10, for it brings a body with 6 of its own; the pair loses 4.
-    pub holds: u32,
-    /// The name of the body that it brings, `JOINT.spider` for a universal joint.
-    pub spider: Option<String>,
-    /// Its groups in the model.
-    pub groups: Range<usize>,
-    /// The axes about which its second body turns: one of a revolute and a cylindrical joint, the
-    /// two of a universal joint, empty where there is none or any will do.
-    pub hinges: Vec<Hinge>,
-    /// Its TSDAs, points on lines included.
-    pub tsdas: usize,
-    /// \[m\] the largest |L − L0| of its elements at the initial pose.
-    pub assembly_error: f64,
 }
 
 impl Scene {
@@ -293,6 +245,7 @@ impl Scene {
         let mut known = Known { assembly: &mut assembly, elements: &elements, joints: &joints };
         let inputs = input::read_all(&root, &mut known)?;
         let readouts = readout::read_all(&root, &mut known, &inputs, &mut torsion_names)?;
+        let geometry = geometry::read_all(&root, &assembly)?;
         let resolved = assembly.resolved();
         let (model, body_names) = assembly.finish();
         let scene = Self {
@@ -307,6 +260,7 @@ impl Scene {
             torsion_names,
             inputs,
             readouts,
+            geometry,
             model,
             file_lines: FileLines::of(&root)?,
             origin: Origin::of(source, &root),
@@ -319,48 +273,6 @@ impl Scene {
         };
         let done = then(&scene, &root, &resolved)?;
         Ok((scene, done))
-    }
-
-    /// The input of a name, to set it on a plant.
-    ///
-    /// # Errors
-    /// Where the scene has none of that name.
-    pub fn input(&self, name: &str) -> Result<InputIndex, UnknownName> {
-        let names = self.inputs.iter().map(|input| input.name.as_str());
-        let found = self.inputs.iter().find(|input| input.name == name);
-        found.map(|input| input.index).ok_or_else(|| self.unknown("input", name, names))
-    }
-
-    /// The read-out of a name, to read it from a plant.
-    ///
-    /// # Errors
-    /// Where the scene has none of that name.
-    pub fn readout(&self, name: &str) -> Result<Readout<F64>, UnknownName> {
-        let names = self.readouts.iter().map(|readout| readout.name.as_str());
-        let found = self.readouts.iter().find(|readout| readout.name == name);
-        found.map(|found| found.readout).ok_or_else(|| self.unknown("readout", name, names))
-    }
-
-    /// Whether a precision holds what inputs are given.
-    ///
-    /// # Errors
-    /// The first input that it does not.
-    pub fn check_inputs<P: Geometry>(&self) -> Result<(), UnfitInput> {
-        let Some(index) = self.model.convert::<P>().unfit_input() else { return Ok(()) };
-        let row = usize::from(index.0);
-        let input = self.inputs.get(row).map_or_else(String::new, |input| input.name.clone());
-        let line = self.file_lines.inputs.get(row).copied().unwrap_or_default();
-        Err(UnfitInput { input, line, precision: P::NAME })
-    }
-
-    fn unknown<'n>(
-        &self,
-        kind: &'static str,
-        name: &str,
-        known: impl Iterator<Item = &'n str>,
-    ) -> UnknownName {
-        let meant = nearest(name, known).map(str::to_owned);
-        UnknownName { scene: self.name.clone(), kind, name: name.to_owned(), meant }
     }
 
     /// The refusal of a setting of the scene file at its place there: what was asked for elsewhere,

@@ -8,6 +8,9 @@ use dbd_kernel::{Quaternion, Vec3};
 use crate::error::SceneError;
 use crate::text::{Direction, Kind, Number, Numbers, Table, Value};
 
+/// The keys of all forms.
+pub(crate) const KEYS: &[&str] = &["axis", "angle", "quaternion", "euler_321"];
+
 /// `{ axis, angle }`, `{ quaternion }` or `{ euler_321 }`.
 #[derive(Clone, Copy)]
 pub(crate) struct Orientation;
@@ -23,7 +26,7 @@ impl Kind for Orientation {
 
     fn read(&self, value: &Value<'_>) -> Result<[f64; 4], SceneError> {
         let table = value.table(&self.expected())?;
-        table.only(&[&["axis", "angle", "quaternion", "euler_321"]])?;
+        table.only(&[KEYS])?;
         let forms: Vec<&str> = ["axis", "quaternion", "euler_321"]
             .into_iter()
             .filter(|key| table.has(key) || (*key == "axis" && table.has("angle")))

@@ -120,6 +120,11 @@ pub(crate) fn keys() -> Vec<&'static [&'static str]> {
     std::iter::once(KEYS).chain(types).collect()
 }
 
+/// The types, each with all its keys.
+pub(crate) fn types() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
+    TYPES.iter().map(|kind| (kind.name, [KEYS, kind.keys].concat()))
+}
+
 /// Reads all read-outs in scene order, and names the torsion springs that were added for them.
 pub(crate) fn read_all(
     root: &Table<'_>,

@@ -11,6 +11,9 @@ use crate::text::{Kind, Number, Table, Value};
 /// The keys of a spring.
 pub(crate) const KEYS: &[&str] = &["stiffness", "damping", "damping_ratio", "frequency"];
 
+/// The keys of a stiffness by what a load does.
+pub(crate) const BY_LOAD: &[&str] = &["load", "deflection"];
+
 /// A spring and its damper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Spring {
@@ -92,7 +95,7 @@ impl Kind for Stiffness {
             return Number::not_negative(self.0.stiffness).read(value);
         }
         let table = value.table(&self.expected())?;
-        table.only(&[&["load", "deflection"]])?;
+        table.only(&[BY_LOAD])?;
         let load = table.required("load", Number::positive(self.0.load))?;
         let deflection = table.required("deflection", Number::positive(self.0.deflection))?;
         let stiffness = load / deflection;

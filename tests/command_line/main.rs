@@ -11,6 +11,7 @@ mod refusal;
 mod report;
 mod results;
 mod run;
+mod schema;
 mod set;
 mod sweep;
 mod tutorial;

@@ -1,6 +1,7 @@
 //! What elements become.
 
 use dbd_import::{Kind, Options, Weld};
+use dbd_scene::Solid;
 
 use crate::{imported, loaded, of};
 
@@ -143,4 +144,43 @@ fn weight_that_is_taken_off_is_a_load() {
     let made = of(&mujoco(&limited, ""), &Options { ignored, ..Options::default() });
     assert_eq!(made.omitted.len(), 2);
     assert!(made.scene.contains("# Left out, armature (line 2): hinge `a`: armature 0.01 kg·m²"));
+}
+
+/// Geoms become geometry where they are, whatever the axes of the body: boxes, capsules, cylinders and balls with their
+/// colours; what cannot be seen, and what a scene has no solid for, does not.
+#[test]
+fn geoms_become_geometry() {
+    let text = mujoco(
+        "<geom type='plane' size='1 1 1'/><geom type='box' size='1 2 3' pos='0 0 -3' contype='0' conaffinity='0'/>\
+         <body name='a' pos='1 0 0' euler='0 0 90'><joint name='h'/>\
+         <geom type='capsule' fromto='0 0 0 1 0 0' size='0.1' rgba='1 0.5 0 1'/>\
+         <geom type='cylinder' size='0.2 0.3' pos='0 1 0' contype='0' conaffinity='0'/>\
+         <geom type='ellipsoid' size='0.1 0.2 0.3'/><geom size='0.4' rgba='0 0 0 0'/>\
+         <body pos='0 0 2'><geom size='0.5' contype='0' conaffinity='0'/></body></body>",
+        "",
+    );
+    let made = of(&text, &Options { ignored: vec![Kind::Contact], ..Options::default() });
+    let scene = loaded(&made);
+    assert_eq!(scene.geometry.len(), 4, "{}", made.scene);
+    let place = |row: Option<usize>, point: [f64; 3]| {
+        let point = dbd_kernel::Vec3::<f64>::from_f64(point);
+        let Some(state) = row.and_then(|row| scene.model.initial.get(row)) else {
+            return point.to_f64();
+        };
+        (state.position + state.orientation.rotation().to_world(point)).to_f64()
+    };
+    let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
+    let [ground, link, cylinder, ball] = &scene.geometry[..] else { panic!("four") };
+    let Solid::Box { at, half, .. } = ground.solid else { panic!("{ground:?}") };
+    assert!(ground.body.is_none() && near(at, [0.0, 0.0, -3.0]) && half == [1.0, 2.0, 3.0]);
+    // Turned by 90° about z: x of the body is y of the world.
+    let Solid::Link { ends, radius } = link.solid else { panic!("{link:?}") };
+    assert!(near(place(link.body, ends[0]), [1.0, 0.0, 0.0]) && radius == 0.1);
+    assert!(near(place(link.body, ends[1]), [1.0, 1.0, 0.0]));
+    assert_eq!(link.colour.as_deref(), Some("#ff8000"));
+    let Solid::Cylinder { ends, radius } = cylinder.solid else { panic!("{cylinder:?}") };
+    assert!(near(place(cylinder.body, ends[1]), [0.0, 0.0, 0.3]) && radius == 0.2);
+    // Of a body without a joint, which is one with its parent.
+    let Solid::Sphere { at, radius } = ball.solid else { panic!("{ball:?}") };
+    assert!(near(place(ball.body, at), [1.0, 0.0, 2.0]) && radius == 0.5);
 }

@@ -1,5 +1,6 @@
 //! `host-sim check` on the command line.
 
+use std::io::IsTerminal as _;
 use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
@@ -11,10 +12,14 @@ use crate::cli::named::{damped, load};
 use crate::commands::check::check;
 use crate::commands::picture::{self, PictureError};
 use crate::commands::stability::StabilityCheck;
+use crate::commands::watch::{WatchError, Watched};
 use crate::commands::write::{self, WriteError};
 use crate::error::Error;
 use crate::terminal::text::json;
 use crate::terminal::{Catalogue, Console, Exit, Found};
+
+/// Empties a terminal's screen and begins at its top.
+const CLEAR: &str = "\u{1b}[2J\u{1b}[H";
 
 #[derive(Debug, Args)]
 pub(super) struct CheckArguments {
@@ -34,6 +39,9 @@ pub(super) struct CheckArguments {
     /// Replace the file where there is one
     #[arg(long, requires = "write")]
     overwrite: bool,
+    /// Check again each time the file is saved, with --svg and --write, until Ctrl-C
+    #[arg(long)]
+    watch: bool,
     /// Look for the largest stable step about the pose at t = 0; takes seconds
     #[arg(long)]
     stability: bool,
@@ -67,32 +75,96 @@ pub(super) fn check_scene(
     if long_printed && (arguments.json || picture_printed) {
         return Err(WriteError::Both.into());
     }
+    if arguments.watch {
+        if picture_printed || long_printed {
+            return Err(WatchError::Output.into());
+        }
+        return watch_scene(catalogue, arguments, &method, console);
+    }
+    once(catalogue, arguments, &method, arguments.overwrite, console).map(|_| Exit::Done)
+}
+
+/// Checks once; says whether anyone reads what is printed.
+fn once(
+    catalogue: &Catalogue,
+    arguments: &CheckArguments,
+    method: &Method,
+    overwrite: bool,
+    console: &mut Console<'_>,
+) -> Result<bool, Error> {
     let Found { scene, file, text } = load(catalogue, &arguments.scene)?;
     if let Some(target) = &arguments.write {
         let long = write::long_form(&scene, &text, &file.place, &arguments.scene.set)?;
-        if long_printed {
-            console.print(&long)?;
-        } else {
-            write::write(target, &long, arguments.overwrite)?;
+        if write::is_output(target) {
+            return Ok(console.print_to_reader(&long)?);
         }
+        write::write(target, &long, overwrite)?;
     }
-    match &arguments.svg {
-        Some(_) if picture_printed => console.print(&picture::picture(&scene, Paper::File))?,
-        Some(file) => picture::write(&scene, file)?,
-        None => (),
-    }
-    if picture_printed || long_printed {
-        return Ok(Exit::Done);
+    if let Some(file) = &arguments.svg {
+        if picture::is_output(file) {
+            return Ok(console.print_to_reader(&picture::picture(&scene, Paper::File))?);
+        }
+        picture::write(&scene, file)?;
     }
     let mut check = check(&scene);
     if arguments.stability {
-        check.stability = Some(StabilityCheck::of(&scene, &method)?);
+        check.stability = Some(StabilityCheck::of(&scene, method)?);
     }
     let mut text = if arguments.json { json(&check) } else { check.text(console.look) };
     if !arguments.json {
         let written = arguments.svg.iter().chain(&arguments.write);
         written.for_each(|file| text += &format!("\nwritten  {}\n", file.display()));
     }
-    console.print(&text)?;
+    Ok(console.print_to_reader(&text)?)
+}
+
+/// Checks now and at each change, until nobody reads it any more or the program is told to end.
+fn watch_scene(
+    catalogue: &Catalogue,
+    arguments: &CheckArguments,
+    method: &Method,
+    console: &mut Console<'_>,
+) -> Result<Exit, Error> {
+    let called = &arguments.scene.scene;
+    let Some(file) = catalogue.file(called) else {
+        // What is nothing at all is refused as everywhere.
+        if called != "-" {
+            load(catalogue, &arguments.scene)?;
+        }
+        return Err(WatchError::NoFile { scene: called.clone() }.into());
+    };
+    if !file.exists() {
+        load(catalogue, &arguments.scene)?;
+    }
+    let same = |target: &PathBuf| {
+        let places = [target, &file].map(|path| path.canonicalize());
+        matches!(places, [Ok(a), Ok(b)] if a == b)
+    };
+    if let Some(file) = arguments.write.as_ref().filter(|target| same(target)) {
+        return Err(WatchError::Itself { file: file.clone() }.into());
+    }
+    let on_screen = console.terminal && std::io::stdout().is_terminal();
+    let mut watched = Watched::new(&file);
+    // What it has written itself it may replace.
+    let mut overwrite = arguments.overwrite;
+    for number in 1_u64.. {
+        watched.wait();
+        if on_screen {
+            console.print(CLEAR)?;
+        }
+        let said = match once(catalogue, arguments, method, overwrite, console) {
+            Ok(true) => {
+                overwrite = true;
+                "OK"
+            }
+            Ok(false) => break,
+            Err(error @ Error::Output(_)) => return Err(error),
+            Err(error) => {
+                console.report(&error);
+                "refused"
+            }
+        };
+        let _ = writeln!(console.err, "\ncheck {number} of {called}: {said}; waiting, Ctrl-C ends");
+    }
     Ok(Exit::Done)
 }

@@ -28,7 +28,8 @@ use crate::commands::completions::script;
 use crate::commands::export::{self, ExportArguments};
 use crate::commands::import::{self, ImportArguments};
 use crate::commands::list::list;
-use crate::commands::new::{FirmwareArguments, NewCommand, firmware};
+use crate::commands::new::{FirmwareArguments, NewCommand, SceneArguments, firmware, scene};
+use crate::commands::schema;
 use crate::commands::sweep::{SweepArguments, sweep};
 use crate::error::Error;
 use crate::examples;
@@ -89,9 +90,11 @@ enum Command {
     /// listed with its size and refused, unless its kind is ignored
     #[command(after_help = examples::IMPORT)]
     Import(ImportArguments),
-    /// Writes a new project that builds and runs as it is
+    /// Writes a new project or a new scene that runs as it is
     #[command(subcommand, disable_help_subcommand = true)]
     New(NewCommand),
+    /// Prints the JSON Schema of scene files, from which editors complete keys
+    Schema,
     /// Prints a script that completes commands, options and scenes for a shell
     #[command(after_help = examples::COMPLETIONS)]
     Completions {
@@ -129,6 +132,8 @@ where
         Command::New(NewCommand::Firmware(arguments)) => {
             new_firmware(&catalogue, &arguments, console)
         }
+        Command::New(NewCommand::Scene(arguments)) => new_scene(&catalogue, &arguments, console),
+        Command::Schema => console.print(&schema::text()).map(|()| Exit::Done).map_err(Error::from),
         Command::Completions { shell } => complete(&catalogue, shell, console),
     };
     finish(done, console)
@@ -220,6 +225,16 @@ fn new_firmware(
 ) -> Result<Exit, Error> {
     let found = catalogue.load(&arguments.scene)?;
     console.print(&firmware(arguments, &found)?)?;
+    Ok(Exit::Done)
+}
+
+fn new_scene(
+    catalogue: &Catalogue,
+    arguments: &SceneArguments,
+    console: &mut Console<'_>,
+) -> Result<Exit, Error> {
+    let from = arguments.from.as_ref().map(|scene| catalogue.load(scene)).transpose()?;
+    console.print(&scene(&arguments.name, from.as_ref().map(|found| found.text.as_str()))?)?;
     Ok(Exit::Done)
 }
 

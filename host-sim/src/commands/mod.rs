@@ -4,6 +4,7 @@
 //! - [`warnings`]: what is probably not meant, in one place for all.
 //! - [`assembled`], [`stability`], [`derived`], [`check`]: what a scene is, without running it.
 //! - [`picture`]: the mechanism as an SVG. [`mod@write`]: a scene in its long form.
+//! - [`watch`]: a file is looked at again each time it has changed.
 //! - [`folder`]: where results go.
 //! - [`golden`]: a run beside a golden file.
 //! - [`modes`]: how a scene vibrates about its pose at t = 0.
@@ -14,7 +15,8 @@
 //! - [`trade`]: speed against accuracy.
 //! - [`export`]: Rust source of a scene's const model and its plant.
 //! - [`mod@import`]: another program's file becomes a scene.
-//! - [`new`]: a project with a plant in firmware.
+//! - [`schema`]: what a scene file may hold, for editors.
+//! - [`new`]: a project with a plant in firmware, a scene to begin with.
 //! - [`completions`]: a script for a shell.
 
 pub mod assembled;
@@ -31,9 +33,11 @@ pub mod modes;
 pub mod new;
 pub mod picture;
 pub mod run;
+pub mod schema;
 pub mod stability;
 pub mod surveyed;
 pub mod sweep;
 pub mod trade;
 pub mod warnings;
+pub mod watch;
 pub mod write;

@@ -72,7 +72,12 @@ pub fn long_form(
     let written = Scene::long_form(text, file, changes)?;
     match Scene::parse(&written, file) {
         // As they are shown, −0 is not 0.
-        Ok(back) if format!("{:?}", back.model) == format!("{:?}", scene.model) => Ok(written),
+        Ok(back)
+            if format!("{:?}", back.model) == format!("{:?}", scene.model)
+                && format!("{:?}", back.geometry) == format!("{:?}", scene.geometry) =>
+        {
+            Ok(written)
+        }
         _ => Err(WriteError::Differs),
     }
 }

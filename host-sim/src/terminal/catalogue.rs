@@ -141,6 +141,20 @@ impl Catalogue {
         names
     }
 
+    /// The file that a user names: by a path, or by a name of the folder. `None` of what is built in, of standard input
+    /// and of nothing.
+    #[must_use]
+    pub fn file(&self, called: &str) -> Option<PathBuf> {
+        if called == STANDARD_INPUT {
+            return None;
+        }
+        if is_path(called) {
+            return Some(PathBuf::from(called));
+        }
+        let is_here = self.file_names().iter().any(|name| name == called);
+        is_here.then(|| self.folder.join(format!("{called}.toml")))
+    }
+
     /// Names of the files in the folder.
     fn file_names(&self) -> Vec<String> {
         let Ok(entries) = fs::read_dir(&self.folder) else { return Vec::new() };
@@ -178,11 +192,8 @@ impl Catalogue {
         if called == STANDARD_INPUT {
             return from_standard_input(changes);
         }
-        if is_path(called) {
-            return from_file(Path::new(called), changes);
-        }
-        if self.file_names().iter().any(|name| name == called) {
-            return from_file(&self.folder.join(format!("{called}.toml")), changes);
+        if let Some(file) = self.file(called) {
+            return from_file(&file, changes);
         }
         match built_in::SCENES.iter().find(|(name, _)| *name == called) {
             Some((name, text)) => {

@@ -55,10 +55,19 @@ impl<'c> Console<'c> {
     /// # Errors
     /// Where they cannot be written though there is a reader.
     pub fn print(&mut self, text: &str) -> Result<(), OutputError> {
+        self.print_to_reader(text).map(|_| ())
+    }
+
+    /// Writes results, and says whether there still is a reader.
+    ///
+    /// # Errors
+    /// As [`Self::print`].
+    pub fn print_to_reader(&mut self, text: &str) -> Result<bool, OutputError> {
         let written = self.out.write_all(text.as_bytes()).and_then(|()| self.out.flush());
         match written {
-            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(OutputError(error)),
-            _ => Ok(()),
+            Ok(()) => Ok(true),
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(false),
+            Err(error) => Err(OutputError(error)),
         }
     }
 

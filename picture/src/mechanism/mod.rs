@@ -9,6 +9,7 @@ mod elements;
 mod forces;
 mod outline;
 mod parts;
+mod solid;
 
 use dbd_scene::Scene;
 
@@ -17,6 +18,8 @@ pub use parts::{
     Along, BodyShape, ForceKind, ForceMark, GuideMark, JointKind, JointMark, JointSpring,
     Mechanism, Outline, Place, SpringMark, TorsionMark,
 };
+pub use solid::Solid;
+pub(crate) use solid::{block, rims};
 
 impl Mechanism {
     /// The mechanism of a scene at its initial pose.
@@ -34,8 +37,10 @@ impl Mechanism {
                     position: state.position.to_f64(),
                     orientation: state.orientation.to_f64(),
                     outline: Outline::Spider,
+                    shapes: Vec::new(),
                 })
                 .collect(),
+            ground: Vec::new(),
             joints: Vec::new(),
             joint_springs: attached::joint_springs(scene),
             springs: Vec::new(),
@@ -52,6 +57,13 @@ impl Mechanism {
         let outlines = outline::outlines(scene, &mechanism, &spiders);
         for (body, outline) in mechanism.bodies.iter_mut().zip(outlines) {
             body.outline = outline;
+        }
+        for geometry in &scene.geometry {
+            let owner = match geometry.body {
+                Some(row) => mechanism.bodies.get_mut(row).map(|body| &mut body.shapes),
+                None => Some(&mut mechanism.ground),
+            };
+            owner.into_iter().for_each(|solids| solids.push(geometry.into()));
         }
         mechanism
     }

@@ -5,6 +5,8 @@
 use dbd_kernel::{Quaternion, Vec3};
 use serde::Serialize;
 
+use super::solid::{Solid, block};
+
 /// A mechanism at a pose.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Mechanism {
@@ -12,6 +14,8 @@ pub struct Mechanism {
     pub name: String,
     /// The bodies in the model's order, spiders of universal joints among them.
     pub bodies: Vec<BodyShape>,
+    /// Solids of the ground, world.
+    pub ground: Vec<Solid>,
     /// The joints in scene order.
     pub joints: Vec<JointMark>,
     /// The TSDAs that joints are made of, in the model's order.
@@ -57,8 +61,10 @@ pub struct BodyShape {
     pub position: [f64; 3],
     /// Unit quaternion, scalar first, body → world.
     pub orientation: [f64; 4],
-    /// What it looks like.
+    /// What it looks like where it has no shapes.
     pub outline: Outline,
+    /// The solids of the scene's `[[geometry]]`; where there are some it is drawn by them.
+    pub shapes: Vec<Solid>,
 }
 
 /// What a body looks like, in its axes from its centre of mass.
@@ -226,21 +232,26 @@ impl Mechanism {
         }
     }
 
-    /// The corners of a body's outline in the world \[m\]; none of a spider.
+    /// The corners of a body's shapes or of its outline in the world \[m\]; none of a spider.
     #[must_use]
     pub fn corners(&self, row: usize) -> Vec<Vec3<f64>> {
+        let Some(body) = self.bodies.get(row) else { return Vec::new() };
         let place = |point: &[f64; 3]| self.place(&Place { body: Some(row), point: *point });
-        match self.bodies.get(row).map(|body| &body.outline) {
-            Some(Outline::Bar { ends }) => ends.iter().map(place).collect(),
-            Some(Outline::Plate { points }) => points.iter().map(place).collect(),
-            Some(Outline::Block { half: [x, y, z] }) => (0..8)
-                .map(|corner| {
-                    let side =
-                        |bit: usize, half: f64| if corner >> bit & 1 == 1 { half } else { -half };
-                    place(&[side(0, *x), side(1, *y), side(2, *z)])
-                })
-                .collect(),
-            Some(Outline::Spider) | None => Vec::new(),
+        if !body.shapes.is_empty() {
+            return body
+                .shapes
+                .iter()
+                .flat_map(Solid::corners)
+                .map(|point| place(&point))
+                .collect();
+        }
+        match &body.outline {
+            Outline::Bar { ends } => ends.iter().map(place).collect(),
+            Outline::Plate { points } => points.iter().map(place).collect(),
+            Outline::Block { half } => {
+                block(&[0.0; 3], &[1.0, 0.0, 0.0, 0.0], half).iter().map(place).collect()
+            }
+            Outline::Spider => Vec::new(),
         }
     }
 

@@ -16,6 +16,8 @@ pub(crate) enum Resolved {
     Point(Vec3<f64>),
     /// A unit vector.
     Direction(Vec3<f64>),
+    /// A unit quaternion, scalar first.
+    Turn([f64; 4]),
     /// Two unit vectors.
     Directions([Vec3<f64>; 2]),
 }

@@ -10,7 +10,7 @@ use crate::error::SceneError;
 use crate::orientation::of_axes;
 use crate::text::{Kind, Number, Numbers, Value};
 
-pub(crate) use sections::{KEYS, NAMES, Section, section};
+pub(crate) use sections::{KEYS, NAMES, Section, section, sizes};
 
 /// Relative slack of the triangle inequality: an inertia computed for a thin plate meets it with
 /// equality but for rounding.

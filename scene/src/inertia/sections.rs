@@ -24,7 +24,7 @@ pub(crate) const KEYS: &[&str] = &[
 ];
 
 /// The sizes that a shape has.
-fn sizes(shape: &str) -> &'static [&'static str] {
+pub(crate) fn sizes(shape: &str) -> &'static [&'static str] {
     match shape {
         "rod" | "cylinder" => &["diameter"],
         "box" => &["section"],

@@ -15,7 +15,7 @@ use crate::shortened::shortened;
 use crate::spring;
 use crate::text::{Kind, Number, Table, Text, Value};
 
-const KEYS: &[&str] = &["fixed", "rates", "length", "tolerance", "iterations"];
+pub(super) const KEYS: &[&str] = &["fixed", "rates", "length", "tolerance", "iterations"];
 
 /// \[m\] by which a joint may stay open where the scene does not say.
 const TOLERANCE: f64 = 1e-9;

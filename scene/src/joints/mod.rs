@@ -6,6 +6,7 @@
 mod assemble;
 mod cylindrical;
 mod fixed;
+mod info;
 mod rates;
 mod revolute;
 mod site;
@@ -16,10 +17,10 @@ mod universal;
 
 pub(crate) use assemble::read as assemble;
 pub use assemble::{Assembled, Moved, OpenJoint};
+pub use info::JointInfo;
 
 use dbd_kernel::Vec3;
 
-use crate::JointInfo;
 use crate::assembly::Assembly;
 use crate::closure::{Place, Turn};
 use crate::error::SceneError;
@@ -85,6 +86,19 @@ pub(crate) fn keys() -> Vec<(&'static str, Vec<&'static [&'static str]>)> {
     let each = TYPES.iter().map(|kind| (kind.name, with(&[kind.keys])));
     std::iter::once(("joint", with(&all))).chain(each).collect()
 }
+
+/// The types, each with all its keys.
+pub(crate) fn types() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
+    TYPES.iter().map(|kind| (kind.name, [KEYS, spring::KEYS, kind.keys].concat()))
+}
+
+/// The keys of tables within a joint and within `[assemble]`.
+pub(crate) const WITHIN: [(&str, &[&str]); 4] = [
+    ("assemble", assemble::KEYS),
+    ("spider", universal::SPIDER),
+    ("halves", site::HALVES),
+    ("rate", rates::RATES),
+];
 
 /// What other programs and people call the types.
 const OTHER_NAMES: [(&str, &[&str]); 6] = [

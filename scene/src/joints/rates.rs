@@ -14,6 +14,9 @@ use crate::nearest::nearest;
 use crate::shortened::shortened;
 use crate::text::{Kind, Number, Table, Text, Value};
 
+/// The keys of the rate of a joint that turns and slides.
+pub(super) const RATES: &[&str] = &["turn", "slide"];
+
 const TURN: Number = Number::any("rad/s");
 const SLIDE: Number = Number::any("m/s");
 
@@ -123,7 +126,7 @@ fn of_joints<'t>(
             }
             "cylindrical" if value.get().is_table() => {
                 let table = value.table("{ turn = rad/s, slide = m/s }")?;
-                table.only(&[&["turn", "slide"]])?;
+                table.only(&[RATES])?;
                 if let (Some(rate), Some(value)) =
                     (table.optional("turn", TURN)?, table.value("turn"))
                 {

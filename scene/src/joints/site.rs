@@ -194,7 +194,7 @@ impl<K: Kind> Kind for Halves<K> {
             return Ok([first.read(value)?, second.read(value)?]);
         }
         let table = value.table(&self.expected())?;
-        table.only(&[&["first", "second"]])?;
+        table.only(&[HALVES])?;
         let half = |key: &str, kind: &K| match table.value(key) {
             Some(value) => kind.read(&value),
             None => Err(table.missing(key, &kind.expected())),
@@ -202,6 +202,9 @@ impl<K: Kind> Kind for Halves<K> {
         Ok([half("first", first)?, half("second", second)?])
     }
 }
+
+/// The keys of what is given for each body by itself.
+pub(super) const HALVES: &[&str] = &["first", "second"];
 
 /// Where a half of a joint lies, world at the given poses: a point that the body has as an end of its own
 /// where that is.

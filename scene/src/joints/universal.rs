@@ -109,6 +109,9 @@ impl Kind for Axes<'_> {
     }
 }
 
+/// The keys of `spider`.
+pub(super) const SPIDER: &[&str] = &["mass", "inertia", "angular_velocity"];
+
 /// The spider's mass and inertia, and \[rad/s\] its angular velocity about its own axes where that is given.
 struct Spider;
 
@@ -121,7 +124,7 @@ impl Kind for Spider {
 
     fn read(&self, value: &Value<'_>) -> Result<Self::Output, SceneError> {
         let table = value.table(&self.expected())?;
-        table.only(&[&["mass", "inertia", "angular_velocity"]])?;
+        table.only(&[SPIDER])?;
         let spin = table.optional("angular_velocity", Numbers(Number::any("rad/s")))?;
         Ok((mass_and_inertia(&table)?, spin))
     }

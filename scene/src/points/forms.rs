@@ -11,7 +11,7 @@ use crate::precise::{Precise, PreciseVector, sine_and_cosine};
 use crate::text::{Choice, Direction, Kind as _, Number, Numbers, Table, Text, Value};
 
 /// Every key of every form.
-const KEYS: &[&str] = &[
+pub(crate) const KEYS: &[&str] = &[
     "from",
     "offset",
     "distance",

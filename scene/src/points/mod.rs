@@ -17,7 +17,7 @@ use crate::error::SceneError;
 use crate::precise::PreciseVector;
 use crate::text::{Table, Value};
 
-pub(crate) use forms::{body_frame, precise_direction};
+pub(crate) use forms::{KEYS, body_frame, precise_direction};
 pub(crate) use heading::Heading;
 pub(crate) use order::{Node, order};
 pub(crate) use place::{Place, PlaceOf, PrecisePlace};

@@ -93,8 +93,12 @@ impl Kind for PlaceOf<'_> {
                 Ok(place)
             }
             None if value.get().is_array() => {
-                let place = Numbers(Number::any("m, body axes")).read(value)?;
-                Ok(assembly.of_written(body, Vec3::from_f64(place)))
+                let written = Vec3::from_f64(Numbers(Number::any("m, body axes")).read(value)?);
+                let place = assembly.of_written(body, written);
+                if place != written {
+                    assembly.resolve(value, Resolved::Point(place));
+                }
+                Ok(place)
             }
             None => Err(value.wrong_type(&self.expected())),
         }

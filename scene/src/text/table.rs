@@ -37,6 +37,8 @@ const ALTERNATIVES: &[(&str, &[&str])] = &[
     ("density", &["mass"]),
     ("wall", &["inner_diameter"]),
     ("inner_diameter", &["wall"]),
+    ("radius", &["diameter"]),
+    ("diameter", &["radius"]),
     ("link", &["position", "orientation", "frame", "shape"]),
     ("position", &["link"]),
     ("inertia", &["shape"]),

@@ -12,20 +12,29 @@ use std::collections::BTreeMap;
 use dbd_kernel::F64;
 use toml::de::DeValue;
 
-use crate::Scene;
 use crate::assembly::Resolved;
 use crate::error::SceneError;
 use crate::runtime::SceneModel;
 use crate::text::{Kind as _, Measure, Table, Value};
 use crate::write::comments::Comments;
 use crate::write::literal::{basic_string, direction, key, number, orientation, vector};
+use crate::{Scene, Solid};
 
 /// What the long form has no use for.
 const LEFT_OUT: &[&str] = &["points", "parameters", "assemble", "defaults"];
 
 /// Kinds of which there are many, in the order of the reference.
-const MANY: &[&str] =
-    &["body", "joint", "tsda", "point_on_line", "torsion_spring", "load", "input", "readout"];
+const MANY: &[&str] = &[
+    "body",
+    "joint",
+    "tsda",
+    "point_on_line",
+    "torsion_spring",
+    "load",
+    "input",
+    "readout",
+    "geometry",
+];
 
 /// Values that are texts; others that are given as texts are numbers.
 const TEXTS: &[&str] = &[
@@ -39,11 +48,16 @@ const TEXTS: &[&str] = &[
     "interpolate",
     "offsets",
     "about",
+    "shape",
+    "colour",
 ];
 
 /// What a body has in the long form, besides its name.
 const OF_A_BODY: &[&str] =
     &["mass", "inertia", "position", "orientation", "velocity", "angular_velocity"];
+
+/// No turn.
+const UNTURNED: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
 
 /// A scene that is written.
 pub(crate) struct Writer<'w, 't> {
@@ -89,6 +103,7 @@ impl<'w, 't> Writer<'w, 't> {
                     "readout" => {
                         crate::readout::allow(table).and_then(|()| self.table(table, |_| true))?;
                     }
+                    "geometry" => self.geometry(table, row)?,
                     _ => self.table(table, |_| true)?,
                 }
             }
@@ -133,7 +148,7 @@ impl<'w, 't> Writer<'w, 't> {
                 "inertia" => Some(vector(body.inertia)),
                 "position" => Some(vector(state.position)),
                 "orientation" => Some(orientation(state.orientation.to_f64()))
-                    .filter(|_| state.orientation.to_f64() != [1.0, 0.0, 0.0, 0.0]),
+                    .filter(|_| state.orientation.to_f64() != UNTURNED),
                 "velocity" => Some(vector(state.velocity)).filter(|_| state.velocity != at_rest),
                 _ => Some(vector(state.angular_velocity))
                     .filter(|_| state.angular_velocity != at_rest),
@@ -189,11 +204,26 @@ impl<'w, 't> Writer<'w, 't> {
         Ok(())
     }
 
+    /// A solid; a block of a body with other axes than the written ones is turned back.
+    fn geometry(&mut self, table: &Table<'t>, row: usize) -> Result<(), SceneError> {
+        crate::geometry::allow(table)?;
+        self.table(table, |_| true)?;
+        let solid = self.scene.geometry.get(row).map(|geometry| &geometry.solid);
+        if let Some(Solid::Box { turn, .. }) = solid
+            && *turn != UNTURNED
+            && !table.has("orientation")
+        {
+            self.text.push_str(&format!("orientation = {}\n", orientation(*turn)));
+        }
+        Ok(())
+    }
+
     /// A value on one line.
     fn value(&self, name: &str, value: &Value<'t>) -> Result<String, SceneError> {
         match self.resolved.get(&value.span().start) {
             Some(Resolved::Point(point)) => return Ok(vector(*point)),
             Some(Resolved::Direction(axis)) => return Ok(direction(*axis)),
+            Some(Resolved::Turn(turn)) => return Ok(orientation(*turn)),
             Some(Resolved::Directions([a, b])) => {
                 return Ok(format!("[{}, {}]", direction(*a), direction(*b)));
             }

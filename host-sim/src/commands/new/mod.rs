@@ -1,4 +1,5 @@
-//! `host-sim new firmware`: a project with a plant in firmware, which builds and runs as it is.
+//! `host-sim new firmware`: a project with a plant in firmware, which builds and runs as it is; `host-sim new scene`
+//! (`scene.rs`): a scene to begin with.
 //!
 //! `(name, scene) => folder`. The files are those of `templates/firmware/`, with what the scene
 //! tells in place of `{{…}}`; the golden bits are those of a run of the scene here.
@@ -6,6 +7,7 @@
 mod dependencies;
 mod folder;
 mod name;
+mod scene;
 
 use std::fmt;
 use std::io;
@@ -24,6 +26,7 @@ use crate::terminal::Found;
 use dependencies::Dependencies;
 
 pub use name::NameError;
+pub use scene::{SceneArguments, scene};
 
 /// The scene of a project that names none.
 pub const SCENE: &str = "cart-pendulum";
@@ -53,6 +56,8 @@ pub enum NewCommand {
     /// Writes a project with a scene as a plant in firmware: builds, runs in QEMU and on the PC
     #[command(after_help = examples::NEW_FIRMWARE)]
     Firmware(FirmwareArguments),
+    /// Writes a commented scene that runs as it is, and the schema from which editors complete its keys
+    Scene(SceneArguments),
 }
 
 /// A project for firmware.
@@ -68,17 +73,17 @@ pub struct FirmwareArguments {
     pub registry: bool,
 }
 
-/// Why there is no project.
+/// Why there is no project or scene.
 #[derive(Debug, Error)]
 pub enum NewError {
     /// It cannot be called so.
     #[error(transparent)]
     Name(#[from] NameError),
-    /// Something has its folder's name.
-    #[error("there is something called {} already", folder.display())]
+    /// Something has its folder's or its file's name.
+    #[error("there is something called {} already", path.display())]
     Taken {
-        /// The folder.
-        folder: PathBuf,
+        /// The folder or the file.
+        path: PathBuf,
     },
     /// Single precision cannot hold the scene.
     #[error(transparent)]
@@ -91,11 +96,11 @@ pub enum NewError {
         /// Where.
         failure: String,
     },
-    /// The project cannot be written.
-    #[error("cannot write to {}: {reason}", folder.display())]
+    /// It cannot be written.
+    #[error("cannot write to {}: {reason}", path.display())]
     Write {
-        /// The folder.
-        folder: PathBuf,
+        /// The folder or the file.
+        path: PathBuf,
         /// Why; part of the message and therefore not a source, which would say it twice.
         reason: io::Error,
     },
@@ -180,8 +185,8 @@ fn project(
     files.push((PathBuf::from("tests/golden.txt"), golden));
     let folder = place.folder;
     folder::write(folder, &files).map_err(|reason| match reason.kind() {
-        io::ErrorKind::AlreadyExists => NewError::Taken { folder: folder.to_owned() },
-        _ => NewError::Write { folder: folder.to_owned(), reason },
+        io::ErrorKind::AlreadyExists => NewError::Taken { path: folder.to_owned() },
+        _ => NewError::Write { path: folder.to_owned(), reason },
     })?;
     Ok(format!(
         "{0}: the scene {1} as a plant in firmware; {2}\n\n  cd {0}\n  cargo test    golden bits on the \

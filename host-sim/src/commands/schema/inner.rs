@@ -1,0 +1,171 @@
+//! What the keys of tables within tables mean and take: points, links, shapes, orientations, stiffnesses, spiders, rates.
+//!
+//! `(table, key) => schema`, and whole tables of them.
+
+use dbd_scene::vocabulary::TableKeys;
+use serde_json::{Value, json};
+
+use super::values::Range::{Any, Positive};
+use super::values::{Key, any, array, choice, name, number, numbers, object, place};
+
+/// The schema of a key; `None` of one that it does not know.
+pub(super) fn schema(table: &str, key: &str, tables: &[TableKeys]) -> Option<Value> {
+    let found = match table {
+        "point" => of_point(key),
+        "link" | "shape" => of_shape(table, key, tables),
+        "orientation" => of_orientation(key),
+        "stiffness" => of_stiffness(key),
+        "spider" => of_spider(key),
+        "rate" => of_rate(key),
+        _ => None,
+    };
+    found.map(Key::schema)
+}
+
+/// A table within another, with all its keys.
+pub(super) fn within(table: &'static str, tables: &[TableKeys], required: &[&str]) -> Value {
+    let mut keys: Vec<&str> = Vec::new();
+    for known in tables.iter().filter(|known| known.table == table) {
+        keys.extend(&known.keys);
+    }
+    let properties = keys.into_iter().filter_map(|key| Some((key, schema(table, key, tables)?)));
+    object(properties, required)
+}
+
+/// One of the forms of an orientation.
+pub(super) fn orientation(tables: &[TableKeys]) -> Value {
+    let mut schema = within("orientation", tables, &[]);
+    let forms: [&[&str]; 3] = [&["axis", "angle"], &["quaternion"], &["euler_321"]];
+    schema["oneOf"] = json!(forms.map(|keys| json!({ "required": keys })));
+    schema
+}
+
+/// The types or shapes of a table.
+pub(super) fn kinds(table: &str, tables: &[TableKeys]) -> Value {
+    let kinds = tables.iter().filter(|known| known.table == table);
+    let kinds: Vec<&str> = kinds.filter_map(|known| known.kind).collect();
+    choice(&kinds)
+}
+
+fn of_point(key: &str) -> Option<Key> {
+    Some(match key {
+        "from" => Key(
+            any(&[name(), numbers(3, Any), array(place(), 2)]),
+            "The point, or the two points, that it is given from: names or [x, y, z]",
+            "",
+        ),
+        "offset" => Key(numbers(3, Any), "[x, y, z] m, world: from `from`", ""),
+        "distance" => Key(number(Any), "m: from `from`", ""),
+        "direction" => Key(numbers(3, Any), "[x, y, z] of any length but 0, world", ""),
+        "toward" => Key(place(), "A point: the distance is on the way there", ""),
+        "angle" => Key(
+            number(Any),
+            "rad, or a text such as \"60 deg\": in the plane across `normal`, from `reference`; or about `axis`",
+            "",
+        ),
+        "normal" => Key(numbers(3, Any), "[x, y, z]: normal of the plane", "[0, 0, 1]"),
+        "reference" => Key(
+            numbers(3, Any),
+            "[x, y, z]: where the angle counts from",
+            "the world axis least aligned with the normal",
+        ),
+        "share" => Key(number(Any), "Share of the way from the first point to the second", ""),
+        "distances" => Key(numbers(2, Positive), "[a, b] m, > 0: from the two points", ""),
+        "side" => Key(
+            choice(&["left", "right"]),
+            "The side of the line from the first to the second, seen against `normal`",
+            "",
+        ),
+        "about" => Key(place(), "A point of the axis that it is turned about", "the origin"),
+        "axis" => Key(numbers(3, Any), "[x, y, z]: the axis that it is turned about", ""),
+        "frame" => Key(
+            any(&[name(), array(place(), 3)]),
+            "A body, or three points: origin, one on the x axis, one in the plane of x and y",
+            "",
+        ),
+        "at" => Key(numbers(3, Any), "[x, y, z] m in `frame`", ""),
+        _ => return None,
+    })
+}
+
+fn of_shape(table: &str, key: &str, tables: &[TableKeys]) -> Option<Key> {
+    Some(match key {
+        "type" => Key(kinds("shape", tables), "What it is, uniform", ""),
+        "shape" => Key(kinds("link", tables), "What it is, uniform, as long as the link", "rod"),
+        "from" => Key(place(), "The point at which it begins, an end of the body", ""),
+        "to" => Key(place(), "The point at which it ends, an end of the body", ""),
+        "along" => Key(
+            choice(&["x", "y", "z"]),
+            "The body's axis that points along it, from the first point to the second",
+            "x",
+        ),
+        "reference" => Key(
+            numbers(3, Any),
+            "[x, y, z], not along the link: the next axis of the body lies on its side",
+            "the shortest turn",
+        ),
+        "centre" => Key(number(Any), "Share of the way at which the centre of mass lies", "0.5"),
+        "length" if table == "link" => Key(
+            number(Positive),
+            "m, > 0: its own length where that is not the distance of its points; only with [assemble]",
+            "the distance of its points",
+        ),
+        "length" => Key(number(Positive), "m, > 0: along its axis; not of a sphere", ""),
+        "mass" => Key(number(Positive), "kg, > 0", "of `density`"),
+        "density" => Key(number(Positive), "kg/m³, > 0", "of `mass`"),
+        "diameter" => Key(
+            number(Positive),
+            "m, > 0: of a rod, cylinder, tube (outer) or sphere",
+            "a rod without it is slender",
+        ),
+        "inner_diameter" => Key(number(Positive), "m, > 0: of a tube or a hollow sphere", ""),
+        "wall" => Key(number(Positive), "m, > 0: thickness of a tube's wall", ""),
+        "section" => Key(numbers(2, Positive), "[a, b] m: of a box, along the next axes", ""),
+        "width" => Key(number(Positive), "m, > 0: of a plate, along the next axis", ""),
+        "thickness" => Key(number(Positive), "m, > 0: of a plate, along the last axis", "0"),
+        _ => return None,
+    })
+}
+
+fn of_orientation(key: &str) -> Option<Key> {
+    Some(match key {
+        "axis" => Key(numbers(3, Any), "[x, y, z] of any length but 0, with `angle`", ""),
+        "angle" => Key(number(Any), "rad, or a text such as \"30 deg\": about `axis`", ""),
+        "quaternion" => {
+            Key(numbers(4, Any), "[w, x, y, z], scalar first, brought to unit length", "")
+        }
+        "euler_321" => Key(
+            numbers(3, Any),
+            "[yaw, pitch, roll] rad: about z, then the new y, then the new x",
+            "",
+        ),
+        _ => return None,
+    })
+}
+
+fn of_stiffness(key: &str) -> Option<Key> {
+    Some(match key {
+        "load" => Key(number(Positive), "N (about an axis N·m), > 0", ""),
+        "deflection" => Key(number(Positive), "m (about an axis rad), > 0: under the load", ""),
+        _ => return None,
+    })
+}
+
+fn of_spider(key: &str) -> Option<Key> {
+    Some(match key {
+        "mass" => Key(number(Positive), "kg, > 0", ""),
+        "inertia" => Key(numbers(3, Positive), "[Ix, Iy, Iz] kg·m² about the spider's axes", ""),
+        "angular_velocity" => {
+            Key(numbers(3, Any), "[x, y, z] rad/s about its own axes", "as the first body turns")
+        }
+        _ => return None,
+    })
+}
+
+fn of_rate(key: &str) -> Option<Key> {
+    Some(match key {
+        "turn" => Key(number(Any), "rad/s about the joint's axis", ""),
+        "slide" => Key(number(Any), "m/s along the joint's axis", ""),
+        _ => return None,
+    })
+}

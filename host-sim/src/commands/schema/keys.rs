@@ -1,0 +1,114 @@
+//! What each key of a scene means and takes: the words that an editor shows beside it.
+//!
+//! `(table, key) => schema with description and default`. Which keys there are says the reader, [`dbd_scene::vocabulary`].
+
+use dbd_scene::vocabulary::TableKeys;
+use serde_json::{Value, json};
+
+use super::elements::{of_geometry, of_input, of_joint, of_line, of_load, of_readout, of_spring};
+use super::elements::{of_torsion, of_tsda};
+use super::inner::{self, orientation, within};
+use super::values::Range::{Any, Positive};
+use super::values::{Key, any, array, name, number, numbers, place};
+
+/// The schema of a key; `None` of one that it does not know.
+pub(super) fn schema(table: &str, key: &str, tables: &[TableKeys]) -> Option<Value> {
+    let found = match table {
+        "scene" => of_scene(key),
+        "assemble" => of_assemble(key, tables),
+        "body" => of_body(key, tables),
+        "joint" => of_joint(key, tables).or_else(|| of_spring(key, tables)),
+        "tsda" => of_tsda(key).or_else(|| of_spring(key, tables)),
+        "point_on_line" => of_line(key).or_else(|| of_spring(key, tables)),
+        "torsion_spring" => of_torsion(key).or_else(|| of_spring(key, tables)),
+        "load" => of_load(key),
+        "input" => of_input(key, tables),
+        "readout" => of_readout(key, tables),
+        "geometry" => of_geometry(key, tables),
+        _ => return inner::schema(table, key, tables),
+    };
+    found.map(Key::schema)
+}
+
+fn of_scene(key: &str) -> Option<Key> {
+    Some(match key {
+        "name" => Key(name(), "The scene's name", ""),
+        "description" => Key(json!({ "type": "string" }), "What it is, free text", "empty"),
+        "gravity" => Key(numbers(3, Any), "[x, y, z] m/s², world: the field of gravity", "none"),
+        "duration" => Key(number(Positive), "s, > 0: simulated time, as 0.5 or \"500 ms\"", ""),
+        "step" => Key(number(Positive), "s, > 0: the step, as \"20us\"", "chosen by the run"),
+        "every" => Key(number(Positive), "s, > 0: time between samples", "chosen by the run"),
+        _ => return None,
+    })
+}
+
+fn of_assemble(key: &str, tables: &[TableKeys]) -> Option<Key> {
+    let rate = any(&[number(Any), within("rate", tables, &[])]);
+    Some(match key {
+        "fixed" => Key(
+            json!({ "type": "array", "items": name() }),
+            "Names of bodies that are not moved, as the world is not",
+            "none",
+        ),
+        "rates" => Key(
+            json!({ "type": "object", "additionalProperties": rate }),
+            "Velocities at t = 0 by joint: rad/s of a revolute, m/s of a translational joint, { turn = rad/s, slide = \
+             m/s } of a cylindrical one",
+            "none",
+        ),
+        "length" => Key(
+            number(Positive),
+            "m, > 0: the length at which a turn by a radian counts as a shift by a metre",
+            "the distance of joints from centres of mass, root mean square",
+        ),
+        "tolerance" => Key(number(Positive), "m, > 0: by how much a joint may stay open", "1e-9"),
+        "iterations" => Key(
+            json!({ "type": "integer", "minimum": 1 }),
+            "A whole number > 0: most steps for bodies that hang together",
+            "200",
+        ),
+        _ => return None,
+    })
+}
+
+fn of_body(key: &str, tables: &[TableKeys]) -> Option<Key> {
+    let tensor = array(numbers(3, Any), 3);
+    Some(match key {
+        "name" => Key(name(), "A name of its own, not `world`", ""),
+        "mass" => Key(number(Positive), "kg, > 0", "that of its link or shape"),
+        "inertia" => Key(
+            any(&[numbers(3, Positive), tensor]),
+            "[Ix, Iy, Iz] kg·m², > 0: principal moments about the centre of mass, none above the sum of the others; or \
+             a tensor [[Ixx, Ixy, Ixz], …]",
+            "that of its link or shape",
+        ),
+        "position" => Key(
+            place(),
+            "[x, y, z] m or a point: centre of mass, world or in `frame`",
+            "that of its link",
+        ),
+        "orientation" => Key(
+            orientation(tables),
+            "Body → world: { axis, angle }, { quaternion } or { euler_321 }",
+            "none, or that of its link",
+        ),
+        "velocity" => Key(numbers(3, Any), "[x, y, z] m/s: centre of mass, world", "0"),
+        "angular_velocity" => Key(numbers(3, Any), "[x, y, z] rad/s, body axes", "0"),
+        "frame" => Key(
+            name(),
+            "The body from which position, orientation and velocities are seen",
+            "the world",
+        ),
+        "link" => Key(
+            within("link", tables, &[]),
+            "The two points between which the body lies, and what it is made of",
+            "none",
+        ),
+        "shape" => Key(
+            within("shape", tables, &[]),
+            "A uniform body: { type = \"box\", length = m, section = [m, m], density = kg/m³ }",
+            "none",
+        ),
+        _ => return None,
+    })
+}

@@ -1,0 +1,72 @@
+//! What the reader takes: the tables of a scene file and their keys.
+//!
+//! `() => tables with their keys`, from the very lists by which unknown keys are refused; for what helps people to
+//! write scenes.
+
+use crate::{body, defaults, geometry, inertia, input, joints, links, load, orientation};
+use crate::{point_on_line, points, readout, spring, torsion_spring, tsda};
+
+/// A table of scene files and the keys that it may have.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TableKeys {
+    /// What it is called: `scene`, `body`, `joint`; of tables within others `link`, `shape`, `spider`, `orientation`,
+    /// `point` (in `[points]`), `halves` (`{ first, second }`), `rate` (of a joint in `assemble.rates`), `stiffness`.
+    pub table: &'static str,
+    /// The type or shape that has these keys, where there are several: `revolute`.
+    pub kind: Option<&'static str>,
+    /// The keys, in the order in which messages have them.
+    pub keys: Vec<&'static str>,
+}
+
+/// All tables but `[parameters]` and `[points]`, whose keys are names, and `[defaults]`, whose are kinds.
+#[must_use]
+pub fn vocabulary() -> Vec<TableKeys> {
+    let one =
+        |table, keys: &[&[&'static str]]| TableKeys { table, kind: None, keys: keys.concat() };
+    let mut all = vec![
+        one("scene", &[super::KEYS]),
+        one("point", &[points::KEYS]),
+        one("body", &[body::KEYS]),
+        one("orientation", &[orientation::KEYS]),
+        one("stiffness", &[spring::BY_LOAD]),
+        one("tsda", &[tsda::KEYS, spring::KEYS]),
+        one("point_on_line", &[point_on_line::KEYS, spring::KEYS]),
+        one("torsion_spring", &[torsion_spring::KEYS, spring::KEYS]),
+        one("load", &[load::KEYS]),
+    ];
+    all.extend(joints::WITHIN.map(|(table, keys)| one(table, &[keys])));
+    let mut add = |table, kind, keys| all.push(TableKeys { table, kind: Some(kind), keys });
+    for shape in inertia::NAMES {
+        let sizes = inertia::sizes(shape);
+        add("link", shape, [links::KEYS, &["shape", "mass", "density"], sizes].concat());
+        // A ball has no axis.
+        let along = if shape == "sphere" { &body::SHAPE[..1] } else { body::SHAPE };
+        add("shape", shape, [along, &["mass", "density"], sizes].concat());
+    }
+    joints::types().for_each(|(kind, keys)| add("joint", kind, keys));
+    input::types().for_each(|(kind, keys)| add("input", kind, keys));
+    readout::types().for_each(|(kind, keys)| add("readout", kind, keys));
+    geometry::shapes().for_each(|(kind, keys)| add("geometry", kind, keys));
+    all
+}
+
+/// The tables of `[defaults]`, each with the keys that it may have.
+#[must_use]
+pub fn defaults() -> Vec<(&'static str, Vec<&'static str>)> {
+    let own = |keys: Vec<&'static [&'static str]>| {
+        let mut all: Vec<&'static str> = Vec::new();
+        for key in keys.concat() {
+            if !defaults::OWN.contains(&key) && !all.contains(&key) {
+                all.push(key);
+            }
+        }
+        all
+    };
+    defaults::kinds().into_iter().map(|(kind, keys)| (kind, own(keys))).collect()
+}
+
+/// The colours of geometry that have a name.
+#[must_use]
+pub fn colours() -> Vec<&'static str> {
+    geometry::colour_words().into()
+}

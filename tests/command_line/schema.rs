@@ -1,0 +1,187 @@
+//! The schema of scene files and the reader agree: on every scene here, and on what is wrong with it.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use dbd_scene::Scene;
+use dbd_scene::vocabulary::vocabulary;
+use dbd_tests::results::path;
+use host_sim::terminal::Exit;
+use jsonschema::Validator;
+use serde_json::{Value, json};
+
+use crate::{Folder, call};
+
+fn schema() -> Value {
+    let done = call(&["schema"]);
+    assert_eq!((done.exit, done.err.as_str()), (Exit::Done, ""));
+    serde_json::from_str(&done.out).unwrap()
+}
+
+fn validator() -> Validator {
+    jsonschema::draft7::new(&schema()).unwrap()
+}
+
+/// The scenes of folders: their names and texts.
+fn scenes(folders: &[&str]) -> Vec<(String, String)> {
+    let files = folders.iter().flat_map(|folder| fs::read_dir(path(folder)).unwrap());
+    let files = files.map(|file| file.unwrap().path());
+    let is_scene = |file: &Path| file.extension().is_some_and(|end| end == "toml");
+    let mut files: Vec<_> = files.filter(|file| is_scene(file)).collect();
+    files.sort();
+    files
+        .iter()
+        .map(|file| (file.display().to_string(), fs::read_to_string(file).unwrap()))
+        .collect()
+}
+
+#[test]
+fn the_file_of_the_repository_is_what_the_command_prints() {
+    let file = path("docs/scene.schema.json");
+    let printed = call(&["schema"]).out;
+    if std::env::var_os("DBD_BLESS").is_some_and(|value| value == "1") {
+        fs::write(&file, &printed).unwrap();
+    }
+    let present = fs::read_to_string(&file).unwrap_or_default();
+    assert!(present == printed, "DBD_BLESS=1 cargo test -p dbd-tests --test command_line schema");
+}
+
+#[test]
+fn every_scene_is_valid() {
+    let validator = validator();
+    let all = scenes(&["scenes", "tests/authoring", "fuzz/corpus/scene"]);
+    assert!(all.len() > 30);
+    for (file, text) in all {
+        let scene: Value = toml::from_str(&text).unwrap();
+        let wrong: Vec<String> = validator
+            .iter_errors(&scene)
+            .map(|error| format!("{}: {error}", error.instance_path()))
+            .collect();
+        assert!(wrong.is_empty(), "{file}: {wrong:#?}");
+    }
+}
+
+/// All tables in a value with their pointers.
+fn tables(value: &Value, pointer: String, into: &mut Vec<String>) {
+    match value {
+        Value::Object(map) => {
+            for (key, value) in map {
+                tables(value, format!("{pointer}/{key}"), into);
+            }
+            into.push(pointer);
+        }
+        Value::Array(entries) => {
+            for (row, entry) in entries.iter().enumerate() {
+                tables(entry, format!("{pointer}/{row}"), into);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// What the reader says of a scene; `None` where it takes it.
+fn refusal(scene: &Value) -> Option<String> {
+    let text = toml::to_string(scene).unwrap();
+    Scene::parse(&text, "a.toml").err().map(|error| error.message().to_owned())
+}
+
+/// Each key of each table is left out, becomes a truth value or a negative number, and gets a neighbour that nobody knows.
+/// The schema never refuses what the reader takes; it refuses unknown keys, wrong types and, where there are no
+/// defaults, what is missing.
+#[test]
+fn schema_and_reader_refuse_alike() {
+    let validator = validator();
+    let mut met = BTreeSet::new();
+    for (file, text) in scenes(&["fuzz/corpus/scene"]) {
+        let scene: Value = toml::from_str(&text).unwrap();
+        let has_defaults = scene.get("defaults").is_some();
+        let mut places = Vec::new();
+        tables(&scene, String::new(), &mut places);
+        for place in places {
+            let keys: Vec<String> =
+                scene.pointer(&place).unwrap().as_object().unwrap().keys().cloned().collect();
+            // Their keys are names.
+            let named = place == "/points" || place == "/parameters" || place == "/assemble/rates";
+            let changed = |key: &str, value: Option<Value>| {
+                let mut changed = scene.clone();
+                let table = changed.pointer_mut(&place).unwrap().as_object_mut().unwrap();
+                match value {
+                    Some(value) => drop(table.insert(key.into(), value)),
+                    None => drop(table.remove(key)),
+                }
+                let (said, valid) = (refusal(&changed), validator.is_valid(&changed));
+                let words = format!("{file}{place}/{key}: the reader says {said:?}");
+                assert!(valid || said.is_some(), "{words}, the schema refuses");
+                (said, valid, words)
+            };
+            if !named {
+                let (said, valid, words) = changed("kolour", Some(json!(1)));
+                assert!(said.is_some() && !valid, "{words}, the schema takes it: {valid}");
+            }
+            for key in &keys {
+                met.insert(key.clone());
+                let (said, valid, words) = changed(key, Some(json!(true)));
+                assert!(said.is_some() && !valid, "{words}, the schema takes it: {valid}");
+                changed(key, Some(json!(-1)));
+                changed(key, Some(json!("no such word")));
+                changed(key, Some(json!([])));
+                let (said, valid, words) = changed(key, None);
+                let missing = said.is_some_and(|said| said.ends_with(&format!("has no `{key}`")));
+                // Which form a point has and what a target needs, the keys alone do not say.
+                let depends =
+                    place.starts_with("/points/") || matches!(key.as_str(), "about" | "axis");
+                let may_pass = has_defaults || depends;
+                assert!(!missing || !valid || may_pass, "{words}, the schema takes it");
+            }
+        }
+    }
+    let known = vocabulary().into_iter().flat_map(|table| table.keys);
+    let unmet: BTreeSet<&str> = known.filter(|key| !met.contains(*key)).collect();
+    assert!(unmet.is_empty(), "no scene here has {unmet:?}");
+}
+
+#[test]
+fn a_new_scene_is_valid_and_runs_and_nothing_is_overwritten() {
+    let validator = validator();
+    let folder = Folder::new();
+    for (name, options) in [("mine", &[][..]), ("copy", &["--from", "double-wishbone"])] {
+        let file = folder.path(&format!("{name}.toml"));
+        let called = folder.path(name);
+        let done = call(&[&["new", "scene", called.to_str().unwrap()], options].concat());
+        assert_eq!((done.exit, done.err.as_str()), (Exit::Done, ""));
+        assert!(done.out.contains("--watch") && done.out.contains("host-sim run "), "{}", done.out);
+        let text = fs::read_to_string(&file).unwrap();
+        assert!(text.starts_with("#:schema ./scene.schema.json\n") && !text.contains("{{"));
+        assert_eq!(Scene::parse(&text, "a").unwrap().name, name);
+        let beside = fs::read_to_string(folder.path("scene.schema.json")).unwrap();
+        assert!(beside == call(&["schema"]).out);
+        assert!(validator.is_valid(&toml::from_str(&text).unwrap()));
+        let checked = call(&["check", file.to_str().unwrap()]);
+        assert_eq!((checked.exit, checked.err.as_str()), (Exit::Done, ""));
+        assert!(!checked.out.contains("warning"), "{}", checked.out);
+        // With or without its ending, there or elsewhere, it is taken.
+        for again in [&called, &file] {
+            let again = call(&["new", "scene", again.to_str().unwrap()]);
+            assert_eq!(again.exit, Exit::Refused);
+            assert!(again.err.contains("already"), "{}", again.err);
+        }
+        assert_eq!(fs::read_to_string(&file).unwrap(), text);
+    }
+    let summary =
+        folder.summary(folder.path("mine.toml").to_str().unwrap(), &["--duration", "0.1s"]);
+    assert_eq!(summary["status"], "ok");
+    fs::write(folder.path("scene.schema.json"), "{ \"title\": \"another's\" }").unwrap();
+    for (name, said) in [
+        ("other", "scene.schema.json already"),
+        ("a b", "a-b"),
+        ("nul", "operating system"),
+        ("none/x", "cannot write to"),
+    ] {
+        let done = call(&["new", "scene", folder.path(name).to_str().unwrap()]);
+        assert!(done.exit != Exit::Done && done.err.contains(said), "{name}: {}", done.err);
+        assert!(!folder.path(&format!("{name}.toml")).exists());
+    }
+    let done = call(&["new", "scene", "x", "--from", "double-wishbon"]);
+    assert!(done.exit == Exit::Refused && done.err.contains("did you mean double-wishbone?"));
+}
