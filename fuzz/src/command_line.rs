@@ -125,7 +125,7 @@ fn run(folder: &Folder, arguments: &Arguments, choice: u64) -> Result<Done, Find
 
 fn in_process(arguments: &Arguments) -> Done {
     let (mut out, mut err) = (Vec::new(), Vec::new());
-    let mut console = Console { out: &mut out, err: &mut err, terminal: false };
+    let mut console = Console::plain(&mut out, &mut err);
     let program = OsString::from(AS_HOST_SIM);
     let words = std::iter::once(program).chain(arguments.words.iter().cloned());
     let exit = main_with(words, &mut console);

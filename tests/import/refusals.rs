@@ -184,7 +184,7 @@ fn files_that_are_included_keep_their_places() {
 /// Calls the command line: exit code, standard output, standard error.
 fn call(arguments: &[&str]) -> (Exit, String, String) {
     let (mut out, mut err) = (Vec::new(), Vec::new());
-    let mut console = Console { out: &mut out, err: &mut err, terminal: false };
+    let mut console = Console::plain(&mut out, &mut err);
     let line = ["host-sim", "import"].iter().chain(arguments);
     let exit = main_with(line, &mut console);
     (exit, String::from_utf8(out).unwrap(), String::from_utf8(err).unwrap())

@@ -11,7 +11,7 @@ use crate::caches;
 /// Calls the command line.
 fn call(arguments: &[&str]) -> (Exit, String, String) {
     let (mut out, mut err) = (Vec::new(), Vec::new());
-    let mut console = Console { out: &mut out, err: &mut err, terminal: false };
+    let mut console = Console::plain(&mut out, &mut err);
     let exit = main_with(["host-sim"].iter().chain(arguments), &mut console);
     let text = |bytes| String::from_utf8(bytes).unwrap();
     (exit, text(out), text(err))
