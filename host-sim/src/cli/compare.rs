@@ -21,7 +21,7 @@ pub(super) fn compare(
     if arguments.json {
         console.print(&json(&record))?;
     } else if !arguments.quiet {
-        let mut text = text(&comparison);
+        let mut text = text(&comparison, console.look);
         if let Some(folder) = folder {
             text += &format!("\nwritten  {}/{{report.html,compare.json}}\n", folder.display());
         }

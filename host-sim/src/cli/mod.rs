@@ -82,6 +82,7 @@ enum Command {
     Sweep(SweepArguments),
     /// Compares two recorded runs, two schemes or a PC and a chip: bits, first difference, how far apart; writes
     /// OUT/compare/NAME/{report.html,compare.json}; exit code 0 where they are equal, 1 where not
+    #[command(after_help = examples::COMPARE)]
     Compare(CompareArguments),
     /// Prints Rust source of a scene's const model and of its plant, for a firmware
     #[command(after_help = examples::EXPORT)]
@@ -94,6 +95,7 @@ enum Command {
     #[command(subcommand, disable_help_subcommand = true)]
     New(NewCommand),
     /// Prints the JSON Schema of scene files, from which editors complete keys
+    #[command(after_help = examples::SCHEMA)]
     Schema,
     /// Prints a script that completes commands, options and scenes for a shell
     #[command(after_help = examples::COMPLETIONS)]

@@ -12,6 +12,8 @@ macro_rules! examples {
 
 /// Of `check`.
 pub const CHECK: &str = examples!("check.txt");
+/// Of `compare`.
+pub const COMPARE: &str = examples!("compare.txt");
 /// Of `completions`.
 pub const COMPLETIONS: &str = examples!("completions.txt");
 /// Of `export`.
@@ -22,8 +24,12 @@ pub const IMPORT: &str = examples!("import.txt");
 pub const LIST: &str = examples!("list.txt");
 /// Of `new firmware`.
 pub const NEW_FIRMWARE: &str = examples!("new-firmware.txt");
+/// Of `new scene`.
+pub const NEW_SCENE: &str = examples!("new-scene.txt");
 /// Of `run`.
 pub const RUN: &str = examples!("run.txt");
+/// Of `schema`.
+pub const SCHEMA: &str = examples!("schema.txt");
 /// Of `sweep`.
 pub const SWEEP: &str = examples!("sweep.txt");
 /// Of `trade`.

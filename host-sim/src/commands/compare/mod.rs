@@ -38,7 +38,6 @@ use crate::terminal::text::json;
 
 /// What is compared, and where the report goes.
 #[derive(Clone, Debug, Args)]
-#[command(after_help = EXAMPLES)]
 pub struct CompareArguments {
     /// A run: its folder (out/four-bar), its trace.csv or summary.json; or a golden file, also within what a
     /// console showed
@@ -67,17 +66,6 @@ pub struct CompareArguments {
     #[arg(long)]
     pub json: bool,
 }
-
-const EXAMPLES: &str = "\
-Exit codes: 0 equal bits, or within the bands; 1 different; 2 unreadable, not comparable, or not written.
-
-Examples:
-  host-sim run four-bar --out out/leapfrog
-  host-sim run four-bar --out out/pefrl --scheme pefrl
-  host-sim compare out/leapfrog/four-bar out/pefrl/four-bar
-
-  host-sim compare out/four-bar tests/four-bar.golden       a PC and what was recorded, on a chip for example
-  host-sim compare out/a/arm out/b/arm --band 1e-6 --quiet  in a script: the exit code alone";
 
 /// Why two runs were not compared, or the report not written.
 #[derive(Debug, Error, Diagnostic)]

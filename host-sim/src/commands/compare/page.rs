@@ -161,6 +161,7 @@ pub fn page(
             tables: tables(comparison),
             commands: vec![(String::new(), command(called))],
             notes: Vec::new(),
+            survey: None,
         },
     };
     Ok(html(&data))

@@ -6,7 +6,7 @@ use dbd_plant::time::{display, rounded};
 use crate::commands::compare::differs::{Differs, differs, grouped};
 use crate::comparison::{Comparison, Quantity, Verdict};
 use crate::recorded::Kind;
-use crate::terminal::text::{aligned, table};
+use crate::terminal::Look;
 
 /// Lists of names are no longer.
 const MOST_NAMES: usize = 8;
@@ -143,7 +143,7 @@ pub fn quantity(quantity: &Quantity, banded: bool) -> [String; 6] {
 
 /// What is printed.
 #[must_use]
-pub fn text(comparison: &Comparison) -> String {
+pub fn text(comparison: &Comparison, look: Look) -> String {
     let mut rows = vec![("A", run(comparison, 0)), ("B", run(comparison, 1))];
     for Differs { what, a, b } in grouped(differs(comparison)) {
         let side = |side: Option<String>| side.unwrap_or_else(|| "–".into());
@@ -156,13 +156,11 @@ pub fn text(comparison: &Comparison) -> String {
         rows.push(("first", first.to_string()));
     }
     rows.extend(notes(comparison).into_iter().map(|note| ("note", note)));
-    let mut text = table(&rows);
+    let mut text = look.table(&rows);
     if comparison.first.is_some() {
-        let head = COLUMNS.map(str::to_owned);
         let lines = comparison.quantities.iter().map(|of| quantity(of, comparison.banded));
-        let lines: Vec<_> = std::iter::once(head).chain(lines).collect();
         text += "\n";
-        text += &aligned(&lines);
+        text += &look.columns(Some(COLUMNS), &lines.collect::<Vec<_>>());
     }
     text
 }

@@ -57,6 +57,7 @@ pub enum NewCommand {
     #[command(after_help = examples::NEW_FIRMWARE)]
     Firmware(FirmwareArguments),
     /// Writes a commented scene that runs as it is, and the schema from which editors complete its keys
+    #[command(after_help = examples::NEW_SCENE)]
     Scene(SceneArguments),
 }
 
