@@ -257,6 +257,8 @@ fn charts(browser: &mut Browser) {
     assert!((time - 0.5).abs() < 0.01, "the chart sets the time: {time}");
     assert_ne!(browser.run(CANVAS)["hash"], still, "the mechanism stands at that time");
     assert_ne!(browser.run(said), before, "the values of that time are shown");
+    // What has left the chart leaves the time.
+    browser.mouse("mouseMoved", 3.0, 3.0, false);
     let cursors =
         "[...dbd.chart.charts].map((c) => c.uplot.cursor.left / c.uplot.over.clientWidth)";
     let cursors = browser.run(cursors);
