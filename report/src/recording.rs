@@ -325,7 +325,7 @@ readout = [
             let pull = chart(&run, Section::Readouts, "pull", "tension");
             assert!(pull.lines[0].initial.is_nan());
             let json = serde_json::to_value(&run).unwrap();
-            assert_eq!(json["charts"][0]["lines"][0]["initial"].is_null(), true);
+            assert!(json["charts"][0]["lines"][0]["initial"].is_null());
         }
     }
 
