@@ -4,6 +4,7 @@
 //! Needs Chromium, so a plain `cargo test` leaves it out and says so; `cargo xtask test` runs it.
 
 mod chromium;
+mod extras;
 
 use std::path::{Path, PathBuf};
 
@@ -87,6 +88,9 @@ fn reports_live() {
     quiet(&mut browser, "four-bar, operated");
     without_webgl(&mut browser, &page);
     quiet(&mut browser, "four-bar without WebGL");
+    extras::modes(&mut browser, &page);
+    extras::comparison(&mut browser, &page);
+    quiet(&mut browser, "four-bar with modes and beside another");
 }
 
 /// Runs a scene and returns its page.
