@@ -54,6 +54,8 @@
       this.scale = scale(chart.unit, largest);
       this.legend();
       this.plot = element('div', 'plot', figure);
+      this.plot.setAttribute('role', 'img');
+      this.plot.setAttribute('aria-label', `${chart.title}: ${chart.quantity} over time`);
       this.uplot = new uPlot(this.options(), this.data, this.plot);
       this.point();
       this.at(dbd.clock.time);
@@ -74,7 +76,7 @@
         width: this.width(), height: this.height(), legend: { show: false }, padding: [8, 10, 0, 0],
         cursor: {
           y: false, points: { size: 7 }, drag: { x: true, y: false, setScale: false },
-          bind: { dblclick: () => () => show(null) },
+          bind: { dblclick: () => () => show(null), mouseleave: () => null },
         },
         scales: { x: { time: false, range: (u, low, high) => zoom.range || [low, high] } },
         axes: [
@@ -120,7 +122,8 @@
       const { over } = this.uplot;
       let resumes = false;
       const look = (event) => {
-        if (event.type === 'pointermove' && !event.movementX && !event.movementY) return;
+        // A page that scrolls below a mouse at rest is no pointing.
+        if (event.type === 'pointermove' && event.pointerType === 'mouse' && !event.movementX && !event.movementY) return;
         if (dbd.clock.playing) {
           dbd.clock.pause();
           resumes = true;
@@ -132,7 +135,6 @@
       over.addEventListener('pointerleave', () => {
         if (resumes) dbd.clock.play();
         resumes = false;
-        this.at(dbd.clock.time);
       });
     }
 

@@ -188,7 +188,8 @@
 
     key(event) {
       const typing = event.target.closest('select, textarea, input:not([type=checkbox]):not([type=range]), dialog');
-      if (typing || event.ctrlKey || event.metaKey || event.altKey) return;
+      const other = event.target.type === 'range' && event.target !== this.scrub;
+      if (typing || other || event.ctrlKey || event.metaKey || event.altKey) return;
       const inside = this.stage.view.contains(event.target);
       const pressed = event.target.closest('button, summary, input[type=checkbox]');
       const turn = (about, above) => () => this.stage.camera.orbit(about, above);

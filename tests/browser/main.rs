@@ -4,6 +4,7 @@
 //! Needs Chromium, so a plain `cargo test` leaves it out and says so; `cargo xtask test` runs it.
 
 mod chromium;
+mod extras;
 
 use std::path::{Path, PathBuf};
 
@@ -87,6 +88,9 @@ fn reports_live() {
     quiet(&mut browser, "four-bar, operated");
     without_webgl(&mut browser, &page);
     quiet(&mut browser, "four-bar without WebGL");
+    extras::modes(&mut browser, &page);
+    extras::comparison(&mut browser, &page);
+    quiet(&mut browser, "four-bar with modes and beside another");
 }
 
 /// Runs a scene and returns its page.
@@ -257,6 +261,8 @@ fn charts(browser: &mut Browser) {
     assert!((time - 0.5).abs() < 0.01, "the chart sets the time: {time}");
     assert_ne!(browser.run(CANVAS)["hash"], still, "the mechanism stands at that time");
     assert_ne!(browser.run(said), before, "the values of that time are shown");
+    // What has left the chart leaves the time.
+    browser.mouse("mouseMoved", 3.0, 3.0, false);
     let cursors =
         "[...dbd.chart.charts].map((c) => c.uplot.cursor.left / c.uplot.over.clientWidth)";
     let cursors = browser.run(cursors);
