@@ -92,6 +92,8 @@ fn the_summary_has_its_keys_in_order_and_is_the_file() {
         "frequency_estimate_hz",
         "advised_step",
         "state_hash",
+        "turns",
+        "trace_hash",
         "status",
         "version",
         "trace_format",

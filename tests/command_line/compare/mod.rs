@@ -13,8 +13,8 @@ use crate::{Done, Folder, PENDULUM, Trace, call};
 /// The pendulum with what shows where its bob is.
 fn scene() -> String {
     format!(
-        "{PENDULUM}\n[[readout]]\nname = \"tip\"\ntype = \"point\"\nbody = \"bob\"\npoint = [0, -0.1, 0]\n\
-         \n[[readout]]\nname = \"pull\"\ntype = \"tsda_force\"\ntarget = 1\n"
+        "{PENDULUM}name = \"spring\"\n\n[[readout]]\nname = \"tip\"\ntype = \"point\"\nbody = \"bob\"\npoint = [0, -0.1, 0]\n\
+         \n[[readout]]\nname = \"pull\"\ntype = \"tsda_force\"\ntarget = \"spring\"\n"
     )
 }
 
@@ -159,11 +159,11 @@ fn figures_are_those_of_the_traces() {
 fn two_stiffnesses_and_two_precisions_are_told() {
     let bench = Bench::new();
     let a = bench.run("a", &[]);
-    let stiffer = bench.run("b", &["--set", "tsda.1.stiffness=4e3"]);
+    let stiffer = bench.run("b", &["--set", "tsda.spring.stiffness=4e3"]);
     let (json, exit) = bench.json(&a, &stiffer, &[]);
     assert_eq!(exit, Exit::Failed);
     let told = &json["differs"][0];
-    assert_eq!((&told["what"], &told["b"]), (&"set tsda.1.stiffness".into(), &"4e3".into()));
+    assert_eq!((&told["what"], &told["b"]), (&"set tsda.spring.stiffness".into(), &"4e3".into()));
     assert_eq!(told["a"], "2e3");
     let single = bench.run("c", &["--precision", "f32"]);
     let (json, exit) = bench.json(&a, &single, &[]);

@@ -91,14 +91,14 @@ fn page(bench: &Bench, runs: usize) -> Value {
 #[test]
 fn the_page_holds_both_runs_and_their_differences() {
     let bench = Bench::new();
-    let (a, b) = (bench.run("a", &[]), bench.run("b", &["--set", "tsda.1.stiffness=4e3"]));
+    let (a, b) = (bench.run("a", &[]), bench.run("b", &["--set", "tsda.spring.stiffness=4e3"]));
     let done = bench.compare(&a, &b, &[]);
     assert!(done.out.contains("scene-a-and-b/{report.html,compare.json}"), "{}", done.out);
     let data = page(&bench, 2);
     let labels = data["runs"].as_array().unwrap().iter().map(|run| run["label"].clone());
     assert_eq!(
         labels.collect::<Vec<_>>(),
-        ["A: tsda.1.stiffness = 2e3", "B: tsda.1.stiffness = 4e3"]
+        ["A: tsda.spring.stiffness = 2e3", "B: tsda.spring.stiffness = 4e3"]
     );
     for run in data["runs"].as_array().unwrap() {
         assert!(run["mechanism"].is_object() && run["film"].is_object(), "{run}");
