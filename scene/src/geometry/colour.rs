@@ -44,7 +44,7 @@ impl Kind for Colour {
         }
         hexadecimal(text).ok_or_else(|| {
             let problem = format!("is \"{}\"", shortened(text));
-            let meant = nearest(text, words().into_iter());
+            let meant = nearest(text, words());
             let meant = meant.map_or(String::new(), |word| format!("; did you mean \"{word}\"?"));
             value.refuse(&problem, &format!("{}{meant}", self.expected()))
         })
