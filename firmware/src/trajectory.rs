@@ -48,7 +48,9 @@ pub fn run() -> bool {
     let mut record = || -> Result<(), RecordError<&'static str>> {
         let mut recorder = Recorder::begin(Console::default(), &head)?;
         while recorder.look(&plant, &[])? && plant.state().step < STEPS {
-            plant.advance(EVERY);
+            if plant.advance(EVERY).ok().is_err() {
+                break;
+            }
         }
         recorder.finish().map(drop)
     };

@@ -6,6 +6,9 @@ use serde::Serialize;
 use crate::comparison::Comparison;
 use crate::recorded::{Head, Kind};
 
+/// What is read of a run's head.
+type Fact = fn(&Head) -> Option<String>;
+
 /// A fact that is another in A and in B.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Differs {
@@ -27,12 +30,12 @@ pub fn differs(comparison: &Comparison) -> Vec<Differs> {
             all.push(Differs { what: what.to_owned(), a, b });
         }
     };
-    let both = |of: fn(&Head) -> Option<String>| (of(a), of(b));
+    let both = |of: Fact| (of(a), of(b));
     let known = |(a, b): (Option<String>, Option<String>)| match (&a, &b) {
         (Some(_), Some(_)) => (a, b),
         _ => (None, None),
     };
-    let facts: [(&str, fn(&Head) -> Option<String>); 6] = [
+    let facts: [(&str, Fact); 6] = [
         ("scene", |head| Some(head.scene.clone())),
         ("scheme", |head| Some(head.scheme.clone())),
         ("precision", |head| Some(head.precision.clone())),
