@@ -117,7 +117,7 @@ impl Side {
 
     /// Goes on to the next sample.
     fn step(&mut self) -> Result<(), Unreadable> {
-        let next = self.run.next()?;
+        let next = self.run.next_row()?;
         // The row is kept in its place, for runs are long.
         match (next, &mut self.row) {
             (None, kept) => *kept = None,

@@ -53,9 +53,9 @@ impl Recorded {
     ///
     /// # Errors
     /// What is wrong with the row, or with the whole.
-    pub fn next(&mut self) -> Result<Option<&Row>, Unreadable> {
+    pub fn next_row(&mut self) -> Result<Option<&Row>, Unreadable> {
         match &mut self.rows {
-            Rows::Trace(reader) => reader.next(),
+            Rows::Trace(reader) => reader.next_row(),
             Rows::Golden { rows, next } => {
                 *next += 1;
                 Ok(rows.get(*next - 1))

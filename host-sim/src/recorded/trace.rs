@@ -186,7 +186,7 @@ impl TraceReader {
     ///
     /// # Errors
     /// What is wrong with the row, or with the whole.
-    pub fn next(&mut self) -> Result<Option<&Row>, Unreadable> {
+    pub fn next_row(&mut self) -> Result<Option<&Row>, Unreadable> {
         if self.ended {
             return Ok(None);
         }

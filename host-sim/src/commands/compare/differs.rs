@@ -17,6 +17,9 @@ pub struct Differs {
     pub b: Option<String>,
 }
 
+/// A fact of a run, in words.
+type Fact = fn(&Head) -> Option<String>;
+
 /// What differs between the two runs, without what only one of them records.
 #[must_use]
 pub fn differs(comparison: &Comparison) -> Vec<Differs> {
@@ -27,12 +30,12 @@ pub fn differs(comparison: &Comparison) -> Vec<Differs> {
             all.push(Differs { what: what.to_owned(), a, b });
         }
     };
-    let both = |of: fn(&Head) -> Option<String>| (of(a), of(b));
+    let both = |of: Fact| (of(a), of(b));
     let known = |(a, b): (Option<String>, Option<String>)| match (&a, &b) {
         (Some(_), Some(_)) => (a, b),
         _ => (None, None),
     };
-    let facts: [(&str, fn(&Head) -> Option<String>); 6] = [
+    let facts: [(&str, Fact); 6] = [
         ("scene", |head| Some(head.scene.clone())),
         ("scheme", |head| Some(head.scheme.clone())),
         ("precision", |head| Some(head.precision.clone())),
@@ -60,11 +63,8 @@ pub fn differs(comparison: &Comparison) -> Vec<Differs> {
             };
             fact(&format!("set {path}"), now(a), now(b));
         }
-        fact(
-            "scene's file",
-            known(both(|head| head.scene_hash.clone())).0,
-            known(both(|head| head.scene_hash.clone())).1,
-        );
+        let (of_a, of_b) = known(both(|head| head.scene_hash.clone()));
+        fact("scene's file", of_a, of_b);
         fact("status", a.status.clone(), b.status.clone());
     }
     let every = comparison

@@ -38,7 +38,7 @@ pub fn of_scene(
     let initial = plant.state();
     let readings = scene.readouts.iter().map(|readout| readout.columns.len()).sum::<usize>();
     let missing = vec![f64::NAN; readings];
-    while let Some(row) = run.next()? {
+    while let Some(row) = run.next_row()? {
         let state = state_of(&initial, row);
         // A plant in this state knows what its tables give now.
         let state = match plant.set_state(&state) {
@@ -128,7 +128,7 @@ pub fn of_rows(mut run: Recorded, end: End) -> Result<Run, Unreadable> {
     let mut curves = list.curves(end.samples);
     let mut values = Vec::new();
     let length = |of: &[f64]| of.iter().map(|c| c * c).sum::<f64>().sqrt();
-    while let Some(row) = run.next()? {
+    while let Some(row) = run.next_row()? {
         values.clear();
         values.extend(row.energies.iter().flatten());
         values.extend(&row.values);

@@ -13,7 +13,6 @@ use crate::terminal::{Catalogue, LoadError};
 const STANDARD_INPUT: &str = "standard input";
 
 /// The scenes of two runs, or a sentence each that says why there is none.
-#[must_use]
 pub fn scenes(catalogue: &Catalogue, heads: &[Head; 2]) -> [Result<Scene, String>; 2] {
     let of_run = |head: &Head| match head.kind {
         Kind::Run => of_run(catalogue, head),
