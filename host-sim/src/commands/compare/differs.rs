@@ -20,6 +20,9 @@ pub struct Differs {
     pub b: Option<String>,
 }
 
+/// A fact of a run, in words.
+type Fact = fn(&Head) -> Option<String>;
+
 /// What differs between the two runs, without what only one of them records.
 #[must_use]
 pub fn differs(comparison: &Comparison) -> Vec<Differs> {
@@ -63,11 +66,8 @@ pub fn differs(comparison: &Comparison) -> Vec<Differs> {
             };
             fact(&format!("set {path}"), now(a), now(b));
         }
-        fact(
-            "scene's file",
-            known(both(|head| head.scene_hash.clone())).0,
-            known(both(|head| head.scene_hash.clone())).1,
-        );
+        let (of_a, of_b) = known(both(|head| head.scene_hash.clone()));
+        fact("scene's file", of_a, of_b);
         fact("status", a.status.clone(), b.status.clone());
     }
     let every = comparison
