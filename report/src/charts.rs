@@ -4,7 +4,7 @@
 //! said to be still: round-off, measured by the quantity's scale, is no movement. Of a mechanism of
 //! many parts those that move most have charts.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use dbd_picture::Mechanism;
 use dbd_plant::Plan;
@@ -113,9 +113,10 @@ impl Charts {
 
     fn joints(&mut self, scene: &Scene, mechanism: &Mechanism) {
         let sizes = joint_sizes(mechanism);
+        let seconds = scene.joints.iter().map(|info| (&info.name, info.between[1].as_str()));
+        let seconds: HashMap<_, _> = seconds.collect();
         for (row, joint) in mechanism.joints.iter().enumerate() {
-            let info = scene.joints.iter().find(|info| info.name == joint.name);
-            let second = info.map_or("its second body", |info| info.between[1].as_str());
+            let second = seconds.get(&joint.name).copied().unwrap_or("its second body");
             let title = format!("{}: largest extension of its springs", joint.name);
             let planned = self.add(Section::Joints, [&title, "extension", "m"], &[""]);
             planned.chart.joint = Some(row);
@@ -265,7 +266,8 @@ fn left_out(
     order.sort_by(|a, b| b.1.1.total_cmp(&a.1.1).then(a.0.cmp(&b.0)));
     let mut lines = 0;
     let beyond = |(_, (own, _)): &(usize, (usize, f64))| {
-        lines += own;
+        // One that is still takes room, too.
+        lines += (*own).max(1);
         lines > most
     };
     let first = order.iter().position(beyond).unwrap_or(order.len());

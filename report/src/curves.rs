@@ -193,7 +193,8 @@ impl Curves {
         let together = (count - 2).div_ceil((points / 2 - 2).max(1));
         let inner = (1..count - 1).step_by(together);
         let inner = inner.map(|row| row..(row + together).min(count - 1));
-        std::iter::once(0..1).chain(inner).chain([count - 1..count]).collect()
+        let last = std::iter::once(count - 1..count);
+        std::iter::once(0..1).chain(inner).chain(last).collect()
     }
 
     fn merged(&self, block: std::ops::Range<usize>, line: usize) -> Pair {

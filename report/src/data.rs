@@ -260,23 +260,25 @@ pub struct Mode {
     pub shape: F32s,
 }
 
-/// Significant digits of a mechanism's numbers.
-const DIGITS: usize = 7;
+/// Significant digits of a mechanism's numbers, and those of one with many bodies.
+const DIGITS: [usize; 2] = [7, 5];
+const MANY: usize = 1000;
 
 /// With numbers that are as short as they may be.
 fn rounded<S: Serializer>(mechanism: &Option<Mechanism>, to: S) -> Result<S::Ok, S::Error> {
     let mut value = serde_json::to_value(mechanism).map_err(serde::ser::Error::custom)?;
-    shorten(&mut value);
+    let many = mechanism.as_ref().is_some_and(|mechanism| mechanism.bodies.len() > MANY);
+    shorten(&mut value, DIGITS[usize::from(many)]);
     value.serialize(to)
 }
 
-fn shorten(value: &mut Value) {
+fn shorten(value: &mut Value, digits: usize) {
     match value {
-        Value::Array(values) => values.iter_mut().for_each(shorten),
-        Value::Object(values) => values.values_mut().for_each(shorten),
+        Value::Array(values) => values.iter_mut().for_each(|value| shorten(value, digits)),
+        Value::Object(values) => values.values_mut().for_each(|value| shorten(value, digits)),
         Value::Number(number) if number.is_f64() => {
             let exact = number.as_f64().unwrap_or_default();
-            let short = format!("{exact:.*e}", DIGITS - 1).parse().unwrap_or(exact);
+            let short = format!("{exact:.*e}", digits - 1).parse().unwrap_or(exact);
             // A whole number needs no point.
             if short == short.trunc() && short.abs() < 1e15 {
                 *value = Value::from(short as i64);

@@ -15,7 +15,7 @@ const ROOM: usize = 400_000;
 /// within \[bytes\].
 const MOST: usize = 1200;
 const FEWEST: usize = 24;
-const MOST_ROOM: usize = 1_200_000;
+const MOST_ROOM: usize = 900_000;
 /// More springs of joints are left out of a film.
 const MOST_JOINT_SPRINGS: usize = 400;
 

@@ -13,7 +13,7 @@ use crate::curves::Curves;
 use crate::data::{Run, Trace};
 use crate::film::{Frame, Spread, packed};
 use crate::loading::Loading;
-use crate::turn::turn;
+use crate::turn::Turn;
 
 /// What is known at a sample.
 #[derive(Clone, Copy)]
@@ -43,7 +43,7 @@ pub struct Recording {
     frames: Vec<Frame>,
     /// The last sample that is no frame yet.
     last: Option<Seen>,
-    turns: Vec<[f64; 3]>,
+    turns: Vec<Turn>,
     joint_forces: Vec<f64>,
     row: Vec<f64>,
 }
@@ -79,7 +79,7 @@ impl Recording {
         let curves = Curves::new(charts.deviations(), plan.samples());
         Ok(Self {
             spread: Spread::of(&mechanism, plan.samples()),
-            turns: vec![[0.0; 3]; mechanism.bodies.len()],
+            turns: mechanism.bodies.iter().map(|body| Turn::new(body.orientation)).collect(),
             traces: traces(scene),
             numerals: plant.numerals(),
             mechanism,
@@ -136,15 +136,12 @@ impl Recording {
             row.extend([extension, *force]);
         }
         let length = |vector: Vec3<f64>| vector.dot(vector).sqrt();
-        for (index, ((body, shape), last)) in
-            state.bodies.iter().zip(&mechanism.bodies).zip(turns).enumerate()
-        {
+        for (index, (body, turn)) in state.bodies.iter().zip(turns).enumerate() {
             if mechanism.is_spider(index) {
                 continue;
             }
-            *last = turn(shape.orientation, body.orientation.to_f64(), *last);
             row.extend(body.position.to_f64());
-            row.extend(*last);
+            row.extend(turn.to(body.orientation.to_f64()));
             row.extend([length(body.velocity), length(body.angular_velocity)]);
         }
     }
@@ -227,7 +224,7 @@ body = [
 tsda = [{ name = "strut", between = ["world", "cart"], points = [[0, 0, 0], [0, 0, 0]], stiffness = 100, damping = 3, free_length = 0.8 }]
 joint = [{ name = "pin", type = "revolute", between = ["world", "block"], at = [0, 5, 0], axis = [0, 0, 1], stiffness = 1e4, span = 0.1 }]
 load = [{ body = "cart", force = [0, 0, 7], from = 0.2, until = 0.4 }]
-input = [{ name = "push", type = "actuator", target = "strut", table = [[0, 0], [0.5, 4]], interpolate = "hold" }]
+input = [{ name = "push", type = "actuator", target = "strut", table = [[0, 0], [0.5, 4]], interpolate = "held" }]
 readout = [
   { name = "tip", type = "point", body = "cart", point = [0.1, 0, 0] },
   { name = "pull", type = "tsda_force", target = "strut" },
@@ -328,7 +325,7 @@ readout = [
             let pull = chart(&run, Section::Readouts, "pull", "tension");
             assert!(pull.lines[0].initial.is_nan());
             let json = serde_json::to_value(&run).unwrap();
-            assert_eq!(json["charts"][0]["lines"][0]["initial"].is_null(), true);
+            assert!(json["charts"][0]["lines"][0]["initial"].is_null());
         }
     }
 

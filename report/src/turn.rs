@@ -1,20 +1,50 @@
 //! How far a body has turned since t = 0, without jumps.
 //!
-//! `(orientation at t = 0, orientation, last turn) => turn \[rad\]`: a vector along the world's axis of
-//! the rotation, as long as its angle. Of the angles that are whole turns apart it is the one nearest
-//! to the last, so that a crank counts on.
+//! `(orientation at t = 0, orientations) => turn \[rad\]`: a vector along the world's axis of the
+//! rotation, as long as its angle. From half a turn on, where that axis means little, the turns from
+//! sample to sample are added up instead: a crank counts on.
 
-use std::f64::consts::TAU;
+/// \[rad\] beyond this turn is added up.
+const LARGEST: f64 = 0.9 * std::f64::consts::PI;
 
-/// Below this sine of half an angle the axis is round-off.
-const NO_AXIS: f64 = 1e-9;
+/// The turn of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turn {
+    /// Unit quaternions, scalar first, body → world.
+    start: [f64; 4],
+    last: [f64; 4],
+    /// \[rad\].
+    so_far: [f64; 3],
+    added_up: bool,
+}
 
-/// The turn \[rad\], world axes, from one orientation to another, nearest to `last`. Unit
-/// quaternions, scalar first, body → world.
-#[must_use]
-pub fn turn(from: [f64; 4], to: [f64; 4], last: [f64; 3]) -> [f64; 3] {
+impl Turn {
+    /// None yet, from an orientation on: a unit quaternion, scalar first, body → world.
+    #[must_use]
+    pub fn new(start: [f64; 4]) -> Self {
+        Self { start, last: start, so_far: [0.0; 3], added_up: false }
+    }
+
+    /// The turn \[rad\], world axes, up to the next orientation.
+    pub fn to(&mut self, orientation: [f64; 4]) -> [f64; 3] {
+        if self.added_up {
+            let step = rotation(self.last, orientation);
+            self.so_far = [0, 1, 2].map(|axis| self.so_far[axis] + step[axis]);
+        } else {
+            self.so_far = rotation(self.start, orientation);
+            self.added_up = dot(&self.so_far, &self.so_far).sqrt() > LARGEST;
+        }
+        self.last = orientation;
+        self.so_far
+    }
+}
+
+/// The shortest rotation \[rad\] from one orientation to another, world axes.
+fn rotation(from: [f64; 4], to: [f64; 4]) -> [f64; 3] {
     let [a, b, c, d] = from;
-    let [w, x, y, z] = to;
+    // Of a quaternion and its opposite the nearer one.
+    let way = if dot(&from, &to) < 0.0 { -1.0 } else { 1.0 };
+    let [w, x, y, z] = to.map(|component| way * component);
     // to · conjugate(from)
     let scalar = w * a + x * b + y * c + z * d;
     let vector = [
@@ -22,27 +52,20 @@ pub fn turn(from: [f64; 4], to: [f64; 4], last: [f64; 3]) -> [f64; 3] {
         -w * c + x * d + y * a - z * b,
         -w * d - x * c + y * b + z * a,
     ];
-    let sine = dot(vector, vector).sqrt();
-    if sine < NO_AXIS {
-        let so_far = dot(last, last).sqrt();
-        let whole = TAU * (so_far / TAU).round();
-        // What is left of the vector is twice the rest of the angle, either sign.
-        let rest = 2.0 * scalar.signum();
-        let along = if so_far > 1.0 { whole / so_far } else { 0.0 };
-        return [0, 1, 2].map(|i| along * last[i] + rest * vector[i]);
-    }
-    let angle = 2.0 * sine.atan2(scalar);
-    let axis = vector.map(|component| component / sine);
-    let turns = ((dot(last, axis) - angle) / TAU).round();
-    axis.map(|component| component * (angle + TAU * turns))
+    let sine = dot(&vector, &vector).sqrt();
+    // Of a small angle the sine is half of it.
+    let factor = if sine < 1e-9 { 2.0 } else { 2.0 * sine.atan2(scalar) / sine };
+    vector.map(|component| factor * component)
 }
 
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
 
     fn about_z(angle: f64) -> [f64; 4] {
@@ -53,14 +76,29 @@ mod tests {
     #[test]
     fn a_crank_counts_on_either_way() {
         for way in [1.0, -1.0] {
-            let mut last = [0.0; 3];
+            let mut turn = Turn::new(about_z(0.3));
             // Whole turns exactly among them.
-            for tenth in 0..=400 {
-                let angle = way * f64::from(tenth) * TAU / 40.0;
-                last = turn(about_z(0.3), about_z(0.3 + angle), last);
-                assert!((last[2] - angle).abs() < 1e-9, "{angle} {last:?}");
-                assert!(last[0].abs() < 1e-9 && last[1].abs() < 1e-9);
+            for part in 0..=400 {
+                let angle = way * f64::from(part) * TAU / 40.0;
+                let found = turn.to(about_z(0.3 + angle));
+                assert!((found[2] - angle).abs() < 1e-9, "{angle} {found:?}");
+                assert!(found[0].abs() < 1e-9 && found[1].abs() < 1e-9);
             }
+        }
+    }
+
+    /// A crank whose axis wobbles by a milliradian does not seem to turn about other axes.
+    #[test]
+    fn a_wobble_is_not_multiplied_by_the_turns() {
+        let mut turn = Turn::new([1.0, 0.0, 0.0, 0.0]);
+        for part in 0..4000 {
+            let angle = f64::from(part) * 0.1;
+            let [w, _, _, z] = about_z(angle);
+            let tilt = 5e-4 * (1.3 * angle).sin();
+            // The turn about z, then a tilt about x.
+            let found = turn.to([w, tilt * w, -tilt * z, z]);
+            assert!((found[2] - angle).abs() < 0.01, "{angle} {found:?}");
+            assert!(found[0].abs() < 0.01 && found[1].abs() < 0.01, "{angle} {found:?}");
         }
     }
 
@@ -71,11 +109,11 @@ mod tests {
         let half = 0.1_f64;
         let [w, x] = [side[0] * half.cos(), side[1] * half.cos()];
         let [y, z] = [side[1] * half.sin(), side[0] * half.sin()];
-        let found = turn(side, [w, x, y, z], [0.0; 3]);
+        let found = Turn::new(side).to([w, x, y, z]);
         assert!((found[2] - 0.2).abs() < 1e-12, "{found:?}");
         assert!(found[0].abs() < 1e-12 && found[1].abs() < 1e-12);
         // The opposite quaternion is the same orientation.
-        let found = turn(side, [-w, -x, -y, -z], [0.0; 3]);
+        let found = Turn::new(side).to([-w, -x, -y, -z]);
         assert!((found[2] - 0.2).abs() < 1e-12, "{found:?}");
     }
 }

@@ -7,6 +7,7 @@ mod modes;
 mod new;
 mod picture;
 mod refusal;
+mod report;
 mod results;
 mod run;
 mod set;

@@ -14,6 +14,8 @@ use crate::report::summary::Summary;
 
 /// Of more bodies there is no still picture: nobody could tell them apart.
 const MOST_PICTURED: usize = 300;
+/// More warnings are counted.
+const MOST_WARNINGS: usize = 20;
 
 /// The words of a run's page. `called` is what a command line calls the scene.
 #[must_use]
@@ -26,6 +28,9 @@ pub fn text(scene: &Scene, plan: &Plan, summary: &Summary, called: &str) -> Text
         columns: Vec::new(),
         rows: rows.into_iter().map(cells).collect(),
     };
+    // Warnings stand at the head of the page.
+    let mut rows = summary.rows();
+    rows.retain(|(row, _)| *row != "warning");
     let note = summary.state_hash.as_ref().map(|hash| {
         format!(
             "The same state hash, {hash}, means the same bits: every position, orientation and \
@@ -34,13 +39,23 @@ pub fn text(scene: &Scene, plan: &Plan, summary: &Summary, called: &str) -> Text
     });
     Text {
         failures: failures.into_iter().collect(),
-        warnings: summary.warnings.clone(),
+        warnings: warnings(summary),
         picture: pictured.then(|| dbd_picture::svg(&Mechanism::of(scene), Paper::Page)),
-        tables: vec![table("Summary", summary.rows()), table("Versions", versions(summary))],
+        tables: vec![table("Summary", rows), table("Versions", versions(summary))],
         commands: vec![(String::new(), command(scene, plan, summary, called))],
         notes: note.into_iter().collect(),
         survey: None,
     }
+}
+
+/// The first warnings, and how many more there are.
+fn warnings(summary: &Summary) -> Vec<String> {
+    let all = &summary.warnings;
+    let mut warnings: Vec<String> = all.iter().take(MOST_WARNINGS).cloned().collect();
+    if let more @ 1.. = all.len() - warnings.len() {
+        warnings.push(format!("{more} more, which `summary.json` has"));
+    }
+    warnings
 }
 
 /// What made the run and its files.
