@@ -199,6 +199,11 @@ mod tests {
             }],
             commands: vec![(String::new(), "host-sim run 'a' && b".into())],
             notes: vec!["bits".into()],
+            survey: Some(Survey {
+                advice: vec![("For 1e-3 m < choose".into(), "host-sim run 'b' && c".into())],
+                chart: Some("<svg id=\"survey\"></svg>\n".into()),
+                page: "trade.html".into(),
+            }),
         };
         html(&data)
     }
@@ -207,6 +212,10 @@ mod tests {
     fn names_cannot_become_markup_or_end_a_script() {
         let page = page();
         assert!(page.contains("<h1>a &quot;b&quot; &lt;/script&gt;&lt;b&gt;&amp;amp; ü –</h1>"));
+        assert!(
+            page.contains("<li>For 1e-3 m &lt; choose.<br><code>host-sim run 'b' &amp;&amp; c<")
+        );
+        assert!(page.contains("<svg id=\"survey\">") && page.contains("href=\"trade.html\""));
         assert!(page.contains("&lt;!-- what it is") && page.contains("it &lt;broke&gt;."));
         let start = "<script type=\"application/json\" id=\"report\">";
         let data = page.split(start).nth(1).unwrap().split("</script>").next().unwrap();

@@ -55,7 +55,7 @@ pub(super) struct RunArguments {
     #[arg(long, value_name = "BANDS", requires = "golden", allow_hyphen_values = true)]
     golden_band: Option<BandList>,
     /// Find the N lowest modes about the pose at t = 0, undamped: at most 200 bodies
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
     modes: Option<u16>,
     /// Write no report.html
     #[arg(long)]

@@ -6,9 +6,6 @@ use serde::Serialize;
 use crate::comparison::Comparison;
 use crate::recorded::{Head, Kind};
 
-/// What is read of a run's head.
-type Fact = fn(&Head) -> Option<String>;
-
 /// A fact that is another in A and in B.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Differs {
