@@ -96,7 +96,7 @@ fn reports_live() {
 /// Runs a scene and returns its page.
 fn report(folder: &Path, scene: &str, duration: &str) -> PathBuf {
     let (mut out, mut err) = (Vec::new(), Vec::new());
-    let mut console = Console { out: &mut out, err: &mut err, terminal: false };
+    let mut console = Console::plain(&mut out, &mut err);
     let to = folder.to_str().unwrap();
     let arguments = ["host-sim", "run", scene, "--duration", duration, "--out", to];
     let exit = main_with(arguments, &mut console);

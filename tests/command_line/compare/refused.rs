@@ -51,7 +51,7 @@ fn what_is_damaged_is_refused_with_its_place() {
         });
         edited.collect::<String>()
     };
-    let cut = |bytes: usize| text[..bytes].as_bytes().to_vec();
+    let cut = |bytes: usize| text.as_bytes()[..bytes].to_vec();
     let middle = text.len() - lines[22].len() / 2 - 1;
     let ends = "trace.csv:22: the trace ends after 20 of 21 rows, at t = 0.19s";
     refused(
