@@ -151,7 +151,7 @@ fn the_validator_has_nothing_to_say() {
     files.push(animated(&folder, &scene, &["--duration", "1ms", "--every", "1ms"]));
     // The largest time that an accessor states is not the largest that it has.
     let mut planted = files[0].clone();
-    let stated = b"\"max\":[0.02";
+    let stated = b"\"max\":[0.0199";
     let at = planted.windows(stated.len()).position(|word| word == stated).unwrap();
     planted[at + stated.len() - 1] = b'7';
     files.push(planted);
