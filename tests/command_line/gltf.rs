@@ -116,7 +116,7 @@ fn the_animation_goes_with_its_run() {
 /// What a program for the validator prints: one report per file that it is given.
 const PROGRAM: &str = "const { validateBytes } = require(process.argv[1]);\n\
     const read = (name) => new Uint8Array(require('fs').readFileSync(name));\n\
-    Promise.all(process.argv.slice(2).map((name) => validateBytes(read(name))))\n\
+    Promise.all(process.argv.slice(2).map((name) => validateBytes(read(name), {})))\n\
     .then((reports) => console.log(JSON.stringify(reports)));";
 
 /// What the validator says of files, one report each; `None` where there is no Node.js to run it.
