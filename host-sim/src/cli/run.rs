@@ -10,7 +10,7 @@ use dbd_plant::{DampingName, Method, Named as _, OrientationName, PrecisionName,
 use crate::arguments::{SceneArgument, names};
 use crate::cli::named::{ResultsArguments, damped, load};
 use crate::commands::golden::GoldenOptions;
-use crate::commands::run::{Outcome, RunOptions, gltf_name, run};
+use crate::commands::run::{Outcome, RunOptions, run};
 use crate::error::Error;
 use crate::simulate::EnergyLimit;
 use crate::terminal::{Catalogue, Console, Exit, Found, Look, Progress};
@@ -133,7 +133,7 @@ fn summary_table(outcome: &Outcome, options: &RunOptions, look: Look) -> String 
     if let Some(folder) = &outcome.folder {
         let page = if options.report { ",report.html" } else { "" };
         let animation = options.out.as_ref().filter(|_| options.gltf);
-        let animation = animation.map(|out| format!(",{}", gltf_name(out))).unwrap_or_default();
+        let animation = animation.map(|out| format!(",{}", out.animation())).unwrap_or_default();
         let files = format!("trace.csv,summary.json{page}{animation}");
         rows.push(("written", format!("{}/{{{files}}}", folder.display())));
     }

@@ -79,6 +79,12 @@ struct Owner {
 const NAMING: [&str; 2] = ["summary.json", "trade.json"];
 
 impl Destination {
+    /// The file of a run's animation, within the folder.
+    #[must_use]
+    pub fn animation(&self) -> String {
+        format!("{}.glb", self.file.stem)
+    }
+
     /// The folder of a scene's results, made where it is not there yet. Of another scene's results,
     /// where they are to be replaced, nothing is left: old and new are never mixed. What a program
     /// that was killed has left is removed.
@@ -90,7 +96,7 @@ impl Destination {
         let wanted = self.out.join(&self.file.stem);
         let failed = |reason| FolderError::Unwritable { folder: wanted.clone(), reason };
         let folder = file::folder(&self.out, &self.file.stem).map_err(failed)?;
-        let animation = format!("{}.glb", self.file.stem);
+        let animation = self.animation();
         let own = [animation.as_str(), "writable"];
         file::sweep(&folder, &[&OF_A_RUN[..], &OF_A_SURVEY, &own].concat());
         self.claim(&folder, scene)?;

@@ -5,7 +5,7 @@
 //! the summary last. A run that fails keeps its trace up to there. The report may be left
 //! out, and the animation is there where it is asked for.
 
-use std::io::{self, Write as _};
+use std::io;
 use std::path::PathBuf;
 
 use dbd_kernel::damping::Damping;
@@ -15,8 +15,7 @@ use dbd_plant::judge::{Opening, conserves_energy};
 use dbd_plant::plan::{Request, StepRequest, plan};
 use dbd_plant::plant::{check_inputs, check_step};
 use dbd_plant::{Frequencies, Method, Plan, PlanError, PlantError};
-use dbd_report::data::{Mode, Text};
-use dbd_report::{Data, Recorded, Recording, gltf, page};
+use dbd_report::Recording;
 use dbd_scene::{Scene, Setting};
 use dbd_study::command::with_changes;
 use dbd_study::modes::ModesError;
@@ -30,7 +29,8 @@ use crate::commands::modes::lowest;
 use crate::commands::surveyed::surveyed;
 use crate::commands::warnings::{of_run, of_scene, of_step, of_turns};
 use crate::report::{
-    JointOpening, ReadoutFigures, SetValue, Statistics, Summary, TraceWriter, text, trace,
+    JointOpening, ReadoutFigures, SetValue, Shown, Statistics, Summary, TraceWriter, show, text,
+    trace,
 };
 use crate::simulate::{
     Ending, EnergyLimit, EnergyStop, EnergyWatch, FailedRun, Observer, Sample, SimulationError,
@@ -274,8 +274,10 @@ pub fn run(
     if let (Some(mut files), Some(out)) = (files, &options.out) {
         let mut words = text(scene, &plan, &summary, called);
         words.survey = surveyed(files.folder(), scene, &out.file);
-        let swings = modes.map(|modes| modes.of_page()).unwrap_or_default();
-        let written = show(scene, options, recording, (words, swings), &mut files);
+        let modes = modes.map(|modes| modes.of_page()).unwrap_or_default();
+        let animation = out.animation();
+        let shown = Shown { report: options.report, gltf: options.gltf, animation: &animation };
+        let written = show(&mut files, &shown, scene, recording, (words, modes));
         let written = written.and_then(|()| files.write("summary.json", &summary.json()));
         let place = files.folder().to_owned();
         let whole = written.and_then(|()| files.finish()).map_err(RunError::Write)?;
@@ -284,45 +286,6 @@ pub fn run(
         whole.publish().map_err(RunError::Write)?;
     }
     Ok(Outcome { summary, folder, failure, stop })
-}
-
-/// The file of the animation in the folder of a scene's results.
-#[must_use]
-pub fn gltf_name(out: &Destination) -> String {
-    format!("{}.glb", out.file.stem)
-}
-
-/// Writes what people look at. What was not asked for is not left there by an earlier run either.
-fn show(
-    scene: &Scene,
-    options: &RunOptions,
-    recording: Option<Recording>,
-    (words, modes): (Text, Vec<Mode>),
-    files: &mut FileSet,
-) -> io::Result<()> {
-    let recorded = recording.map(Recording::finish);
-    let animation = options.out.as_ref().map(gltf_name).unwrap_or_default();
-    match recorded.as_ref().filter(|_| options.gltf) {
-        Some(Recorded { run, frames }) => {
-            let mut file = files.begin(&animation)?;
-            if let Some(mechanism) = &run.mechanism {
-                file.write_all(&gltf::glb(mechanism, frames)?)?;
-            }
-            files.add(file);
-        }
-        None => files.without(&animation),
-    }
-    match recorded.filter(|_| options.report) {
-        Some(Recorded { run, .. }) => {
-            let mut data = Data::of_run(&scene.name, &scene.description, run);
-            (data.text, data.modes) = (words, modes);
-            files.write("report.html", &page::html(&data))
-        }
-        None => {
-            files.without("report.html");
-            Ok(())
-        }
-    }
 }
 
 /// Passes samples on to trace, recording and statistics.

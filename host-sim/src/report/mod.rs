@@ -4,14 +4,17 @@
 //! - [`golden`]: what a comparison came to.
 //! - [`statistics`], [`summary`]: what they amount to.
 //! - [`text`]: what its page says in words.
+//! - [`show`]: the files that people look at.
 
 pub mod golden;
+pub mod show;
 pub mod statistics;
 pub mod summary;
 pub mod text;
 pub mod trace;
 
 pub use golden::{GoldenOutcome, NotGolden};
+pub use show::{Shown, show};
 pub use statistics::{Figures, ReadoutFigures, Statistics};
 pub use summary::{JointOpening, SetValue, Summary};
 pub use text::text;
