@@ -162,14 +162,14 @@ mod tests {
         };
         assert_eq!(
             wrong(",NaN", ""),
-            (49, "the line has 17 of 18 columns: it was cut or edited".into())
+            (50, "the line has 17 of 18 columns: it was cut or edited".into())
         );
         assert_eq!(
             wrong("NaN", "NaN,"),
-            (54, "the line has 19 columns, not 18: it was edited".into())
+            (55, "the line has 19 columns, not 18: it was edited".into())
         );
         let (column, problem) = wrong("-0.0", "-0,0");
-        assert_eq!((column, &*problem), (55, "the line has 19 columns, not 18: it was edited"));
+        assert_eq!((column, &*problem), (51, "the line has 19 columns, not 18: it was edited"));
         for (text, part) in [
             ("nan", "`nan` is no number of single precision that a trace has: column `b.y`"),
             ("NaN", "`NaN` stands for `b.y`, which is finite"),
