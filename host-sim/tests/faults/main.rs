@@ -184,7 +184,7 @@ fn a_small_disk_is_a_full_disk() {
     let script = "\"$0\" run ball.toml --quiet --every 0.1s; echo $?; \
                   \"$0\" run ball.toml --quiet --every 1ms; echo $?; \
                   ls -A out/ball; cat out/ball/trace.csv | wc -l";
-    let Some(done) = mounted(here.path(), "size=48k", script) else { return };
+    let Some(done) = mounted(here.path(), "size=1m", script) else { return };
     let words: Vec<&str> = text(&done.stdout).split_whitespace().collect();
     assert_eq!(words, [&["0", "1"][..], &RESULTS, &["5"]].concat(), "{}", text(&done.stderr));
     assert!(text(&done.stderr).contains("cannot write the results: No space left"));
