@@ -3,8 +3,8 @@
 //! - [`trace`]: every sample, as rows.
 //! - [`golden`]: what a comparison came to.
 //! - [`statistics`], [`summary`]: what they amount to.
-//! - [`text`]: what its page says in words.
-//! - [`show`]: the files that people look at.
+//! - [`mod@text`]: what its page says in words.
+//! - [`mod@show`]: the files that people look at.
 
 pub mod golden;
 pub mod show;
