@@ -111,7 +111,7 @@
       if (!section.querySelector('p')) {
         const said = element('p', '', section);
         said.textContent = first
-          ? `They first differ at ${first.text}.`
+          ? `They first differ at t = ${plain(first.time, 9)} s, step ${plain(first.step, 15)}: ${first.text}.`
           : 'The two runs never differ.';
         element('p', 'quiet', section).textContent = `Solid: ${a}. Dashed, and pale on the stage: ${b}.`;
       }
@@ -139,6 +139,9 @@
       }
       if (run.bodiesLeftOut) {
         said.push(`${whose}the ${plain(run.bodiesLeftOut, 9)} bodies that move least have no chart.`);
+      }
+      if (run.jointsLeftOut) {
+        said.push(`${whose}the ${plain(run.jointsLeftOut, 9)} joints that open least have no chart.`);
       }
       if (!said.length || !run.charts.length) return;
       const last = document.getElementById('motion').hidden ? run.charts[run.charts.length - 1].section : 'motion';

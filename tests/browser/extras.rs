@@ -55,7 +55,8 @@ pub fn comparison(browser: &mut Browser, page: &Path) {
         let chart = data["runs"][0]["charts"].as_array().unwrap().iter().find(energy).cloned();
         data["differences"] = json!([chart]);
         data["differenceTimes"] = data["runs"][0]["times"].clone();
-        data["firstDifference"] = json!({ "time": 0.001, "step": 5, "text": "t = 1ms: crank.x" });
+        data["firstDifference"] =
+            json!({ "time": 0.001, "step": 5, "text": "crank.x is 1.0 m in A" });
         data["runs"].as_array_mut().unwrap().push(second);
     });
     browser.open(&page, DESK);
@@ -65,7 +66,12 @@ pub fn comparison(browser: &mut Browser, page: &Path) {
     let drawn = "document.querySelector('#differences .u-over') !== null";
     browser.wait(drawn, "differences are drawn");
     let said = browser.run("document.querySelector('#differences').innerText");
-    assert!(said.as_str().unwrap().contains("They first differ at t = 1ms: crank.x."), "{said}");
+    assert!(
+        said.as_str()
+            .unwrap()
+            .contains("They first differ at t = 0.001 s, step 5: crank.x is 1.0 m in A."),
+        "{said}"
+    );
     browser.run("document.querySelector('#energy').scrollIntoView()");
     browser.wait("document.querySelector('#energy .u-over') !== null", "both are drawn");
     let dashed = "document.querySelectorAll('#energy .chart:not([data-waiting]) .dashed').length";

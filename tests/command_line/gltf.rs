@@ -113,6 +113,49 @@ fn the_animation_goes_with_its_run() {
     assert_eq!((document.animations().count(), document.meshes().count() > 0), (0, true));
 }
 
+/// Where a mesh of a scene that is drawn by its geometry lies [m], by the name of the material.
+fn bounds(document: &gltf::Document, material: &str) -> Vec<gltf::mesh::BoundingBox> {
+    let primitives = document.meshes().flat_map(|mesh| mesh.primitives().collect::<Vec<_>>());
+    let named = primitives.filter(|part| part.material().name() == Some(material));
+    named.map(|part| part.bounding_box()).collect()
+}
+
+/// A block that is turned, a wheel, something on the ground: in their places, in their colours.
+#[test]
+fn geometry_is_drawn_in_place_of_bars() {
+    let folder = Folder::new();
+    let shapes = "
+        [[geometry]]
+        body = \"bob\"
+        shape = \"box\"
+        at = [0.0, 0.0, 0.5]
+        size = [0.2, 0.4, 0.6]
+        orientation = { axis = [0, 0, 1], angle = \"90 deg\" }
+        colour = \"#ff0000\"
+
+        [[geometry]]
+        body = \"world\"
+        shape = \"cylinder\"
+        from = [0, 0, -1]
+        to = [0, 0, 1]
+        radius = 0.25
+        colour = \"#0000ff\"
+    ";
+    let plain = folder.scene(PENDULUM);
+    let without = Gltf::from_slice(&animated(&folder, &plain, &["--duration", "1ms"])).unwrap();
+    assert_eq!(bounds(&without, "geometry").len(), 0);
+    let scene = folder.scene(&format!("{PENDULUM}{shapes}"));
+    let with = Gltf::from_slice(&animated(&folder, &scene, &["--duration", "1ms"])).unwrap();
+    let found = bounds(&with, "geometry");
+    let near = |found: [f32; 3], expected: [f32; 3]| {
+        found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 0.01)
+    };
+    let has = |low, high| found.iter().any(|found| near(found.min, low) && near(found.max, high));
+    assert!(has([-0.2, -0.1, 0.2], [0.2, 0.1, 0.8]), "{found:?}");
+    assert!(has([-0.25, -0.25, -1.0], [0.25, 0.25, 1.0]), "{found:?}");
+    assert_eq!((found.len(), bounds(&with, "body").len()), (2, 0));
+}
+
 /// What a program for the validator prints: one report per file that it is given.
 const PROGRAM: &str = "const { validateBytes } = require(process.argv[1]);\n\
     const read = (name) => new Uint8Array(require('fs').readFileSync(name));\n\

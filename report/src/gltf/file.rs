@@ -126,7 +126,7 @@ impl File {
     pub(super) fn mesh(
         &mut self,
         name: &str,
-        parts: &[(&Solids, Index<Material>)],
+        parts: &[(Solids, Index<Material>)],
     ) -> Option<Index<Mesh>> {
         let mut primitives = Vec::new();
         for (solids, material) in parts.iter().filter(|(solids, _)| !solids.triangles.is_empty()) {

@@ -4,9 +4,9 @@
 
 use std::cmp::Ordering;
 
-use dbd_kernel::Vec3;
+use dbd_kernel::{Quaternion, Vec3};
 use dbd_picture::Mechanism;
-use dbd_picture::mechanism::{JointKind, JointMark, Outline, Place};
+use dbd_picture::mechanism::{JointKind, JointMark, Outline, Place, Solid};
 use gltf::json::{Index, Material};
 
 use super::file::File;
@@ -56,7 +56,48 @@ impl Look {
     }
 }
 
-/// What a body looks like.
+/// The solids of a scene's geometry, each with its material: its own colour's, else `plain`.
+pub(super) fn shapes(
+    file: &mut File,
+    shapes: &[Solid],
+    plain: Index<Material>,
+) -> Vec<(Solids, Index<Material>)> {
+    let solids = |shape: &Solid| {
+        let mut solids = Solids::default();
+        match shape {
+            Solid::Box { at, turn, half, .. } => {
+                solids.add_turned_box(Vec3::from_f64(*at), Quaternion::from_f64(*turn), *half);
+            }
+            Solid::Cylinder { ends, radius, .. } => {
+                let [from, to] = ends.map(Vec3::from_f64);
+                solids.add_rod(from, to, *radius);
+            }
+            Solid::Link { ends, radius, .. } => {
+                let [from, to] = ends.map(Vec3::from_f64);
+                solids.add_rod(from, to, *radius);
+                solids.add_ball(from, *radius);
+                solids.add_ball(to, *radius);
+            }
+            Solid::Sphere { at, radius, .. } => solids.add_ball(Vec3::from_f64(*at), *radius),
+        }
+        solids
+    };
+    let material = |shape: &Solid| {
+        let colour = shape.colour().and_then(bytes);
+        colour.map_or(plain, |colour| file.material("geometry", colour))
+    };
+    let materials: Vec<_> = shapes.iter().map(material).collect();
+    shapes.iter().map(solids).zip(materials).collect()
+}
+
+/// The bytes of `#rrggbb`.
+fn bytes(colour: &str) -> Option<[u8; 3]> {
+    let number = u32::from_str_radix(colour.strip_prefix('#')?, 16).ok()?;
+    let [_, red, green, blue] = number.to_be_bytes();
+    Some([red, green, blue])
+}
+
+/// What a body without geometry looks like.
 pub(super) fn outline(outline: &Outline, look: &Look) -> Solids {
     let mut solids = Solids::default();
     match outline {

@@ -34,8 +34,9 @@ pub fn glb(mechanism: &Mechanism, frames: &[Frame]) -> std::io::Result<Vec<u8>> 
     let mut file = File::default();
     let look = Look::new(&mut file, size(mechanism));
     let mut children = Vec::new();
-    let ground = marks::ground(mechanism, &look);
-    if let Some(mesh) = file.mesh("ground", &[(&ground, look.ground)]) {
+    let mut parts = marks::shapes(&mut file, &mechanism.ground, look.ground);
+    parts.push((marks::ground(mechanism, &look), look.ground));
+    if let Some(mesh) = file.mesh("ground", &parts) {
         let node = Node { name: Some("ground".into()), mesh: Some(mesh), ..Node::default() };
         children.push(file.node(node));
     }
@@ -92,8 +93,11 @@ fn bodies(file: &mut File, mechanism: &Mechanism, look: &Look, first: &Frame) ->
     let joints = marks::joints(mechanism, look);
     let rows = mechanism.bodies.iter().zip(joints).zip(&first.poses).enumerate();
     let nodes = rows.map(|(row, ((body, joints), (position, orientation)))| {
-        let outline = marks::outline(&body.outline, look);
-        let parts = [(&outline, look.body(row)), (&joints, look.joint)];
+        let mut parts = marks::shapes(file, &body.shapes, look.body(row));
+        if parts.is_empty() {
+            parts.push((marks::outline(&body.outline, look), look.body(row)));
+        }
+        parts.push((joints, look.joint));
         let mesh = file.mesh(&body.name, &parts);
         let rotation = rotations(std::iter::once(*orientation));
         file.node(Node {
@@ -115,7 +119,7 @@ fn springs(file: &mut File, mechanism: &Mechanism, look: &Look, first: &Frame) -
     let mut rod = Solids::default();
     rod.add_rod(Vec3::ZERO, Vec3::new(0.0, 0.0, 1.0), look.thin);
     let [calm, driven] =
-        [look.spring, look.driven].map(|material| file.mesh("spring", &[(&rod, material)]));
+        [look.spring, look.driven].map(|material| file.mesh("spring", &[(rod.clone(), material)]));
     let springs = mechanism.springs.iter().enumerate();
     let nodes = springs.map(|(row, spring)| {
         let line = Line::between(&spring.ends, first);

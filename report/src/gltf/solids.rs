@@ -2,7 +2,7 @@
 //!
 //! `boxes, rods, balls, hulls => positions, normals, triangles`, all in the axes of one node.
 
-use dbd_kernel::Vec3;
+use dbd_kernel::{Quaternion, Vec3};
 
 /// Sides of what is round.
 const ROUND: usize = 16;
@@ -41,12 +41,18 @@ impl Solids {
 
     /// A box along the axes, by its middle and half of each side \[m\].
     pub(super) fn add_box(&mut self, at: Vector, half: [f64; 3]) {
+        self.add_turned_box(at, Quaternion::IDENTITY, half);
+    }
+
+    /// A box that a unit quaternion turns from the axes.
+    pub(super) fn add_turned_box(&mut self, at: Vector, turn: Quaternion<f64>, half: [f64; 3]) {
+        let rotation = turn.rotation();
         for axis in 0..3 {
             for side in [1.0, -1.0] {
                 let along = |axis: usize, by: f64| {
                     let mut vector = [0.0; 3];
                     vector[axis] = by;
-                    Vec3::from_f64(vector)
+                    rotation.to_world(Vec3::from_f64(vector))
                 };
                 let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
                 let (out, u, v) =
