@@ -15,7 +15,7 @@
     if (!made[key]) {
       made[key] = {
         box: () => new T.BoxGeometry(1, 1, 1),
-        cylinder: () => new T.CylinderGeometry(1, 1, 1, many ? 8 : 24),
+        cylinder: () => new T.CylinderGeometry(1, 1, 1, many ? 8 : 48),
         sphere: () => new T.SphereGeometry(1, many ? 8 : 24, many ? 6 : 16),
         cone: () => new T.CylinderGeometry(0, 1, 1, 20),
         foot: () => new T.CylinderGeometry(0.35, 1, 1, 4),

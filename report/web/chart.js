@@ -31,7 +31,12 @@
     const [{ name: first } = {}] = drawn;
     const name = first && drawn.every((line) => line.name === first) ? first : chart.quantity;
     const moved = drawn.length > 0 && drawn.every((line) => line.deviation);
-    return moved ? `${name} \u2212 ${name}(0)` : chart.quantity;
+    return moved ? fromStart(name) : chart.quantity;
+  }
+
+  // What a deviation from t = 0 is called: short where the name is long.
+  function fromStart(name) {
+    return name.includes(' ') ? `change of ${name}` : `${name} \u2212 ${name}(0)`;
   }
 
   class TimeChart {
@@ -146,7 +151,7 @@
         const mark = element('i', line.dashed ? 'dashed' : '', item);
         mark.style.setProperty('--line', `var(${COLOURS[line.colour % COLOURS.length]})`);
         const name = line.name || (this.drawn.length > 1 ? this.chart.quantity : '');
-        if (name) element('span', '', item).textContent = line.deviation ? `${name} \u2212 ${name}(0)` : name;
+        if (name) element('span', '', item).textContent = line.deviation ? fromStart(name) : name;
         return element('b', '', item);
       });
     }

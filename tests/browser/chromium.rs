@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 use tungstenite::{Message, WebSocket, client};
@@ -168,6 +170,12 @@ impl Browser {
             "type": kind, "x": x, "y": y, "button": button, "buttons": buttons, "clickCount": u8::from(held),
         });
         self.call("Input.dispatchMouseEvent", event);
+    }
+
+    /// What the window shows, as PNG.
+    pub fn picture(&mut self) -> Vec<u8> {
+        let found = self.call("Page.captureScreenshot", json!({ "format": "png" }));
+        STANDARD.decode(found["data"].as_str().unwrap()).unwrap()
     }
 
     fn call(&mut self, method: &str, parameters: Value) -> Value {

@@ -118,6 +118,8 @@ fn parameters_are_changed_and_told_with_their_units() {
     for part in ["--set:1:20", "`m_bop` is neither a unit nor", "did you mean `m_bob`?"] {
         assert!(done.err.contains(part), "{part}: {}", done.err);
     }
+    let done = call(&["check", &scene, "--set", "m_bob=0.75"]);
+    assert!(done.err.contains("did you mean `parameters.m_bob`?"), "{}", done.err);
     let plain = folder.scene(PENDULUM);
     let same = folder.summary(&plain, &["--set", "body.bob.mass=3/4 * kg"]);
     assert_eq!(same["state_hash"], set["state_hash"]);

@@ -10,6 +10,22 @@ use dbd_tests::page::{block, figure, grouped, table};
 use dbd_tests::results::{Row, cost, rows};
 use dbd_tests::{scene, scene_names};
 
+/// The README's first command names no program: there is one to choose from.
+#[test]
+fn cargo_run_has_one_program() {
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml");
+    let metadata = ["metadata", "--no-deps", "--offline", "--format-version", "1"];
+    let mut cargo = std::process::Command::new(env!("CARGO"));
+    let done = cargo.args(metadata).args(["--manifest-path", root]).output().unwrap();
+    let metadata: serde_json::Value = serde_json::from_slice(&done.stdout).unwrap();
+    let default = metadata["workspace_default_members"].as_array().unwrap();
+    let packages = metadata["packages"].as_array().unwrap().iter();
+    let packages = packages.filter(|package| default.contains(&package["id"]));
+    let targets = packages.flat_map(|package| package["targets"].as_array().unwrap());
+    let programs = targets.filter(|target| target["kind"][0] == "bin");
+    assert_eq!(programs.map(|target| &target["name"]).collect::<Vec<_>>(), ["host-sim"]);
+}
+
 /// The mechanisms of the tables in docs/measured.md.
 const SHOWN: [&str; 5] = ["four-bar", "six-bar", "3rrr", "crank-slider", "3ruu"];
 

@@ -9,7 +9,7 @@ use crate::terminal::{Catalogue, Look};
 const STEPS: [(&str, &str); 5] = [
     ("host-sim run four-bar", "simulates; then open out/four-bar/report.html"),
     ("host-sim check four-bar", "what it is made of, what is probably not meant"),
-    ("host-sim run my.toml", "the same with a mechanism of your own"),
+    ("host-sim new scene my-crank", "a mechanism of your own to begin with, my-crank.toml"),
     ("host-sim trade four-bar", "which scheme and step are best; takes minutes"),
     ("host-sim new firmware my-plant", "a project that steps one on a microcontroller"),
 ];

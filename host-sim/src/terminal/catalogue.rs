@@ -59,6 +59,8 @@ pub struct SceneFile {
 #[diagnostic(help("{}", self.help_text()))]
 pub struct UnknownScene {
     name: String,
+    /// The file that is there where `.toml` is added.
+    file: Option<String>,
     known: Vec<String>,
 }
 
@@ -100,7 +102,8 @@ impl Diagnostic for LoadError {
 impl UnknownScene {
     fn help_text(&self) -> String {
         let nearest = nearest(&self.name, self.known.iter().map(String::as_str));
-        let meant = nearest.map(|name| format!("did you mean {name}? ")).unwrap_or_default();
+        let meant = self.file.as_deref().or(nearest);
+        let meant = meant.map(|name| format!("did you mean {name}? ")).unwrap_or_default();
         let known = self.known.join(", ");
         format!("{meant}the scenes: {known}; or a path to a .toml file, or - for standard input")
     }
@@ -201,7 +204,10 @@ impl Catalogue {
                 let scene = Scene::parse_with(text, &format!("{name}.toml"), changes)?;
                 Ok(Found { scene, file, text: (*text).into() })
             }
-            None => Err(UnknownScene { name: called.into(), known: self.names() }.into()),
+            None => {
+                let file = Some(format!("{called}.toml")).filter(|file| Path::new(file).is_file());
+                Err(UnknownScene { name: called.into(), file, known: self.names() }.into())
+            }
         }
     }
 }
@@ -299,5 +305,8 @@ mod tests {
         assert!(help.contains(", pendulum, ") && !help.contains("notes"), "{help}");
         let Err(error) = catalogue.load("rocket") else { panic!() };
         assert!(!error.help().unwrap().to_string().contains("did you mean"));
+        // A file of that name but for its ending, here this crate's own.
+        let Err(error) = catalogue.load("Cargo") else { panic!() };
+        assert!(error.help().unwrap().to_string().contains("did you mean Cargo.toml?"));
     }
 }

@@ -167,13 +167,23 @@ impl<'t> Table<'t> {
             return Ok(());
         };
         let mut help = String::new();
-        if let Some(key) = nearest(unknown.get_ref(), allowed.iter().copied()) {
+        if self.has_parameter(unknown.get_ref()) {
+            help = format!("did you mean `parameters.{}`? ", unknown.get_ref());
+        } else if let Some(key) = nearest(unknown.get_ref(), allowed.iter().copied()) {
             help = format!("did you mean `{key}`? ");
         }
         let quoted: Vec<_> = allowed.iter().map(|key| format!("`{key}`")).collect();
         help += &format!("{} may have {}", self.label, quoted.join(", "));
         let message = format!("{} has no key `{}`", self.label, shortened(unknown.get_ref()));
         Err(self.source.refuse(unknown.span(), message, help))
+    }
+
+    /// Whether the scene's parameters have a key, of which `--set` needs the whole path.
+    fn has_parameter(&self, key: &str) -> bool {
+        let parameters = self.entries.iter().filter(|(name, _)| name.get_ref() == "parameters");
+        parameters
+            .filter_map(|(_, entry)| entry.get_ref().as_table())
+            .any(|table| table.contains_key(key))
     }
 
     /// Whether a key is there.
