@@ -3,6 +3,7 @@
 //!
 //! Needs Chromium, so a plain `cargo test` leaves it out and says so; `cargo xtask test` runs it.
 
+mod animation;
 mod chromium;
 mod extras;
 
@@ -85,6 +86,9 @@ fn reports_live() {
         on_a_telephone(&mut browser);
         quiet(&mut browser, scene);
     }
+    let file = |(scene, _): (&str, _)| folder.path().join(scene).join(format!("{scene}.glb"));
+    let files = SCENES.map(file);
+    animation::animations(&mut browser, &files.each_ref().map(|file| file.as_path()));
     let page = folder.path().join("four-bar/report.html");
     browser.open(&page, DESK);
     buttons(&mut browser);
@@ -105,7 +109,7 @@ fn report(folder: &Path, scene: &str, duration: &str) -> PathBuf {
     let (mut out, mut err) = (Vec::new(), Vec::new());
     let mut console = Console::plain(&mut out, &mut err);
     let to = folder.to_str().unwrap();
-    let arguments = ["host-sim", "run", scene, "--duration", duration, "--out", to];
+    let arguments = ["host-sim", "run", scene, "--duration", duration, "--out", to, "--gltf"];
     let exit = main_with(arguments, &mut console);
     assert_eq!(exit, Exit::Done, "{}", String::from_utf8_lossy(&err));
     folder.join(scene).join("report.html")
