@@ -6,7 +6,7 @@
 //! - [`words`]: what people read.
 //! - [`record`]: what programs read.
 //! - [`folder`]: where it is written.
-//! - [`scene`], [`charts`], [`replay`], [`page`]: what people look at.
+//! - [`scene`], [`charts`], [`replay`], [`mod@page`]: what people look at.
 
 pub mod charts;
 pub mod differs;
