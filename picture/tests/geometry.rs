@@ -163,3 +163,47 @@ fn solids_of_a_scene_stand_in_place_of_outlines() {
     let ground = dbd_picture::svg(&cart, dbd_picture::Paper::File);
     assert!(ground.contains("class=\"plate still stands\"") && !drawn.contains("still stands"));
 }
+
+/// A body without geometry looks like the shape that gives its inertia; a link, and what has its own, do not.
+#[test]
+fn a_shape_is_seen() {
+    let text = r#"
+        name = "shapes"
+        duration = 1
+        points = { A = [0, 0, 0], B = [2, 0, 0] }
+        [[body]]
+        name = "arm"
+        link = { from = "A", to = "B", shape = "tube", diameter = 0.1, wall = 0.01, density = 7850 }
+        [[body]]
+        name = "block"
+        shape = { type = "box", along = "y", length = 0.3, section = [0.2, 0.1], mass = 1 }
+        position = [1, 1, 1]
+        [[body]]
+        name = "drum"
+        shape = { type = "cylinder", along = "z", length = 0.5, diameter = 0.4, mass = 1 }
+        position = [2, 1, 1]
+        [[body]]
+        name = "ball"
+        shape = { type = "sphere", diameter = 0.4, mass = 1 }
+        position = [3, 1, 1]
+        [[body]]
+        name = "weighed"
+        shape = { type = "sphere", diameter = 0.4, mass = 1 }
+        inertia = [1, 1, 1]
+        position = [4, 1, 1]
+        [[geometry]]
+        body = "ball"
+        shape = "cylinder"
+        axis = [0, 0, 1]
+        length = 1
+        radius = 0.1
+    "#;
+    let mechanism = Mechanism::of(&Scene::parse(text, "a.toml").unwrap());
+    let shown = serde_json::to_value(&mechanism).unwrap();
+    let kinds: Vec<_> = (0..5).map(|row| shown["bodies"][row]["shapes"].clone()).collect();
+    assert_eq!((&kinds[0], &kinds[4]), (&serde_json::json!([]), &serde_json::json!([])));
+    assert_eq!(kinds[1][0]["half"], serde_json::json!([0.05, 0.15, 0.1]));
+    assert_eq!(kinds[2][0]["ends"], serde_json::json!([[0.0, 0.0, -0.25], [0.0, 0.0, 0.25]]));
+    assert_eq!((&kinds[2][0]["radius"], &kinds[2][0]["kind"]), (&0.2.into(), &"cylinder".into()));
+    assert_eq!((kinds[3].as_array().unwrap().len(), &kinds[3][0]["kind"]), (1, &"cylinder".into()));
+}

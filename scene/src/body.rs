@@ -167,9 +167,11 @@ fn read(
     let [position, velocity, angular_velocity] =
         [pose.position, pose.velocity, angular_velocity].map(Vec3::to_f64);
     let is_derived = turn.is_some() || section.is_some();
+    let uniform = section.as_ref().filter(|_| !table.has("inertia"));
     let derived = is_derived.then(|| DerivedBody {
         name: name.to_owned(),
-        shape: section.filter(|_| !table.has("inertia")).map(|section| section.name),
+        shape: uniform.map(|section| section.name),
+        solid: uniform.filter(|_| link.is_none()).and_then(|section| section.solid.clone()),
         length: link.as_ref().map(|link| link.length.nearest()),
         mass,
         inertia: inertia.moments,

@@ -39,6 +39,7 @@ pub mod quantity;
 mod readout;
 mod runtime;
 mod shortened;
+mod solid;
 mod spring;
 mod target;
 mod text;
@@ -57,7 +58,7 @@ pub use columns::{BODY_COLUMNS, ENERGY_COLUMNS, TIME_COLUMN, TraceColumns, Unlik
 pub use derived::DerivedBody;
 pub use error::{Refusal, SceneError};
 pub use facts::{ElementDamping, ElementFrequency, Facts, Island, JointElement, JointFacts};
-pub use geometry::{GeometryInfo, Solid};
+pub use geometry::GeometryInfo;
 pub use hinge::Hinge;
 pub use input::InputInfo;
 pub use joints::{Assembled, JointInfo, Moved, OpenJoint};
@@ -68,6 +69,7 @@ pub use origin::Setting;
 pub use readout::ReadoutInfo;
 pub use runtime::{SceneModel, widen};
 pub use shortened::shortened;
+pub use solid::Solid;
 
 use dbd_kernel::F64;
 

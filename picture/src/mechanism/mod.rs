@@ -11,6 +11,8 @@ mod outline;
 mod parts;
 mod solid;
 
+use std::collections::BTreeMap;
+
 use dbd_scene::Scene;
 
 pub(crate) use parts::Bounds;
@@ -63,7 +65,16 @@ impl Mechanism {
                 Some(row) => mechanism.bodies.get_mut(row).map(|body| &mut body.shapes),
                 None => Some(&mut mechanism.ground),
             };
-            owner.into_iter().for_each(|solids| solids.push(geometry.into()));
+            let solid = || Solid::of(&geometry.solid, geometry.colour.clone());
+            owner.into_iter().for_each(|solids| solids.push(solid()));
+        }
+        // What has a shape for its inertia looks like it, unless its geometry says otherwise.
+        let solids =
+            scene.derived.iter().filter_map(|body| Some((&*body.name, body.solid.as_ref()?)));
+        let solids: BTreeMap<&str, _> = solids.collect();
+        for body in mechanism.bodies.iter_mut().filter(|body| body.shapes.is_empty()) {
+            let solid = solids.get(&*body.name).map(|solid| Solid::of(solid, None));
+            body.shapes.extend(solid);
         }
         mechanism
     }

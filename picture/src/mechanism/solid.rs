@@ -3,7 +3,6 @@
 //! `solid => points about it`, in the axes of its owner.
 
 use dbd_kernel::{Quaternion, Vec3};
-use dbd_scene::GeometryInfo;
 use serde::Serialize;
 
 /// A solid in the axes of its body from its centre of mass, or in the world. A colour is `#rrggbb`; without one it has
@@ -54,19 +53,17 @@ pub enum Solid {
 /// Points of a circle.
 const AROUND: usize = 60;
 
-impl From<&GeometryInfo> for Solid {
-    fn from(geometry: &GeometryInfo) -> Self {
-        let colour = geometry.colour.clone();
-        match geometry.solid {
+impl Solid {
+    /// A solid of a scene, with its own colour where it has one.
+    pub(super) fn of(solid: &dbd_scene::Solid, colour: Option<String>) -> Self {
+        match *solid {
             dbd_scene::Solid::Box { at, turn, half } => Self::Box { at, turn, half, colour },
             dbd_scene::Solid::Cylinder { ends, radius } => Self::Cylinder { ends, radius, colour },
             dbd_scene::Solid::Link { ends, radius } => Self::Link { ends, radius, colour },
             dbd_scene::Solid::Sphere { at, radius } => Self::Sphere { at, radius, colour },
         }
     }
-}
 
-impl Solid {
     /// Its own colour, `#rrggbb`.
     #[must_use]
     pub fn colour(&self) -> Option<&str> {

@@ -12,6 +12,7 @@ use crate::error::SceneError;
 use crate::orientation::Orientation;
 use crate::pair::BodyName;
 use crate::points::PlaceOf;
+use crate::solid::Solid;
 use crate::text::{Choice, Direction, Kind as _, Number, Numbers, Table};
 
 use colour::Colour;
@@ -26,41 +27,6 @@ pub struct GeometryInfo {
     pub solid: Solid,
     /// `#rrggbb`, where it has a colour of its own.
     pub colour: Option<String>,
-}
-
-/// A solid, in the axes of its body from its centre of mass.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Solid {
-    /// A block.
-    Box {
-        /// \[m\] its middle.
-        at: [f64; 3],
-        /// Unit quaternion, scalar first: from the block's axes to the body's.
-        turn: [f64; 4],
-        /// \[m\] half of each side, > 0.
-        half: [f64; 3],
-    },
-    /// A cylinder with flat ends.
-    Cylinder {
-        /// \[m\] the middles of its two ends, apart.
-        ends: [[f64; 3]; 2],
-        /// \[m\], > 0.
-        radius: f64,
-    },
-    /// A rod with round ends.
-    Link {
-        /// \[m\] the centres of its two ends, apart.
-        ends: [[f64; 3]; 2],
-        /// \[m\], > 0.
-        radius: f64,
-    },
-    /// A ball.
-    Sphere {
-        /// \[m\] its centre.
-        at: [f64; 3],
-        /// \[m\], > 0.
-        radius: f64,
-    },
 }
 
 type Read = fn(&Table<'_>, &Site<'_>) -> Result<Solid, SceneError>;

@@ -5,6 +5,7 @@
 use crate::error::SceneError;
 use crate::inertia::shapes::Shape;
 use crate::precise::Precise;
+use crate::solid::Solid;
 use crate::text::{Choice, Kind as _, Number, Numbers, Table};
 
 /// The names of shapes.
@@ -43,6 +44,8 @@ pub(crate) struct Section {
     pub(crate) mass: Option<Precise>,
     /// \[m²\] moments over the mass about x, y and z.
     pub(crate) moments: [Precise; 3],
+    /// What it looks like; `None` of what has no thickness.
+    pub(crate) solid: Option<Solid>,
 }
 
 /// Reads a shape of a length along a body's axis. `key` names it, `others` are the table's other keys;
@@ -81,7 +84,7 @@ pub(crate) fn section(
     for (i, moment) in [first, next, last].into_iter().enumerate() {
         moments[(along + i) % 3] = moment;
     }
-    Ok(Section { name, mass, moments })
+    Ok(Section { name, mass, moments, solid: shape.solid(along) })
 }
 
 fn read(table: &Table<'_>, name: &str, length: Precise) -> Result<Shape, SceneError> {

@@ -4,6 +4,7 @@
 //! table D/4. The first axis is the one along the shape, the next two lie across it.
 
 use crate::precise::{PI, Precise};
+use crate::solid::Solid;
 
 /// The moment of a slender rod about its own axis over the others: a line has none there, and a body
 /// needs one. So much a round bar has whose diameter is 8 % of its length.
@@ -34,6 +35,36 @@ impl Shape {
             Self::Sphere { outer, inner } => PI * (cube(outer) - cube(inner)) / Precise::from(6.0),
         };
         (volume.nearest() > 0.0).then_some(volume)
+    }
+
+    /// The solid with its length along a body's axis; `None` of what has no thickness. What is hollow looks solid.
+    pub(crate) fn solid(self, along: usize) -> Option<Solid> {
+        let half = |size: Precise| 0.5 * size.nearest();
+        let on_axis = |by: f64| {
+            let mut end = [0.0; 3];
+            end[along % 3] = by;
+            end
+        };
+        match self {
+            Self::SlenderRod { .. } => None,
+            Self::Cylinder { length, outer, .. } => {
+                let ends = [-half(length), half(length)].map(on_axis);
+                Some(Solid::Cylinder { ends, radius: half(outer) })
+            }
+            Self::Block { size } => {
+                let mut sides = [0.0; 3];
+                for (i, size) in size.into_iter().enumerate() {
+                    sides[(along + i) % 3] = half(size);
+                }
+                let turn = [1.0, 0.0, 0.0, 0.0];
+                sides.iter().all(|side| *side > 0.0).then_some(Solid::Box {
+                    at: [0.0; 3],
+                    turn,
+                    half: sides,
+                })
+            }
+            Self::Sphere { outer, .. } => Some(Solid::Sphere { at: [0.0; 3], radius: half(outer) }),
+        }
     }
 
     /// \[m²\] Moments over the mass: about the axis along it, about the next, about the last.
