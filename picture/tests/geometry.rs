@@ -206,4 +206,12 @@ fn a_shape_is_seen() {
     assert_eq!(kinds[2][0]["ends"], serde_json::json!([[0.0, 0.0, -0.25], [0.0, 0.0, 0.25]]));
     assert_eq!((&kinds[2][0]["radius"], &kinds[2][0]["kind"]), (&0.2.into(), &"cylinder".into()));
     assert_eq!((kinds[3].as_array().unwrap().len(), &kinds[3][0]["kind"]), (1, &"cylinder".into()));
+    // A pin at its end is as good as within; of what is held far outside the outline shows where.
+    for (x, shapes) in [("0.16", 1), ("0.4", 0)] {
+        let held = format!(
+            "{text}\n[[tsda]]\nbetween = [\"world\", \"block\"]\npoints = [[0, 0, 0], [0, {x}, 0]]\nstiffness = 1\nfree_length = 0"
+        );
+        let mechanism = Mechanism::of(&Scene::parse(&held, "a.toml").unwrap());
+        assert_eq!(mechanism.bodies[1].shapes.len(), shapes, "{x}");
+    }
 }

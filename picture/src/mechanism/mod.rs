@@ -68,13 +68,14 @@ impl Mechanism {
             let solid = || Solid::of(&geometry.solid, geometry.colour.clone());
             owner.into_iter().for_each(|solids| solids.push(solid()));
         }
-        // What has a shape for its inertia looks like it, unless its geometry says otherwise.
+        // What has a shape for its inertia looks like it, unless its geometry says otherwise or it is held
+        // outside of it, where only its outline shows what belongs together.
         let solids =
             scene.derived.iter().filter_map(|body| Some((&*body.name, body.solid.as_ref()?)));
         let solids: BTreeMap<&str, _> = solids.collect();
         for body in mechanism.bodies.iter_mut().filter(|body| body.shapes.is_empty()) {
             let solid = solids.get(&*body.name).map(|solid| Solid::of(solid, None));
-            body.shapes.extend(solid);
+            body.shapes.extend(solid.filter(|solid| outline::is_within(&body.outline, solid)));
         }
         mechanism
     }

@@ -9,12 +9,15 @@ use dbd_kernel::Vec3;
 use dbd_scene::Scene;
 
 use super::parts::{Bounds, Mechanism, Outline, Place, length};
+use super::solid::Solid;
 
 /// Points nearer than this share of the mechanism's size are one.
 const SAME: f64 = 1e-6;
 /// A body whose points span less than this share of its box is drawn as the box: a wheel on its
 /// bearing.
 const WITHIN: f64 = 0.25;
+/// A body's points may lie this share of its shape's longest side outside of it.
+const PIN: f64 = 0.1;
 /// Sides of a block: at most this share of what else there is, at least this one of its longest.
 const LARGEST: f64 = 0.5;
 const THINNEST: f64 = 0.04;
@@ -51,6 +54,26 @@ fn outline(points: Vec<Vec3<f64>>, mass: f64, inertia: [f64; 3], size: f64) -> O
         [a, b] => Outline::Bar { ends: [a.to_f64(), b.to_f64()] },
         _ => Outline::Plate { points: points.into_iter().map(Vec3::to_f64).collect() },
     }
+}
+
+/// Whether a solid holds all points of an outline, or nearly: a pin may stand at its end.
+pub(super) fn is_within(outline: &Outline, solid: &Solid) -> bool {
+    let points: &[[f64; 3]] = match outline {
+        Outline::Bar { ends } => ends,
+        Outline::Plate { points } => points,
+        Outline::Block { .. } | Outline::Spider => &[],
+    };
+    let corners = solid.corners();
+    let ends = |axis: usize| {
+        let along = || corners.iter().map(|corner| corner[axis]);
+        [along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max)]
+    };
+    let ends = [0, 1, 2].map(ends);
+    let pin = PIN * ends.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+    points.iter().all(|point| {
+        let mut axes = point.iter().zip(&ends);
+        axes.all(|(at, [low, high])| (low - pin..=high + pin).contains(at))
+    })
 }
 
 /// Half of each side \[m\] of the box of a mass and inertia.
