@@ -93,6 +93,24 @@ impl<'s, P: Geometry> End<'s, P> {
         }
     }
 
+    /// This end where it is a body's, known to be one.
+    #[inline(always)]
+    pub(crate) fn body(&self) -> Option<Self> {
+        self.frame.map(|frame| Self { frame: Some(frame), moved: None, ..*self })
+    }
+
+    /// This end of the ground, known to be one.
+    #[inline(always)]
+    pub(crate) fn ground(&self) -> Self {
+        Self { frame: None, ..*self }
+    }
+
+    /// The moment of a force at the end of an arm; the ground takes none.
+    #[inline(always)]
+    pub(crate) fn moment(&self, arm: Vec3<P::Real>, force: Vec3<P::Real>) -> Vec3<P::Real> {
+        if self.frame.is_some() { arm.cross(force) } else { Vec3::ZERO }
+    }
+
     /// Body axes to world axes.
     #[inline(always)]
     pub(crate) fn to_world(&self, v: Vec3<P::Real>) -> Vec3<P::Real> {
@@ -172,23 +190,6 @@ pub(crate) const MOST_ARMS: usize = 3;
 
 /// Where a point lies, and its arm.
 pub(crate) type Spot<P> = (<P as Geometry>::Location, Vec3<<P as Geometry>::Real>);
-
-/// The stars of a group in blocks: the first body's points, and the second's points that they share.
-/// Stars that share none are a block each.
-#[inline(always)]
-pub(crate) fn blocks<'m, L, const ARMS: usize>(
-    points: &'m [L],
-    group: &Group,
-) -> impl Iterator<Item = (&'m [L], &'m [L; ARMS])> {
-    let own = points.get(group.point as usize..).unwrap_or_default();
-    let (mut centres, tips) = own.split_at_checked(group.stars as usize).unwrap_or_default();
-    let stars = group.stars_per_block();
-    tips.as_chunks::<ARMS>().0.iter().map_while(move |tips| {
-        let (block, rest) = centres.split_at_checked(stars)?;
-        centres = rest;
-        Some((block, tips))
-    })
-}
 
 /// Visits every element of the groups in order; frames are those of the pose.
 pub(crate) fn each_element<'m, P: Geometry, T: Terms>(

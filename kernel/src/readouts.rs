@@ -187,7 +187,8 @@ pub fn read<M: ModelOwner>(
             let group = view.groups.get(group as usize)?;
             let record: Record<RealOf<M>> = forces::record::<M::Precision, M::Terms, ExplicitDampers>(
                 &view, places, bodies, group,
-            );
+            )
+            .unwrap_or(Record::ZERO);
             Some(Reading::Vector(-record.force))
         }
         Readout::Imu { body, point } => {
@@ -278,7 +279,8 @@ pub fn each_force<M: ModelOwner>(
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
     for (row, group) in view.groups.iter().enumerate() {
         let record: Record<RealOf<M>> =
-            forces::record::<M::Precision, M::Terms, ExplicitDampers>(&view, places, bodies, group);
+            forces::record::<M::Precision, M::Terms, ExplicitDampers>(&view, places, bodies, group)
+                .unwrap_or(Record::ZERO);
         visit(row, -record.force);
     }
 }
