@@ -166,7 +166,7 @@ fn about_x<P: Geometry>(
     let y = t.sine * (body.ratio.x * w.z) - t.versine * w.y;
     let z = -(t.sine * (body.inverse_ratio.x * w.y)) - t.versine * w.z;
     P::accelerate(rate, Vec3::new(zero, y, z));
-    P::Orientation::turn(orientation, Quaternion::new(t.half_cos, t.half_sin, zero, zero));
+    P::Orientation::turn_about::<0>(orientation, t.half_cos, t.half_sin);
 }
 
 #[inline(always)]
@@ -185,7 +185,7 @@ fn about_y<P: Geometry>(
     let z = t.sine * (body.ratio.y * w.x) - t.versine * w.z;
     let x = -(t.sine * (body.inverse_ratio.y * w.z)) - t.versine * w.x;
     P::accelerate(rate, Vec3::new(x, zero, z));
-    P::Orientation::turn(orientation, Quaternion::new(t.half_cos, zero, t.half_sin, zero));
+    P::Orientation::turn_about::<1>(orientation, t.half_cos, t.half_sin);
 }
 
 #[inline(always)]
@@ -204,7 +204,7 @@ fn about_z<P: Geometry>(
     let x = t.sine * (body.ratio.z * w.y) - t.versine * w.x;
     let y = -(t.sine * (body.inverse_ratio.z * w.x)) - t.versine * w.y;
     P::accelerate(rate, Vec3::new(x, y, zero));
-    P::Orientation::turn(orientation, Quaternion::new(t.half_cos, zero, zero, t.half_sin));
+    P::Orientation::turn_about::<2>(orientation, t.half_cos, t.half_sin);
 }
 
 #[cfg(test)]

@@ -175,7 +175,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     /// Brings the frames to the present pose where sweeps need them and no evaluation has.
     #[inline]
     pub fn place_for_sweep(&mut self) {
-        if T::DAMPERS {
+        if self.has_dampers() {
             place_bodies(self.bodies, self.frames);
         }
     }
@@ -199,7 +199,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     #[inline(always)]
     fn sweep_after_kick<const REVERSE: bool>(&mut self) {
         let (wrenches, diagonals) = (&*self.wrenches, self.diagonals);
-        if T::DAMPERS {
+        if self.has_dampers() {
             let sweep = Sweep {
                 h: P::Real::HALF * self.h,
                 places: Places { frames: self.frames, signals: self.signals },
@@ -227,7 +227,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
 
     #[inline(always)]
     fn sweep_alone<const REVERSE: bool>(&mut self) {
-        if T::DAMPERS {
+        if self.has_dampers() {
             let sweep = Sweep {
                 h: P::Real::HALF * self.h,
                 places: Places { frames: self.frames, signals: self.signals },

@@ -1,32 +1,61 @@
-//! A point bushing.
+//! Point bushings.
 //!
-//! `(group, ends) => record`.
+//! `(group, ends) => record`. Star by star, a point of A and one of B each.
 
 use crate::forces::record::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::End;
 
-/// A point bushing.
+/// A group of point bushings. Two stars, a revolute's, go a straight line as TSDAs do (see
+/// [`crate::forces::stars`]).
 #[inline(always)]
-pub(super) fn bushing<P: Geometry, T: Terms, D: Dampers>(
+pub(super) fn bushings<P: Geometry, T: Terms, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Record<P::Real> {
-    let first = group.point as usize;
-    let (Some(a), Some(b), Some(bushing)) = (
-        model.points.get(first),
-        model.points.get(first + 1),
-        model.bushings.get(group.element as usize),
-    ) else {
-        return Record::ZERO;
-    };
-    let ((a, arm_a), (b, arm_b)) = (end_a.place(a), end_b.place(b));
+) -> Option<Record<P::Real>> {
+    match (end_a.body(), end_b.body()) {
+        (Some(a), Some(b)) if group.stars == 2 => two::<P, T, D>(model, group, &a, &b),
+        (None, Some(b)) if group.stars == 2 => two::<P, T, D>(model, group, &end_a.ground(), &b),
+        _ => {
+            let mut sum = star::<P, T, D>(model, group, 0, end_a, end_b)?;
+            for i in 1..group.stars as usize {
+                sum = sum.with(&star::<P, T, D>(model, group, i, end_a, end_b)?);
+            }
+            Some(sum)
+        }
+    }
+}
+
+/// Two stars.
+#[inline(always)]
+fn two<P: Geometry, T: Terms, D: Dampers>(
+    model: &ModelRef<'_, P, T>,
+    group: &Group,
+    end_a: &End<'_, P>,
+    end_b: &End<'_, P>,
+) -> Option<Record<P::Real>> {
+    let first = star::<P, T, D>(model, group, 0, end_a, end_b)?;
+    Some(first.with(&star::<P, T, D>(model, group, 1, end_a, end_b)?))
+}
+
+/// One star.
+#[inline(always)]
+fn star<P: Geometry, T: Terms, D: Dampers>(
+    model: &ModelRef<'_, P, T>,
+    group: &Group,
+    star: usize,
+    end_a: &End<'_, P>,
+    end_b: &End<'_, P>,
+) -> Option<Record<P::Real>> {
+    let (a, arm_a) = end_a.place(model.points.get(group.centre(star))?);
+    let (b, arm_b) = end_b.place(model.points.get(group.tips(star))?);
+    let bushing = model.bushings.get(group.element as usize + star)?;
     let d = P::displacement(&a, &b);
     let damper = match group.damper.row() {
-        Some(row) if D::ACT && T::DAMPERS => model.dampers.get(row),
+        Some(row) if D::ACT && T::DAMPERS => model.dampers.get(row + star),
         _ => None,
     };
     let force = match damper {
@@ -36,5 +65,6 @@ pub(super) fn bushing<P: Geometry, T: Terms, D: Dampers>(
         }
         None => bushing.force(d),
     };
-    Record { force, torque_a: arm_a.cross(force), torque_b: -arm_b.cross(force) }
+    let (torque_a, torque_b) = (end_a.moment(arm_a, force), -end_b.moment(arm_b, force));
+    Some(Record { force, torque_a, torque_b })
 }

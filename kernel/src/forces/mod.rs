@@ -132,7 +132,7 @@ pub(crate) fn record<P: Geometry, T: Terms, D: Dampers>(
     match group.law {
         Law::Tsda if T::TSDAS => stars::stars::<P, T, D>(model, group, &end_a, &end_b),
         Law::PointBushing if T::BUSHINGS => {
-            Some(bushing::bushing::<P, T, D>(model, group, &end_a, &end_b))
+            bushing::bushings::<P, T, D>(model, group, &end_a, &end_b)
         }
         Law::PointOnLine if T::LINES => Some(lines::lines::<P, T, D>(model, group, &end_a, &end_b)),
         _ => None,

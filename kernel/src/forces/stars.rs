@@ -23,58 +23,33 @@ pub(super) fn stars<P: Geometry, T: Terms, D: Dampers>(
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
 ) -> Option<Record<P::Real>> {
-    let shared = group.shared && group.stars != 1;
-    match group.arms {
-        3 if shared && group.stars == 2 => match (end_a.body(), end_b.body()) {
-            // Thrice the same: where an end is known to be a body or the ground, none of its
-            // points asks.
-            (Some(a), Some(b)) => block::<P, T, D, 2, 3>(model, group, 0, &a, &b),
-            (None, Some(b)) => block::<P, T, D, 2, 3>(model, group, 0, &end_a.ground(), &b),
-            (Some(a), None) => block::<P, T, D, 2, 3>(model, group, 0, &a, &end_b.ground()),
-            (None, None) => None,
+    match (group.stars, group.arms, end_b.body()) {
+        // Twice the same: where an end is known to be a body or the ground, none of its points
+        // asks. The ground is nearly always the first.
+        (2, 3, Some(b)) if group.shared => match end_a.body() {
+            Some(a) => block::<P, T, D, 2, 3>(model, group, &a, &b),
+            None => block::<P, T, D, 2, 3>(model, group, &end_a.ground(), &b),
         },
-        _ if shared => many::<P, T, D>(model, group, end_a, end_b),
-        3 => own::<P, T, D, 3>(model, group, end_a, end_b),
-        _ => own::<P, T, D, 1>(model, group, end_a, end_b),
+        (1, 3, _) => block::<P, T, D, 1, 3>(model, group, end_a, end_b),
+        (1, 1, _) => block::<P, T, D, 1, 1>(model, group, end_a, end_b),
+        _ => many::<P, T, D>(model, group, end_a, end_b),
     }
 }
 
-/// Stars with their own points of B.
-#[inline(always)]
-fn own<P: Geometry, T: Terms, D: Dampers, const ARMS: usize>(
-    model: &ModelRef<'_, P, T>,
-    group: &Group,
-    end_a: &End<'_, P>,
-    end_b: &End<'_, P>,
-) -> Option<Record<P::Real>> {
-    let mut star = 0;
-    let mut sum = Record::ZERO;
-    loop {
-        let record = block::<P, T, D, 1, ARMS>(model, group, star, end_a, end_b)?;
-        sum = if star == 0 { record } else { sum.with(&record) };
-        star += 1;
-        if star >= group.stars as usize {
-            return Some(sum);
-        }
-    }
-}
-
-/// `STARS` stars from `first` on, which share their points of B: written out, each sum from its
-/// first term. `None` where the model lacks them.
+/// `STARS` stars that share `ARMS` points of B: written out, each sum from its first term. `None`
+/// where the model lacks them.
 #[inline(always)]
 fn block<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usize>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
-    first: usize,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
 ) -> Option<Record<P::Real>> {
-    let centres: &[_; STARS] = rows(model.points, group.centre(first))?;
-    let tips: &[_; ARMS] = rows(model.points, group.tips(first))?;
-    let element = first * ARMS;
-    let springs: &[[_; ARMS]; STARS] = grid(model.tsdas, group.element as usize + element)?;
+    let centres: &[_; STARS] = rows(model.points, group.centre(0))?;
+    let tips: &[_; ARMS] = rows(model.points, group.tips(0))?;
+    let springs: &[[_; ARMS]; STARS] = grid(model.tsdas, group.element as usize)?;
     let dampers: Option<&[[_; ARMS]; STARS]> = match group.damper.row() {
-        Some(row) if D::ACT && T::DAMPERS => Some(grid(model.dampers, row + element)?),
+        Some(row) if D::ACT && T::DAMPERS => Some(grid(model.dampers, row)?),
         _ => None,
     };
     let clearance = model.clearance(group);
@@ -136,30 +111,30 @@ fn grid<V, const N: usize, const M: usize>(all: &[V], first: usize) -> Option<&[
     all.get(first..first + N * M)?.as_chunks().0.first_chunk()
 }
 
-/// Any number of stars that share any number of points.
+/// Any number of stars, which share their points of B or have their own.
+#[inline(always)]
 fn many<P: Geometry, T: Terms, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
 ) -> Option<Record<P::Real>> {
-    let mut record = Record::ZERO;
-    let arms = group.arms as usize;
+    let (stars, arms) = (group.stars as usize, group.arms as usize);
+    let springs = model.tsdas.get(group.element as usize..)?;
     let dampers = match group.damper.row() {
         Some(row) if D::ACT && T::DAMPERS => model.dampers.get(row..),
         _ => None,
     };
     let clearance = model.clearance(group);
-    let springs = model.tsdas.get(group.element as usize..)?;
-    let tips = model.points.get(group.tips(0)..)?;
+    let mut record = Record::ZERO;
     let mut pulls = [Vec3::ZERO; MOST_ARMS];
-    for star in 0..group.stars as usize {
+    for star in 0..stars {
         let (centre, arm_a) = end_a.place(model.points.get(group.centre(star))?);
         let mut pull_a = Vec3::ZERO;
-        for (arm, (tip, pull_b)) in tips.iter().zip(&mut pulls).take(arms).enumerate() {
+        for (arm, pull_b) in pulls.iter_mut().take(arms).enumerate() {
             let element = star * arms + arm;
             let spring = springs.get(element)?;
-            let (tip, arm_b) = end_b.place(tip);
+            let (tip, arm_b) = end_b.place(model.points.get(group.tips(star) + arm)?);
             let d = P::displacement(&centre, &tip);
             let pull = match dampers.and_then(|dampers| dampers.get(element)) {
                 Some(&damping) => {
@@ -170,12 +145,13 @@ fn many<P: Geometry, T: Terms, D: Dampers>(
             };
             pull_a = pull_a + pull;
             *pull_b = *pull_b + pull;
+            if !group.shared || star + 1 == stars {
+                record.torque_b = record.torque_b - arm_b.cross(*pull_b);
+                *pull_b = Vec3::ZERO;
+            }
         }
         record.force = record.force + pull_a;
         record.torque_a = record.torque_a + arm_a.cross(pull_a);
-    }
-    for (tip, pull) in tips.iter().zip(&pulls).take(arms) {
-        record.torque_b = record.torque_b - end_b.place(tip).1.cross(*pull);
     }
     Some(record)
 }
