@@ -15,7 +15,7 @@ pub(super) fn bushings<P: Geometry, T: Terms, D: Dampers>(
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Option<Record<P::Real>> {
+) -> Option<Record<P::Space>> {
     match (end_a.body(), end_b.body()) {
         (Some(a), Some(b)) if group.stars == 2 => two::<P, T, D>(model, group, &a, &b),
         (None, Some(b)) if group.stars == 2 => two::<P, T, D>(model, group, &end_a.ground(), &b),
@@ -36,7 +36,7 @@ fn two<P: Geometry, T: Terms, D: Dampers>(
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Option<Record<P::Real>> {
+) -> Option<Record<P::Space>> {
     let first = star::<P, T, D>(model, group, 0, end_a, end_b)?;
     Some(first.with(&star::<P, T, D>(model, group, 1, end_a, end_b)?))
 }
@@ -49,7 +49,7 @@ fn star<P: Geometry, T: Terms, D: Dampers>(
     star: usize,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Option<Record<P::Real>> {
+) -> Option<Record<P::Space>> {
     let (a, arm_a) = end_a.place(model.points.get(group.centre(star))?);
     let (b, arm_b) = end_b.place(model.points.get(group.tips(star))?);
     let bushing = model.bushings.get(group.element as usize + star)?;

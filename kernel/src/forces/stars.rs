@@ -13,7 +13,7 @@ use crate::forces::record::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::{End, MOST_ARMS};
-use crate::vector::Vec3;
+use crate::space::{Linear as _, Space, Vector as _};
 
 /// A group of TSDA stars.
 #[inline(always)]
@@ -22,17 +22,30 @@ pub(super) fn stars<P: Geometry, T: Terms, D: Dampers>(
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Option<Record<P::Real>> {
+) -> Option<Record<P::Space>> {
     match (group.stars, group.arms, end_b.body()) {
-        // Twice the same: where an end is known to be a body or the ground, none of its points
-        // asks. The ground is nearly always the first.
-        (2, 3, Some(b)) if group.shared => match end_a.body() {
-            Some(a) => block::<P, T, D, 2, 3>(model, group, &a, &b),
-            None => block::<P, T, D, 2, 3>(model, group, &end_a.ground(), &b),
-        },
-        (1, 3, _) => block::<P, T, D, 1, 3>(model, group, end_a, end_b),
+        (2, 3, Some(b)) if group.shared && !P::Space::PLANAR => {
+            straight::<P, T, D, 2, 3>(model, group, end_a, &b)
+        }
+        (1, 2, Some(b)) if P::Space::PLANAR => straight::<P, T, D, 1, 2>(model, group, end_a, &b),
+        (1, 3, _) if !P::Space::PLANAR => block::<P, T, D, 1, 3>(model, group, end_a, end_b),
         (1, 1, _) => block::<P, T, D, 1, 1>(model, group, end_a, end_b),
         _ => many::<P, T, D>(model, group, end_a, end_b),
+    }
+}
+
+/// A revolute's stars. Twice the same: where an end is known to be a body or the ground, none of its
+/// points asks. The ground is nearly always the first.
+#[inline(always)]
+fn straight<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usize>(
+    model: &ModelRef<'_, P, T>,
+    group: &Group,
+    end_a: &End<'_, P>,
+    end_b: &End<'_, P>,
+) -> Option<Record<P::Space>> {
+    match end_a.body() {
+        Some(a) => block::<P, T, D, STARS, ARMS>(model, group, &a, end_b),
+        None => block::<P, T, D, STARS, ARMS>(model, group, &end_a.ground(), end_b),
     }
 }
 
@@ -44,7 +57,7 @@ fn block<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usiz
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Option<Record<P::Real>> {
+) -> Option<Record<P::Space>> {
     let centres: &[_; STARS] = rows(model.points, group.centre(0))?;
     let tips: &[_; ARMS] = rows(model.points, group.tips(0))?;
     let springs: &[[_; ARMS]; STARS] = grid(model.tsdas, group.element as usize)?;
@@ -53,21 +66,21 @@ fn block<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usiz
         _ => None,
     };
     let clearance = model.clearance(group);
-    let mut spots = [(P::Location::default(), Vec3::ZERO); STARS];
+    let mut spots = [(P::Location::default(), P::Vector::ZERO); STARS];
     for (spot, centre) in spots.iter_mut().zip(centres) {
         *spot = end_a.place(centre);
     }
-    let mut pulls_a = [Vec3::ZERO; STARS];
-    let mut torque_b = Vec3::ZERO;
+    let mut pulls_a = [P::Vector::ZERO; STARS];
+    let mut torque_b = P::Moment::ZERO;
     for arm in 0..ARMS {
         let (tip, tip_arm) = end_b.place(&tips[arm]);
-        let mut stretches = [Vec3::ZERO; STARS];
+        let mut stretches = [P::Vector::ZERO; STARS];
         let mut column = [Tsda::default(); STARS];
         for star in 0..STARS {
             stretches[star] = P::displacement(&spots[star].0, &tip);
             column[star] = springs[star][arm];
         }
-        let mut pulls = [Vec3::ZERO; STARS];
+        let mut pulls = [P::Vector::ZERO; STARS];
         match (dampers, clearance) {
             (None, None) => pulls = Tsda::forces(&column, &stretches),
             _ => for star in 0..STARS {
@@ -118,7 +131,7 @@ fn many<P: Geometry, T: Terms, D: Dampers>(
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Option<Record<P::Real>> {
+) -> Option<Record<P::Space>> {
     let (stars, arms) = (group.stars as usize, group.arms as usize);
     let springs = model.tsdas.get(group.element as usize..)?;
     let dampers = match group.damper.row() {
@@ -127,10 +140,10 @@ fn many<P: Geometry, T: Terms, D: Dampers>(
     };
     let clearance = model.clearance(group);
     let mut record = Record::ZERO;
-    let mut pulls = [Vec3::ZERO; MOST_ARMS];
+    let mut pulls = [P::Vector::ZERO; MOST_ARMS];
     for star in 0..stars {
         let (centre, arm_a) = end_a.place(model.points.get(group.centre(star))?);
-        let mut pull_a = Vec3::ZERO;
+        let mut pull_a = P::Vector::ZERO;
         for (arm, pull_b) in pulls.iter_mut().take(arms).enumerate() {
             let element = star * arms + arm;
             let spring = springs.get(element)?;
@@ -147,7 +160,7 @@ fn many<P: Geometry, T: Terms, D: Dampers>(
             *pull_b = *pull_b + pull;
             if !group.shared || star + 1 == stars {
                 record.torque_b = record.torque_b - arm_b.cross(*pull_b);
-                *pull_b = Vec3::ZERO;
+                *pull_b = P::Vector::ZERO;
             }
         }
         record.force = record.force + pull_a;
