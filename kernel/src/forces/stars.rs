@@ -83,15 +83,18 @@ fn block<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usiz
         let mut pulls = [P::Vector::ZERO; STARS];
         match (dampers, clearance) {
             (None, None) => pulls = Tsda::forces(&column, &stretches),
-            _ => for star in 0..STARS {
-                let d = stretches[star];
-                pulls[star] = match dampers {
-                    Some(dampers) => {
-                        let v_rel = end_b.point_velocity(tip_arm) - end_a.point_velocity(spots[star].1);
-                        column[star].damped_force(dampers[star][arm], d, v_rel, clearance)
-                    }
-                    None => column[star].force(d, clearance),
-                };
+            _ => {
+                for star in 0..STARS {
+                    let d = stretches[star];
+                    pulls[star] = match dampers {
+                        Some(dampers) => {
+                            let v_rel =
+                                end_b.point_velocity(tip_arm) - end_a.point_velocity(spots[star].1);
+                            column[star].damped_force(dampers[star][arm], d, v_rel, clearance)
+                        }
+                        None => column[star].force(d, clearance),
+                    };
+                }
             }
         }
         let mut pull_b = pulls[0];
@@ -104,7 +107,8 @@ fn block<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usiz
         let torque = end_b.moment(tip_arm, pull_b);
         torque_b = if arm == 0 { -torque } else { torque_b - torque };
     }
-    let mut record = Record { force: pulls_a[0], torque_a: end_a.moment(spots[0].1, pulls_a[0]), torque_b };
+    let mut record =
+        Record { force: pulls_a[0], torque_a: end_a.moment(spots[0].1, pulls_a[0]), torque_b };
     for star in 1..STARS {
         record.force = record.force + pulls_a[star];
         record.torque_a = record.torque_a + end_a.moment(spots[star].1, pulls_a[star]);
