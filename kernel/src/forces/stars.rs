@@ -13,7 +13,8 @@ use crate::forces::record::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::{End, MOST_ARMS};
-use crate::space::{Linear as _, Space, Vector as _};
+use crate::real::Real;
+use crate::space::{Linear, Space, Vector as _};
 
 /// A group of TSDA stars.
 #[inline(always)]
@@ -60,60 +61,88 @@ fn block<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usiz
 ) -> Option<Record<P::Space>> {
     let centres: &[_; STARS] = rows(model.points, group.centre(0))?;
     let tips: &[_; ARMS] = rows(model.points, group.tips(0))?;
-    let springs: &[[_; ARMS]; STARS] = grid(model.tsdas, group.element as usize)?;
-    let dampers: Option<&[[_; ARMS]; STARS]> = match group.damper.row() {
-        Some(row) if D::ACT && T::DAMPERS => Some(grid(model.dampers, row)?),
-        _ => None,
+    let springs = Springs::<_, STARS, ARMS> {
+        springs: grid(model.tsdas, group.element as usize)?,
+        dampers: match group.damper.row() {
+            Some(row) if D::ACT && T::DAMPERS => Some(grid(model.dampers, row)?),
+            _ => None,
+        },
+        clearance: model.clearance(group),
     };
-    let clearance = model.clearance(group);
     let mut spots = [(P::Location::default(), P::Vector::ZERO); STARS];
     for (spot, centre) in spots.iter_mut().zip(centres) {
         *spot = end_a.place(centre);
     }
     let mut pulls_a = [P::Vector::ZERO; STARS];
     let mut torque_b = P::Moment::ZERO;
-    for arm in 0..ARMS {
-        let (tip, tip_arm) = end_b.place(&tips[arm]);
+    // A point of B at a time, for all stars: what it takes is in registers, and forgotten with it.
+    for (arm, tip) in tips.iter().enumerate() {
+        let (tip, tip_arm) = end_b.place(tip);
         let mut stretches = [P::Vector::ZERO; STARS];
-        let mut column = [Tsda::default(); STARS];
-        for star in 0..STARS {
-            stretches[star] = P::displacement(&spots[star].0, &tip);
-            column[star] = springs[star][arm];
+        for (stretch, (centre, _)) in stretches.iter_mut().zip(&spots) {
+            *stretch = P::displacement(centre, &tip);
         }
-        let mut pulls = [P::Vector::ZERO; STARS];
-        match (dampers, clearance) {
-            (None, None) => pulls = Tsda::forces(&column, &stretches),
-            _ => {
-                for star in 0..STARS {
-                    let d = stretches[star];
-                    pulls[star] = match dampers {
-                        Some(dampers) => {
-                            let v_rel =
-                                end_b.point_velocity(tip_arm) - end_a.point_velocity(spots[star].1);
-                            column[star].damped_force(dampers[star][arm], d, v_rel, clearance)
-                        }
-                        None => column[star].force(d, clearance),
-                    };
+        let pulls = springs.pulls(arm, &stretches, |star| {
+            end_b.point_velocity(tip_arm) - end_a.point_velocity(spots[star].1)
+        });
+        for (pull_a, pull) in pulls_a.iter_mut().zip(pulls) {
+            *pull_a = if arm == 0 { pull } else { *pull_a + pull };
+        }
+        let torque = end_b.moment(tip_arm, sum(&pulls));
+        torque_b = if arm == 0 { -torque } else { torque_b - torque };
+    }
+    let mut torques_a = [P::Moment::ZERO; STARS];
+    for (torque, (pull, (_, arm))) in torques_a.iter_mut().zip(pulls_a.iter().zip(&spots)) {
+        *torque = end_a.moment(*arm, *pull);
+    }
+    Some(Record { force: sum(&pulls_a), torque_a: sum(&torques_a), torque_b })
+}
+
+/// The sum in ascending order. From the first term on: a start from 0 would cost an addition, and
+/// what records are added to is never −0, so that the sign of a zero is no matter.
+#[inline(always)]
+fn sum<V: Linear>(terms: &[V]) -> V {
+    let Some((&first, others)) = terms.split_first() else { return V::ZERO };
+    others.iter().fold(first, |sum, &term| sum + term)
+}
+
+/// What pulls at the points of a block.
+struct Springs<'m, R, const STARS: usize, const ARMS: usize> {
+    springs: &'m [[Tsda<R>; ARMS]; STARS],
+    dampers: Option<&'m [[R; ARMS]; STARS]>,
+    clearance: Option<R>,
+}
+
+impl<R: Real, const STARS: usize, const ARMS: usize> Springs<'_, R, STARS, ARMS> {
+    /// The stars' pulls on the point `arm` of B, at their stretches and, where dampers act, rates.
+    #[inline(always)]
+    fn pulls<V: Linear<Real = R>>(
+        &self,
+        arm: usize,
+        stretches: &[V; STARS],
+        rate: impl Fn(usize) -> V,
+    ) -> [V; STARS] {
+        let mut springs = [Tsda::default(); STARS];
+        for (spring, arms) in springs.iter_mut().zip(self.springs) {
+            *spring = arms[arm];
+        }
+        let mut pulls = *stretches;
+        match (self.dampers, self.clearance) {
+            (None, None) => pulls = Tsda::forces(&springs, stretches),
+            (None, clearance) => {
+                for (pull, spring) in pulls.iter_mut().zip(&springs) {
+                    *pull = spring.force(*pull, clearance);
+                }
+            }
+            (Some(dampers), clearance) => {
+                for (star, (pull, spring)) in pulls.iter_mut().zip(&springs).enumerate() {
+                    let damping = dampers[star][arm];
+                    *pull = spring.damped_force(damping, *pull, rate(star), clearance);
                 }
             }
         }
-        let mut pull_b = pulls[0];
-        for star in 0..STARS {
-            if star > 0 {
-                pull_b = pull_b + pulls[star];
-            }
-            pulls_a[star] = if arm == 0 { pulls[star] } else { pulls_a[star] + pulls[star] };
-        }
-        let torque = end_b.moment(tip_arm, pull_b);
-        torque_b = if arm == 0 { -torque } else { torque_b - torque };
+        pulls
     }
-    let mut record =
-        Record { force: pulls_a[0], torque_a: end_a.moment(spots[0].1, pulls_a[0]), torque_b };
-    for star in 1..STARS {
-        record.force = record.force + pulls_a[star];
-        record.torque_a = record.torque_a + end_a.moment(spots[star].1, pulls_a[star]);
-    }
-    Some(record)
 }
 
 /// `N` rows from `first` on.
