@@ -39,20 +39,21 @@ pub fn free_rotor<P: Geometry>(
 ) {
     let (zero, half) = (P::Real::ZERO, P::Real::HALF * time);
     let w = P::spin(rate).in_space();
-    if w.x == zero && w.y == zero {
+    if w.x != zero {
+        about_x::<P>(body, orientation, rate, half);
+    } else if w.y == zero {
         // What moves in a plane turns about z alone, and this is all that the five would do.
         if w.z != zero {
             let turn = Turn::by(time * w.z);
             P::spin_up(rate, P::Moment::ZERO);
             P::Orientation::turn_about::<2>(orientation, turn.half_cos, turn.half_sin);
         }
-    } else {
-        about_x::<P>(body, orientation, rate, half);
-        about_y::<P>(body, orientation, rate, half);
-        about_z::<P>(body, orientation, rate, time);
-        about_y::<P>(body, orientation, rate, half);
-        about_x::<P>(body, orientation, rate, half);
+        return P::Orientation::renormalise(orientation);
     }
+    about_y::<P>(body, orientation, rate, half);
+    about_z::<P>(body, orientation, rate, time);
+    about_y::<P>(body, orientation, rate, half);
+    about_x::<P>(body, orientation, rate, half);
     P::Orientation::renormalise(orientation);
 }
 
