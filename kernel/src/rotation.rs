@@ -258,6 +258,40 @@ mod tests {
         }
     }
 
+    #[test]
+    fn a_turn_about_an_axis_is_the_turn_of_its_quaternion() {
+        let start = Quaternion::new(0.8, -0.2, 0.4, 0.4);
+        let (cos, sin) = (0.995, 0.0998);
+        let mut about = [start; 3];
+        about[0].turn_about::<0>(cos, sin);
+        about[1].turn_about::<1>(cos, sin);
+        about[2].turn_about::<2>(cos, sin);
+        for (axis, q) in about.into_iter().enumerate() {
+            let mut v = [0.0; 3];
+            v[axis] = sin;
+            assert_eq!(q, start.product(Quaternion::new(cos, v[0], v[1], v[2])));
+        }
+    }
+
+    #[test]
+    fn a_body_that_turns_about_z_alone_is_turned_as_by_all_five() {
+        let body = Body::<f64>::from_f64(1.0, [0.5, 0.7, 1.1]);
+        for (x, y) in [(0.0, 0.0), (-0.0, 0.0), (0.0, -0.0), (-0.0, -0.0)] {
+            for z in [1.3, -1.3, 0.0, -0.0] {
+                let start = (Quaternion::new(0.8, -0.0, 0.0, -0.6), Vec3::new(x, y, z));
+                let (mut q, mut rate) = start;
+                free_rotor::<F64>(&body, &mut q, &mut rate, 0.1);
+                let (mut expected, mut expected_rate) = start;
+                about_z::<F64>(&body, &mut expected, &mut expected_rate, 0.1);
+                expected.renormalise();
+                let bits = |q: Quaternion<f64>, w: Vec3<f64>| {
+                    [q.w, q.v.x, q.v.y, q.v.z, w.x, w.y, w.z].map(f64::to_bits)
+                };
+                assert_eq!(bits(q, rate), bits(expected, expected_rate), "{start:?}");
+            }
+        }
+    }
+
     /// The pose of a free rotor after 2 s in steps of `h`, and its world angular momentum.
     fn tumbled(inertia: [f64; 3], h: f64) -> (Quaternion<f64>, Vec3<f64>) {
         let body = Body::<f64>::from_f64(1.0, inertia);

@@ -201,3 +201,147 @@ fn many<P: Geometry, T: Terms, D: Dampers>(
     }
     Some(record)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{Body, BodyState};
+    use crate::elements::element::Law;
+    use crate::forces::record::{DampersLeft, ExplicitDampers};
+    use crate::geometry::F64;
+    use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
+    use crate::model::{Model, ModelOwner as _};
+    use crate::pose::Places;
+    use crate::vector::Vec3;
+
+    const WORLD: BodyIndex = BodyIndex::WORLD;
+    const FIRST: BodyIndex = BodyIndex(0);
+    const SECOND: BodyIndex = BodyIndex(1);
+
+    /// Two stars with three points, of which one coincides with a centre at the start.
+    fn group(between: [BodyIndex; 2], stars: u8, arms: u8) -> Group {
+        Group {
+            law: Law::Tsda,
+            a: between[0],
+            b: between[1],
+            stars,
+            arms,
+            shared: stars > 1,
+            point: 0,
+            element: 0,
+            damper: DamperIndex(0),
+            clearance: ClearanceIndex::NONE,
+        }
+    }
+
+    /// Both ways of one group, in a pose and motion without any symmetry.
+    fn both_ways<D: Dampers>(group: Group, coincident: bool) -> [Record<f64>; 2] {
+        let spring = |i: i32| Tsda {
+            stiffness: 1e4 + 37.0 * f64::from(i),
+            free_length: 0.05 + 1e-3 * f64::from(i),
+        };
+        let mut points = [
+            Vec3::new(0.11, -0.02, 0.03),
+            Vec3::new(0.1, 0.01, -0.04),
+            Vec3::new(-0.2, 0.05, 0.01),
+            Vec3::new(-0.17, -0.03, 0.02),
+            Vec3::new(-0.19, 0.02, -0.06),
+        ];
+        let mut state = BodyState::<F64>::new(
+            [0.3, -0.1, 0.2],
+            [0.8, 0.0, 0.6, 0.0],
+            [1.0, -2.0, 0.5],
+            [0.3, -0.7, 1.1],
+        );
+        let mut states = [state; 2];
+        state.velocity = Vec3::new(-0.4, 0.2, 0.9);
+        states[1] = state;
+        if coincident {
+            points[3] = points[1];
+        } else {
+            states[1].position = Vec3::new(0.35, -0.12, 0.21);
+        }
+        let model = Model::<F64, 2, 1, 5, 6, 0, 6, 0, 0, 0, 0, 0, 0, 1> {
+            bodies: [Body::<f64>::new(1.0, [1.0; 3]); 2],
+            initial: states,
+            gravity: [],
+            groups: [group],
+            points,
+            tsdas: core::array::from_fn(|i| spring(i as i32)),
+            bushings: [],
+            dampers: core::array::from_fn(|i| 10.0 + i as f64),
+            torsions: [],
+            loads: [],
+            lines: [],
+            inputs: [],
+            knots: [],
+            clearances: [1e-3],
+        };
+        let frames = states.map(|state| F64::frame(&state.position, &state.orientation));
+        let view = model.view();
+        let places = Places { frames: &frames, signals: &[] };
+        let end = |body| End::new(&view, places, body, Some(&states));
+        let (a, b) = (end(group.a), end(group.b));
+        let straight = stars::<F64, _, D>(&view, &group, &a, &b).unwrap();
+        [straight, many::<F64, _, D>(&view, &group, &a, &b).unwrap()]
+    }
+
+    /// The moment that the ground takes is no one's.
+    fn assert_same(group: Group, [straight, long]: [Record<f64>; 2]) {
+        assert_eq!(straight.force, long.force, "{group:?}");
+        assert!(group.a.is_world() || straight.torque_a == long.torque_a, "{group:?}");
+        assert!(group.b.is_world() || straight.torque_b == long.torque_b, "{group:?}");
+        assert!(straight.force.dot(straight.force) > 0.0);
+    }
+
+    #[test]
+    fn the_straight_line_has_the_bits_of_the_long_way() {
+        for between in [[FIRST, SECOND], [WORLD, SECOND], [FIRST, WORLD]] {
+            for (stars, arms) in [(2, 3), (1, 3), (1, 1)] {
+                let free = group(between, stars, arms);
+                let clear = Group { clearance: ClearanceIndex(0), ..free };
+                for group in [free, clear] {
+                    assert_same(group, both_ways::<DampersLeft>(group, false));
+                    assert_same(group, both_ways::<ExplicitDampers>(group, false));
+                }
+            }
+        }
+        // Where points coincide there is no direction, and the others pull on.
+        let group = group([FIRST, SECOND], 2, 3);
+        let [straight, long] = both_ways::<DampersLeft>(group, true);
+        assert_same(group, [straight, long]);
+    }
+
+    #[test]
+    fn what_a_model_lacks_has_no_record() {
+        let lacking = [
+            Group { point: 1, ..group([FIRST, SECOND], 2, 3) },
+            Group { element: 1, ..group([FIRST, SECOND], 2, 3) },
+            Group { point: 3, ..group([FIRST, SECOND], 1, 3) },
+        ];
+        let model = Model::<F64, 1, 0, 5, 6, 0> {
+            bodies: [Body::<f64>::new(1.0, [1.0; 3])],
+            initial: [BodyState::default()],
+            gravity: [],
+            groups: [],
+            points: [Vec3::ZERO; 5],
+            tsdas: [Tsda::default(); 6],
+            bushings: [],
+            dampers: [],
+            torsions: [],
+            loads: [],
+            lines: [],
+            inputs: [],
+            knots: [],
+            clearances: [],
+        };
+        let view = model.view();
+        let frame = F64::frame(&Vec3::ZERO, &Default::default());
+        let places = Places { frames: &[frame; 2], signals: &[] };
+        for group in lacking {
+            let end = |body| End::new(&view, places, body, None);
+            let (a, b) = (end(group.a), end(group.b));
+            assert!(stars::<F64, _, DampersLeft>(&view, &group, &a, &b).is_none(), "{group:?}");
+        }
+    }
+}
