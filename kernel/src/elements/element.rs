@@ -28,7 +28,7 @@ impl Law {
     #[must_use]
     pub const fn takes_arms(self, arms: u8) -> bool {
         match self {
-            Law::Tsda => arms == 1 || arms == 3,
+            Law::Tsda => arms >= 1 && arms <= 3,
             Law::PointBushing => arms == 1,
             Law::PointOnLine => arms == 1 || arms == 2,
         }

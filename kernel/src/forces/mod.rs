@@ -132,6 +132,9 @@ pub(crate) fn record<P: Geometry, T: Terms, D: Dampers>(
         Law::Tsda if T::TSDAS && group.arms == 3 => {
             stars::stars::<P, T, D, 3>(model, group, &end_a, &end_b)
         }
+        Law::Tsda if T::TSDAS && group.arms == 2 => {
+            stars::stars::<P, T, D, 2>(model, group, &end_a, &end_b)
+        }
         Law::Tsda if T::TSDAS => stars::stars::<P, T, D, 1>(model, group, &end_a, &end_b),
         Law::PointBushing if T::BUSHINGS => {
             bushing::bushing::<P, T, D>(model, group, &end_a, &end_b)
