@@ -119,6 +119,10 @@ impl<R: Real> Linear for Vec2<R> {
         Self::new(R::from_f64(v[0]), R::from_f64(v[1]))
     }
     #[inline]
+    fn holds(v: [f64; 3]) -> bool {
+        v[2] == 0.0
+    }
+    #[inline]
     fn to_f64(self) -> [f64; 3] {
         [self.x.to_f64(), self.y.to_f64(), 0.0]
     }
@@ -172,6 +176,10 @@ impl<R: Real> Linear for Axial<R> {
     #[inline]
     fn from_f64(v: [f64; 3]) -> Self {
         Self::new(R::from_f64(v[2]))
+    }
+    #[inline]
+    fn holds(v: [f64; 3]) -> bool {
+        v[0] == 0.0 && v[1] == 0.0
     }
     #[inline]
     fn to_f64(self) -> [f64; 3] {
