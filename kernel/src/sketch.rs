@@ -238,8 +238,8 @@ impl Sketch {
     }
 
     /// The TSDAs of one joint: each of the `centres` \[m\] of the first body is joined to all `arms`
-    /// \[m\] of the second, 1 or 3. A spherical joint is one centre with three arms, a revolute
-    /// two with the same three.
+    /// \[m\] of the second, 1 to 3. A spherical joint is one centre with three arms, a revolute
+    /// two with the same three; in the plane a revolute is one centre with two arms.
     ///
     /// # Panics
     /// Where a number is out of range or a list is full; several elements need a free length.
@@ -254,7 +254,7 @@ impl Sketch {
         assert_not_negative(spring.stiffness);
         assert_not_negative(spring.damping);
         assert_not_negative(spring.free_length);
-        assert!(arms.len() == 1 || arms.len() == 3, "a star has one or three arms");
+        assert!(arms.len() >= 1 && arms.len() <= 3, "a star has one to three arms");
         assert!(!centres.is_empty() && centres.len() <= 255, "a joint has 1 to 255 centres");
         let elements = centres.len() * arms.len();
         let bushing = spring.free_length == 0.0;
