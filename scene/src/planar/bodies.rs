@@ -23,7 +23,7 @@ pub(super) fn height(model: &SceneModel<F64>, axes: &Axes, near: f64) -> f64 {
     let heights = model.initial.iter().map(|state| axes.inward(state.position).z);
     let mut heights: Vec<f64> = heights.collect();
     heights.sort_by(f64::total_cmp);
-    let middle = heights.get(heights.len() / 2).copied().unwrap_or(0.0);
+    let middle = heights.get(heights.len().saturating_sub(1) / 2).copied().unwrap_or(0.0);
     if middle.abs() <= near { 0.0 } else { middle }
 }
 

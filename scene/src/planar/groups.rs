@@ -10,7 +10,7 @@ use crate::Scene;
 use crate::planar::Leaves;
 use crate::planar::departure::Part;
 use crate::planar::elements::{Element, Placed, coupling};
-use crate::planar::plane::{Plane, short};
+use crate::planar::plane::{ALIKE, Plane, short};
 use crate::planar::reduced::{Arm, Reduced, reduced};
 use crate::runtime::SceneModel;
 
@@ -37,7 +37,8 @@ pub(super) fn read(
         let clearance = group.clearance.row().and_then(|row| scene.model.clearances.get(row));
         let part = match owners.next() {
             Some(joint) => {
-                stays(Part::Joint(joint), &elements, near, leaves);
+                let turns = turns(scene, plane, joint);
+                stays(Part::Joint(joint), &elements, turns, near, leaves);
                 Part::Joint(joint)
             }
             None => {
@@ -58,16 +59,34 @@ pub(super) fn read(
     at_rest
 }
 
+/// \[degrees\] by how much the axis of a revolute, the nearer one of a universal joint, leans from the
+/// normal; `None` where it does not, and of joints that need not turn to move in the plane.
+fn turns(scene: &Scene, plane: &Plane, joint: usize) -> Option<f64> {
+    let joint = scene.joints.get(joint)?;
+    if !["revolute", "universal"].contains(&joint.kind) {
+        return None;
+    }
+    let axes = joint.hinges.iter().map(|hinge| plane.of_body_inward(hinge.a.row(), hinge.axis));
+    let leans = axes.map(|axis| libm::atan2(libm::hypot(axis.x, axis.y), axis.z.abs()));
+    let least = leans.fold(f64::INFINITY, f64::min);
+    (least > ALIKE).then(|| least.to_degrees())
+}
+
 /// Tells of a joint that does not stay in the plane.
-fn stays(part: Part, elements: &[Element], near: f64, leaves: &mut Leaves<'_>) {
+fn stays(
+    part: Part,
+    elements: &[Element],
+    turns: Option<f64>,
+    near: f64,
+    leaves: &mut Leaves<'_>,
+) {
     let found = coupling(elements);
-    if found.height.abs() > near {
+    if let Some(lean) = turns {
+        leaves(part, "axis", &format!(": its axis leans by {} degrees from the normal", short(lean)));
+    } else if found.height.abs() > near {
         leaves(part, "at", &format!(" by {} m", short(found.height)));
     } else if found.share > ACROSS {
-        let by = format!(
-            ": of a force in it, {} acts across it, for the joint's axes are neither normal to it nor in it",
-            short(found.share)
-        );
+        let by = format!(": of a force in it {} acts across it", short(found.share));
         leaves(part, "axis", &by);
     }
 }

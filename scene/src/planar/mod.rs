@@ -10,6 +10,7 @@ mod bodies;
 mod departure;
 mod driven;
 mod elements;
+mod embedding;
 mod groups;
 mod plane;
 mod reduced;
@@ -100,8 +101,9 @@ fn normals(scene: &Scene) -> Vec<Vec3<f64>> {
 /// The scene in a plane of this normal.
 fn in_plane(scene: &Scene, normal: Vec3<f64>) -> Result<Planar, Unplanar> {
     let axes = Axes::of(normal);
-    let near = NEAR * size(&scene.model);
-    let mut plane = Plane::new(axes, height(&scene.model, &axes, near));
+    let size = size(&scene.model);
+    let near = NEAR * size;
+    let mut plane = Plane::new(axes, height(&scene.model, &axes, near), size);
     let name = plane.name();
     let mut departures = Vec::new();
     let mut leaves = |part, key, by: &str| {

@@ -67,13 +67,15 @@ pub struct Plane {
     axes: Axes,
     /// \[m\] from the world's origin along the normal.
     height: f64,
+    /// \[m\] how large the scene is.
+    size: f64,
     /// Per body the axes whose z is the normal.
     bodies: Vec<Axes>,
 }
 
 impl Plane {
-    pub(super) fn new(axes: Axes, height: f64) -> Self {
-        Self { axes, height, bodies: Vec::new() }
+    pub(super) fn new(axes: Axes, height: f64, size: f64) -> Self {
+        Self { axes, height, size, bodies: Vec::new() }
     }
 
     /// Adds the next body, whose own axes have this normal.
@@ -153,6 +155,29 @@ impl Plane {
         if row < self.bodies.len() { self.of_body_inward(row, point) } else { self.place_inward(point) }
     }
 
+    /// How body `b` stands to body `a`, or its inverse, in the plane's turns as it is between their own axes.
+    #[must_use]
+    pub fn turn_outward(&self, a: usize, b: usize, turn: Quaternion<f64>) -> Quaternion<f64> {
+        let own = |row: usize| self.bodies.get(row).unwrap_or(&self.axes).turn;
+        own(b).product(turn).product(own(a).conjugate())
+    }
+
+    /// Whether a state in the world leaves the plane by more than `share` of its size: \[m\] of a
+    /// place, of what else it has its own.
+    #[must_use]
+    pub fn leaves(&self, row: usize, state: &BodyState<F64>, share: f64) -> bool {
+        let length = |v: Vec3<f64>| libm::sqrt(v.dot(v));
+        let place = self.place_inward(state.position);
+        let body = self.bodies.get(row).map_or(Quaternion::IDENTITY, |body| body.turn);
+        let turn = self.axes.turn.conjugate().product(state.orientation).product(body);
+        let velocity = self.inward(state.velocity);
+        let spin = self.of_body_inward(row, state.angular_velocity);
+        place.z.abs() > share * self.size
+            || libm::hypot(turn.v.x, turn.v.y) > share
+            || velocity.z.abs() > share * length(velocity)
+            || libm::hypot(spin.x, spin.y) > share * length(spin)
+    }
+
     /// The state of body `row` in the world as it is in the plane: what leaves the plane is left out.
     #[must_use]
     pub fn state_inward(&self, row: usize, state: &BodyState<F64>) -> BodyState<F64> {
@@ -190,7 +215,8 @@ fn about_z(turn: Quaternion<f64>) -> [f64; 4] {
     }
     match unit(Vec3::new(w, 0.0, v.z)) {
         Some(settled) => [settled.x, 0.0, 0.0, settled.z],
-        None => [1.0, 0.0, 0.0, 0.0],
+        // Nothing that stands for a turn: what looks at it next says so.
+        None => [w, 0.0, 0.0, v.z],
     }
 }
 
@@ -234,7 +260,7 @@ mod tests {
     fn a_state_goes_into_the_plane_and_back() {
         let normal = unit(Vec3::new(2.0, -1.0, 0.5)).unwrap();
         let turn = Axes::of(normal);
-        let mut plane = Plane::new(turn, 0.3);
+        let mut plane = Plane::new(turn, 0.3, 1.0);
         // A body that lies on its side: its own x is the normal.
         let flat = BodyState::<F64>::from_f64(
             [0.4, -0.2, 0.0],
@@ -258,7 +284,7 @@ mod tests {
     #[test]
     fn planes_are_called_by_their_axis() {
         let named = |normal: [f64; 3], height| {
-            Plane::new(Axes::of(unit(Vec3::from_f64(normal)).unwrap()), height).name()
+            Plane::new(Axes::of(unit(Vec3::from_f64(normal)).unwrap()), height, 1.0).name()
         };
         assert_eq!(named([0.0, 0.0, 1.0], 0.0), "z = 0");
         assert_eq!(named([0.0, -1.0, 0.0], 0.25), "y = -0.25");
