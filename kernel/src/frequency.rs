@@ -22,12 +22,12 @@ use crate::elements::input::InputKind;
 use crate::elements::load::LoadFrame;
 use crate::forces::{self, At, DampersLeft, Evaluation, Instant, Turns, Wrench};
 use crate::geometry::Geometry;
-use crate::model::{FrameOf, ModelOwner, RealOf};
+use crate::model::{FrameOf, ModelOwner, RealOf, SpaceOf};
 use crate::real::Real;
 use crate::rotation;
 use crate::schedule::Signal;
+use crate::space::{Linear as _, Moment as _, Space};
 use crate::state::State;
-use crate::vector::Vec3;
 
 /// Largest displacement \[m\] and turn \[rad\] of the estimate's differences.
 const PROBE: f64 = 1e-6;
@@ -66,7 +66,7 @@ pub fn estimate<M: ModelOwner>(model: &M, state: &State<M>, iterations: u32) -> 
 }
 
 /// The torques at rest, body axes; `None` where a twist is undefined.
-fn torques<M: ModelOwner>(model: &M, state: &State<M>) -> Option<M::PerBody<Wrench<RealOf<M>>>> {
+fn torques<M: ModelOwner>(model: &M, state: &State<M>) -> Option<M::PerBody<Wrench<SpaceOf<M>>>> {
     let mut frames = model.per_body(FrameOf::<M>::default());
     let mut wrenches = model.per_body(Wrench::default());
     forces::evaluate::<M::Precision, M::Terms, DampersLeft>(
@@ -90,14 +90,14 @@ fn torques<M: ModelOwner>(model: &M, state: &State<M>) -> Option<M::PerBody<Wren
 fn largest_by_magnitude<M: ModelOwner>(
     model: &M,
     state: &State<M>,
-    torques: &[Wrench<RealOf<M>>],
+    torques: &[Wrench<SpaceOf<M>>],
     iterations: u32,
     shift: f64,
 ) -> (f64, f64) {
     let view = model.view();
     let mut direction = model.per_body(Increment::default());
     start_direction(direction.as_mut());
-    let mut response = model.per_body(Increment::default());
+    let mut response = model.per_body(Increment::<SpaceOf<M>>::default());
     let mut frames = model.per_body(FrameOf::<M>::default());
     let mut wrenches = model.per_body(Wrench::default());
     let mut moved = state.clone();
@@ -135,15 +135,16 @@ fn largest_by_magnitude<M: ModelOwner>(
                 let s = RealOf::<M>::from_f64(-0.5 * sign / scale);
                 let m = body.inverse_mass.sqrt();
                 let linear = wrench.force * (s * m);
-                let angular = wrench.torque.scale(root(body.inverse_inertia)) * s;
+                let angular = wrench.torque.scale(body.inverse_inertia.root()) * s;
                 let base = if i == 0 { Increment::default() } else { *out };
                 *out = Increment { linear: base.linear + linear, angular: base.angular + angular };
             }
         }
         let rows = response.as_mut().iter_mut().zip(direction.as_ref()).zip(torques);
         for (((out, x), rest), body) in rows.zip(view.bodies) {
-            let i = root(body.inverse_inertia);
-            let commutator = x.angular.scale(i).cross(rest.torque).scale(i) * RealOf::<M>::HALF;
+            let i = body.inverse_inertia.root();
+            let commutator =
+                x.angular.scale(i).commutator(rest.torque).scale(i) * RealOf::<M>::HALF;
             out.angular = out.angular - commutator;
         }
         let (mut along, mut norm) = (0.0, 0.0);
@@ -166,12 +167,8 @@ fn largest_by_magnitude<M: ModelOwner>(
     found
 }
 
-fn root<R: Real>(v: Vec3<R>) -> Vec3<R> {
-    Vec3::new(v.x.sqrt(), v.y.sqrt(), v.z.sqrt())
-}
-
 /// A fixed unit vector without symmetry: multiples of the golden ratio, modulo 1, less a half.
-fn start_direction<R: Real>(direction: &mut [Increment<R>]) {
+fn start_direction<S: Space>(direction: &mut [Increment<S>]) {
     let mut golden = 0.0;
     let mut next = || {
         golden += 0.618_033_988_749_894_9;
@@ -185,20 +182,21 @@ fn start_direction<R: Real>(direction: &mut [Increment<R>]) {
         let linear = [next(), next(), next()];
         let angular = [next(), next(), next()];
         norm += linear.iter().chain(&angular).map(|c| c * c).sum::<f64>();
-        *x = Increment { linear: Vec3::from_f64(linear), angular: Vec3::from_f64(angular) };
+        let (linear, angular) = (S::Vector::from_f64(linear), S::Moment::from_f64(angular));
+        *x = Increment { linear, angular };
     }
-    let inverse = R::from_f64(1.0 / libm::sqrt(norm));
+    let inverse = S::Real::from_f64(1.0 / libm::sqrt(norm));
     for x in direction {
         *x = Increment { linear: x.linear * inverse, angular: x.angular * inverse };
     }
 }
 
 /// The largest component of `M^-1/2·x`.
-fn largest_move<R: Real>(bodies: &[Body<R>], direction: &[Increment<R>]) -> f64 {
+fn largest_move<S: Space>(bodies: &[Body<S>], direction: &[Increment<S>]) -> f64 {
     let mut largest = 0.0_f64;
     for (body, x) in bodies.iter().zip(direction) {
         let linear = x.linear * body.inverse_mass.sqrt();
-        let angular = x.angular.scale(root(body.inverse_inertia));
+        let angular = x.angular.scale(body.inverse_inertia.root());
         for component in linear.to_f64().into_iter().chain(angular.to_f64()) {
             largest = if component.abs() > largest { component.abs() } else { largest };
         }
@@ -208,9 +206,9 @@ fn largest_move<R: Real>(bodies: &[Body<R>], direction: &[Increment<R>]) -> f64 
 
 /// `moved = state + scale·M^-1/2·direction`.
 fn displace<M: ModelOwner>(
-    bodies: &[Body<RealOf<M>>],
+    bodies: &[Body<SpaceOf<M>>],
     state: &[BodyState<M::Precision>],
-    direction: &[Increment<RealOf<M>>],
+    direction: &[Increment<SpaceOf<M>>],
     scale: f64,
     moved: &mut [BodyState<M::Precision>],
 ) {
@@ -218,7 +216,7 @@ fn displace<M: ModelOwner>(
     for (((body, state), x), moved) in bodies.iter().zip(state).zip(direction).zip(moved) {
         *moved = *state;
         let linear = x.linear * (scale * body.inverse_mass.sqrt());
-        let angular = x.angular.scale(root(body.inverse_inertia)) * scale;
+        let angular = x.angular.scale(body.inverse_inertia.root()) * scale;
         M::Precision::translate(&mut moved.position, linear);
         let half = angular * RealOf::<M>::HALF;
         rotation::turn_by::<M::Precision>(&mut moved.orientation, half);

@@ -11,8 +11,8 @@ use crate::index::BodyIndex;
 use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, Terms};
 use crate::pose::{Places, place_bodies, placed, twist_of};
 use crate::real::Real;
+use crate::space::{Linear as _, Space, Vector as _};
 use crate::state::State;
-use crate::vector::Vec3;
 
 /// A symmetric 6×6 matrix over (linear, angular), in full.
 type Block<R> = [[R; 6]; 6];
@@ -25,7 +25,7 @@ const ROUNDING_MARGIN: f64 = 1.0 + 1e-6;
 
 /// An upper bound of the highest angular frequency \[rad/s\] at the pose of `state`; 0 for a model
 /// without springs. At most 0.4 % above the exact block bound. Each element is placed once per body
-/// that it holds, and each body's block is kept until all are: 148 bytes per body in single precision.
+/// that it holds, and each body's block is kept until all are: 148 bytes per body of a spatial model in single precision.
 pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
     let view = model.view();
     let bodies = state.bodies.as_ref();
@@ -127,9 +127,9 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
             return;
         };
         let BodyBlock { stiffness: block, turning } = to;
-        let mut add = |stiffness: P::Real, other: BodyIndex, u: Vec3<_>, moment: Vec3<_>| {
+        let mut add = |stiffness: P::Real, other: BodyIndex, u: P::Vector, moment: P::Moment| {
             let share = if other.is_world() { P::Real::ONE } else { P::Real::TWO };
-            let n = P::to_body(frame, moment);
+            let n = P::moment_to_body(frame, moment);
             add_row(block, share * stiffness, scaled(body, u, n));
         };
         match mount {
@@ -141,7 +141,7 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
                     let Some(e) = placed(view, places, (number, group), i) else { continue };
                     let Some(law) = view.element(group.law, e.index) else { continue };
                     let arm = if at_a { e.arm_a } else { e.arm_b };
-                    let mut add = |stiffness, u: Vec3<_>| add(stiffness, other, u, arm.cross(u));
+                    let mut add = |stiffness, u: P::Vector| add(stiffness, other, u, arm.cross(u));
                     *turning = *turning + law.tangent(&e.stretch, arm, &mut add);
                 }
             }
@@ -157,7 +157,7 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
                 let Some(e) = element else { return };
                 let ends = [(e.group.a, e.group.b, e.arm_a), (e.group.b, e.group.a, e.arm_b)];
                 for (_, other, arm) in ends.into_iter().filter(|(body, ..)| *body == here) {
-                    let mut add = |stiffness, u: Vec3<_>| add(stiffness, other, u, arm.cross(u));
+                    let mut add = |stiffness, u: P::Vector| add(stiffness, other, u, arm.cross(u));
                     let tension = signal.value.abs();
                     let stretch = e.stretch.displacement;
                     *turning = *turning + taut(tension, stretch, arm, &mut add);
@@ -171,10 +171,10 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
                 let other = if spring.a == here { spring.b } else { spring.a };
                 let Some(twist) = twist_of::<P>(spring, self.bodies, turns) else { return };
                 let gradient = match places.frames.get(spring.a.row()) {
-                    Some(frame) => P::to_world(frame, twist.gradient),
+                    Some(frame) => P::moment_to_world(frame, twist.gradient),
                     None => twist.gradient,
                 };
-                add(spring.stiffness, other, Vec3::ZERO, gradient);
+                add(spring.stiffness, other, P::Vector::ZERO, gradient);
                 *turning = *turning + spring.turning(twist.angle, gradient);
             }
         }
@@ -184,17 +184,18 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
     fn eigenvalue(&self, row: usize, block: BodyBlock<P::Real>) -> P::Real {
         let Some(body) = self.view.bodies.get(row) else { return P::Real::ZERO };
         let BodyBlock { mut stiffness, turning } = block;
-        for axis in Vec3::axes() {
-            add_row(&mut stiffness, turning, scaled(body, Vec3::ZERO, axis));
+        for axis in P::Moment::axes() {
+            add_row(&mut stiffness, turning, scaled(body, P::Vector::ZERO, axis));
         }
         largest_eigenvalue(stiffness)
     }
 }
 
 /// `M^-1/2·(u, n)`.
-fn scaled<R: Real>(body: &Body<R>, u: Vec3<R>, n: Vec3<R>) -> [R; 6] {
+fn scaled<S: Space>(body: &Body<S>, u: S::Vector, n: S::Moment) -> [S::Real; 6] {
     let m = body.inverse_mass.sqrt();
-    let i = body.inverse_inertia;
+    let i = body.inverse_inertia.in_space();
+    let (u, n) = (u.in_space(), n.in_space());
     [u.x * m, u.y * m, u.z * m, n.x * i.x.sqrt(), n.y * i.y.sqrt(), n.z * i.z.sqrt()]
 }
 
