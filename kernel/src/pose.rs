@@ -13,7 +13,7 @@ use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelRef, Terms};
 use crate::schedule::Signal;
-use crate::space::{Linear as _, Moment as _};
+use crate::space::{Linear as _, Moment as _, Vector as _};
 
 /// Computes the frames of all bodies.
 #[inline]
@@ -92,6 +92,24 @@ impl<'s, P: Geometry> End<'s, P> {
                 (location, P::Vector::ZERO)
             }
         }
+    }
+
+    /// This end where it is a body's, known to be one.
+    #[inline(always)]
+    pub(crate) fn body(&self) -> Option<Self> {
+        self.frame.map(|frame| Self { frame: Some(frame), moved: None, ..*self })
+    }
+
+    /// This end of the ground, known to be one.
+    #[inline(always)]
+    pub(crate) fn ground(&self) -> Self {
+        Self { frame: None, ..*self }
+    }
+
+    /// The moment of a force at the end of an arm; the ground takes none.
+    #[inline(always)]
+    pub(crate) fn moment(&self, arm: P::Vector, force: P::Vector) -> P::Moment {
+        if self.frame.is_some() { arm.cross(force) } else { P::Moment::ZERO }
     }
 
     /// Body axes to world axes.
@@ -201,23 +219,6 @@ pub(crate) const MOST_ARMS: usize = 3;
 
 /// Where a point lies, and its arm.
 pub(crate) type Spot<P> = (<P as Geometry>::Location, <P as Geometry>::Vector);
-
-/// The stars of a group in blocks: the first body's points, and the second's points that they share.
-/// Stars that share none are a block each.
-#[inline(always)]
-pub(crate) fn blocks<'m, L, const ARMS: usize>(
-    points: &'m [L],
-    group: &Group,
-) -> impl Iterator<Item = (&'m [L], &'m [L; ARMS])> {
-    let own = points.get(group.point as usize..).unwrap_or_default();
-    let (mut centres, tips) = own.split_at_checked(group.stars as usize).unwrap_or_default();
-    let stars = group.stars_per_block();
-    tips.as_chunks::<ARMS>().0.iter().map_while(move |tips| {
-        let (block, rest) = centres.split_at_checked(stars)?;
-        centres = rest;
-        Some((block, tips))
-    })
-}
 
 /// Visits every element of the groups in order; frames are those of the pose.
 pub(crate) fn each_element<'m, P: Geometry, T: Terms>(
