@@ -23,7 +23,7 @@ pub struct Energy<R> {
     pub gravity: R,
     /// \[J\] TSDAs.
     pub tsda: R,
-    /// \[J\] point bushings.
+    /// \[J\] bushings, point, axial and of universal joints.
     pub bushing: R,
     /// \[J\] points on lines.
     pub line: R,
@@ -68,10 +68,12 @@ pub fn energy<M: ModelOwner>(model: &M, state: &State<M>, step_size: f64) -> Ene
     each_element(&view, places, |placed| {
         let Some(law) = view.element(placed.group.law, placed.index) else { return };
         let clearance = view.clearance(placed.group);
-        let energy = law.energy(placed.stretch.displacement, clearance);
+        let energy = law.energy(&placed.stretch, clearance);
         let kind = match law {
             Element::Tsda(_) => &mut sum.tsda,
-            Element::PointBushing(_) => &mut sum.bushing,
+            Element::PointBushing(_) | Element::AxialBushing(_) | Element::Universal(_) => {
+                &mut sum.bushing
+            }
             Element::PointOnLine(_) => &mut sum.line,
         };
         *kind = *kind + energy;
@@ -115,7 +117,7 @@ pub fn each_extension<M: ModelOwner>(
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
     each_element(&view, places, |placed| {
         if let Some(law) = view.element(placed.group.law, placed.index) {
-            visit(placed.number, law.extension(placed.stretch.displacement));
+            visit(placed.number, law.extension(&placed.stretch));
         }
     });
 }

@@ -13,6 +13,7 @@
 //! is taken off again. Both speak for the pose, not for the future.
 
 use crate::body::{Body, BodyState, Increment};
+use crate::elements::element::Element;
 use crate::elements::input::InputKind;
 use crate::elements::load::LoadFrame;
 use crate::elements::point_law::taut;
@@ -85,6 +86,9 @@ pub(crate) fn square_of<P: Geometry, T: Terms>(
             let Some(e) = placed(view, places, (number, group), i) else { continue };
             let Some(law) = view.element(group.law, e.index) else { continue };
             let arm = if at_a { e.arm_a } else { e.arm_b };
+            if let Element::Universal(universal) = law {
+                add(universal.stiffness, other, Vec3::ZERO, e.stretch.direction);
+            }
             let mut add = |stiffness, u: Vec3<_>| add(stiffness, other, u, arm.cross(u));
             turning = turning + law.tangent(&e.stretch, arm, &mut add);
         }

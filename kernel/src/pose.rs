@@ -9,9 +9,11 @@ use crate::elements::input::InputKind;
 use crate::elements::point_law::Stretch;
 use crate::elements::point_on_line::Projection;
 use crate::elements::torsion_spring::{TorsionSpring, Twist};
+use crate::elements::universal::Lean;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelRef, Terms};
+use crate::real::Real;
 use crate::schedule::Signal;
 use crate::vector::Vec3;
 
@@ -134,7 +136,8 @@ pub(crate) struct Placed<'m, R> {
     pub(crate) index: usize,
     /// From its first point to its second, and its line.
     pub(crate) stretch: Stretch<R>,
-    /// The arm of the first point, world axes; 0 on the ground; on a line that of the foot.
+    /// The arm of the first point, world axes; 0 on the ground; on a line that of the foot, of
+    /// an axial bushing that of the second point.
     pub(crate) arm_a: Vec3<R>,
     /// The arm of the second point.
     pub(crate) arm_b: Vec3<R>,
@@ -163,7 +166,18 @@ pub(crate) fn placed<'m, P: Geometry, T: Terms>(
         displacement = projection.deflection;
         arm_a = end_a.arm_at(arm_a, direction * projection.slide);
     }
-    let stretch = Stretch { displacement, direction };
+    let (mut ratio, mut lean) = (P::Real::ZERO, P::Real::ZERO);
+    if T::AXIALS && group.law == Law::AxialBushing {
+        let bushing = model.axials.get(index)?;
+        (direction, ratio) = (end_a.to_world(bushing.axis), bushing.ratio);
+        arm_a = end_a.arm_at(arm_a, displacement);
+    }
+    if T::UNIVERSALS && group.law == Law::Universal {
+        let universal = model.universals.get(index)?;
+        let leans = Lean::new(end_a.to_world(universal.lever), end_b.to_world(universal.axis));
+        (direction, lean) = (leans.gradient, leans.by);
+    }
+    let stretch = Stretch { displacement, direction, ratio, lean };
     Some(Placed { group, number, index, stretch, arm_a, arm_b })
 }
 

@@ -14,7 +14,8 @@
 //! rest under any forces it does nothing.
 //!
 //! A TSDA damps along its line, a torsion spring along its gradient, a point bushing along the
-//! world's axes, a point on a line along the line's two normals, one after the other.
+//! world's axes, a point on a line along the line's two normals, an axial bushing along its axis's
+//! and the axis, a universal joint as a bushing and about the normal of its axes, one after the other.
 //! Velocities are rounded once per pair, not once per damper. Linear momentum is always kept.
 //! Angular momentum is kept by dampers of TSDAs with a free length and of torsion springs; a damped
 //! bushing or point on a line has the law `c·v_rel`, whose torque vanishes only with its deflection.
@@ -176,6 +177,10 @@ fn each_direction<P: Geometry, T: Terms, const REVERSE: bool>(
 ) {
     let group = element.group;
     let Some((mut directions, count)) = model.damped(group.law, &element.stretch) else { return };
+    let leans = T::UNIVERSALS && group.law == Law::Universal;
+    if REVERSE && leans {
+        visit(leaning(places, element));
+    }
     if REVERSE && count > 1 {
         directions.swap(0, count - 1);
     }
@@ -187,6 +192,22 @@ fn each_direction<P: Geometry, T: Terms, const REVERSE: bool>(
         let moments = [moment(group.a, element.arm_a), moment(group.b, element.arm_b)];
         visit(Direction { along, moments });
     }
+    if !REVERSE && leans {
+        visit(leaning(places, element));
+    }
+}
+
+/// The direction of the damper of a universal joint's axes: moments alone.
+#[inline(always)]
+fn leaning<P: Geometry>(
+    places: Places<'_, P>,
+    element: &Placed<'_, P::Real>,
+) -> Direction<P::Real> {
+    let moments = [element.group.a, element.group.b].map(|body| {
+        let frame = places.frames.get(body.row());
+        frame.map_or(Vec3::ZERO, |frame| P::to_body(frame, element.stretch.direction))
+    });
+    Direction { along: Vec3::ZERO, moments }
 }
 
 /// A point of a star's second end, with its damper's coefficient and share.
@@ -263,7 +284,7 @@ fn engaged<P: Geometry, T: Terms>(
         return damping;
     }
     let Some(law) = model.element(element.group.law, element.index) else { return damping };
-    let extension = law.extension(element.stretch.displacement);
+    let extension = law.extension(&element.stretch);
     clearance::engaged(damping, extension, clearance)
 }
 

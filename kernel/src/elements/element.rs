@@ -3,10 +3,12 @@
 //! A new law is a file beside this one that implements [`PointLaw`], a variant of [`Law`] and of
 //! [`Element`], a file of its walk in [`crate::forces`] and a field of [`crate::energy::Energy`].
 
+use crate::elements::axial_bushing::AxialBushing;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_law::{PointLaw, Stretch};
 use crate::elements::point_on_line::PointOnLine;
 use crate::elements::tsda::Tsda;
+use crate::elements::universal::Universal;
 use crate::real::Real;
 use crate::vector::Vec3;
 
@@ -16,11 +18,15 @@ use crate::vector::Vec3;
 pub enum Law {
     /// Stars of TSDAs with free lengths.
     Tsda,
-    /// One point bushing.
+    /// Point bushings: every star has one point of the second body, its own.
     PointBushing,
     /// Stars on lines: each star's first point and its elements' direction define a line of the
     /// first body, on which the second body's points are projected.
     PointOnLine,
+    /// Axial bushings, in stars as point bushings.
+    AxialBushing,
+    /// One universal joint without a spider.
+    Universal,
 }
 
 impl Law {
@@ -29,7 +35,7 @@ impl Law {
     pub const fn takes_arms(self, arms: u8) -> bool {
         match self {
             Law::Tsda => arms == 1 || arms == 3,
-            Law::PointBushing => arms == 1,
+            Law::PointBushing | Law::AxialBushing | Law::Universal => arms == 1,
             Law::PointOnLine => arms == 1 || arms == 2,
         }
     }
@@ -44,6 +50,10 @@ pub enum Element<'m, R> {
     PointBushing(&'m PointBushing<R>),
     /// A point held to a line.
     PointOnLine(&'m PointOnLine<R>),
+    /// A TSDA of no free length that is stiffer along an axis.
+    AxialBushing(&'m AxialBushing<R>),
+    /// A universal joint without a spider.
+    Universal(&'m Universal<R>),
 }
 
 /// Calls a method of the law that an element follows.
@@ -53,6 +63,8 @@ macro_rules! of_law {
             Element::Tsda($law) => $call,
             Element::PointBushing($law) => $call,
             Element::PointOnLine($law) => $call,
+            Element::AxialBushing($law) => $call,
+            Element::Universal($law) => $call,
         }
     };
 }
@@ -60,14 +72,14 @@ macro_rules! of_law {
 impl<R: Real> Element<'_, R> {
     /// As [`PointLaw::extension`].
     #[inline(always)]
-    pub fn extension(&self, displacement: Vec3<R>) -> R {
-        of_law!(self, law => PointLaw::extension(*law, displacement))
+    pub fn extension(&self, stretch: &Stretch<R>) -> R {
+        of_law!(self, law => PointLaw::extension(*law, stretch))
     }
 
     /// As [`PointLaw::energy`].
     #[inline(always)]
-    pub fn energy(&self, displacement: Vec3<R>, clearance: Option<R>) -> R {
-        of_law!(self, law => PointLaw::energy(*law, displacement, clearance))
+    pub fn energy(&self, stretch: &Stretch<R>, clearance: Option<R>) -> R {
+        of_law!(self, law => PointLaw::energy(*law, stretch, clearance))
     }
 
     /// As [`PointLaw::tangent`].

@@ -44,13 +44,15 @@ impl<R: Real> PointBushing<R> {
 impl<R: Real> PointLaw<R> for PointBushing<R> {
     /// `|d|` \[m\].
     #[inline]
-    fn extension(&self, d: Vec3<R>) -> R {
+    fn extension(&self, stretch: &Stretch<R>) -> R {
+        let d = stretch.displacement;
         d.dot(d).sqrt()
     }
 
     /// A point bushing has no clearance.
     #[inline]
-    fn energy(&self, d: Vec3<R>, _: Option<R>) -> R {
+    fn energy(&self, stretch: &Stretch<R>, _: Option<R>) -> R {
+        let d = stretch.displacement;
         R::HALF * self.stiffness * d.dot(d)
     }
 
@@ -81,6 +83,6 @@ mod tests {
         assert_eq!(bushing.force(d), Vec3::new(4.0, -8.0, 12.0));
         let f = bushing.damped_force(2.0, d, Vec3::new(1.0, 0.0, -1.0));
         assert_eq!(f, Vec3::new(6.0, -8.0, 10.0));
-        assert!((bushing.energy(d, None) - 0.5 * 40.0 * 0.14).abs() < 1e-15);
+        assert!((bushing.energy(&Stretch::of(d), None) - 0.5 * 40.0 * 0.14).abs() < 1e-15);
     }
 }

@@ -8,21 +8,34 @@ use crate::real::Real;
 use crate::vector::Vec3;
 
 /// An element at a pose, world axes.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Stretch<R> {
     /// \[m\] from its first point to its second; on a line from the foot to the point.
     pub displacement: Vec3<R>,
-    /// \[1\] the direction of its line; 0 where the law knows no line.
+    /// \[1\] the direction of its line or axis; \[m\] of a universal joint what its lean gains for a
+    /// small turn of the second body; 0 where the law knows none.
     pub direction: Vec3<R>,
+    /// \[1\] how much stiffer it is along its axis than across; of axial bushings alone.
+    pub ratio: R,
+    /// \[m\] how far its axes lean from square, at their lever; of universal joints alone.
+    pub lean: R,
+}
+
+impl<R: Real> Stretch<R> {
+    /// Of a law that knows no line.
+    pub fn of(displacement: Vec3<R>) -> Self {
+        let (direction, zero) = (Vec3::ZERO, R::ZERO);
+        Self { displacement, direction, ratio: zero, lean: zero }
+    }
 }
 
 /// What energies, sweeps, read-outs and frequencies ask of a law.
 pub trait PointLaw<R: Real> {
     /// \[m\] how far the element is from its free length.
-    fn extension(&self, displacement: Vec3<R>) -> R;
+    fn extension(&self, stretch: &Stretch<R>) -> R;
 
     /// \[J\] stored energy, beyond a clearance \[m\] if there is one.
-    fn energy(&self, displacement: Vec3<R>, clearance: Option<R>) -> R;
+    fn energy(&self, stretch: &Stretch<R>, clearance: Option<R>) -> R;
 
     /// The directions in which its damper acts, and how many of them there are.
     fn damped(stretch: &Stretch<R>) -> ([Vec3<R>; 3], usize);

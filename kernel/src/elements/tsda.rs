@@ -62,13 +62,14 @@ impl<R: Real> Tsda<R> {
 impl<R: Real> PointLaw<R> for Tsda<R> {
     /// `L − L0` \[m\].
     #[inline]
-    fn extension(&self, d: Vec3<R>) -> R {
+    fn extension(&self, stretch: &Stretch<R>) -> R {
+        let d = stretch.displacement;
         d.dot(d).sqrt() - self.free_length
     }
 
     #[inline]
-    fn energy(&self, d: Vec3<R>, clearance: Option<R>) -> R {
-        let extension = beyond(self.extension(d), clearance);
+    fn energy(&self, stretch: &Stretch<R>, clearance: Option<R>) -> R {
+        let extension = beyond(self.extension(stretch), clearance);
         R::HALF * self.stiffness * extension * extension
     }
 
@@ -84,7 +85,7 @@ impl<R: Real> PointLaw<R> for Tsda<R> {
     fn tangent(&self, stretch: &Stretch<R>, arm: Vec3<R>, add: &mut impl FnMut(R, Vec3<R>)) -> R {
         let d = stretch.displacement;
         add(self.stiffness, d * d.dot(d).sqrt().reciprocal_or_zero());
-        let tension = (self.stiffness * self.extension(d)).abs();
+        let tension = (self.stiffness * self.extension(stretch)).abs();
         if tension > R::ZERO { taut(tension, d, arm, add) } else { R::ZERO }
     }
 }
@@ -110,7 +111,7 @@ mod tests {
             let at = |s: f64| {
                 let mut p = d.to_f64();
                 p[axis] += s;
-                SPRING.energy(Vec3::from_f64(p), None)
+                SPRING.energy(&Stretch::of(Vec3::from_f64(p)), None)
             };
             // The force on A is +dU/dd, since d grows when A moves against it.
             let gradient = (at(1e-6) - at(-1e-6)) / 2e-6;
@@ -131,7 +132,8 @@ mod tests {
         let at = |length: f64| {
             let d = Vec3::new(0.0, length, 0.0);
             let clearance = Some(0.01);
-            (SPRING.damped_force(3.0, d, rate, clearance).y, SPRING.energy(d, clearance))
+            let energy = SPRING.energy(&Stretch::of(d), clearance);
+            (SPRING.damped_force(3.0, d, rate, clearance).y, energy)
         };
         assert_eq!(at(0.505), (0.0, 0.0));
         assert_eq!(at(0.495), (0.0, 0.0));

@@ -1,13 +1,13 @@
-//! A point bushing.
+//! Point bushings.
 //!
-//! `(group, ends) => record`.
+//! `(group, ends) => record`, star by star: a point of A and its own of B each.
 
 use crate::forces::record::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::End;
 
-/// A point bushing.
+/// A group of point bushings.
 #[inline(always)]
 pub(super) fn bushing<P: Geometry, T: Terms, D: Dampers>(
     model: &ModelRef<'_, P, T>,
@@ -15,26 +15,33 @@ pub(super) fn bushing<P: Geometry, T: Terms, D: Dampers>(
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
 ) -> Record<P::Real> {
-    let first = group.point as usize;
-    let (Some(a), Some(b), Some(bushing)) = (
-        model.points.get(first),
-        model.points.get(first + 1),
-        model.bushings.get(group.element as usize),
+    let stars = group.stars as usize;
+    let (first, element) = (group.point as usize, group.element as usize);
+    let (Some(centres), Some(tips), Some(bushings)) = (
+        model.points.get(first..first + stars),
+        model.points.get(first + stars..first + 2 * stars),
+        model.bushings.get(element..element + stars),
     ) else {
         return Record::ZERO;
     };
-    let ((a, arm_a), (b, arm_b)) = (end_a.place(a), end_b.place(b));
-    let d = P::displacement(&a, &b);
-    let damper = match group.damper.row() {
-        Some(row) if D::ACT && T::DAMPERS => model.dampers.get(row),
-        _ => None,
-    };
-    let force = match damper {
-        Some(&damping) => {
-            let v_rel = end_b.point_velocity(arm_b) - end_a.point_velocity(arm_a);
-            bushing.damped_force(damping, d, v_rel)
-        }
-        None => bushing.force(d),
-    };
-    Record { force, torque_a: arm_a.cross(force), torque_b: -arm_b.cross(force) }
+    let mut dampers = match group.damper.row() {
+        Some(row) if D::ACT && T::DAMPERS => model.dampers.get(row..).unwrap_or_default(),
+        _ => &[],
+    }
+    .iter();
+    let stars = centres.iter().zip(tips).zip(bushings);
+    let records = stars.map(|((a, b), bushing)| {
+        let ((a, arm_a), (b, arm_b)) = (end_a.place(a), end_b.place(b));
+        let d = P::displacement(&a, &b);
+        let force = match dampers.next() {
+            Some(&damping) => {
+                let v_rel = end_b.point_velocity(arm_b) - end_a.point_velocity(arm_a);
+                bushing.damped_force(damping, d, v_rel)
+            }
+            None => bushing.force(d),
+        };
+        Record { force, torque_a: arm_a.cross(force), torque_b: -arm_b.cross(force) }
+    });
+    // The first is no sum: one star alone keeps the signs of its zeros.
+    records.reduce(|sum, next| sum.with(&next)).unwrap_or(Record::ZERO)
 }

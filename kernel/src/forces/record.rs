@@ -27,6 +27,16 @@ pub(crate) struct Record<R> {
 impl<R: Real> Record<R> {
     pub(super) const ZERO: Self =
         Self { force: Vec3::ZERO, torque_a: Vec3::ZERO, torque_b: Vec3::ZERO };
+
+    /// This and another.
+    #[inline(always)]
+    pub(super) fn with(&self, other: &Self) -> Self {
+        Self {
+            force: self.force + other.force,
+            torque_a: self.torque_a + other.torque_a,
+            torque_b: self.torque_b + other.torque_b,
+        }
+    }
 }
 
 /// Whether the dampers' forces are part of an evaluation.
