@@ -61,7 +61,7 @@ pub use facts::{ElementDamping, ElementFrequency, Facts, Island, JointElement, J
 pub use geometry::GeometryInfo;
 pub use hinge::Hinge;
 pub use input::InputInfo;
-pub use joints::{Assembled, JointInfo, Moved, OpenJoint};
+pub use joints::{Assembled, JointInfo, Moved, OpenJoint, Realisation};
 pub use lint::{Severity, Warning};
 pub use lookup::{UnfitInput, UnknownName};
 pub use nearest::nearest;
@@ -92,6 +92,7 @@ const KEYS: &[&str] = &[
     "duration",
     "step",
     "every",
+    "realisation",
     "points",
     "defaults",
     "parameters",

@@ -12,8 +12,8 @@ use super::UNUSED;
 use super::names::{constant_name, constant_names, quoted, type_name};
 use super::number::SourceNumber;
 use super::rows::{
-    body, bushing, group, input, knot, list, load, point_on_line, readout, state, torsion, tsda,
-    vector,
+    axial, body, bushing, group, input, knot, list, load, point_on_line, readout, state, torsion,
+    tsda, universal, vector,
 };
 use crate::{Scene, SceneModel};
 
@@ -38,6 +38,8 @@ pub fn model<R: SourceNumber>(scene: &Scene) -> String {
         model.inputs.len(),
         model.knots.len(),
         model.clearances.len(),
+        model.axials.len(),
+        model.universals.len(),
     ];
     let counts = counts.map(|n| n.to_string()).join(", ");
     let mut out = String::new();
@@ -63,6 +65,8 @@ pub fn model<R: SourceNumber>(scene: &Scene) -> String {
     line(&format_args!("    inputs: {},", list(&model.inputs, input)));
     line(&format_args!("    knots: {},", list(&model.knots, knot)));
     line(&format_args!("    clearances: {},", list(&model.clearances, |c| c.number())));
+    line(&format_args!("    axials: {},", list(&model.axials, axial)));
+    line(&format_args!("    universals: {},", list(&model.universals, universal)));
     line(&"}");
     line(&".checked();");
     let names = constant_names(scene.readouts.iter().map(|readout| readout.name.as_str()));

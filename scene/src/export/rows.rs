@@ -9,7 +9,8 @@ use dbd_kernel::index::{BodyIndex, DamperIndex};
 use dbd_kernel::model::Group;
 use dbd_kernel::readouts::Readout;
 use dbd_kernel::{
-    BodyState, Load, LoadFrame, PointBushing, PointOnLine, Quaternion, TorsionSpring, Tsda, Vec3,
+    AxialBushing, BodyState, Load, LoadFrame, PointBushing, PointOnLine, Quaternion, TorsionSpring,
+    Tsda, Universal, Vec3,
 };
 
 use super::number::SourceNumber;
@@ -92,6 +93,19 @@ pub(super) fn tsda<R: SourceNumber>(tsda: &Tsda<R>) -> String {
 
 pub(super) fn bushing<R: SourceNumber>(bushing: &PointBushing<R>) -> String {
     format!("PointBushing {{ stiffness: {} }}", bushing.stiffness.number())
+}
+
+pub(super) fn axial<R: SourceNumber>(bushing: &AxialBushing<R>) -> String {
+    let (k, ratio) = (bushing.stiffness.number(), bushing.ratio.number());
+    format!("AxialBushing {{ axis: {}, stiffness: {k}, ratio: {ratio} }}", vector(&bushing.axis))
+}
+
+pub(super) fn universal<R: SourceNumber>(universal: &Universal<R>) -> String {
+    let (lever, axis) = (vector(&universal.lever), vector(&universal.axis));
+    format!(
+        "Universal {{ stiffness: {}, lever: {lever}, axis: {axis} }}",
+        universal.stiffness.number()
+    )
 }
 
 pub(super) fn point_on_line<R: SourceNumber>(line: &PointOnLine<R>) -> String {
