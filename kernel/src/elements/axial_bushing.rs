@@ -7,98 +7,109 @@
 
 use crate::elements::point_law::{PointLaw, Stretch};
 use crate::real::Real;
-use crate::vector::Vec3;
+use crate::space::{Linear as _, Space, Vector};
 
 /// The constants of an axial bushing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct AxialBushing<R> {
+pub struct AxialBushing<S: Space> {
     /// \[1\] unit direction of the axis in A's axes.
-    pub axis: Vec3<R>,
+    pub axis: S::Vector,
     /// \[N/m\] stiffness across the axis, ≥ 0.
-    pub stiffness: R,
+    pub stiffness: S::Real,
     /// \[1\] stiffness and damping along the axis over those across it, ≥ 0.
-    pub ratio: R,
+    pub ratio: S::Real,
 }
 
 /// `x + (ρ − 1)·(n·x)·n`.
 #[inline(always)]
-fn weighed<R: Real>(x: Vec3<R>, n: Vec3<R>, ratio: R) -> Vec3<R> {
-    x + n * ((ratio - R::ONE) * n.dot(x))
+fn weighed<V: Vector>(x: V, n: V, ratio: V::Real) -> V {
+    x + n * ((ratio - V::Real::ONE) * n.dot(x))
 }
 
-impl<R: Real> AxialBushing<R> {
+impl<S: Space> AxialBushing<S> {
     /// Each constant rounded once from double precision.
     pub fn from_f64(axis: [f64; 3], stiffness: f64, ratio: f64) -> Self {
         Self {
-            axis: Vec3::from_f64(axis),
-            stiffness: R::from_f64(stiffness),
-            ratio: R::from_f64(ratio),
+            axis: S::Vector::from_f64(axis),
+            stiffness: S::Real::from_f64(stiffness),
+            ratio: S::Real::from_f64(ratio),
         }
     }
 
     /// The same constants in another precision.
-    pub fn convert<Q: Real>(&self) -> AxialBushing<Q> {
+    pub fn convert<Q: Space>(&self) -> AxialBushing<Q> {
         AxialBushing::from_f64(self.axis.to_f64(), self.stiffness.to_f64(), self.ratio.to_f64())
     }
 
     /// Force on A \[N\] without damping, `n` the axis in the world.
     #[inline(always)]
-    pub fn force(&self, d: Vec3<R>, n: Vec3<R>) -> Vec3<R> {
+    pub fn force(&self, d: S::Vector, n: S::Vector) -> S::Vector {
         weighed(d, n, self.ratio) * self.stiffness
     }
 
     /// Force on A \[N\] with the damper's share, `damping` in N·s/m across the axis.
     #[inline(always)]
-    pub fn damped_force(&self, damping: R, d: Vec3<R>, v_rel: Vec3<R>, n: Vec3<R>) -> Vec3<R> {
+    pub fn damped_force(
+        &self,
+        damping: S::Real,
+        d: S::Vector,
+        v_rel: S::Vector,
+        n: S::Vector,
+    ) -> S::Vector {
         weighed(d * self.stiffness + v_rel * damping, n, self.ratio)
     }
 }
 
-impl<R: Real> PointLaw<R> for AxialBushing<R> {
+impl<S: Space> PointLaw<S::Vector> for AxialBushing<S> {
     /// `|d|` \[m\].
     #[inline]
-    fn extension(&self, stretch: &Stretch<R>) -> R {
+    fn extension(&self, stretch: &Stretch<S::Vector>) -> S::Real {
         stretch.displacement.dot(stretch.displacement).sqrt()
     }
 
     /// An axial bushing has no clearance.
     #[inline]
-    fn energy(&self, stretch: &Stretch<R>, _: Option<R>) -> R {
+    fn energy(&self, stretch: &Stretch<S::Vector>, _: Option<S::Real>) -> S::Real {
         let d = stretch.displacement;
-        R::HALF * self.stiffness * d.dot(weighed(d, stretch.direction, self.ratio))
+        S::Real::HALF * self.stiffness * d.dot(weighed(d, stretch.direction, self.ratio))
     }
 
     /// Along the axis, as long as makes it as strong there as it is, and along its normals.
     #[inline(always)]
-    fn damped(stretch: &Stretch<R>) -> ([Vec3<R>; 3], usize) {
+    fn damped(stretch: &Stretch<S::Vector>) -> ([S::Vector; 3], usize) {
         let [n, m] = stretch.direction.normals();
-        ([n, m, stretch.direction * stretch.ratio.sqrt()], 3)
+        ([stretch.direction * stretch.ratio.sqrt(), n, m], S::Vector::DIMENSION)
     }
 
     /// k across the axis and ρ·k along it, the force on a turning arm, and what is stiffer along the axis
     /// trades a turn of it against a shift, as a line does: both get a spring, with the arm as the
     /// length that weighs one against the other.
-    fn tangent(&self, stretch: &Stretch<R>, arm: Vec3<R>, add: &mut impl FnMut(R, Vec3<R>)) -> R {
+    fn tangent(
+        &self,
+        stretch: &Stretch<S::Vector>,
+        arm: S::Vector,
+        add: &mut impl FnMut(S::Real, S::Vector),
+    ) -> S::Real {
         let (d, axis) = (stretch.displacement, stretch.direction);
         let reach = arm.dot(arm).sqrt();
-        let tension = (self.stiffness * (self.ratio - R::ONE) * axis.dot(d)).abs();
+        let tension = (self.stiffness * (self.ratio - S::Real::ONE) * axis.dot(d)).abs();
         for n in axis.normals() {
             add(self.stiffness + tension * reach.reciprocal_or_zero(), n);
         }
         add(self.stiffness * self.ratio, axis);
         let length = d.dot(d).sqrt();
-        self.stiffness * length * reach + tension * (R::TWO * reach + length)
+        self.stiffness * length * reach + tension * (S::Real::TWO * reach + length)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::vector::Vec3;
 
-    fn stretch(d: Vec3<f64>, bushing: &AxialBushing<f64>) -> Stretch<f64> {
+    fn stretch(d: Vec3<f64>, bushing: &AxialBushing<f64>) -> Stretch<Vec3<f64>> {
         let (direction, ratio) = (bushing.axis, bushing.ratio);
-        Stretch { displacement: d, direction, ratio, ..Stretch::default() }
+        Stretch { direction, ratio, ..Stretch::of(d) }
     }
 
     #[test]
@@ -121,7 +132,7 @@ mod tests {
     fn directions_of_the_damper_add_up_to_its_force() {
         let bushing = AxialBushing::<f64>::from_f64([0.0, 0.6, 0.8], 0.0, 3.0);
         let v = Vec3::new(1.0, 2.0, -0.5);
-        let (directions, count) = AxialBushing::damped(&stretch(Vec3::ZERO, &bushing));
+        let (directions, count) = AxialBushing::<f64>::damped(&stretch(Vec3::ZERO, &bushing));
         let sum = directions[..count].iter().fold(Vec3::ZERO, |sum, u| sum + *u * (7.0 * u.dot(v)));
         let gap = sum - bushing.damped_force(7.0, Vec3::ZERO, v, bushing.axis);
         assert!(gap.dot(gap) < 1e-24, "{gap:?}");

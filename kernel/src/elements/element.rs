@@ -9,8 +9,7 @@ use crate::elements::point_law::{PointLaw, Stretch};
 use crate::elements::point_on_line::PointOnLine;
 use crate::elements::tsda::Tsda;
 use crate::elements::universal::Universal;
-use crate::real::Real;
-use crate::vector::Vec3;
+use crate::space::Space;
 
 /// The law that a group's elements follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +33,7 @@ impl Law {
     #[must_use]
     pub const fn takes_arms(self, arms: u8) -> bool {
         match self {
-            Law::Tsda => arms == 1 || arms == 3,
+            Law::Tsda => arms >= 1 && arms <= 3,
             Law::PointBushing | Law::AxialBushing | Law::Universal => arms == 1,
             Law::PointOnLine => arms == 1 || arms == 2,
         }
@@ -43,17 +42,17 @@ impl Law {
 
 /// One element of any law.
 #[derive(Clone, Copy, Debug)]
-pub enum Element<'m, R> {
+pub enum Element<'m, S: Space> {
     /// A TSDA with a free length.
-    Tsda(&'m Tsda<R>),
+    Tsda(&'m Tsda<S::Real>),
     /// A TSDA of no free length.
-    PointBushing(&'m PointBushing<R>),
+    PointBushing(&'m PointBushing<S::Real>),
     /// A point held to a line.
-    PointOnLine(&'m PointOnLine<R>),
+    PointOnLine(&'m PointOnLine<S>),
     /// A TSDA of no free length that is stiffer along an axis.
-    AxialBushing(&'m AxialBushing<R>),
+    AxialBushing(&'m AxialBushing<S>),
     /// A universal joint without a spider.
-    Universal(&'m Universal<R>),
+    Universal(&'m Universal<S>),
 }
 
 /// Calls a method of the law that an element follows.
@@ -69,16 +68,16 @@ macro_rules! of_law {
     };
 }
 
-impl<R: Real> Element<'_, R> {
+impl<S: Space> Element<'_, S> {
     /// As [`PointLaw::extension`].
     #[inline(always)]
-    pub fn extension(&self, stretch: &Stretch<R>) -> R {
+    pub fn extension(&self, stretch: &Stretch<S::Vector>) -> S::Real {
         of_law!(self, law => PointLaw::extension(*law, stretch))
     }
 
     /// As [`PointLaw::energy`].
     #[inline(always)]
-    pub fn energy(&self, stretch: &Stretch<R>, clearance: Option<R>) -> R {
+    pub fn energy(&self, stretch: &Stretch<S::Vector>, clearance: Option<S::Real>) -> S::Real {
         of_law!(self, law => PointLaw::energy(*law, stretch, clearance))
     }
 
@@ -86,10 +85,10 @@ impl<R: Real> Element<'_, R> {
     #[inline(always)]
     pub fn tangent(
         &self,
-        stretch: &Stretch<R>,
-        arm: Vec3<R>,
-        add: &mut impl FnMut(R, Vec3<R>),
-    ) -> R {
-        of_law!(self, law => law.tangent(stretch, arm, add))
+        stretch: &Stretch<S::Vector>,
+        arm: S::Vector,
+        add: &mut impl FnMut(S::Real, S::Vector),
+    ) -> S::Real {
+        of_law!(self, law => PointLaw::tangent(*law, stretch, arm, add))
     }
 }

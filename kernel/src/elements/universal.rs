@@ -8,81 +8,89 @@
 //! keeps angular momentum as far as d vanishes.
 
 use crate::elements::point_law::{PointLaw, Stretch};
-use crate::real::Real;
-use crate::vector::Vec3;
+use crate::real::Real as _;
+use crate::space::{Linear as _, Space, Vector as _};
 
 /// The constants of a universal joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Universal<R> {
+pub struct Universal<S: Space> {
     /// \[N/m\] stiffness in every direction, ≥ 0.
-    pub stiffness: R,
+    pub stiffness: S::Real,
     /// \[m\] axis of the first body in its axes, as long as its lever.
-    pub lever: Vec3<R>,
+    pub lever: S::Vector,
     /// \[1\] unit axis of the second body in its axes.
-    pub axis: Vec3<R>,
+    pub axis: S::Vector,
 }
 
 /// How two axes lean, world.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Lean<R> {
+pub(crate) struct Lean<S: Space> {
     /// \[m\] `l·n`.
-    pub(crate) by: R,
+    pub(crate) by: S::Real,
     /// \[m\] `n × l`.
-    pub(crate) gradient: Vec3<R>,
+    pub(crate) gradient: S::Moment,
 }
 
-impl<R: Real> Lean<R> {
+impl<S: Space> Lean<S> {
     #[inline(always)]
-    pub(crate) fn new(lever: Vec3<R>, axis: Vec3<R>) -> Self {
+    pub(crate) fn new(lever: S::Vector, axis: S::Vector) -> Self {
         Self { by: lever.dot(axis), gradient: axis.cross(lever) }
     }
 }
 
-impl<R: Real> Universal<R> {
+impl<S: Space> Universal<S> {
     /// Each constant rounded once from double precision.
     pub fn from_f64(stiffness: f64, lever: [f64; 3], axis: [f64; 3]) -> Self {
-        let stiffness = R::from_f64(stiffness);
-        Self { stiffness, lever: Vec3::from_f64(lever), axis: Vec3::from_f64(axis) }
+        Self {
+            stiffness: S::Real::from_f64(stiffness),
+            lever: S::Vector::from_f64(lever),
+            axis: S::Vector::from_f64(axis),
+        }
     }
 
     /// The same constants in another precision.
-    pub fn convert<Q: Real>(&self) -> Universal<Q> {
+    pub fn convert<Q: Space>(&self) -> Universal<Q> {
         let (lever, axis) = (self.lever.to_f64(), self.axis.to_f64());
         Universal::from_f64(self.stiffness.to_f64(), lever, axis)
     }
 }
 
-impl<R: Real> PointLaw<R> for Universal<R> {
+impl<S: Space> PointLaw<S::Vector> for Universal<S> {
     /// \[m\] of point and axes together, `√(d·d + q²)`.
     #[inline]
-    fn extension(&self, stretch: &Stretch<R>) -> R {
+    fn extension(&self, stretch: &Stretch<S::Vector>) -> S::Real {
         let (d, q) = (stretch.displacement, stretch.lean);
         (d.dot(d) + q * q).sqrt()
     }
 
     /// A universal joint has no clearance.
     #[inline]
-    fn energy(&self, stretch: &Stretch<R>, _: Option<R>) -> R {
+    fn energy(&self, stretch: &Stretch<S::Vector>, _: Option<S::Real>) -> S::Real {
         let (d, q) = (stretch.displacement, stretch.lean);
-        R::HALF * self.stiffness * (d.dot(d) + q * q)
+        S::Real::HALF * self.stiffness * (d.dot(d) + q * q)
     }
 
     /// Along the world's axes; the one that holds the axes only turns and is visited beside these.
     #[inline(always)]
-    fn damped(_: &Stretch<R>) -> ([Vec3<R>; 3], usize) {
-        (Vec3::axes(), 3)
+    fn damped(_: &Stretch<S::Vector>) -> ([S::Vector; 3], usize) {
+        (S::Vector::axes(), S::Vector::DIMENSION)
     }
 
     /// k in every direction, the force on a turning arm, and the torque of a lean on turning axes. What
     /// holds the axes is added beside this, for it only turns.
-    fn tangent(&self, stretch: &Stretch<R>, arm: Vec3<R>, add: &mut impl FnMut(R, Vec3<R>)) -> R {
-        for u in Vec3::axes() {
+    fn tangent(
+        &self,
+        stretch: &Stretch<S::Vector>,
+        arm: S::Vector,
+        add: &mut impl FnMut(S::Real, S::Vector),
+    ) -> S::Real {
+        for u in S::Vector::axes() {
             add(self.stiffness, u);
         }
         let d = stretch.displacement;
         let lever = self.lever.dot(self.lever).sqrt();
-        let turned = d.dot(d).sqrt() * arm.dot(arm).sqrt() + R::TWO * stretch.lean.abs() * lever;
+        let turned =
+            d.dot(d).sqrt() * arm.dot(arm).sqrt() + S::Real::TWO * stretch.lean.abs() * lever;
         self.stiffness * turned
     }
 }
@@ -90,17 +98,17 @@ impl<R: Real> PointLaw<R> for Universal<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vector::Quaternion;
+    use crate::vector::{Quaternion, Vec3};
 
     /// What the energy gains for a small turn of the second axis is the torque on it.
     #[test]
     fn the_gradient_of_the_lean_is_that_of_its_energy() {
         let universal = Universal::<f64>::from_f64(50.0, [0.2, 0.0, 0.0], [0.6, 0.0, 0.8]);
         let energy = |axis: Vec3<f64>| {
-            let lean = Lean::new(universal.lever, axis).by;
-            universal.energy(&Stretch { lean, ..Stretch::default() }, None)
+            let lean = Lean::<f64>::new(universal.lever, axis).by;
+            universal.energy(&Stretch { lean, ..Stretch::of(Vec3::ZERO) }, None)
         };
-        let Lean { by, gradient } = Lean::new(universal.lever, universal.axis);
+        let Lean { by, gradient } = Lean::<f64>::new(universal.lever, universal.axis);
         assert!((by - 0.12).abs() < 1e-15);
         for (axis, slope) in Vec3::axes().into_iter().zip((gradient * (50.0 * by)).to_f64()) {
             let turned = |angle: f64| {
@@ -116,7 +124,7 @@ mod tests {
     fn a_lean_is_an_extension_at_its_lever() {
         let universal = Universal::<f64>::from_f64(50.0, [0.2, 0.0, 0.0], [0.0, 0.0, 1.0]);
         let displacement = Vec3::new(0.0, 0.03, 0.0);
-        let stretch = Stretch { displacement, lean: 0.04, ..Stretch::default() };
+        let stretch = Stretch { lean: 0.04, ..Stretch::of(displacement) };
         assert!((universal.extension(&stretch) - 0.05).abs() < 1e-16);
         assert!((universal.energy(&stretch, None) - 0.5 * 50.0 * 0.0025).abs() < 1e-16);
     }

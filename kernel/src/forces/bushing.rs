@@ -6,6 +6,7 @@ use crate::forces::record::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::End;
+use crate::space::Vector as _;
 
 /// A group of point bushings.
 #[inline(always)]
@@ -14,7 +15,7 @@ pub(super) fn bushing<P: Geometry, T: Terms, D: Dampers>(
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Record<P::Real> {
+) -> Record<P::Space> {
     let stars = group.stars as usize;
     let (first, element) = (group.point as usize, group.element as usize);
     let (Some(centres), Some(tips), Some(bushings)) = (

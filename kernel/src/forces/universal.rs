@@ -7,6 +7,7 @@ use crate::forces::record::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::End;
+use crate::space::{Linear as _, Vector as _};
 
 /// A universal joint.
 #[inline(always)]
@@ -15,7 +16,7 @@ pub(super) fn universal<P: Geometry, T: Terms, D: Dampers>(
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Record<P::Real> {
+) -> Record<P::Space> {
     let first = group.point as usize;
     let (Some(a), Some(b), Some(universal)) = (
         model.points.get(first),
@@ -26,7 +27,8 @@ pub(super) fn universal<P: Geometry, T: Terms, D: Dampers>(
     };
     let ((a, arm_a), (b, arm_b)) = (end_a.place(a), end_b.place(b));
     let d = P::displacement(&a, &b);
-    let lean = Lean::new(end_a.to_world(universal.lever), end_b.to_world(universal.axis));
+    let lean: Lean<P::Space> =
+        Lean::new(end_a.to_world(universal.lever), end_b.to_world(universal.axis));
     let damper = match group.damper.row() {
         Some(row) if D::ACT && T::DAMPERS => model.dampers.get(row),
         _ => None,
