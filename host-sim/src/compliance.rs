@@ -88,11 +88,11 @@ type Row = Vec<(usize, f64)>;
 
 fn row(element: &JointElement, roots: &[f64]) -> Row {
     let mut row = Vec::new();
-    let ends = element.bodies.iter().zip(element.points).zip(element.directions);
-    for (((body, point), direction), sign) in ends.zip([-1.0, 1.0]) {
+    let ends = element.bodies.iter().zip(element.moments);
+    for ((body, moment), sign) in ends.zip([-1.0, 1.0]) {
         let Some(body) = body else { continue };
         // n·R(ω × p) = ω·(p × n), in body axes.
-        let parts = [element.direction_w, point.cross(direction)].map(Vec3::to_f64);
+        let parts = [element.direction_w, moment].map(Vec3::to_f64);
         for (i, part) in parts.as_flattened().iter().enumerate() {
             row.push((6 * body + i, sign * part / roots[6 * body + i]));
         }

@@ -24,7 +24,7 @@ pub struct Energy<R> {
     pub gravity: R,
     /// \[J\] TSDAs.
     pub tsda: R,
-    /// \[J\] point bushings.
+    /// \[J\] bushings, point, axial and of universal joints.
     pub bushing: R,
     /// \[J\] points on lines.
     pub line: R,
@@ -79,14 +79,16 @@ pub fn energy_with_extensions<M: ModelOwner>(
     each_element(&view, places, |placed| {
         let Some(law) = view.element(placed.group.law, placed.index) else { return };
         let clearance = view.clearance(placed.group);
-        let energy = law.energy(placed.stretch.displacement, clearance);
+        let energy = law.energy(&placed.stretch, clearance);
         let kind = match law {
             Element::Tsda(_) => &mut sum.tsda,
-            Element::PointBushing(_) => &mut sum.bushing,
+            Element::PointBushing(_) | Element::AxialBushing(_) | Element::Universal(_) => {
+                &mut sum.bushing
+            }
             Element::PointOnLine(_) => &mut sum.line,
         };
         *kind = *kind + energy;
-        visit(placed.number, law.extension(placed.stretch.displacement));
+        visit(placed.number, law.extension(&placed.stretch));
     });
     for (spring, &turns) in view.torsions.iter().zip(state.turns.as_ref()) {
         if let Some(twist) = twist_of::<M::Precision>(spring, bodies, turns) {
@@ -127,7 +129,7 @@ pub fn each_extension<M: ModelOwner>(
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
     each_element(&view, places, |placed| {
         if let Some(law) = view.element(placed.group.law, placed.index) {
-            visit(placed.number, law.extension(placed.stretch.displacement));
+            visit(placed.number, law.extension(&placed.stretch));
         }
     });
 }

@@ -9,11 +9,13 @@ use crate::elements::input::InputKind;
 use crate::elements::point_law::Stretch;
 use crate::elements::point_on_line::Projection;
 use crate::elements::torsion_spring::{TorsionSpring, Twist};
+use crate::elements::universal::{Lean, Universal};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelRef, Terms};
+use crate::real::Real as _;
 use crate::schedule::Signal;
-use crate::space::{Linear as _, Moment as _, Vector as _};
+use crate::space::{Linear as _, Moment as _, Vector};
 
 /// Computes the frames of all bodies.
 #[inline]
@@ -162,7 +164,7 @@ impl<'s, P: Geometry> End<'s, P> {
 }
 
 /// An element of a group at a pose.
-pub(crate) struct Placed<'m, V> {
+pub(crate) struct Placed<'m, V: Vector> {
     /// Its group.
     pub(crate) group: &'m Group,
     /// Its group's index.
@@ -171,7 +173,8 @@ pub(crate) struct Placed<'m, V> {
     pub(crate) index: usize,
     /// From its first point to its second, and its line.
     pub(crate) stretch: Stretch<V>,
-    /// The arm of the first point, world axes; 0 on the ground; on a line that of the foot.
+    /// The arm of the first point, world axes; 0 on the ground; on a line that of the foot, of
+    /// an axial bushing that of the second point.
     pub(crate) arm_a: V,
     /// The arm of the second point.
     pub(crate) arm_b: V,
@@ -210,8 +213,26 @@ fn placed_between<'m, P: Geometry, T: Terms>(
         displacement = projection.deflection;
         arm_a = end_a.arm_at(arm_a, direction * projection.slide);
     }
-    let stretch = Stretch { displacement, direction };
+    let (mut ratio, mut leans) = (P::Real::ZERO, P::Real::ZERO);
+    if T::AXIALS && group.law == Law::AxialBushing {
+        let bushing = model.axials.get(index)?;
+        (direction, ratio) = (end_a.to_world(bushing.axis), bushing.ratio);
+        arm_a = end_a.arm_at(arm_a, displacement);
+    }
+    if T::UNIVERSALS && group.law == Law::Universal {
+        leans = lean(model.universals.get(index)?, [end_a, end_b]).by;
+    }
+    let stretch = Stretch { displacement, direction, ratio, lean: leans };
     Some(Placed { group, number, index, stretch, arm_a, arm_b })
+}
+
+/// How the axes of a universal joint between two ends lean.
+#[inline(always)]
+pub(crate) fn lean<P: Geometry>(
+    universal: &Universal<P::Space>,
+    [a, b]: [&End<'_, P>; 2],
+) -> Lean<P::Space> {
+    Lean::new(a.to_world(universal.lever), b.to_world(universal.axis))
 }
 
 /// The most points of the second body that one of the first is joined to.

@@ -251,6 +251,10 @@ impl Reach {
             Law::Tsda => model.tsdas[rows].iter().map(|tsda| tsda.stiffness).sum(),
             Law::PointOnLine => model.lines[rows].iter().map(|line| line.stiffness).sum(),
             Law::PointBushing => model.bushings[rows].iter().map(|on| on.stiffness).sum(),
+            Law::AxialBushing => {
+                model.axials[rows].iter().map(|on| on.stiffness * on.ratio.max(1.0)).sum()
+            }
+            Law::Universal => model.universals[rows].iter().map(|on| on.stiffness).sum(),
         };
         let dampers = group.damper.row().map(|row| row..row + group.elements());
         let dampers = dampers.and_then(|rows| model.dampers.get(rows)).unwrap_or_default();
@@ -298,7 +302,7 @@ pub(crate) fn free_length(model: &SceneModel<F64>, group: &Group) -> f64 {
     match group.law {
         Law::Tsda => model.tsdas[rows].iter().map(|tsda| tsda.free_length).fold(0.0, f64::max),
         Law::PointOnLine => model.lines[rows].iter().map(|on| on.free_length).fold(0.0, f64::max),
-        Law::PointBushing => 0.0,
+        Law::PointBushing | Law::AxialBushing | Law::Universal => 0.0,
     }
 }
 

@@ -3,6 +3,7 @@
 //! A law between two points sees displacements, velocities and arms. Loads, inputs and torsion springs
 //! name their bodies. Placing points, grouping and summing is the work of [`crate::forces`].
 
+pub mod axial_bushing;
 pub mod clearance;
 pub mod element;
 pub mod gravity;
@@ -14,3 +15,4 @@ pub mod point_on_line;
 pub mod share;
 pub mod torsion_spring;
 pub mod tsda;
+pub mod universal;

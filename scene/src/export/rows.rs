@@ -7,7 +7,10 @@ use dbd_kernel::elements::input::{Input, InputKind, Knot};
 use dbd_kernel::index::{BodyIndex, DamperIndex};
 use dbd_kernel::model::Group;
 use dbd_kernel::readouts::Readout;
-use dbd_kernel::{BodyState, Load, LoadFrame, PointBushing, PointOnLine, TorsionSpring, Tsda};
+use dbd_kernel::{
+    AxialBushing, BodyState, Load, LoadFrame, PointBushing, PointOnLine, TorsionSpring, Tsda,
+    Universal,
+};
 
 use super::number::{SourceGeometry, SourceNumber};
 
@@ -80,6 +83,19 @@ pub(super) fn tsda<R: SourceNumber>(tsda: &Tsda<R>) -> String {
 
 pub(super) fn bushing<R: SourceNumber>(bushing: &PointBushing<R>) -> String {
     format!("PointBushing {{ stiffness: {} }}", bushing.stiffness.number())
+}
+
+pub(super) fn axial<P: SourceGeometry>(bushing: &AxialBushing<P::Space>) -> String {
+    let (k, ratio) = (bushing.stiffness.number(), bushing.ratio.number());
+    format!("AxialBushing {{ axis: {}, stiffness: {k}, ratio: {ratio} }}", P::vector(&bushing.axis))
+}
+
+pub(super) fn universal<P: SourceGeometry>(universal: &Universal<P::Space>) -> String {
+    let (lever, axis) = (P::vector(&universal.lever), P::vector(&universal.axis));
+    format!(
+        "Universal {{ stiffness: {}, lever: {lever}, axis: {axis} }}",
+        universal.stiffness.number()
+    )
 }
 
 pub(super) fn point_on_line<P: SourceGeometry>(line: &PointOnLine<P::Space>) -> String {

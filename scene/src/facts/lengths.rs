@@ -68,6 +68,19 @@ pub(super) fn along(
     displacement - n * displacement.dot(n)
 }
 
+/// Whether the elements of a group hold every direction, at no length.
+pub(super) fn is_bushing(group: &Group) -> bool {
+    matches!(group.law, Law::PointBushing | Law::AxialBushing | Law::Universal)
+}
+
+/// \[m\] what the lean of a universal joint without a spider gains for a small turn of its second body,
+/// world; `None` of other groups.
+pub(super) fn leaning(scene: &Scene, group: &Group, a: &End<'_>, b: &End<'_>) -> Option<Vec3<f64>> {
+    let row = usize::from(group.element);
+    let universal = scene.model.universals.get(row).filter(|_| group.law == Law::Universal)?;
+    Some(b.to_world(universal.axis).cross(a.to_world(universal.lever)))
+}
+
 fn facts_of(scene: &Scene, frames: &[<F64 as Geometry>::Frame], group: &Group) -> GroupFacts {
     let element = usize::from(group.element);
     let a = End { scene, frames, body: group.a };
@@ -83,7 +96,9 @@ fn facts_of(scene: &Scene, frames: &[<F64 as Geometry>::Frame], group: &Group) -
                 d,
                 b.velocity(tip) - a.velocity(centre),
             ),
-            Law::PointBushing => (0.0, d, b.velocity(tip) - a.velocity(centre)),
+            Law::PointBushing | Law::AxialBushing | Law::Universal => {
+                (0.0, d, b.velocity(tip) - a.velocity(centre))
+            }
             Law::PointOnLine => {
                 let line = &scene.model.lines[element + i];
                 let n = a.to_world(line.direction);
@@ -105,6 +120,10 @@ fn facts_of(scene: &Scene, frames: &[<F64 as Geometry>::Frame], group: &Group) -
             longest: length,
             stretching_rate: rate,
         });
+    }
+    if let Some(gradient) = leaning(scene, group, &a, &b) {
+        let rate = gradient.dot(b.spin() - a.spin()).abs();
+        all.stretching_rate = all.stretching_rate.max(rate);
     }
     all
 }
@@ -144,6 +163,12 @@ impl End<'_> {
             Some(frame) => F64::to_world(frame, vector),
             None => vector,
         }
+    }
+
+    /// \[rad/s\] world.
+    fn spin(&self) -> Vec3<f64> {
+        let state = self.scene.model.initial.get(self.body.row());
+        state.map_or(Vec3::ZERO, |state| self.to_world(state.angular_velocity))
     }
 
     /// `v + ω × r` at a world point.

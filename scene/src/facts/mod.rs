@@ -10,6 +10,7 @@ mod lengths;
 mod mobility;
 mod stiffness;
 
+use dbd_kernel::model::Law;
 use dbd_kernel::{F64, Geometry, Vec3};
 
 use crate::{JointInfo, Scene};
@@ -170,9 +171,10 @@ fn frames(scene: &Scene) -> Vec<<F64 as Geometry>::Frame> {
 pub(crate) fn axis_w(scene: &Scene, group: usize) -> Option<Vec3<f64>> {
     let model = &scene.model;
     let group = model.groups.get(group)?;
-    let axis = if group.law == dbd_kernel::model::Law::PointOnLine {
+    let bushings = matches!(group.law, Law::PointBushing | Law::AxialBushing);
+    let axis = if group.law == Law::PointOnLine {
         model.lines.get(group.element as usize)?.direction
-    } else if group.shared && group.stars == 2 {
+    } else if (group.shared || bushings) && group.stars == 2 {
         let first = group.point as usize;
         *model.points.get(first + 1)? - *model.points.get(first)?
     } else {

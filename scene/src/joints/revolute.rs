@@ -3,26 +3,35 @@
 //! The axis points at ±span/2 on the first body, the ring points in the mid plane on the second,
 //! at azimuth 120°·j from the reference; each axis point is joined to each ring point, the one
 //! at −span/2 first. Free length √((span/2)² + ring²). With the default ring radius span/√2 the
-//! three lines of an end are orthogonal, its stiffness is k·I.
+//! three lines of an end are orthogonal, its stiffness is k·I. As bushings: one at each axis point, with
+//! another ring stiffer or softer along the axis than across it.
 
 use core::f64::consts::SQRT_2;
+
+use dbd_kernel::Vec3;
 
 use crate::assembly::{Assembly, Defect, Points};
 use crate::closure::{Place, Turn};
 use crate::error::SceneError;
 use crate::hinge::Hinge;
+use crate::joints::realisation::{self, Realisation};
 use crate::joints::triad::Triad;
 use crate::joints::{Joint, JointType};
 use crate::pair::Pair;
+use crate::spring::Spring;
 use crate::text::{Number, Table};
 
 pub(super) const TYPE: JointType = JointType {
     name: "revolute",
     holds: 5,
-    keys: &["axis", "reference", "span", "ring", "clearance"],
+    brings: 0,
+    keys: &["axis", "reference", "span", "ring", "clearance", "realisation"],
     asks: (Place::Point, Turn::Axis),
     expand,
 };
+
+/// An end that is as nearly alike in all directions has one stiffness.
+const ISOTROPIC: f64 = 1e-9;
 
 fn expand(
     table: &Table<'_>,
@@ -31,7 +40,11 @@ fn expand(
 ) -> Result<Vec<Hinge>, SceneError> {
     let triad = joint.triad(table)?;
     let size = Size::read(table)?;
-    add(&joint.pair, joint, triad, size, assembly).map_err(|defect| defect.refuse(table))?;
+    match joint.realisation {
+        Realisation::Tsda => add(&joint.pair, joint, triad, size, assembly),
+        Realisation::Bushing => add_bushings(joint, triad.axis, size, assembly),
+    }
+    .map_err(|defect| defect.refuse(table))?;
     Ok(vec![assembly.hinge(&joint.pair, triad.axis)])
 }
 
@@ -48,6 +61,28 @@ impl Size {
         let span = table.required("span", Number::positive("m"))?;
         let ring = table.optional("ring", Number::positive("m"))?.unwrap_or(span / SQRT_2);
         Ok(Self { span, ring })
+    }
+
+    /// \[m\] half the span.
+    pub(super) fn half(self) -> f64 {
+        0.5 * self.span
+    }
+
+    /// \[m\] the length of a TSDA.
+    pub(super) fn length(self) -> f64 {
+        let (half, ring) = (self.half(), self.ring);
+        libm::sqrt(half * half + ring * ring)
+    }
+
+    /// Whether an end is as stiff along the axis as across it, as with the default ring.
+    pub(super) fn is_isotropic(self) -> bool {
+        (self.ratio() - 1.0).abs() < ISOTROPIC
+    }
+
+    /// The stiffness of an end along the axis over that across it.
+    fn ratio(self) -> f64 {
+        let part = self.span / self.ring;
+        0.5 * part * part
     }
 }
 
@@ -68,6 +103,27 @@ pub(super) fn add(
     let free_length = libm::sqrt(half * half + ring * ring);
     let points = Points { centres: &centres, tips: &tips, shared: true };
     assembly.add_tsdas(pair, points, free_length, joint.spring)
+}
+
+/// Adds the bushings of a revolute, one at each axis point, as stiff as the three TSDAs there.
+fn add_bushings(
+    joint: &Joint,
+    axis: Vec3<f64>,
+    size: Size,
+    assembly: &mut Assembly,
+) -> Result<(), Defect> {
+    let places = [-size.half(), size.half()].map(|s| joint.at_w + axis * s);
+    let [centres, tips] = realisation::ends(joint, places, assembly);
+    let points = Points { centres: &centres, tips: &tips, shared: false };
+    if size.is_isotropic() {
+        return assembly.add_bushings(&joint.pair, points, size.length(), joint.spring);
+    }
+    // k·Σu·u over the three lines: across the axis 3r²/(2L²), along it 3s²/(4L²).
+    let across = 1.5 * (size.ring / size.length()) * (size.ring / size.length());
+    let Spring { stiffness, damping, clearance } = joint.spring;
+    let spring = Spring { stiffness: across * stiffness, damping: across * damping, clearance };
+    let axis = assembly.vector_in(joint.pair.a, axis);
+    assembly.add_axials(&joint.pair, points, (axis, size.ratio()), size.length(), spring)
 }
 
 /// Cosine and sine of 0°, 120° and 240°.

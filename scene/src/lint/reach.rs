@@ -67,7 +67,7 @@ fn places(scene: &Scene, number: usize, group: &Group) -> Vec<Place> {
     let first = usize::from(group.point);
     let centres = first + usize::from(group.stars);
     let last = first + group.points();
-    let size = size(scene, group);
+    let size = size(scene, number, group);
     // A line has no end: its points are anywhere on it.
     let ends =
         [(group.a, first..centres, group.law != Law::PointOnLine), (group.b, centres..last, true)];
@@ -101,12 +101,15 @@ fn reach(mass: f64, inertia: Vec3<f64>) -> Vec3<f64> {
     Vec3::from_f64(widths)
 }
 
-/// \[m\] how large a joint is: the length of its elements.
-fn size(scene: &Scene, group: &Group) -> f64 {
+/// \[m\] how large a joint is: the length of its elements, or of those that its bushings stand for.
+fn size(scene: &Scene, number: usize, group: &Group) -> f64 {
     let element = usize::from(group.element);
     match group.law {
         Law::Tsda => scene.model.tsdas[element].free_length,
         Law::PointOnLine => scene.model.lines[element].free_length,
-        Law::PointBushing => 0.0,
+        Law::PointBushing | Law::AxialBushing | Law::Universal => {
+            let row = scene.joints.partition_point(|joint| joint.groups.end <= number);
+            scene.joints.get(row).map_or(0.0, |joint| joint.size)
+        }
     }
 }

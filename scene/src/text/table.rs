@@ -191,6 +191,11 @@ impl<'t> Table<'t> {
         self.entry(key).is_some()
     }
 
+    /// Whether it gives a key of its own, not by default.
+    pub(crate) fn gives(&self, key: &str) -> bool {
+        self.entries.contains_key(key)
+    }
+
     /// The value of a key, where it is there.
     pub(crate) fn value(&self, key: &str) -> Option<Value<'t>> {
         self.entry(key).map(|(_, entry)| Value {
