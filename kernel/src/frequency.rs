@@ -13,7 +13,6 @@
 //! is taken off again. Both speak for the pose, not for the future.
 
 use crate::body::{Body, BodyState, Increment};
-use crate::elements::element::Element;
 use crate::elements::input::InputKind;
 use crate::elements::load::LoadFrame;
 use crate::elements::point_law::taut;
@@ -21,7 +20,7 @@ use crate::forces::{self, At, DampersLeft, Evaluation, Instant, Turns, Wrench};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, SpaceOf, Terms};
-use crate::pose::{End, Places, lean, place_bodies, placed, twist_of};
+use crate::pose::{Places, held_turns, place_bodies, placed, twist_of};
 use crate::real::Real;
 use crate::rotation;
 use crate::schedule::Signal;
@@ -86,12 +85,9 @@ pub(crate) fn square_of<P: Geometry, T: Terms>(
             let Some(e) = placed(view, places, (number, group), i) else { continue };
             let Some(law) = view.element(group.law, e.index) else { continue };
             let arm = if at_a { e.arm_a } else { e.arm_b };
-            if let Element::Universal(universal) = law {
-                let lean = lean(
-                    universal,
-                    [&group.a, &group.b].map(|end| End::new(view, places, *end, None)),
-                );
-                add(universal.stiffness, other, P::Vector::ZERO, lean.gradient);
+            let (turns, count) = held_turns(view, places, group, e.index);
+            for turn in turns.into_iter().take(count) {
+                add(law.stiffness(), other, P::Vector::ZERO, turn);
             }
             let mut add = |stiffness, u: P::Vector| add(stiffness, other, u, arm.cross(u));
             turning = turning + law.tangent(&e.stretch, arm, &mut add);

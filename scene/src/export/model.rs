@@ -12,8 +12,8 @@ use super::UNUSED;
 use super::names::{constant_name, constant_names, quoted, type_name};
 use super::number::SourceNumber;
 use super::rows::{
-    axial, body, bushing, group, input, knot, list, load, point_on_line, readout, state, torsion,
-    tsda, universal, vector,
+    body, bushing, group, input, knot, list, load, point_on_line, readout, revolute, state,
+    torsion, tsda, universal, vector,
 };
 use crate::{Scene, SceneModel};
 
@@ -38,7 +38,7 @@ pub fn model<R: SourceNumber>(scene: &Scene) -> String {
         model.inputs.len(),
         model.knots.len(),
         model.clearances.len(),
-        model.axials.len(),
+        model.revolutes.len(),
         model.universals.len(),
     ];
     let counts = counts.map(|n| n.to_string()).join(", ");
@@ -65,7 +65,7 @@ pub fn model<R: SourceNumber>(scene: &Scene) -> String {
     line(&format_args!("    inputs: {},", list(&model.inputs, input)));
     line(&format_args!("    knots: {},", list(&model.knots, knot)));
     line(&format_args!("    clearances: {},", list(&model.clearances, |c| c.number())));
-    line(&format_args!("    axials: {},", list(&model.axials, axial)));
+    line(&format_args!("    revolutes: {},", list(&model.revolutes, revolute)));
     line(&format_args!("    universals: {},", list(&model.universals, universal)));
     line(&"}");
     line(&".checked();");

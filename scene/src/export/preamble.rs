@@ -42,7 +42,7 @@ pub(super) fn shared(scene: &Scene, step: f64) -> String {
         "// Not every scene has every kind of element, and not every program uses all of its constants.\n\
          #[allow(unused_imports)]\n\
          use dbd_kernel::{{\n    \
-             AxialBushing, Body, BodyIndex, BodyState, F32, F64, Load, LoadFrame, Model, PointBushing,\n    \
+             Revolute, Body, BodyIndex, BodyState, F32, F64, Load, LoadFrame, Model, PointBushing,\n    \
              PointOnLine, Quaternion, TorsionSpring, Tsda, Universal, Vec3,\n    \
              elements::input::{{Input, InputKind, Knot}},\n    \
              index::{{ClearanceIndex, DamperIndex, InputIndex}},\n    \

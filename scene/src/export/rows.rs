@@ -9,7 +9,7 @@ use dbd_kernel::index::{BodyIndex, DamperIndex};
 use dbd_kernel::model::Group;
 use dbd_kernel::readouts::Readout;
 use dbd_kernel::{
-    AxialBushing, BodyState, Load, LoadFrame, PointBushing, PointOnLine, Quaternion, TorsionSpring,
+    BodyState, Load, LoadFrame, PointBushing, PointOnLine, Quaternion, Revolute, TorsionSpring,
     Tsda, Universal, Vec3,
 };
 
@@ -95,9 +95,10 @@ pub(super) fn bushing<R: SourceNumber>(bushing: &PointBushing<R>) -> String {
     format!("PointBushing {{ stiffness: {} }}", bushing.stiffness.number())
 }
 
-pub(super) fn axial<R: SourceNumber>(bushing: &AxialBushing<R>) -> String {
-    let (k, ratio) = (bushing.stiffness.number(), bushing.ratio.number());
-    format!("AxialBushing {{ axis: {}, stiffness: {k}, ratio: {ratio} }}", vector(&bushing.axis))
+pub(super) fn revolute<R: SourceNumber>(revolute: &Revolute<R>) -> String {
+    let (k, along) = (revolute.stiffness.number(), revolute.along.number());
+    let [a, b] = revolute.levers.each_ref().map(vector);
+    format!("Revolute {{ stiffness: {k}, along: {along}, levers: [{a}, {b}] }}")
 }
 
 pub(super) fn universal<R: SourceNumber>(universal: &Universal<R>) -> String {
