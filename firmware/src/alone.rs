@@ -41,7 +41,7 @@ impl<T: Terms, S: Scheme + Default + 'static> Terms for TermsAlone<T, S> {
     const LINES: bool = T::LINES;
     const INPUTS: bool = T::INPUTS;
     const CLEARANCES: bool = T::CLEARANCES;
-    const AXIALS: bool = T::AXIALS;
+    const REVOLUTES: bool = T::REVOLUTES;
     const UNIVERSALS: bool = T::UNIVERSALS;
 }
 
@@ -72,7 +72,7 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
             inputs: view.inputs,
             knots: view.knots,
             clearances: view.clearances,
-            axials: view.axials,
+            revolutes: view.revolutes,
             universals: view.universals,
             terms: PhantomData,
         }

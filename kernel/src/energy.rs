@@ -24,7 +24,7 @@ pub struct Energy<R> {
     pub gravity: R,
     /// \[J\] TSDAs.
     pub tsda: R,
-    /// \[J\] bushings, point, axial and of universal joints.
+    /// \[J\] bushings, those of joints too.
     pub bushing: R,
     /// \[J\] points on lines.
     pub line: R,
@@ -82,7 +82,7 @@ pub fn energy_with_extensions<M: ModelOwner>(
         let energy = law.energy(&placed.stretch, clearance);
         let kind = match law {
             Element::Tsda(_) => &mut sum.tsda,
-            Element::PointBushing(_) | Element::AxialBushing(_) | Element::Universal(_) => {
+            Element::PointBushing(_) | Element::Revolute(_) | Element::Universal(_) => {
                 &mut sum.bushing
             }
             Element::PointOnLine(_) => &mut sum.line,

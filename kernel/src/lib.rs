@@ -105,10 +105,10 @@ pub mod watch;
 pub mod words;
 
 pub use body::{Body, BodyState};
-pub use elements::axial_bushing::AxialBushing;
 pub use elements::load::{Load, LoadFrame};
 pub use elements::point_bushing::PointBushing;
 pub use elements::point_on_line::PointOnLine;
+pub use elements::revolute::Revolute;
 pub use elements::torsion_spring::TorsionSpring;
 pub use elements::tsda::Tsda;
 pub use elements::universal::Universal;

@@ -174,7 +174,7 @@ pub(crate) struct Placed<'m, V: Vector> {
     /// From its first point to its second, and its line.
     pub(crate) stretch: Stretch<V>,
     /// The arm of the first point, world axes; 0 on the ground; on a line that of the foot, of
-    /// an axial bushing that of the second point.
+    /// a revolute joint that of the second point.
     pub(crate) arm_a: V,
     /// The arm of the second point.
     pub(crate) arm_b: V,
@@ -214,13 +214,15 @@ fn placed_between<'m, P: Geometry, T: Terms>(
         arm_a = end_a.arm_at(arm_a, direction * projection.slide);
     }
     let (mut ratio, mut leans) = (P::Real::ZERO, P::Real::ZERO);
-    if T::AXIALS && group.law == Law::AxialBushing {
-        let bushing = model.axials.get(index)?;
-        (direction, ratio) = (end_a.to_world(bushing.axis), bushing.ratio);
+    if T::REVOLUTES && group.law == Law::Revolute {
+        let revolute = model.revolutes.get(index)?;
+        let [a, b] = [end_a.to_world(revolute.levers[0]), end_b.to_world(revolute.levers[1])];
+        (direction, ratio) = (unit(a), P::Real::ONE + revolute.along * a.dot(a));
+        leans = (b - a).dot(b - a).sqrt();
         arm_a = end_a.arm_at(arm_a, displacement);
     }
     if T::UNIVERSALS && group.law == Law::Universal {
-        leans = lean(model.universals.get(index)?, [end_a, end_b]).by;
+        leans = lean(model.universals.get(index)?, [&end_a, &end_b]).by;
     }
     let stretch = Stretch { displacement, direction, ratio, lean: leans };
     Some(Placed { group, number, index, stretch, arm_a, arm_b })
@@ -228,11 +230,41 @@ fn placed_between<'m, P: Geometry, T: Terms>(
 
 /// How the axes of a universal joint between two ends lean.
 #[inline(always)]
-pub(crate) fn lean<P: Geometry>(
-    universal: &Universal<P::Space>,
-    [a, b]: [&End<'_, P>; 2],
-) -> Lean<P::Space> {
+fn lean<P: Geometry>(universal: &Universal<P::Space>, [a, b]: [&End<'_, P>; 2]) -> Lean<P::Space> {
     Lean::new(a.to_world(universal.lever), b.to_world(universal.axis))
+}
+
+fn unit<V: Vector>(v: V) -> V {
+    v * v.dot(v).sqrt().reciprocal_or_zero()
+}
+
+/// \[m\] Against which turns of the second body beside the first an element holds the axes of a joint, world,
+/// as long as its lever, and how many they are: of a universal joint one, of a revolute two.
+#[inline(always)]
+pub(crate) fn held_turns<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    group: &Group,
+    element: usize,
+) -> ([P::Moment; 2], usize) {
+    let ends = || [group.a, group.b].map(|end| End::new(model, places, end, None));
+    match group.law {
+        Law::Revolute if T::REVOLUTES => {
+            let Some(revolute) = model.revolutes.get(element) else {
+                return ([P::Moment::ZERO; 2], 0);
+            };
+            let lever = ends()[0].to_world(revolute.levers[0]);
+            (unit(lever).normals().map(|n| lever.cross(n)), 2)
+        }
+        Law::Universal if T::UNIVERSALS => {
+            let Some(universal) = model.universals.get(element) else {
+                return ([P::Moment::ZERO; 2], 0);
+            };
+            let [a, b] = ends();
+            ([lean(universal, [&a, &b]).gradient, P::Moment::ZERO], 1)
+        }
+        _ => ([P::Moment::ZERO; 2], 0),
+    }
 }
 
 /// The most points of the second body that one of the first is joined to.

@@ -8,10 +8,10 @@ mod bushings;
 mod round;
 
 use crate::body::{Body, BodyState};
-use crate::elements::axial_bushing::AxialBushing;
 use crate::elements::element::Law;
 use crate::elements::load::{Load, LoadFrame};
 use crate::elements::point_bushing::PointBushing;
+use crate::elements::revolute::Revolute;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::elements::universal::Universal;
@@ -73,7 +73,7 @@ pub struct Sketch {
     dampers: List<f64, POINTS>,
     torsions: List<TorsionSpring<f64>, GROUPS>,
     loads: List<Load<f64>, GROUPS>,
-    axials: List<AxialBushing<f64>, GROUPS>,
+    revolutes: List<Revolute<f64>, GROUPS>,
     universals: List<Universal<f64>, GROUPS>,
 }
 
@@ -183,7 +183,7 @@ impl Sketch {
                 from: 0.0,
                 until: 0.0,
             }),
-            axials: List::of(AxialBushing { axis: NOWHERE, stiffness: 0.0, ratio: 1.0 }),
+            revolutes: List::of(Revolute { stiffness: 0.0, along: 0.0, levers: [NOWHERE; 2] }),
             universals: List::of(Universal { stiffness: 0.0, lever: NOWHERE, axis: NOWHERE }),
         }
     }
@@ -378,7 +378,7 @@ impl Sketch {
     }
 
     /// Counts of bodies, groups, points, TSDAs, bushings, dampers, torsion springs, fields of
-    /// gravity, loads, axial bushings and universal joints: sizes of [`Model`](crate::Model), which
+    /// gravity, loads, revolute and universal joints of bushings: sizes of [`Model`](crate::Model), which
     /// [`model!`](crate::model!) fills in.
     #[must_use]
     pub const fn counts(&self) -> [usize; 11] {
@@ -392,7 +392,7 @@ impl Sketch {
             self.torsions.count,
             self.gravity.count,
             self.loads.count,
-            self.axials.count,
+            self.revolutes.count,
             self.universals.count,
         ]
     }

@@ -9,11 +9,11 @@
 use core::ops::Deref;
 
 use crate::body::Body;
-use crate::elements::axial_bushing::AxialBushing;
 use crate::elements::input::{Input, InputKind, Knot};
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_on_line::PointOnLine;
+use crate::elements::revolute::Revolute;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::elements::universal::Universal;
@@ -233,7 +233,7 @@ fn visit_model<P: Geometry, T>(model: &ModelRef<'_, P, T>, visitor: &mut impl Wo
         inputs,
         knots,
         clearances,
-        axials,
+        revolutes,
         universals,
         terms: _,
     } = model;
@@ -311,10 +311,10 @@ fn visit_model<P: Geometry, T>(model: &ModelRef<'_, P, T>, visitor: &mut impl Wo
         visitor.word(slope.word());
     }
     // They came after the others: a model without them keeps its hash.
-    for AxialBushing { axis, stiffness, ratio } in *axials {
-        axis.visit(visitor);
+    for Revolute { stiffness, along, levers } in *revolutes {
         visitor.word(stiffness.word());
-        visitor.word(ratio.word());
+        visitor.word(along.word());
+        levers.iter().for_each(|lever| lever.visit(visitor));
     }
     for Universal { stiffness, lever, axis } in *universals {
         visitor.word(stiffness.word());

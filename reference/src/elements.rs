@@ -204,12 +204,13 @@ impl Element for PointBushing {
     }
 }
 
-/// A spring-damper without free length that is stiffer along an axis of its first body.
-pub struct AxialBushing {
+/// A revolute joint of bushings: a point, stiffer or softer along the axis than across it, and an axis of
+/// either body in line with the other's.
+pub struct Revolute {
     /// Its points.
     pub pair: Pair,
-    /// Unit direction in the first body's axes.
-    pub axis: Vector3<f64>,
+    /// \[m\] axis of each body in its own axes, as long as its lever.
+    pub levers: [Vector3<f64>; 2],
     /// \[N/m\] across the axis.
     pub stiffness: f64,
     /// \[N·s/m\] across the axis.
@@ -218,7 +219,7 @@ pub struct AxialBushing {
     pub ratio: f64,
 }
 
-impl AxialBushing {
+impl Revolute {
     /// It acts on the first body where the second's point is.
     fn at(&self, at: &Instant<'_>) -> Stretch {
         let (a, b) = (at.place(&self.pair.a), at.place(&self.pair.b));
@@ -227,20 +228,32 @@ impl AxialBushing {
         Stretch { rate: b.velocity - a.velocity, a, b, displacement, line: None }
     }
 
+    fn levers(&self, at: &Instant<'_>) -> [Vector3<f64>; 2] {
+        let ends = self.pair.ends();
+        [0, 1].map(|end| at.to_world(ends[end], self.levers[end]))
+    }
+
     /// Axis and normals in the world, each with its part of the constants.
     fn directions(&self, at: &Instant<'_>) -> [(Vector3<f64>, f64); 3] {
-        let axis = at.to_world(self.pair.a.end, self.axis);
+        let axis = self.levers(at)[0].normalize();
         let normal = axis.cross(&Vector3::ith(axis.iamin(), 1.0)).normalize();
         [(normal, 1.0), (axis.cross(&normal), 1.0), (axis, self.ratio)]
     }
 }
 
-impl Element for AxialBushing {
+impl Element for Revolute {
     fn act(&self, at: &Instant<'_>, wrenches: &mut [Wrench]) {
         let stretch = self.at(at);
         let pull = stretch.displacement * self.stiffness + stretch.rate * self.damping;
         let along = |(n, part): (Vector3<f64>, f64)| n * (part * n.dot(&pull));
         stretch.pull(self.directions(at).map(along).iter().sum(), wrenches);
+        let [a, b] = self.levers(at);
+        let ends = self.pair.ends();
+        let spin = at.spin(ends[1]) - at.spin(ends[0]);
+        let across = spin - a * (a.dot(&spin) / a.norm_squared());
+        let torque = a.cross(&b) * self.stiffness + across * (self.damping * a.norm_squared());
+        turn(wrenches, ends[0], torque);
+        turn(wrenches, ends[1], -torque);
     }
 
     fn between(&self) -> Option<[End; 2]> {
@@ -249,8 +262,23 @@ impl Element for AxialBushing {
 
     fn springs(&self, at: &Instant<'_>, visit: &mut dyn FnMut(Spring)) {
         let stretch = self.at(at);
-        for (direction, part) in self.directions(at) {
+        let directions = self.directions(at);
+        for (direction, part) in directions {
             visit(stretch.spring(direction, part * self.stiffness, part * self.damping));
+        }
+        let ends = self.pair.ends();
+        let spin = at.spin(ends[1]) - at.spin(ends[0]);
+        let lever = self.levers(at)[0].norm();
+        for (normal, _) in &directions[..2] {
+            let about = normal * lever;
+            visit(Spring {
+                ends,
+                direction: Vector3::zeros(),
+                moments: [about; 2],
+                rate: about.dot(&spin),
+                stiffness: self.stiffness,
+                damping: self.damping,
+            });
         }
     }
 }

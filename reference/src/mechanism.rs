@@ -11,8 +11,7 @@ use nalgebra::Vector3;
 
 use crate::driven::{Input, InputKind, Load};
 use crate::elements::{
-    AxialBushing, Element, Law, Pair, PointBushing, PointOnLine, TorsionSpring, Tsda, Universal,
-    unit,
+    Element, Law, Pair, PointBushing, PointOnLine, Revolute, TorsionSpring, Tsda, Universal, unit,
 };
 use crate::instant::{Body, End, Instant, Point, Wrench};
 use crate::signals::{Clock, Table};
@@ -199,11 +198,12 @@ fn element<T: Terms>(model: &ModelRef<'_, F64, T>, group: &Group, i: usize) -> B
             let stiffness = model.bushings[row].stiffness;
             Box::new(PointBushing { pair, stiffness, damping })
         }
-        GroupLaw::AxialBushing => {
-            let bushing = &model.axials[row];
-            let axis = Vector3::from(bushing.axis.to_f64());
-            let (stiffness, ratio) = (bushing.stiffness, bushing.ratio);
-            Box::new(AxialBushing { pair, axis, stiffness, damping, ratio })
+        GroupLaw::Revolute => {
+            let revolute = &model.revolutes[row];
+            let levers = revolute.levers.map(|lever| Vector3::from(lever.to_f64()));
+            let ratio = 1.0 + revolute.along * levers[0].norm_squared();
+            let stiffness = revolute.stiffness;
+            Box::new(Revolute { pair, levers, stiffness, damping, ratio })
         }
         GroupLaw::Universal => {
             let universal = &model.universals[row];

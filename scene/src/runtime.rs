@@ -13,7 +13,7 @@ use dbd_kernel::schedule::LoadWindow;
 use dbd_kernel::schedule::{KnotStep, Signal};
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
-    AxialBushing, BodyState, F64, Geometry, Load, PointBushing, PointOnLine, Real, State,
+    BodyState, F64, Geometry, Load, PointBushing, PointOnLine, Real, Revolute, State,
     TorsionSpring, Tsda, Universal,
 };
 
@@ -48,8 +48,8 @@ pub struct SceneModel<P: Geometry> {
     pub knots: Vec<Knot<P::Real>>,
     /// \[m\] clearances of groups.
     pub clearances: Vec<P::Real>,
-    /// Axial bushings of the groups.
-    pub axials: Vec<AxialBushing<P::Space>>,
+    /// Revolute joints of bushings of the groups.
+    pub revolutes: Vec<Revolute<P::Space>>,
     /// Universal joints of the groups.
     pub universals: Vec<Universal<P::Space>>,
 }
@@ -73,7 +73,7 @@ impl<P: Geometry> SceneModel<P> {
             inputs: self.inputs.iter().map(Input::convert).collect(),
             knots: self.knots.iter().map(Knot::convert).collect(),
             clearances: self.clearances.iter().map(|c| Q::Real::from_f64(c.to_f64())).collect(),
-            axials: self.axials.iter().map(AxialBushing::convert).collect(),
+            revolutes: self.revolutes.iter().map(Revolute::convert).collect(),
             universals: self.universals.iter().map(Universal::convert).collect(),
         }
     }
@@ -105,7 +105,7 @@ impl<P: Geometry> SceneModel<P> {
     /// The number of elements that count as a TSDA (Franco & Degani 2026, Table 7b).
     #[must_use]
     pub fn tsda_count(&self) -> usize {
-        let bushings = self.bushings.len() + self.axials.len() + self.universals.len();
+        let bushings = self.bushings.len() + self.revolutes.len() + self.universals.len();
         self.tsdas.len() + bushings + self.lines.len()
     }
 }
@@ -146,7 +146,7 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
             inputs: &self.inputs,
             knots: &self.knots,
             clearances: &self.clearances,
-            axials: &self.axials,
+            revolutes: &self.revolutes,
             universals: &self.universals,
             terms: PhantomData,
         }

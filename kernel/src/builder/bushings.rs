@@ -1,7 +1,7 @@
-//! Bushings of joints in a model under construction: axial ones, and universal joints without a spider.
+//! Joints of bushings in a model under construction: revolutes, and universal joints without a spider.
 
 use crate::builder::{BuildError, ModelBuilder, Part, Quantity, check, finite, length, room};
-use crate::elements::axial_bushing::AxialBushing;
+use crate::elements::revolute::Revolute;
 use crate::elements::universal::Universal;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, ClearanceIndex};
@@ -11,7 +11,7 @@ use crate::model::{Group, Law};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BushingLaw {
-    /// \[N/m\] stiffness, ≥ 0; of an axial bushing that across its axis.
+    /// \[N/m\] stiffness, ≥ 0; of a revolute joint that across its axis.
     pub stiffness: f64,
     /// \[N·s/m\] damping, ≥ 0, likewise.
     pub damping: f64,
@@ -30,7 +30,7 @@ impl<
     const LINES: usize,
     const INPUTS: usize,
     const KNOTS: usize,
-    const AXIALS: usize,
+    const REVOLUTES: usize,
     const UNIVERSALS: usize,
 >
     ModelBuilder<
@@ -46,36 +46,32 @@ impl<
         LINES,
         INPUTS,
         KNOTS,
-        AXIALS,
+        REVOLUTES,
         UNIVERSALS,
     >
 {
-    /// Adds axial bushings as one group: each of the `centres` \[m\] of the first body to its own of the
-    /// `tips` \[m\] of the second, stiffer by `ratio` ≥ 0 along `axis` (first body's axes).
+    /// Adds a revolute joint of bushings: a point \[m\] and an axis of either body in its own axes, the
+    /// `lever` \[m\] at which the stiffness holds the axes in line, `ratio` ≥ 0 of the stiffness along the
+    /// axis to that across it.
     ///
     /// # Errors
     /// [`BuildError::Full`] for a capacity, a body that is not there, a quantity out of range.
-    pub fn add_axial_bushings(
+    pub fn add_revolute(
         &mut self,
         between: [BodyIndex; 2],
-        [centres, tips]: [&[[f64; 3]]; 2],
-        axis: [f64; 3],
-        ratio: f64,
+        points: [[f64; 3]; 2],
+        axes: [[f64; 3]; 2],
+        [lever, ratio]: [f64; 2],
         law: BushingLaw,
     ) -> Result<(), BuildError> {
-        let count = centres.len();
-        let norm = length(axis);
-        check(norm > 0.0 && norm.is_finite(), Quantity::Axis)?;
-        check(ratio >= 0.0 && ratio.is_finite(), Quantity::Stiffness)?;
-        check(count == tips.len() && (1..=255).contains(&count), Quantity::Arms)?;
-        room(&self.axials, count, Part::Axials)?;
-        let element = self.axials.len();
-        self.add_bushing_group(Law::AxialBushing, between, [centres, tips], element, law)?;
-        let bushing = AxialBushing::from_f64(axis.map(|c| c / norm), law.stiffness, ratio);
-        for _ in 0..count {
-            // Room was made sure of above.
-            let _ = self.axials.push(bushing);
-        }
+        let levers = levers(axes, [lever; 2])?;
+        check(lever > 0.0 && ratio >= 0.0 && ratio.is_finite(), Quantity::Stiffness)?;
+        room(&self.revolutes, 1, Part::Revolutes)?;
+        let element = self.revolutes.len();
+        self.add_bushing_group(Law::Revolute, between, points, element, law)?;
+        let along = (ratio - 1.0) / (lever * lever);
+        // Room was made sure of above.
+        let _ = self.revolutes.push(Revolute::from_f64(law.stiffness, along, levers));
         Ok(())
     }
 
@@ -92,41 +88,35 @@ impl<
         lever: f64,
         law: BushingLaw,
     ) -> Result<(), BuildError> {
-        let norms = axes.map(length);
-        check(norms.iter().all(|norm| *norm > 0.0 && norm.is_finite()), Quantity::Axis)?;
-        check(lever >= 0.0 && lever.is_finite(), Quantity::Stiffness)?;
+        let [lever, axis] = levers(axes, [lever, 1.0])?;
         room(&self.universals, 1, Part::Universals)?;
-        let [centre, tip] = points.map(|point| [point]);
         let element = self.universals.len();
-        self.add_bushing_group(Law::Universal, between, [&centre, &tip], element, law)?;
-        let levers = axes[0].map(|c| c / norms[0] * lever);
-        let axis = axes[1].map(|c| c / norms[1]);
-        let _ = self.universals.push(Universal::from_f64(law.stiffness, levers, axis));
+        self.add_bushing_group(Law::Universal, between, points, element, law)?;
+        let _ = self.universals.push(Universal::from_f64(law.stiffness, lever, axis));
         Ok(())
     }
 
-    /// Adds the group of as many bushings as points of either body, from `element` on.
+    /// Adds the group of a point of either body.
     fn add_bushing_group(
         &mut self,
         law: Law,
         between: [BodyIndex; 2],
-        [centres, tips]: [&[[f64; 3]]; 2],
+        points: [[f64; 3]; 2],
         element: usize,
         BushingLaw { stiffness, damping }: BushingLaw,
     ) -> Result<(), BuildError> {
         self.check_pair(between)?;
         check(stiffness >= 0.0 && stiffness.is_finite(), Quantity::Stiffness)?;
         check(damping >= 0.0 && damping.is_finite(), Quantity::Damping)?;
-        let points = centres.iter().chain(tips);
-        check(points.clone().all(|point| finite(point)), Quantity::Point)?;
+        check(finite(points.as_flattened()), Quantity::Point)?;
         room(&self.groups, 1, Part::Groups)?;
-        room(&self.points, 2 * centres.len(), Part::Points)?;
-        let damper = self.add_dampers(damping, centres.len())?;
+        room(&self.points, 2, Part::Points)?;
+        let damper = self.add_dampers(damping, 1)?;
         let _ = self.groups.push(Group {
             law,
             a: between[0],
             b: between[1],
-            stars: centres.len() as u8,
+            stars: 1,
             arms: 1,
             shared: false,
             point: self.points.len() as u16,
@@ -135,8 +125,16 @@ impl<
             clearance: ClearanceIndex::NONE,
         });
         for point in points {
-            let _ = self.points.push(P::local_from_f64(*point));
+            let _ = self.points.push(P::local_from_f64(point));
         }
         Ok(())
     }
+}
+
+/// Axes of these lengths \[m\].
+fn levers(axes: [[f64; 3]; 2], lengths: [f64; 2]) -> Result<[[f64; 3]; 2], BuildError> {
+    let norms = axes.map(length);
+    check(norms.iter().all(|norm| *norm > 0.0 && norm.is_finite()), Quantity::Axis)?;
+    check(lengths.iter().all(|length| *length >= 0.0 && length.is_finite()), Quantity::Axis)?;
+    Ok([0, 1].map(|end| axes[end].map(|c| c / norms[end] * lengths[end])))
 }

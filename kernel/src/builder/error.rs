@@ -42,8 +42,8 @@ pub enum Part {
     Inputs,
     /// Knots of tables.
     Knots,
-    /// Axial bushings.
-    Axials,
+    /// Revolute joints of bushings.
+    Revolutes,
     /// Universal joints.
     Universals,
 }

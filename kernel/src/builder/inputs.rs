@@ -20,7 +20,7 @@ impl<
     const LINES: usize,
     const INPUTS: usize,
     const KNOTS: usize,
-    const AXIALS: usize,
+    const REVOLUTES: usize,
     const UNIVERSALS: usize,
 >
     ModelBuilder<
@@ -36,7 +36,7 @@ impl<
         LINES,
         INPUTS,
         KNOTS,
-        AXIALS,
+        REVOLUTES,
         UNIVERSALS,
     >
 {

@@ -16,11 +16,11 @@ use heapless::Vec;
 
 use crate::attitude::Attitude as _;
 use crate::body::{Body, BodyState};
-use crate::elements::axial_bushing::AxialBushing;
 use crate::elements::input::{Input, Knot};
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_on_line::PointOnLine;
+use crate::elements::revolute::Revolute;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::elements::universal::Universal;
@@ -81,7 +81,7 @@ pub struct ModelBuilder<
     const LINES: usize = 0,
     const INPUTS: usize = 0,
     const KNOTS: usize = 0,
-    const AXIALS: usize = 0,
+    const REVOLUTES: usize = 0,
     const UNIVERSALS: usize = 0,
 > {
     bodies: Vec<Body<P::Space>, BODIES>,
@@ -99,7 +99,7 @@ pub struct ModelBuilder<
     knots: Vec<Knot<P::Real>, KNOTS>,
     // At most one per group.
     clearances: Vec<P::Real, GROUPS>,
-    axials: Vec<AxialBushing<P::Space>, AXIALS>,
+    revolutes: Vec<Revolute<P::Space>, REVOLUTES>,
     universals: Vec<Universal<P::Space>, UNIVERSALS>,
 }
 
@@ -116,7 +116,7 @@ impl<
     const LINES: usize,
     const INPUTS: usize,
     const KNOTS: usize,
-    const AXIALS: usize,
+    const REVOLUTES: usize,
     const UNIVERSALS: usize,
 >
     ModelBuilder<
@@ -132,7 +132,7 @@ impl<
         LINES,
         INPUTS,
         KNOTS,
-        AXIALS,
+        REVOLUTES,
         UNIVERSALS,
     >
 {
@@ -154,7 +154,7 @@ impl<
             inputs: Vec::new(),
             knots: Vec::new(),
             clearances: Vec::new(),
-            axials: Vec::new(),
+            revolutes: Vec::new(),
             universals: Vec::new(),
         }
     }

@@ -24,7 +24,7 @@ impl<
     const LINES: usize,
     const INPUTS: usize,
     const KNOTS: usize,
-    const AXIALS: usize,
+    const REVOLUTES: usize,
     const UNIVERSALS: usize,
 > ModelOwner
     for ModelBuilder<
@@ -40,7 +40,7 @@ impl<
         LINES,
         INPUTS,
         KNOTS,
-        AXIALS,
+        REVOLUTES,
         UNIVERSALS,
     >
 {
@@ -68,7 +68,7 @@ impl<
             inputs: &self.inputs,
             knots: &self.knots,
             clearances: &self.clearances,
-            axials: &self.axials,
+            revolutes: &self.revolutes,
             universals: &self.universals,
             terms: PhantomData,
         }

@@ -14,8 +14,9 @@
 //! rest under any forces it does nothing.
 //!
 //! A TSDA damps along its line, a torsion spring along its gradient, a point bushing along the
-//! world's axes, a point on a line along the line's two normals, an axial bushing along its axis's
-//! and the axis, a universal joint as a bushing and about the normal of its axes, one after the other.
+//! world's axes, a point on a line along the line's two normals, a revolute of bushings along its axis
+//! and the normals and about these, a universal joint as a bushing and about the normal of its axes, one
+//! after the other.
 //! Velocities are rounded once per pair, not once per damper. Linear momentum is always kept.
 //! Angular momentum is kept by dampers of TSDAs with a free length and of torsion springs; a damped
 //! bushing or point on a line has the law `c·v_rel`, whose torque vanishes only with its deflection.
@@ -39,7 +40,7 @@ use crate::elements::torsion_spring::TorsionSpring;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelRef, Terms};
-use crate::pose::{End, MOST_ARMS, Placed, Places, Spot, lean, placed, twist_of};
+use crate::pose::{End, MOST_ARMS, Placed, Places, Spot, held_turns, placed, twist_of};
 use crate::real::Real;
 use crate::space::{Linear as _, Vector as _};
 
@@ -179,9 +180,8 @@ fn each_direction<P: Geometry, T: Terms, const REVERSE: bool>(
 ) {
     let group = element.group;
     let Some((mut directions, count)) = model.damped(group.law, &element.stretch) else { return };
-    let leaning = leaning(model, places, element);
-    if REVERSE && let Some(leaning) = leaning {
-        visit(leaning);
+    if (T::REVOLUTES || T::UNIVERSALS) && REVERSE {
+        each_turn::<P, T, REVERSE>(model, places, element, &mut visit);
     }
     if REVERSE && count > 1 {
         directions.swap(0, count - 1);
@@ -194,30 +194,31 @@ fn each_direction<P: Geometry, T: Terms, const REVERSE: bool>(
         let moments = [moment(group.a, element.arm_a), moment(group.b, element.arm_b)];
         visit(Direction { along, moments });
     }
-    if !REVERSE && let Some(leaning) = leaning {
-        visit(leaning);
+    if (T::REVOLUTES || T::UNIVERSALS) && !REVERSE {
+        each_turn::<P, T, REVERSE>(model, places, element, &mut visit);
     }
 }
 
-/// The direction of the damper of a universal joint's axes: moments alone.
+/// The directions of the dampers that hold the axes of a joint: moments alone.
 #[inline(always)]
-fn leaning<P: Geometry, T: Terms>(
+fn each_turn<P: Geometry, T: Terms, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     element: &Placed<'_, P::Vector>,
-) -> Option<Direction<P::Space>> {
-    let Group { law, a, b, .. } = *element.group;
-    if !T::UNIVERSALS || law != Law::Universal {
-        return None;
+    visit: &mut impl FnMut(Direction<P::Space>),
+) {
+    let group = element.group;
+    let (mut turns, count) = held_turns(model, places, group, element.index);
+    if REVERSE && count > 1 {
+        turns.swap(0, 1);
     }
-    let universal = model.universals.get(element.index)?;
-    let ends = [a, b].map(|end| End::new(model, places, end, None));
-    let gradient = lean(universal, [&ends[0], &ends[1]]).gradient;
-    let moments = [a, b].map(|body| match places.frames.get(body.row()) {
-        Some(frame) => P::moment_to_body(frame, gradient),
-        None => P::Moment::ZERO,
-    });
-    Some(Direction { along: P::Vector::ZERO, moments })
+    for turn in turns.into_iter().take(count) {
+        let moments = [group.a, group.b].map(|body| match places.frames.get(body.row()) {
+            Some(frame) => P::moment_to_body(frame, turn),
+            None => P::Moment::ZERO,
+        });
+        visit(Direction { along: P::Vector::ZERO, moments });
+    }
 }
 
 /// A point of a star's second end, with its damper's coefficient and share.

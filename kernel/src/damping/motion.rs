@@ -9,8 +9,8 @@ use crate::damping::pair::Direction;
 use crate::damping::{each_direction, torsion_direction};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::model::{Law, ModelRef, Terms};
-use crate::pose::{Places, placed};
+use crate::model::{ModelRef, Terms};
+use crate::pose::{Places, held_turns, placed};
 use crate::real::Real as _;
 use crate::space::{Linear as _, Moment as _, Space};
 
@@ -120,8 +120,8 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
                     let Some(&coefficient) = model.dampers.get(first + i) else { return };
                     let Some(element) = placed(model, places, (0, group), i) else { return };
                     let directions = model.damped(group.law, &element.stretch);
-                    let leans = T::UNIVERSALS && group.law == Law::Universal;
-                    let count = directions.map_or(1, |(_, count)| count + usize::from(leans));
+                    let (_, turns) = held_turns(model, places, group, element.index);
+                    let count = directions.map_or(1, |(_, count)| count + turns);
                     let part = one / P::Real::from_i32(count as i32);
                     each_direction::<P, T, false>(model, places, &element, |direction| {
                         visit(first + i, part, coefficient, &direction);

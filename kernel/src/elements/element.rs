@@ -3,10 +3,10 @@
 //! A new law is a file beside this one that implements [`PointLaw`], a variant of [`Law`] and of
 //! [`Element`], a file of its walk in [`crate::forces`] and a field of [`crate::energy::Energy`].
 
-use crate::elements::axial_bushing::AxialBushing;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_law::{PointLaw, Stretch};
 use crate::elements::point_on_line::PointOnLine;
+use crate::elements::revolute::Revolute;
 use crate::elements::tsda::Tsda;
 use crate::elements::universal::Universal;
 use crate::space::Space;
@@ -22,8 +22,8 @@ pub enum Law {
     /// Stars on lines: each star's first point and its elements' direction define a line of the
     /// first body, on which the second body's points are projected.
     PointOnLine,
-    /// Axial bushings, in stars as point bushings.
-    AxialBushing,
+    /// One revolute joint of bushings.
+    Revolute,
     /// One universal joint without a spider.
     Universal,
 }
@@ -34,7 +34,7 @@ impl Law {
     pub const fn takes_arms(self, arms: u8) -> bool {
         match self {
             Law::Tsda => arms >= 1 && arms <= 3,
-            Law::PointBushing | Law::AxialBushing | Law::Universal => arms == 1,
+            Law::PointBushing | Law::Revolute | Law::Universal => arms == 1,
             Law::PointOnLine => arms == 1 || arms == 2,
         }
     }
@@ -49,8 +49,8 @@ pub enum Element<'m, S: Space> {
     PointBushing(&'m PointBushing<S::Real>),
     /// A point held to a line.
     PointOnLine(&'m PointOnLine<S>),
-    /// A TSDA of no free length that is stiffer along an axis.
-    AxialBushing(&'m AxialBushing<S>),
+    /// A revolute joint of bushings.
+    Revolute(&'m Revolute<S>),
     /// A universal joint without a spider.
     Universal(&'m Universal<S>),
 }
@@ -62,7 +62,7 @@ macro_rules! of_law {
             Element::Tsda($law) => $call,
             Element::PointBushing($law) => $call,
             Element::PointOnLine($law) => $call,
-            Element::AxialBushing($law) => $call,
+            Element::Revolute($law) => $call,
             Element::Universal($law) => $call,
         }
     };
@@ -73,6 +73,12 @@ impl<S: Space> Element<'_, S> {
     #[inline(always)]
     pub fn extension(&self, stretch: &Stretch<S::Vector>) -> S::Real {
         of_law!(self, law => PointLaw::extension(*law, stretch))
+    }
+
+    /// \[N/m\] its stiffness; of a revolute joint that across its axis.
+    #[inline(always)]
+    pub fn stiffness(&self) -> S::Real {
+        of_law!(self, law => law.stiffness)
     }
 
     /// As [`PointLaw::energy`].

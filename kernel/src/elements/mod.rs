@@ -3,7 +3,6 @@
 //! A law between two points sees displacements, velocities and arms. Loads, inputs and torsion springs
 //! name their bodies. Placing points, grouping and summing is the work of [`crate::forces`].
 
-pub mod axial_bushing;
 pub mod clearance;
 pub mod element;
 pub mod gravity;
@@ -12,6 +11,7 @@ pub mod load;
 pub mod point_bushing;
 pub mod point_law;
 pub mod point_on_line;
+pub mod revolute;
 pub mod share;
 pub mod torsion_spring;
 pub mod tsda;

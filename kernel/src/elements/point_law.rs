@@ -14,9 +14,9 @@ pub struct Stretch<V: Vector> {
     pub displacement: V,
     /// \[1\] the direction of its line or axis; 0 where the law knows none.
     pub direction: V,
-    /// \[1\] how much stiffer it is along its axis than across; of axial bushings alone.
+    /// \[1\] how much stiffer it is along its axis than across; of revolute joints alone.
     pub ratio: V::Real,
-    /// \[m\] how far its axes lean from square, at their lever; of universal joints alone.
+    /// \[m\] how far the axes of a joint are from how it holds them, at their lever.
     pub lean: V::Real,
 }
 

@@ -8,11 +8,11 @@
 //! on B arm by arm. Forces and torques are in world axes; a body's torque is turned into body
 //! axes once, at the end.
 
-mod axial;
 mod bushing;
 mod inputs;
 mod lines;
 mod record;
+mod revolute;
 mod stars;
 mod torsions;
 mod universal;
@@ -103,7 +103,7 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, D: Dampers>(
     if T::INPUTS {
         inputs::push(model, places, wrenches);
     }
-    if T::TSDAS || T::BUSHINGS || T::LINES || T::AXIALS || T::UNIVERSALS {
+    if T::TSDAS || T::BUSHINGS || T::LINES || T::REVOLUTES || T::UNIVERSALS {
         for group in model.groups {
             if let Some(record) = record::<P, T, D>(model, places, bodies, group) {
                 apply(wrenches, group.a.row(), group.b.row(), &record);
@@ -137,8 +137,8 @@ pub(crate) fn record<P: Geometry, T: Terms, D: Dampers>(
             bushing::bushings::<P, T, D>(model, group, &end_a, &end_b)
         }
         Law::PointOnLine if T::LINES => Some(lines::lines::<P, T, D>(model, group, &end_a, &end_b)),
-        Law::AxialBushing if T::AXIALS => {
-            Some(axial::axial::<P, T, D>(model, group, &end_a, &end_b))
+        Law::Revolute if T::REVOLUTES => {
+            Some(revolute::revolute::<P, T, D>(model, group, &end_a, &end_b))
         }
         Law::Universal if T::UNIVERSALS => {
             Some(universal::universal::<P, T, D>(model, group, &end_a, &end_b))

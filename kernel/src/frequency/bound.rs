@@ -4,13 +4,12 @@
 //! visited once and adds to the blocks of its two bodies, in the order of each body's sums.
 
 use crate::body::{Body, BodyState};
-use crate::elements::element::Element;
 use crate::elements::input::InputKind;
 use crate::elements::point_law::taut;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, Terms};
-use crate::pose::{End, Places, lean, place_bodies, placed, twist_of};
+use crate::pose::{Places, held_turns, place_bodies, placed, twist_of};
 use crate::real::Real;
 use crate::space::{Linear as _, Space, Vector as _};
 use crate::state::State;
@@ -142,11 +141,9 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
                     let Some(e) = placed(view, places, (number, group), i) else { continue };
                     let Some(law) = view.element(group.law, e.index) else { continue };
                     let arm = if at_a { e.arm_a } else { e.arm_b };
-                    if let Element::Universal(universal) = law {
-                        let ends = [group.a, group.b].map(|end| End::new(view, places, end, None));
-                        let [a, b] = &ends;
-                        let gradient = lean(universal, [a, b]).gradient;
-                        add(universal.stiffness, other, P::Vector::ZERO, gradient);
+                    let (turns, count) = held_turns(view, places, group, e.index);
+                    for turn in turns.into_iter().take(count) {
+                        add(law.stiffness(), other, P::Vector::ZERO, turn);
                     }
                     let mut add = |stiffness, u: P::Vector| add(stiffness, other, u, arm.cross(u));
                     *turning = *turning + law.tangent(&e.stretch, arm, &mut add);

@@ -3,11 +3,11 @@
 use core::marker::PhantomData;
 
 use crate::body::{Body, BodyState};
-use crate::elements::axial_bushing::AxialBushing;
 use crate::elements::input::{Input, InputKind, Knot};
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_on_line::PointOnLine;
+use crate::elements::revolute::Revolute;
 use crate::elements::share::Share;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
@@ -35,7 +35,7 @@ pub struct Model<
     const INPUTS: usize = 0,
     const KNOTS: usize = 0,
     const CLEARANCES: usize = 0,
-    const AXIALS: usize = 0,
+    const REVOLUTES: usize = 0,
     const UNIVERSALS: usize = 0,
 > {
     /// Bodies in scene order.
@@ -66,8 +66,8 @@ pub struct Model<
     pub knots: [Knot<P::Real>; KNOTS],
     /// \[m\] clearances of groups.
     pub clearances: [P::Real; CLEARANCES],
-    /// Axial bushings of the groups.
-    pub axials: [AxialBushing<P::Space>; AXIALS],
+    /// Revolute joints of bushings of the groups.
+    pub revolutes: [Revolute<P::Space>; REVOLUTES],
     /// Universal joints of the groups.
     pub universals: [Universal<P::Space>; UNIVERSALS],
 }
@@ -87,7 +87,7 @@ impl<
     const INPUTS: usize,
     const KNOTS: usize,
     const CLEARANCES: usize,
-    const AXIALS: usize,
+    const REVOLUTES: usize,
     const UNIVERSALS: usize,
 >
     Model<
@@ -105,7 +105,7 @@ impl<
         INPUTS,
         KNOTS,
         CLEARANCES,
-        AXIALS,
+        REVOLUTES,
         UNIVERSALS,
     >
 {
@@ -125,7 +125,7 @@ impl<
             check_pair(group.a, group.b, BODIES);
             assert!(group.stars >= 1, "a group has at least one star");
             assert!(group.law.takes_arms(group.arms), "a star has as many arms as its law knows");
-            let bushing = matches!(group.law, Law::PointBushing | Law::AxialBushing);
+            let bushing = matches!(group.law, Law::PointBushing);
             assert!(!(bushing && group.shared), "a star of bushings has a point of its own");
             let elements = group.elements();
             assert!(group.point as usize + group.points() <= POINTS, "a group's points are there");
@@ -133,7 +133,10 @@ impl<
                 Law::Tsda => TSDAS,
                 Law::PointBushing => BUSHINGS,
                 Law::PointOnLine => LINES,
-                Law::AxialBushing => AXIALS,
+                Law::Revolute => {
+                    assert!(elements == 1, "a revolute joint stands alone in its group");
+                    REVOLUTES
+                }
                 Law::Universal => {
                     assert!(elements == 1, "a universal joint stands alone in its group");
                     UNIVERSALS
@@ -224,7 +227,7 @@ impl<
     const INPUTS: usize,
     const KNOTS: usize,
     const CLEARANCES: usize,
-    const AXIALS: usize,
+    const REVOLUTES: usize,
     const UNIVERSALS: usize,
 > ModelOwner
     for Model<
@@ -242,7 +245,7 @@ impl<
         INPUTS,
         KNOTS,
         CLEARANCES,
-        AXIALS,
+        REVOLUTES,
         UNIVERSALS,
     >
 {
@@ -257,7 +260,7 @@ impl<
         LINES,
         INPUTS,
         CLEARANCES,
-        AXIALS,
+        REVOLUTES,
         UNIVERSALS,
     >;
     type PerBody<T: Copy> = [T; BODIES];
@@ -283,7 +286,7 @@ impl<
             inputs: &self.inputs,
             knots: &self.knots,
             clearances: &self.clearances,
-            axials: &self.axials,
+            revolutes: &self.revolutes,
             universals: &self.universals,
             terms: PhantomData,
         }

@@ -20,8 +20,8 @@ pub trait Terms: Copy + Default + 'static {
     const INPUTS: bool;
     /// Clearances.
     const CLEARANCES: bool;
-    /// Axial bushings.
-    const AXIALS: bool;
+    /// Revolute joints of bushings.
+    const REVOLUTES: bool;
     /// Universal joints without a spider.
     const UNIVERSALS: bool;
 }
@@ -40,7 +40,7 @@ impl Terms for AllTerms {
     const LINES: bool = true;
     const INPUTS: bool = true;
     const CLEARANCES: bool = true;
-    const AXIALS: bool = true;
+    const REVOLUTES: bool = true;
     const UNIVERSALS: bool = true;
 }
 
@@ -56,7 +56,7 @@ pub struct CountedTerms<
     const LINES: usize,
     const INPUTS: usize,
     const CLEARANCES: usize,
-    const AXIALS: usize,
+    const REVOLUTES: usize,
     const UNIVERSALS: usize,
 >;
 
@@ -70,7 +70,7 @@ impl<
     const LINES: usize,
     const INPUTS: usize,
     const CLEARANCES: usize,
-    const AXIALS: usize,
+    const REVOLUTES: usize,
     const UNIVERSALS: usize,
 > Terms
     for CountedTerms<
@@ -83,7 +83,7 @@ impl<
         LINES,
         INPUTS,
         CLEARANCES,
-        AXIALS,
+        REVOLUTES,
         UNIVERSALS,
     >
 {
@@ -96,6 +96,6 @@ impl<
     const LINES: bool = LINES > 0;
     const INPUTS: bool = INPUTS > 0;
     const CLEARANCES: bool = CLEARANCES > 0;
-    const AXIALS: bool = AXIALS > 0;
+    const REVOLUTES: bool = REVOLUTES > 0;
     const UNIVERSALS: bool = UNIVERSALS > 0;
 }

@@ -1,44 +1,40 @@
-//! Bushings of joints in a sketch: axial ones, and universal joints without a spider.
+//! Joints of bushings in a sketch: revolutes, and universal joints without a spider.
 
-use crate::elements::axial_bushing::AxialBushing;
 use crate::elements::element::Law;
+use crate::elements::revolute::Revolute;
 use crate::elements::universal::Universal;
 use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
 use crate::model::Group;
 use crate::sketch::{Sketch, assert_not_negative, assert_unit, dot, point, vector};
+use crate::vector::Vec3;
 
 impl Sketch {
-    /// The bushings of one joint: each of the `centres` \[m\] of the first body to its own of the `tips`
-    /// \[m\] of the second, `stiffness` \[N/m\] and `damping` \[N·s/m\] across the unit `axis` (first
-    /// body's axes), `ratio` times as much along it.
+    /// A revolute joint of bushings: a point \[m\] and a unit axis of either body in its own axes,
+    /// `stiffness` \[N/m\] and `damping` \[N·s/m\] across the axis, `ratio` times as much along it, and the
+    /// `lever` \[m\] at which they hold the axes in line.
     ///
     /// # Panics
-    /// Where a number is out of range or a list is full; there are as many centres as tips.
+    /// Where a number is out of range or a list is full.
     #[must_use]
-    pub const fn axial_bushings(
+    pub const fn revolute(
         self,
         between: [BodyIndex; 2],
-        [centres, tips]: [&[[f64; 3]]; 2],
-        axis: [f64; 3],
-        ratio: f64,
+        points: [[f64; 3]; 2],
+        axes: [[f64; 3]; 2],
+        [lever, ratio]: [f64; 2],
         [stiffness, damping]: [f64; 2],
     ) -> Self {
-        assert_unit(dot(axis, axis));
+        assert_unit(dot(axes[0], axes[0]));
+        assert_unit(dot(axes[1], axes[1]));
+        assert_not_negative(lever);
         assert_not_negative(ratio);
-        let element = self.axials.count;
-        let mut sketch = self.bushing_group(
-            Law::AxialBushing,
-            between,
-            [centres, tips],
-            element,
-            [stiffness, damping],
-        );
-        let mut i = 0;
-        while i < centres.len() {
-            let bushing = AxialBushing { axis: vector(axis), stiffness, ratio };
-            sketch.axials = sketch.axials.push(bushing);
-            i += 1;
-        }
+        assert!(lever > 0.0, "a lever has a length");
+        let element = self.revolutes.count;
+        let law = Law::Revolute;
+        let mut sketch = self.bushing_group(law, between, points, element, [stiffness, damping]);
+        let along = (ratio - 1.0) / (lever * lever);
+        let levers = [scaled(axes[0], lever), scaled(axes[1], lever)];
+        sketch.revolutes = sketch.revolutes.push(Revolute { stiffness, along, levers });
         sketch
     }
 
@@ -57,17 +53,14 @@ impl Sketch {
         lever: f64,
         [stiffness, damping]: [f64; 2],
     ) -> Self {
-        let [[x, y, z], axis] = axes;
         assert_unit(dot(axes[0], axes[0]));
-        assert_unit(dot(axis, axis));
+        assert_unit(dot(axes[1], axes[1]));
         assert_not_negative(lever);
         let element = self.universals.count;
-        let ends = [&[points[0]] as &[_], &[points[1]]];
-        let mut sketch =
-            self.bushing_group(Law::Universal, between, ends, element, [stiffness, damping]);
-        let levers = vector([x * lever, y * lever, z * lever]);
-        let universal = Universal { stiffness, lever: levers, axis: vector(axis) };
-        sketch.universals = sketch.universals.push(universal);
+        let law = Law::Universal;
+        let mut sketch = self.bushing_group(law, between, points, element, [stiffness, damping]);
+        let (lever, axis) = (scaled(axes[0], lever), vector(axes[1]));
+        sketch.universals = sketch.universals.push(Universal { stiffness, lever, axis });
         sketch
     }
 
@@ -75,21 +68,19 @@ impl Sketch {
         mut self,
         law: Law,
         between: [BodyIndex; 2],
-        [centres, tips]: [&[[f64; 3]]; 2],
+        points: [[f64; 3]; 2],
         element: usize,
         [stiffness, damping]: [f64; 2],
     ) -> Self {
         assert_not_negative(stiffness);
         assert_not_negative(damping);
-        assert!(centres.len() == tips.len(), "a bushing has a point of either body");
-        assert!(!centres.is_empty() && centres.len() <= 255, "a joint has 1 to 255 centres");
         let damper =
             if damping > 0.0 { DamperIndex(self.dampers.count as u16) } else { DamperIndex::NONE };
         self.groups = self.groups.push(Group {
             law,
             a: between[0],
             b: between[1],
-            stars: centres.len() as u8,
+            stars: 1,
             arms: 1,
             shared: false,
             point: self.points.count as u16,
@@ -97,19 +88,14 @@ impl Sketch {
             damper,
             clearance: ClearanceIndex::NONE,
         });
-        let mut i = 0;
-        while i < centres.len() {
-            self.points = self.points.push(point(centres[i]));
-            i += 1;
-        }
-        i = 0;
-        while i < tips.len() {
-            self.points = self.points.push(point(tips[i]));
-            if damping > 0.0 {
-                self.dampers = self.dampers.push(damping);
-            }
-            i += 1;
+        self.points = self.points.push(point(points[0])).push(point(points[1]));
+        if damping > 0.0 {
+            self.dampers = self.dampers.push(damping);
         }
         self
     }
+}
+
+const fn scaled(axis: [f64; 3], by: f64) -> Vec3<f64> {
+    vector([axis[0] * by, axis[1] * by, axis[2] * by])
 }

@@ -1,9 +1,9 @@
 //! From a sketch to a model: counted, rounded once, checked.
 
 use crate::body::{Body, BodyState};
-use crate::elements::axial_bushing::AxialBushing;
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
+use crate::elements::revolute::Revolute;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::elements::universal::Universal;
@@ -93,7 +93,7 @@ macro_rules! models {
                     const TORSIONS: usize,
                     const GRAVITY: usize,
                     const LOADS: usize,
-                    const AXIALS: usize,
+                    const REVOLUTES: usize,
                     const UNIVERSALS: usize,
                 >(
                     &self,
@@ -112,7 +112,7 @@ macro_rules! models {
                     0,
                     0,
                     0,
-                    AXIALS,
+                    REVOLUTES,
                     UNIVERSALS,
                 > {
                     Model {
@@ -162,10 +162,10 @@ macro_rules! models {
                         inputs: [],
                         knots: [],
                         clearances: [],
-                        axials: rounded!(self.axials, AXIALS, b => AxialBushing {
-                            axis: $vector(&b.axis),
-                            stiffness: b.stiffness as $real,
-                            ratio: b.ratio as $real,
+                        revolutes: rounded!(self.revolutes, REVOLUTES, r => Revolute {
+                            stiffness: r.stiffness as $real,
+                            along: r.along as $real,
+                            levers: [$vector(&r.levers[0]), $vector(&r.levers[1])],
                         }),
                         universals: rounded!(self.universals, UNIVERSALS, u => Universal {
                             stiffness: u.stiffness as $real,

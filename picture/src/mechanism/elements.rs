@@ -40,7 +40,7 @@ pub(super) fn raw(scene: &Scene, mechanism: &Mechanism) -> (Vec<SpringMark>, Vec
                 let foot = mechanism.local(ends[0].body, from + n * (point - from).dot(n));
                 guides.push(GuideMark { name, line: foot, direction, point: ends[1] });
             }
-            Law::Tsda | Law::PointBushing | Law::AxialBushing | Law::Universal => {
+            Law::Tsda | Law::PointBushing | Law::Revolute | Law::Universal => {
                 springs.push(SpringMark {
                     name,
                     ends,
@@ -59,7 +59,7 @@ fn free_length(scene: &Scene, group: &Group) -> f64 {
             let tsda = scene.model.tsdas.get(usize::from(group.element));
             tsda.map_or(0.0, |tsda| tsda.free_length)
         }
-        Law::PointBushing | Law::PointOnLine | Law::AxialBushing | Law::Universal => 0.0,
+        Law::PointBushing | Law::PointOnLine | Law::Revolute | Law::Universal => 0.0,
     }
 }
 

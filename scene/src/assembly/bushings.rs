@@ -1,7 +1,7 @@
-//! Elements without a length: point bushings, axial ones, universal joints without a spider.
+//! Elements without a length: point bushings, revolutes of them, universal joints without a spider.
 
 use dbd_kernel::model::Law;
-use dbd_kernel::{AxialBushing, PointBushing, Universal, Vec3};
+use dbd_kernel::{PointBushing, Revolute, Universal, Vec3};
 
 use crate::assembly::{Assembly, Defect, Points, index};
 use crate::pair::Pair;
@@ -25,24 +25,28 @@ impl Assembly {
         Ok(())
     }
 
-    /// Adds a group of axial bushings: stiffer by a ratio along an axis in the first body's axes.
-    pub(crate) fn add_axials(
+    /// Adds a revolute joint of bushings: an axis in the world, as long as its lever \[m\], and the ratio of
+    /// the stiffness along it to that across it.
+    pub(crate) fn add_revolute(
         &mut self,
         pair: &Pair,
-        points: Points<'_>,
-        (axis, ratio): (Vec3<f64>, f64),
+        at_w: Vec3<f64>,
+        (lever_w, ratio): (Vec3<f64>, f64),
         size: f64,
         spring: Spring,
     ) -> Result<(), Defect> {
-        let (count, number) = (points.elements(), self.model.groups.len());
-        let element = index(self.model.axials.len(), count, "axial bushings")?;
-        if !(ratio * spring.stiffness).is_finite() {
+        let number = self.model.groups.len();
+        let element = index(self.model.revolutes.len(), 1, "revolute joints of bushings")?;
+        let along = (ratio - 1.0) / lever_w.dot(lever_w);
+        if !(along.is_finite() && (ratio * spring.stiffness).is_finite()) {
             return Err(Defect::OutOfRange);
         }
-        self.add_group(Law::AxialBushing, pair, points, element, spring)?;
+        let [centre, tip] = [pair.a, pair.b].map(|body| [self.point_in(body, at_w)]);
+        let points = Points { centres: &centre, tips: &tip, shared: false };
+        self.add_group(Law::Revolute, pair, points, element, spring)?;
         self.sizes.insert(number, size);
-        let bushing = AxialBushing::from_f64(axis.to_f64(), spring.stiffness, ratio);
-        self.model.axials.extend(std::iter::repeat_n(bushing, count));
+        let levers = [pair.a, pair.b].map(|body| self.vector_in(body, lever_w).to_f64());
+        self.model.revolutes.push(Revolute::from_f64(spring.stiffness, along, levers));
         Ok(())
     }
 

@@ -350,9 +350,7 @@ impl Assembly {
         let row = usize::from(group.element);
         let length = match group.law {
             Law::Tsda => self.model.tsdas.get(row).map(|tsda| tsda.free_length),
-            Law::PointBushing | Law::AxialBushing | Law::Universal => {
-                self.sizes.get(&number).copied()
-            }
+            Law::PointBushing | Law::Revolute | Law::Universal => self.sizes.get(&number).copied(),
             Law::PointOnLine => self.model.lines.get(row).map(|line| line.free_length),
         };
         length.unwrap_or(0.0)

@@ -14,8 +14,8 @@ use super::UNUSED;
 use super::names::{constant_name, constant_names, quoted, type_name};
 use super::number::{SourceGeometry, SourceNumber};
 use super::rows::{
-    axial, body, bushing, group, input, knot, list, load, point_on_line, readout, state, torsion,
-    tsda, universal,
+    body, bushing, group, input, knot, list, load, point_on_line, readout, revolute, state,
+    torsion, tsda, universal,
 };
 use crate::{Scene, SceneModel};
 
@@ -50,7 +50,7 @@ fn of<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>) -> String {
         model.inputs.len(),
         model.knots.len(),
         model.clearances.len(),
-        model.axials.len(),
+        model.revolutes.len(),
         model.universals.len(),
     ];
     let counts = counts.map(|n| n.to_string()).join(", ");
@@ -77,7 +77,7 @@ fn of<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>) -> String {
     line(&format_args!("    inputs: {},", list(&model.inputs, input::<P>)));
     line(&format_args!("    knots: {},", list(&model.knots, knot)));
     line(&format_args!("    clearances: {},", list(&model.clearances, |c| c.number())));
-    line(&format_args!("    axials: {},", list(&model.axials, axial::<P>)));
+    line(&format_args!("    revolutes: {},", list(&model.revolutes, revolute::<P>)));
     line(&format_args!("    universals: {},", list(&model.universals, universal::<P>)));
     line(&"}");
     line(&".checked();");

@@ -57,8 +57,8 @@ pub(super) fn shared(scene: &Scene, step: f64) -> String {
 }
 
 /// The types of a model in space.
-const SPATIAL: &str = "AxialBushing, Body, BodyIndex, BodyState, F32, F64, Load, LoadFrame, Model, PointBushing, \
-                       PointOnLine,\n    Quaternion, TorsionSpring, Tsda, Universal, Vec3,\n    ";
+const SPATIAL: &str = "Body, BodyIndex, BodyState, F32, F64, Load, LoadFrame, Model, PointBushing, \
+                       PointOnLine,\n    Quaternion, Revolute, TorsionSpring, Tsda, Universal, Vec3,\n    ";
 
 /// The types of one in its plane.
 const PLANAR: &str = "Body, BodyIndex, BodyState, Load, LoadFrame, Model, Planar32, Planar64, \

@@ -8,8 +8,7 @@ use dbd_kernel::index::{BodyIndex, DamperIndex};
 use dbd_kernel::model::Group;
 use dbd_kernel::readouts::Readout;
 use dbd_kernel::{
-    AxialBushing, BodyState, Load, LoadFrame, PointBushing, PointOnLine, TorsionSpring, Tsda,
-    Universal,
+    BodyState, Load, LoadFrame, PointBushing, PointOnLine, Revolute, TorsionSpring, Tsda, Universal,
 };
 
 use super::number::{SourceGeometry, SourceNumber};
@@ -85,9 +84,10 @@ pub(super) fn bushing<R: SourceNumber>(bushing: &PointBushing<R>) -> String {
     format!("PointBushing {{ stiffness: {} }}", bushing.stiffness.number())
 }
 
-pub(super) fn axial<P: SourceGeometry>(bushing: &AxialBushing<P::Space>) -> String {
-    let (k, ratio) = (bushing.stiffness.number(), bushing.ratio.number());
-    format!("AxialBushing {{ axis: {}, stiffness: {k}, ratio: {ratio} }}", P::vector(&bushing.axis))
+pub(super) fn revolute<P: SourceGeometry>(revolute: &Revolute<P::Space>) -> String {
+    let (k, along) = (revolute.stiffness.number(), revolute.along.number());
+    let [a, b] = revolute.levers.each_ref().map(P::vector);
+    format!("Revolute {{ stiffness: {k}, along: {along}, levers: [{a}, {b}] }}")
 }
 
 pub(super) fn universal<P: SourceGeometry>(universal: &Universal<P::Space>) -> String {
@@ -121,7 +121,12 @@ pub(super) fn input<P: SourceGeometry>(input: &Input<P>) -> String {
             axes(*frame),
         ),
         InputKind::JointTorque { a, b, axis } => {
-            format!("JointTorque {{ a: {}, b: {}, axis: {} }}", index(*a), index(*b), P::moment(axis))
+            format!(
+                "JointTorque {{ a: {}, b: {}, axis: {} }}",
+                index(*a),
+                index(*b),
+                P::moment(axis)
+            )
         }
         InputKind::Actuator { group, element } => {
             format!("Actuator {{ group: {group}, element: {element} }}")

@@ -70,15 +70,25 @@ pub(super) fn along(
 
 /// Whether the elements of a group hold every direction, at no length.
 pub(super) fn is_bushing(group: &Group) -> bool {
-    matches!(group.law, Law::PointBushing | Law::AxialBushing | Law::Universal)
+    matches!(group.law, Law::PointBushing | Law::Revolute | Law::Universal)
 }
 
-/// \[m\] what the lean of a universal joint without a spider gains for a small turn of its second body,
-/// world; `None` of other groups.
-pub(super) fn leaning(scene: &Scene, group: &Group, a: &End<'_>, b: &End<'_>) -> Option<Vec3<f64>> {
+/// \[m\] Against which turns of its second body a joint of bushings holds its axes, world, as long as its
+/// lever.
+pub(super) fn held_turns(scene: &Scene, group: &Group, a: &End<'_>, b: &End<'_>) -> Vec<Vec3<f64>> {
     let row = usize::from(group.element);
-    let universal = scene.model.universals.get(row).filter(|_| group.law == Law::Universal)?;
-    Some(b.to_world(universal.axis).cross(a.to_world(universal.lever)))
+    match group.law {
+        Law::Revolute => {
+            let lever = a.to_world(scene.model.revolutes[row].levers[0]);
+            let axis = crate::direction::unit(lever);
+            axis.map_or(Vec::new(), |axis| axis.normals().map(|n| lever.cross(n)).to_vec())
+        }
+        Law::Universal => {
+            let universal = &scene.model.universals[row];
+            vec![b.to_world(universal.axis).cross(a.to_world(universal.lever))]
+        }
+        _ => Vec::new(),
+    }
 }
 
 fn facts_of(scene: &Scene, frames: &[<F64 as Geometry>::Frame], group: &Group) -> GroupFacts {
@@ -96,7 +106,7 @@ fn facts_of(scene: &Scene, frames: &[<F64 as Geometry>::Frame], group: &Group) -
                 d,
                 b.velocity(tip) - a.velocity(centre),
             ),
-            Law::PointBushing | Law::AxialBushing | Law::Universal => {
+            Law::PointBushing | Law::Revolute | Law::Universal => {
                 (0.0, d, b.velocity(tip) - a.velocity(centre))
             }
             Law::PointOnLine => {
@@ -121,8 +131,8 @@ fn facts_of(scene: &Scene, frames: &[<F64 as Geometry>::Frame], group: &Group) -
             stretching_rate: rate,
         });
     }
-    if let Some(gradient) = leaning(scene, group, &a, &b) {
-        let rate = gradient.dot(b.spin() - a.spin()).abs();
+    for turn in held_turns(scene, group, &a, &b) {
+        let rate = turn.dot(b.spin() - a.spin()).abs();
         all.stretching_rate = all.stretching_rate.max(rate);
     }
     all

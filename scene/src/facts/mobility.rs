@@ -10,7 +10,7 @@ use dbd_kernel::{BodyIndex, F64, Geometry, Vec3};
 
 use crate::Scene;
 use crate::facts::frames;
-use crate::facts::lengths::{End, along, is_bushing, leaning, points};
+use crate::facts::lengths::{End, along, held_turns, is_bushing, points};
 use crate::facts::stiffness::law;
 use crate::parts::Parts;
 
@@ -163,12 +163,13 @@ fn holds(scene: &Scene) -> Vec<Hold> {
         let count = spots.len() as f64;
         let place = spots.iter().fold(Vec3::ZERO, |sum, spot| sum + spot.0) * (1.0 / count);
         let offset = |(at, _): &(Vec3<f64>, Vec3<f64>)| length(*at - place);
-        let lean = lean(scene, &frames, group);
-        let least = lean.map_or(f64::MIN_POSITIVE, length);
+        let [a, b] = [group.a, group.b].map(|body| End { scene, frames: &frames, body });
+        let turns = held_turns(scene, group, &a, &b);
+        let least = turns.iter().copied().map(length).fold(f64::MIN_POSITIVE, f64::max);
         let size = spots.iter().map(offset).fold(least, f64::max);
         let mut wrenches = Rows::default();
-        if let Some(lean) = lean {
-            wrenches.add([[0.0; 3], lean.to_f64()].as_flattened().to_vec());
+        for turn in turns {
+            wrenches.add([[0.0; 3], turn.to_f64()].as_flattened().to_vec());
         }
         for (at, along) in &spots {
             let torque = (*at - place).cross(*along) * (1.0 / size);
@@ -184,13 +185,6 @@ fn holds(scene: &Scene) -> Vec<Hold> {
         Hold { ends, from, arms: from.map(length), wrenches, size, stiffness }
     };
     groups.map(hold).collect()
-}
-
-/// \[m\] About what the elements of a group hold a turn by itself, world: the normal of a universal
-/// joint's axes.
-fn lean(scene: &Scene, frames: &[<F64 as Geometry>::Frame], group: &Group) -> Option<Vec3<f64>> {
-    let [a, b] = [group.a, group.b].map(|body| End { scene, frames, body });
-    leaning(scene, group, &a, &b)
 }
 
 /// Per element of a group its point on the second body and its directions, world.

@@ -171,10 +171,11 @@ fn frames(scene: &Scene) -> Vec<<F64 as Geometry>::Frame> {
 pub(crate) fn axis_w(scene: &Scene, group: usize) -> Option<Vec3<f64>> {
     let model = &scene.model;
     let group = model.groups.get(group)?;
-    let bushings = matches!(group.law, Law::PointBushing | Law::AxialBushing);
     let axis = if group.law == Law::PointOnLine {
         model.lines.get(group.element as usize)?.direction
-    } else if (group.shared || bushings) && group.stars == 2 {
+    } else if group.law == Law::Revolute {
+        model.revolutes.get(group.element as usize)?.levers[0]
+    } else if group.shared && group.stars == 2 {
         let first = group.point as usize;
         *model.points.get(first + 1)? - *model.points.get(first)?
     } else {

@@ -9,7 +9,7 @@ use dbd_kernel::model::{Group, Law};
 
 use crate::Scene;
 use crate::facts::frames;
-use crate::facts::lengths::{End, along, is_bushing, leaning, points};
+use crate::facts::lengths::{End, along, held_turns, is_bushing, points};
 
 /// How fast a joint, a raw element or a torsion spring alone would let its bodies vibrate.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,8 +75,8 @@ pub(super) fn joint_elements(scene: &Scene) -> Vec<JointElement> {
             } else if let Some(n) = crate::direction::unit(d) {
                 add(stiffness, at(n), n);
             }
-            if let Some(turning) = leaning(scene, group, &a, &b) {
-                add(stiffness, [a.to_body(turning), b.to_body(turning)], Vec3::ZERO);
+            for turn in held_turns(scene, group, &a, &b) {
+                add(stiffness, [a.to_body(turn), b.to_body(turn)], Vec3::ZERO);
             }
         }
     }
@@ -87,11 +87,12 @@ pub(super) fn joint_elements(scene: &Scene) -> Vec<JointElement> {
 /// there.
 fn directions(scene: &Scene, group: &Group, i: usize, a: &End<'_>) -> [(f64, Vec3<f64>); 3] {
     let row = usize::from(group.element) + i;
-    match scene.model.axials.get(row).filter(|_| group.law == Law::AxialBushing) {
-        Some(bushing) => {
-            let axis = a.to_world(bushing.axis);
+    match scene.model.revolutes.get(row).filter(|_| group.law == Law::Revolute) {
+        Some(revolute) => {
+            let lever = a.to_world(revolute.levers[0]);
+            let axis = lever * (1.0 / libm::sqrt(lever.dot(lever)));
             let [n, m] = axis.normals();
-            [(1.0, n), (1.0, m), (bushing.ratio, axis)]
+            [(1.0, n), (1.0, m), (1.0 + revolute.along * lever.dot(lever), axis)]
         }
         None => Vec3::axes().map(|axis| (1.0, axis)),
     }
@@ -106,7 +107,7 @@ pub(super) fn law(scene: &Scene, group: &Group, i: usize) -> (f64, f64) {
             (tsda.stiffness, tsda.free_length)
         }
         Law::PointBushing => (scene.model.bushings[element + i].stiffness, 0.0),
-        Law::AxialBushing => (scene.model.axials[element + i].stiffness, 0.0),
+        Law::Revolute => (scene.model.revolutes[element + i].stiffness, 0.0),
         Law::Universal => (scene.model.universals[element + i].stiffness, 0.0),
         Law::PointOnLine => {
             let line = &scene.model.lines[element + i];
@@ -162,9 +163,9 @@ fn of_element(scene: &Scene, group: &Group, i: usize, a: &End<'_>, b: &End<'_>) 
     let square = |(weight, n): &(f64, Vec3<f64>)| {
         weight * stiffness * (moving(a, foot, *n) + moving(b, tip, *n))
     };
-    let turns = leaning(scene, group, a, b)
-        .map_or(0.0, |about| stiffness * (turning(a, about) + turning(b, about)));
-    directions.iter().map(square).fold(turns, f64::max)
+    let turns = held_turns(scene, group, a, b);
+    let turns = turns.into_iter().map(|turn| stiffness * (turning(a, turn) + turning(b, turn)));
+    directions.iter().map(square).chain(turns).fold(0.0, f64::max)
 }
 
 /// \[1/kg\] how easily a point of a body moves along a direction, world; 0 of the world.

@@ -3,8 +3,8 @@
 //! The axis points at ±span/2 on the first body, the ring points in the mid plane on the second,
 //! at azimuth 120°·j from the reference; each axis point is joined to each ring point, the one
 //! at −span/2 first. Free length √((span/2)² + ring²). With the default ring radius span/√2 the
-//! three lines of an end are orthogonal, its stiffness is k·I. As bushings: one at each axis point, with
-//! another ring stiffer or softer along the axis than across it.
+//! three lines of an end are orthogonal, its stiffness is k·I. As a bushing its bodies share a
+//! point and an axis; with another ring that is stiffer or softer along the axis than across it.
 
 use core::f64::consts::SQRT_2;
 
@@ -14,7 +14,7 @@ use crate::assembly::{Assembly, Defect, Points};
 use crate::closure::{Place, Turn};
 use crate::error::SceneError;
 use crate::hinge::Hinge;
-use crate::joints::realisation::{self, Realisation};
+use crate::joints::realisation::Realisation;
 use crate::joints::triad::Triad;
 use crate::joints::{Joint, JointType};
 use crate::pair::Pair;
@@ -105,25 +105,21 @@ pub(super) fn add(
     assembly.add_tsdas(pair, points, free_length, joint.spring)
 }
 
-/// Adds the bushings of a revolute, one at each axis point, as stiff as the three TSDAs there.
+/// Adds the revolute as a bushing: as stiff as the three TSDAs of each end, at the end.
 fn add_bushings(
     joint: &Joint,
     axis: Vec3<f64>,
     size: Size,
     assembly: &mut Assembly,
 ) -> Result<(), Defect> {
-    let places = [-size.half(), size.half()].map(|s| joint.at_w + axis * s);
-    let [centres, tips] = realisation::ends(joint, places, assembly);
-    let points = Points { centres: &centres, tips: &tips, shared: false };
-    if size.is_isotropic() {
-        return assembly.add_bushings(&joint.pair, points, size.length(), joint.spring);
-    }
-    // k·Σu·u over the three lines: across the axis 3r²/(2L²), along it 3s²/(4L²).
-    let across = 1.5 * (size.ring / size.length()) * (size.ring / size.length());
+    // Of both ends k·Σu·u over their lines: across the axis 3r²/L², along it 3s²/(2L²).
+    let part = size.ring / size.length();
+    let (across, ratio) =
+        if size.is_isotropic() { (2.0, 1.0) } else { (3.0 * part * part, size.ratio()) };
     let Spring { stiffness, damping, clearance } = joint.spring;
     let spring = Spring { stiffness: across * stiffness, damping: across * damping, clearance };
-    let axis = assembly.vector_in(joint.pair.a, axis);
-    assembly.add_axials(&joint.pair, points, (axis, size.ratio()), size.length(), spring)
+    let lever = axis * size.half();
+    assembly.add_revolute(&joint.pair, joint.at_w, (lever, ratio), size.length(), spring)
 }
 
 /// Cosine and sine of 0°, 120° and 240°.

@@ -107,7 +107,7 @@ fn size(scene: &Scene, number: usize, group: &Group) -> f64 {
     match group.law {
         Law::Tsda => scene.model.tsdas[element].free_length,
         Law::PointOnLine => scene.model.lines[element].free_length,
-        Law::PointBushing | Law::AxialBushing | Law::Universal => {
+        Law::PointBushing | Law::Revolute | Law::Universal => {
             let row = scene.joints.partition_point(|joint| joint.groups.end <= number);
             scene.joints.get(row).map_or(0.0, |joint| joint.size)
         }

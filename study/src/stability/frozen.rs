@@ -92,7 +92,12 @@ fn relax(model: &mut SceneModel<F64>, row: usize, i: usize) {
     let element = usize::from(group.element) + i;
     match group.law {
         Law::Tsda => model.tsdas[element].free_length = d.dot(d).sqrt(),
-        Law::PointBushing | Law::AxialBushing => model.points[tip] = b.local(from),
+        Law::PointBushing => model.points[tip] = b.local(from),
+        Law::Revolute => {
+            model.points[tip] = b.local(from);
+            let [first, second] = &mut model.revolutes[element].levers;
+            *second = b.to_axes(a.to_world(*first));
+        }
         Law::Universal => {
             model.points[tip] = b.local(from);
             let universal = &mut model.universals[element];
