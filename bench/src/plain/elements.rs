@@ -8,7 +8,7 @@ use crate::vectors::{
     Quaternion, Vector, cross, difference, dot, inverse, product, scaled, sum, turned,
 };
 
-use super::Body;
+use super::body::Body;
 
 /// What an element holds on to: a body's row, or the ground.
 pub type End = Option<usize>;

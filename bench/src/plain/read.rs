@@ -10,7 +10,9 @@ use thiserror::Error;
 
 use crate::vectors::Vector;
 
-use super::{Body, End, Load, Plain, Spring, Stretch, Torsion};
+use super::body::{Body, Load};
+use super::elements::{End, Spring, Stretch, Torsion};
+use super::run::Plain;
 
 /// Why there is no plain loop of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]

@@ -10,7 +10,8 @@ use serde::Serialize;
 
 use crate::terminal::Catalogue;
 
-use super::{BenchArguments, BenchError};
+use super::arguments::BenchArguments;
+use super::error::BenchError;
 
 /// Franco & Degani 2026, Table 7: its systems in their order.
 const TABLE_7: [&str; 10] = [

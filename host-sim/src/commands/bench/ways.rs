@@ -14,7 +14,7 @@ use dbd_reference::{Mechanism, State};
 use dbd_study::timing::elapsed;
 use serde::Serialize;
 
-use super::BenchError;
+use super::error::BenchError;
 use super::systems::{Size, System};
 use super::turns::{Figure, in_turn, ratio};
 
