@@ -7,7 +7,7 @@
 use std::hint::black_box;
 use std::process::ExitCode;
 
-use dbd_bench::chain;
+use dbd_bench::chain::{self, Joints};
 use dbd_bench::flops::per_step;
 use dbd_bench::plain::Plain;
 use dbd_kernel::{F32, F64, Geometry, Leapfrog, Plant};
@@ -41,7 +41,9 @@ fn run(arguments: &[String]) -> Result<String, String> {
     };
     let steps: u64 = steps.parse().map_err(|why| format!("{steps}: {why}"))?;
     let (model, step) = match what.parse::<usize>() {
-        Ok(links) => (chain::model(links).map_err(|why| why.to_string())?, chain::STEP),
+        Ok(links) => {
+            (chain::model(links, Joints::Revolute).map_err(|why| why.to_string())?, chain::STEP)
+        }
         Err(_) => {
             let scene = Scene::load(what).map_err(|why| format!("{what}: {why}"))?;
             (scene.model, scene.step.ok_or_else(|| format!("{what} gives no step"))?)

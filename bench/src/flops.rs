@@ -40,7 +40,7 @@ mod tests {
     use dbd_kernel::{Leapfrog, Tsda, Vec3};
 
     use super::*;
-    use crate::chain::{STEP, model};
+    use crate::chain::{Joints, STEP, model};
 
     #[test]
     fn a_spring_takes_what_a_hand_counts() {
@@ -58,7 +58,7 @@ mod tests {
     where
         Counted<R>: Real + Named,
     {
-        per_step::<R, _>(&model(links).unwrap(), Leapfrog, STEP).unwrap()
+        per_step::<R, _>(&model(links, Joints::Revolute).unwrap(), Leapfrog, STEP).unwrap()
     }
 
     #[test]
@@ -71,7 +71,7 @@ mod tests {
 
     #[test]
     fn what_does_not_step_has_no_operations() {
-        let chain = model(3).unwrap();
+        let chain = model(3, Joints::Revolute).unwrap();
         assert_eq!(per_step::<f64, _>(&chain, Leapfrog, 0.0), None);
         assert_eq!(per_step::<f64, _>(&chain, Leapfrog, 1.0), None);
     }

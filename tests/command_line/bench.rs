@@ -52,7 +52,7 @@ fn the_page_names_every_key() {
             section.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == key);
         assert!(found, "docs/command-line.md does not name `{key}`");
     }
-    assert!(outcome["fit"]["parts"].as_array().unwrap().len() == 5, "{outcome}");
+    assert!(outcome["fit"]["parts"].as_array().unwrap().len() == 6, "{outcome}");
     assert_eq!(outcome["goals"].as_array().unwrap().len(), 1);
 }
 

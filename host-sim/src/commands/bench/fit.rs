@@ -7,12 +7,10 @@
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
-use super::systems::Size;
-
 /// What a part costs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Part {
-    /// What: `step`, `body`, `TSDA`, `joint`, `torsion spring`.
+    /// What: `step`, `body`, `tumbling body`, `TSDA`, `joint`, `torsion spring`.
     pub of: &'static str,
     /// \[s\] per step.
     pub time_s: f64,
@@ -29,21 +27,21 @@ pub struct Fit {
     pub residual: f64,
 }
 
-const PARTS: [&str; 5] = ["step", "body", "TSDA", "joint", "torsion spring"];
+const PARTS: [&str; 6] = ["step", "body", "tumbling body", "TSDA", "joint", "torsion spring"];
 
 /// Singular values below this part of the largest one count as none: the systems do not tell the parts apart.
 const SINGULAR: f64 = 1e-9;
 
+/// How many of each part there are, but for the step.
+pub type Counts = [usize; PARTS.len() - 1];
+
 /// The fit of times \[s\] of systems; `None` where they are too few or too much alike.
 #[must_use]
-pub fn fit(rows: &[(&Size, f64)]) -> Option<Fit> {
-    let counts = |size: &Size| {
-        [1, size.bodies, size.tsdas, size.joints, size.torsion_springs].map(|n| n as f64)
-    };
+pub fn fit(rows: &[(Counts, f64)]) -> Option<Fit> {
     let free = rows.len().checked_sub(PARTS.len()).filter(|free| *free > 0)?;
     let weighted = DMatrix::from_fn(rows.len(), PARTS.len(), |row, part| {
-        let (size, time) = rows[row];
-        counts(size)[part] / time
+        let (counts, time) = rows[row];
+        part.checked_sub(1).map_or(1.0, |part| counts[part] as f64) / time
     });
     // Columns of like size, so that what is singular shows.
     let sizes: Vec<f64> = weighted.column_iter().map(|column| column.norm()).collect();
@@ -86,59 +84,43 @@ pub fn exponent(points: &[(f64, f64)]) -> Option<f64> {
 mod tests {
     use super::*;
 
-    fn size(bodies: usize, tsdas: usize, joints: usize, torsion_springs: usize) -> Size {
-        Size {
-            name: String::new(),
-            table_7: None,
-            links: None,
-            bodies,
-            tsdas,
-            joints,
-            torsion_springs,
-            step_s: 1.0,
-        }
-    }
-
-    fn sizes() -> [Size; 7] {
-        [
-            size(3, 24, 4, 2),
-            size(5, 36, 6, 3),
-            size(13, 90, 9, 3),
-            size(20, 60, 20, 0),
-            size(7, 54, 9, 3),
-            size(1, 3, 1, 0),
-            size(10, 60, 10, 0),
-        ]
-    }
+    const SYSTEMS: [Counts; 9] = [
+        [3, 0, 24, 4, 2],
+        [5, 0, 36, 6, 3],
+        [13, 10, 90, 15, 3],
+        [20, 0, 60, 20, 0],
+        [7, 0, 54, 9, 3],
+        [1, 1, 3, 1, 0],
+        [10, 0, 60, 10, 0],
+        [26, 20, 180, 30, 6],
+        [100, 0, 300, 100, 0],
+    ];
 
     /// Times that are made of known parts give these parts, without error.
     #[test]
     fn what_times_are_made_of_is_found() {
-        let made = [50.0, 20.0, 9.0, 7.0, 60.0];
-        let time = |s: &Size| {
-            let counts = [1, s.bodies, s.tsdas, s.joints, s.torsion_springs];
-            counts.iter().zip(made).map(|(n, part)| *n as f64 * part).sum::<f64>()
+        let made = [50.0, 20.0, 40.0, 9.0, 7.0, 60.0];
+        let time = |counts: &Counts| {
+            let parts = counts.iter().zip(&made[1..]);
+            made[0] + parts.map(|(n, part)| *n as f64 * part).sum::<f64>()
         };
-        let sizes = sizes();
-        let rows: Vec<(&Size, f64)> = sizes.iter().map(|size| (size, time(size))).collect();
+        let mut rows: Vec<(Counts, f64)> = SYSTEMS.iter().map(|c| (*c, time(c))).collect();
         let found = fit(&rows).unwrap();
         for (part, known) in found.parts.iter().zip(made) {
             assert!((part.time_s - known).abs() < 1e-6 && part.error_s < 1e-6, "{part:?}");
         }
         assert!(found.residual < 1e-9);
         // With one time ten per cent off, the errors are not small any more.
-        let mut rows = rows;
         rows[2].1 *= 1.1;
         assert!(fit(&rows).unwrap().parts.iter().all(|part| part.error_s > 0.1));
     }
 
     #[test]
     fn systems_too_few_or_too_much_alike_tell_nothing() {
-        let all = sizes();
-        let rows = |count: usize| all[..count].iter().map(|size| (size, 1.0)).collect::<Vec<_>>();
-        assert!(fit(&rows(5)).is_none() && fit(&rows(7)).is_some());
-        let chains: Vec<Size> = (1..9).map(|n| size(n, 6 * n, n, 1)).collect();
-        assert!(fit(&chains.iter().map(|size| (size, 1.0)).collect::<Vec<_>>()).is_none());
+        let rows = |count: usize| SYSTEMS[..count].iter().map(|c| (*c, 1.0)).collect::<Vec<_>>();
+        assert!(fit(&rows(6)).is_none() && fit(&rows(9)).is_some());
+        let chains: Vec<(Counts, f64)> = (1..9).map(|n| ([n, n, 6 * n, n, 1], 1.0)).collect();
+        assert!(fit(&chains).is_none());
     }
 
     #[test]

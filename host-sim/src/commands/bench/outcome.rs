@@ -2,13 +2,15 @@
 
 use serde::Serialize;
 
-use super::fit::{Fit, fit};
+use super::fit::{Counts, Fit, fit};
 use super::goals::{Goal, goals};
 use super::ways::Row;
 
 /// All that was measured, and what follows.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Outcome {
+    /// Whether the program checks its arithmetic, as one that is not released does: it is slower.
+    pub checked: bool,
     /// Rounds of each system.
     pub rounds: usize,
     /// The systems.
@@ -25,12 +27,26 @@ impl Outcome {
     /// What follows from rows.
     #[must_use]
     pub fn new(rounds: usize, systems: Vec<Row>) -> Self {
-        let times: Vec<_> =
-            systems.iter().filter_map(|row| Some((&row.size, row.f64_s?.least))).collect();
+        let times: Vec<(Counts, f64)> = systems
+            .iter()
+            .filter_map(|row| {
+                let size = &row.size;
+                let parts =
+                    [size.bodies, row.tumbling, size.tsdas, size.joints, size.torsion_springs];
+                Some((parts, row.f64_s?.least))
+            })
+            .collect();
         let figures = systems.iter().flat_map(|row| {
             [row.f64_s, row.f32.time_s, row.std.time_s, row.plain.time_s].into_iter().flatten()
         });
         let largest_spread = figures.map(|figure| figure.spread).fold(0.0, f64::max);
-        Self { rounds, fit: fit(&times), goals: goals(&systems), largest_spread, systems }
+        Self {
+            checked: cfg!(debug_assertions),
+            rounds,
+            fit: fit(&times),
+            goals: goals(&systems),
+            largest_spread,
+            systems,
+        }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! `names, numbers of links => models with their steps`.
 
-use dbd_bench::chain;
+use dbd_bench::chain::{self, Joints};
 use dbd_kernel::F64;
 use dbd_plant::Frequencies;
 use dbd_scene::{Scene, SceneModel};
@@ -27,8 +27,11 @@ const TABLE_7: [&str; 10] = [
     "three-systems",
 ];
 
-/// Links of the chains.
+/// Links of the chains of revolutes.
 const CHAINS: [usize; 4] = [10, 100, 1_000, 10_000];
+
+/// Links of those of spherical joints: they tell a joint from its TSDAs.
+const BALLS: [usize; 2] = [10, 100];
 
 /// Steps of a scene that gives no step and where nothing vibrates.
 const STEPS: f64 = 1_000.0;
@@ -40,13 +43,13 @@ pub struct Size {
     pub name: String,
     /// Its number in Table 7 of the paper.
     pub table_7: Option<usize>,
-    /// Links, where it is a chain that was made here.
+    /// Links, where it is a chain of revolutes that was made here.
     pub links: Option<usize>,
     /// Bodies, spiders too.
     pub bodies: usize,
     /// Elements that count as a TSDA.
     pub tsdas: usize,
-    /// Joints.
+    /// Pairs of bodies that elements join: a universal joint is two, with its spider between them.
     pub joints: usize,
     /// Torsion springs.
     pub torsion_springs: usize,
@@ -85,7 +88,12 @@ pub fn of(catalogue: &Catalogue, arguments: &BenchArguments) -> Result<Vec<Syste
         None => &[],
     };
     for links in chains {
-        systems.push(chain_system(*links)?);
+        systems.push(chain_system(*links, Joints::Revolute)?);
+    }
+    if by_default {
+        for links in BALLS {
+            systems.push(chain_system(links, Joints::Spherical)?);
+        }
     }
     Ok(systems)
 }
@@ -98,19 +106,23 @@ fn scene_system(name: String, table_7: Option<usize>, scene: Scene) -> System {
         links: None,
         bodies: scene.model.bodies.len(),
         tsdas: scene.model.tsda_count(),
-        joints: scene.joints.len(),
+        joints: scene.model.groups.len(),
         torsion_springs: scene.model.torsions.len(),
         step_s: step.unwrap_or(scene.duration / STEPS),
     };
     System { size, model: scene.model }
 }
 
-fn chain_system(links: usize) -> Result<System, BenchError> {
-    let model = chain::model(links)?;
+fn chain_system(links: usize, joints: Joints) -> Result<System, BenchError> {
+    let model = chain::model(links, joints)?;
+    let (name, revolutes) = match joints {
+        Joints::Revolute => (format!("chain-{links}"), Some(links)),
+        Joints::Spherical => (format!("balls-{links}"), None),
+    };
     let size = Size {
-        name: format!("chain-{links}"),
+        name,
         table_7: None,
-        links: Some(links),
+        links: revolutes,
         bodies: links,
         tsdas: model.tsda_count(),
         joints: links,

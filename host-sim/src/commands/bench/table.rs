@@ -44,6 +44,11 @@ impl Outcome {
     fn aimed_at(&self, look: Look) -> String {
         let mut rows: Vec<(String, String)> =
             self.goals.iter().map(|goal| (goal.what.clone(), goal.text())).collect();
+        if self.checked {
+            let text =
+                "this program checks its arithmetic; a released one is faster: cargo run --release";
+            rows.push(("warning".to_owned(), text.to_owned()));
+        }
         if self.largest_spread > CALM {
             let spread = 100.0 * self.largest_spread;
             let text = format!(

@@ -21,6 +21,9 @@ use super::turns::{Figure, in_turn, ratio};
 /// \[s\] a measurement takes, where nobody says how many steps it has.
 const BATCH: f64 = 2e-3;
 
+/// A rate below this part of a body's largest one is a rounding.
+const STILL: f64 = 1e-9;
+
 /// Floating-point operations in a cycle: today's cores have two units for those of one number.
 const FLOPS_PER_CYCLE: f64 = 2.0;
 
@@ -49,6 +52,8 @@ pub struct Row {
     pub std: Other,
     /// A plain loop over the same elements.
     pub plain: Other,
+    /// Bodies that turn about more than one of their axes, which takes more turns.
+    pub tumbling: usize,
     /// Floating-point operations of a step in double precision.
     pub flops: Option<f64>,
     /// \[s\] a cycle of the clock.
@@ -114,6 +119,12 @@ pub fn measured(
             why_not,
         },
     };
+    let tumbling = naive.state.bodies.iter().filter(|body| {
+        let mut rates = [body.rate.x, body.rate.y, body.rate.z].map(f64::abs);
+        rates.sort_by(f64::total_cmp);
+        rates[1] > STILL * rates[2]
+    });
+    let tumbling = tumbling.count();
     let flops = per_step::<f64, _>(model, Leapfrog, size.step_s);
     let bound = flops.and_then(|flops| {
         let bounds: Vec<f64> = times[cycles].iter().map(|c| c * flops / FLOPS_PER_CYCLE).collect();
@@ -125,6 +136,7 @@ pub fn measured(
         f32: other(1, None),
         std: other(2, naive_fails),
         plain: other(3, lacks.or(plain_fails)),
+        tumbling,
         flops,
         cycle_s: Figure::of(times[cycles].clone()),
         over_flop_bound: bound,
