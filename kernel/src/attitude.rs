@@ -1,10 +1,11 @@
 //! How an orientation is stored and turned, apart from where its body is.
 //!
 //! `(stored, turn) => stored; stored => rotation matrix`. A way of storing is one type: the unit
-//! [`Quaternion`] here, Euler angles in [`crate::euler`].
+//! [`Quaternion`] and, in the plane, [`Heading`] here, Euler angles in [`crate::euler`].
 
 use core::fmt::Debug;
 
+use crate::plane::Heading;
 use crate::real::Real;
 use crate::space::Turn;
 use crate::vector::{Quaternion, Rotation, Vec3};
@@ -89,5 +90,40 @@ impl<R: Real> Attitude for Quaternion<R> {
     }
     fn to_f64(&self) -> [f64; 4] {
         Quaternion::to_f64(*self)
+    }
+}
+
+impl<R: Real> Attitude for Heading<R> {
+    type Real = R;
+    type Turn = Self;
+
+    const NAME: &'static str = "heading";
+
+    #[inline(always)]
+    fn rotation(&self) -> Rotation<R> {
+        Quaternion::from(*self).rotation()
+    }
+    #[inline(always)]
+    fn quaternion(&self) -> Quaternion<R> {
+        Quaternion::from(*self)
+    }
+    #[inline(always)]
+    fn since_world(&self) -> Self {
+        *self
+    }
+    /// Of the turn only what is about z.
+    #[inline(always)]
+    fn turn(&mut self, turn: Quaternion<R>) {
+        *self = self.product(Heading::new(turn.w, turn.v.z));
+    }
+    #[inline(always)]
+    fn renormalise(&mut self) {
+        *self = self.renormalised();
+    }
+    fn from_f64(orientation: [f64; 4]) -> Self {
+        Turn::from_f64(orientation)
+    }
+    fn to_f64(&self) -> [f64; 4] {
+        Turn::to_f64(*self)
     }
 }

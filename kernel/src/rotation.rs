@@ -12,7 +12,7 @@ use crate::body::Body;
 use crate::compositions::PEFRL;
 use crate::geometry::Geometry;
 use crate::real::Real;
-use crate::space::{Linear as _, Moment};
+use crate::space::{Linear as _, Moment, Space as _};
 use crate::vector::{Quaternion, Vec3};
 
 /// Turns by the rotation vector `2·half` in body axes (exponential map).
@@ -37,6 +37,9 @@ pub fn free_rotor<P: Geometry>(
     rate: &mut P::Spin,
     time: P::Real,
 ) {
+    if P::Space::PLANAR {
+        return turn_in_plane::<P>(orientation, rate, time);
+    }
     let (zero, half) = (P::Real::ZERO, P::Real::HALF * time);
     let w = P::spin(rate).in_space();
     if w.x != zero {
@@ -72,6 +75,9 @@ pub fn free_rotor_of_order_four<P: Geometry>(
     rate: &mut P::Spin,
     time: P::Real,
 ) {
+    if P::Space::PLANAR {
+        return turn_in_plane::<P>(orientation, rate, time);
+    }
     let zero = P::Real::ZERO;
     let w = P::spin(rate).in_space();
     match (w.x == zero, w.y == zero, w.z == zero) {
@@ -82,6 +88,12 @@ pub fn free_rotor_of_order_four<P: Geometry>(
         _ => tumble::<P>(body, orientation, rate, time),
     }
     P::Orientation::renormalise(orientation);
+}
+
+/// The free rotor of a plane: one turn, exact.
+#[inline(always)]
+fn turn_in_plane<P: Geometry>(orientation: &mut P::Orientation, rate: &P::Spin, time: P::Real) {
+    turn_by::<P>(orientation, P::spin(rate) * (P::Real::HALF * time));
 }
 
 /// [`free_rotor_of_order_four`] about more than one axis.

@@ -1,6 +1,6 @@
 //! Point bushings.
 //!
-//! `(group, ends) => record`. Star by star, a point of A and one of B each.
+//! `(group, ends) => record`, star by star: a point of A and its own of B each.
 
 use crate::forces::record::{Dampers, Record};
 use crate::geometry::Geometry;

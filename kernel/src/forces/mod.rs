@@ -12,8 +12,10 @@ mod bushing;
 mod inputs;
 mod lines;
 mod record;
+mod revolute;
 mod stars;
 mod torsions;
+mod universal;
 
 use crate::body::BodyState;
 pub use record::{At, Dampers, DampersLeft, ExplicitDampers, Wrench};
@@ -101,7 +103,7 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, D: Dampers>(
     if T::INPUTS {
         inputs::push(model, places, wrenches);
     }
-    if T::TSDAS || T::BUSHINGS || T::LINES {
+    if T::TSDAS || T::BUSHINGS || T::LINES || T::REVOLUTES || T::UNIVERSALS {
         for group in model.groups {
             if let Some(record) = record::<P, T, D>(model, places, bodies, group) {
                 apply(wrenches, group.a.row(), group.b.row(), &record);
@@ -135,6 +137,12 @@ pub(crate) fn record<P: Geometry, T: Terms, D: Dampers>(
             bushing::bushings::<P, T, D>(model, group, &end_a, &end_b)
         }
         Law::PointOnLine if T::LINES => Some(lines::lines::<P, T, D>(model, group, &end_a, &end_b)),
+        Law::Revolute if T::REVOLUTES => {
+            Some(revolute::revolute::<P, T, D>(model, group, &end_a, &end_b))
+        }
+        Law::Universal if T::UNIVERSALS => {
+            Some(universal::universal::<P, T, D>(model, group, &end_a, &end_b))
+        }
         _ => None,
     }
 }

@@ -26,7 +26,7 @@ impl<S: Space> Record<S> {
     pub(crate) const ZERO: Self =
         Self { force: S::Vector::ZERO, torque_a: S::Moment::ZERO, torque_b: S::Moment::ZERO };
 
-    /// The sum of two.
+    /// This and another.
     #[inline(always)]
     pub(super) fn with(&self, other: &Self) -> Self {
         Self {
