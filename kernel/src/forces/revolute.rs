@@ -6,23 +6,34 @@ use crate::forces::record::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::End;
-use crate::space::Vector as _;
 
-/// A revolute joint.
+/// A revolute joint. Twice the same, as for stars: where an end is known to be a body or the ground,
+/// none of its points asks.
 #[inline(always)]
 pub(super) fn revolute<P: Geometry, T: Terms, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Record<P::Space> {
+) -> Option<Record<P::Space>> {
+    match (end_a.body(), end_b.body()) {
+        (Some(a), Some(b)) => between::<P, T, D>(model, group, &a, &b),
+        (None, Some(b)) => between::<P, T, D>(model, group, &end_a.ground(), &b),
+        _ => between::<P, T, D>(model, group, end_a, end_b),
+    }
+}
+
+/// Between two ends.
+#[inline(always)]
+fn between<P: Geometry, T: Terms, D: Dampers>(
+    model: &ModelRef<'_, P, T>,
+    group: &Group,
+    end_a: &End<'_, P>,
+    end_b: &End<'_, P>,
+) -> Option<Record<P::Space>> {
     let first = group.point as usize;
-    let (Some([a, b]), Some(revolute)) = (
-        model.points.get(first..first + 2).and_then(<[_]>::first_chunk::<2>),
-        model.revolutes.get(group.element as usize),
-    ) else {
-        return Record::ZERO;
-    };
+    let [a, b] = model.points.get(first..first + 2)?.first_chunk::<2>()?;
+    let revolute = model.revolutes.get(group.element as usize)?;
     let ((a, arm_a), (b, arm_b)) = (end_a.place(a), end_b.place(b));
     let d = P::displacement(&a, &b);
     let arm_a = end_a.arm_at(arm_a, d);
@@ -41,6 +52,6 @@ pub(super) fn revolute<P: Geometry, T: Terms, D: Dampers>(
         }
         None => (revolute.force(d, levers[0]), torque),
     };
-    let torque_b = -(arm_b.cross(force) + torque);
-    Record { force, torque_a: arm_a.cross(force) + torque, torque_b }
+    let (torque_a, torque_b) = (end_a.moment(arm_a, force), end_b.moment(arm_b, force));
+    Some(Record { force, torque_a: torque_a + torque, torque_b: -(torque_b + torque) })
 }

@@ -7,7 +7,7 @@ use crate::forces::record::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::End;
-use crate::space::{Linear as _, Vector as _};
+use crate::space::Linear as _;
 
 /// A universal joint.
 #[inline(always)]
@@ -16,15 +16,10 @@ pub(super) fn universal<P: Geometry, T: Terms, D: Dampers>(
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Record<P::Space> {
+) -> Option<Record<P::Space>> {
     let first = group.point as usize;
-    let (Some(a), Some(b), Some(universal)) = (
-        model.points.get(first),
-        model.points.get(first + 1),
-        model.universals.get(group.element as usize),
-    ) else {
-        return Record::ZERO;
-    };
+    let [a, b] = model.points.get(first..first + 2)?.first_chunk::<2>()?;
+    let universal = model.universals.get(group.element as usize)?;
     let ((a, arm_a), (b, arm_b)) = (end_a.place(a), end_b.place(b));
     let d = P::displacement(&a, &b);
     let lean: Lean<P::Space> =
@@ -40,6 +35,6 @@ pub(super) fn universal<P: Geometry, T: Terms, D: Dampers>(
         size = size + lean.gradient.dot(end_b.spin - end_a.spin) * damping;
     }
     let torque = lean.gradient * size;
-    let torque_b = -(arm_b.cross(force) + torque);
-    Record { force, torque_a: arm_a.cross(force) + torque, torque_b }
+    let (torque_a, torque_b) = (end_a.moment(arm_a, force), end_b.moment(arm_b, force));
+    Some(Record { force, torque_a: torque_a + torque, torque_b: -(torque_b + torque) })
 }
