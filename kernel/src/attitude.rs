@@ -5,12 +5,12 @@
 
 use core::fmt::Debug;
 
-use crate::real::Real;
+use crate::real::{Lanewise, Real};
 use crate::vector::{Quaternion, Rotation};
 use crate::words::Words;
 
 /// The stored orientation of a body, body → world.
-pub trait Attitude: Copy + Debug + Default + PartialEq + Words + 'static {
+pub trait Attitude: Copy + Debug + Default + PartialEq + Send + Words + 'static {
     /// The number in which rotations are computed.
     type Real: Real;
 
@@ -23,6 +23,10 @@ pub trait Attitude: Copy + Debug + Default + PartialEq + Words + 'static {
     fn quaternion(&self) -> Quaternion<Self::Real>;
     /// Composes with a turn given in body axes: `q ← q ∘ turn`.
     fn turn(&mut self, turn: Quaternion<Self::Real>);
+    /// Takes `start` back in lanes where `resting` holds. For one lane its caller makes sure that it
+    /// does not hold.
+    #[inline(always)]
+    fn keep(&mut self, _resting: <Self::Real as Real>::Truth, _start: &Self) {}
     /// Restores unit length, or the range of angles, after the turns of a step.
     fn renormalise(&mut self);
     /// Rounds a unit quaternion once, scalar first.
@@ -58,6 +62,10 @@ impl<R: Real> Attitude for Quaternion<R> {
     #[inline(always)]
     fn turn(&mut self, turn: Quaternion<R>) {
         *self = self.product(turn);
+    }
+    #[inline(always)]
+    fn keep(&mut self, resting: R::Truth, start: &Self) {
+        *self = Quaternion::select(resting, *start, *self);
     }
     #[inline(always)]
     fn renormalise(&mut self) {

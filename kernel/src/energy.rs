@@ -76,7 +76,8 @@ pub fn energy<M: ModelOwner>(model: &M, state: &State<M>, step_size: f64) -> Ene
         };
         *kind = *kind + energy;
     });
-    for (spring, &turns) in view.torsions.iter().zip(state.turns.as_ref()) {
+    let turns = RealOf::<M>::counts(state.turns.as_ref());
+    for (spring, &turns) in view.torsions.iter().zip(turns) {
         if let Some(twist) = twist_of::<M::Precision>(spring, bodies, turns) {
             sum.torsion = sum.torsion + spring.energy(twist.angle);
         }

@@ -102,7 +102,7 @@ pub(crate) fn square_of<P: Geometry, T: Terms>(
             turning = turning + taut(tension, e.stretch.displacement, arm, &mut add);
         }
     }
-    for (spring, &turns) in view.torsions.iter().zip(turns) {
+    for (spring, &turns) in view.torsions.iter().zip(P::Real::counts(turns)) {
         let other = if spring.a == here {
             spring.b
         } else if spring.b == here {

@@ -7,11 +7,13 @@
 //! terms are below 2.7e-20 (f64) and 1e-12 (f32) at x = 0.05, the advised limit h·ω = 0.1, and
 //! below 3e-10 and 1e-7 at x = 0.5.
 
+mod lanes;
+
 use crate::attitude::Attitude as _;
 use crate::body::Body;
 use crate::compositions::PEFRL;
 use crate::geometry::Geometry;
-use crate::real::Real;
+use crate::real::{Real, Truth as _};
 use crate::vector::{Quaternion, Vec3};
 
 /// Turns by the rotation vector `2·half` in body axes (exponential map).
@@ -36,12 +38,12 @@ pub fn free_rotor<P: Geometry>(
     rate: &mut P::Velocity,
     time: P::Real,
 ) {
-    let half = P::Real::HALF * time;
-    about_x::<P>(body, orientation, rate, half);
-    about_y::<P>(body, orientation, rate, half);
-    about_z::<P>(body, orientation, rate, time);
-    about_y::<P>(body, orientation, rate, half);
-    about_x::<P>(body, orientation, rate, half);
+    let (half, none) = (P::Real::HALF * time, P::Real::truth(false));
+    about_x::<P>(body, orientation, rate, half, none);
+    about_y::<P>(body, orientation, rate, half, none);
+    about_z::<P>(body, orientation, rate, time, none);
+    about_y::<P>(body, orientation, rate, half, none);
+    about_x::<P>(body, orientation, rate, half, none);
     P::Orientation::renormalise(orientation);
 }
 
@@ -53,19 +55,23 @@ pub fn free_rotor<P: Geometry>(
 /// Wisdom 1994; Fassò 2003): the first term turns about L, exactly, and commutes with the others;
 /// those two turn about their axes, composed with the coefficients of [`crate::schemes::Pefrl`]. A body of
 /// two equal inertias takes one of them only: its flow is exact, too.
-#[inline]
+#[inline(always)]
 pub fn free_rotor_of_order_four<P: Geometry>(
     body: &Body<P::Real>,
     orientation: &mut P::Orientation,
     rate: &mut P::Velocity,
     time: P::Real,
 ) {
-    let zero = P::Real::ZERO;
+    if P::Real::LANES > 1 {
+        lanes::of_order_four::<P>(body, orientation, rate, time);
+        return;
+    }
+    let (zero, none) = (P::Real::ZERO, P::Real::truth(false));
     let w = P::velocity(rate);
     match (w.x == zero, w.y == zero, w.z == zero) {
-        (false, true, true) => about_x::<P>(body, orientation, rate, time),
-        (true, false, true) => about_y::<P>(body, orientation, rate, time),
-        (true, true, false) => about_z::<P>(body, orientation, rate, time),
+        (false, true, true) => about_x::<P>(body, orientation, rate, time, none),
+        (true, false, true) => about_y::<P>(body, orientation, rate, time, none),
+        (true, true, false) => about_z::<P>(body, orientation, rate, time, none),
         (true, true, true) => return,
         _ => tumble::<P>(body, orientation, rate, time),
     }
@@ -80,7 +86,7 @@ fn tumble<P: Geometry>(
     rate: &mut P::Velocity,
     time: P::Real,
 ) {
-    let (zero, one) = (P::Real::ZERO, P::Real::ONE);
+    let (zero, one, none) = (P::Real::ZERO, P::Real::ONE, P::Real::truth(false));
     let Vec3 { x, y, z } = body.inertia;
     let lies_between =
         |b: P::Real, a: P::Real, c: P::Real| (a <= b && b <= c) || (c <= b && b <= a);
@@ -95,9 +101,9 @@ fn tumble<P: Geometry>(
     let momentum = body.inertia.scale(P::velocity(rate));
     P::Orientation::turn(orientation, half_turn(momentum * (P::Real::HALF * time / middle)));
     let mut turn = |axis: Axis, time: P::Real| match axis {
-        Axis::X => about_x::<P>(body, orientation, rate, time),
-        Axis::Y => about_y::<P>(body, orientation, rate, time),
-        Axis::Z => about_z::<P>(body, orientation, rate, time),
+        Axis::X => about_x::<P>(body, orientation, rate, time, none),
+        Axis::Y => about_y::<P>(body, orientation, rate, time, none),
+        Axis::Z => about_z::<P>(body, orientation, rate, time, none),
     };
     if share == zero {
         turn(second, other * time);
@@ -150,23 +156,42 @@ impl<R: Real> Turn<R> {
     }
 }
 
+/// The truth of a geometry's number.
+type TruthOf<P> = <<P as Geometry>::Real as Real>::Truth;
+
+/// Turns all but the resting lanes.
+#[inline(always)]
+fn turn_unless<P: Geometry>(
+    orientation: &mut P::Orientation,
+    turn: Quaternion<P::Real>,
+    resting: TruthOf<P>,
+) {
+    let start = *orientation;
+    P::Orientation::turn(orientation, turn);
+    P::Orientation::keep(orientation, resting, &start);
+}
+
+// In lanes `without` an axis turns nothing.
 #[inline(always)]
 fn about_x<P: Geometry>(
     body: &Body<P::Real>,
     orientation: &mut P::Orientation,
     rate: &mut P::Velocity,
     time: P::Real,
+    without: TruthOf<P>,
 ) {
     let zero = P::Real::ZERO;
     let w = P::velocity(rate);
-    if w.x == zero {
+    let resting = w.x.equals(zero) | without;
+    if resting.all() {
         return;
     }
     let t = Turn::by(time * w.x);
     let y = t.sine * (body.ratio.x * w.z) - t.versine * w.y;
     let z = -(t.sine * (body.inverse_ratio.x * w.y)) - t.versine * w.z;
-    P::accelerate(rate, Vec3::new(zero, y, z));
-    P::Orientation::turn(orientation, Quaternion::new(t.half_cos, t.half_sin, zero, zero));
+    P::accelerate(rate, Vec3::new(zero, y, z).unless(resting));
+    let turn = Quaternion::new(t.half_cos, t.half_sin, zero, zero);
+    turn_unless::<P>(orientation, turn, resting);
 }
 
 #[inline(always)]
@@ -175,17 +200,20 @@ fn about_y<P: Geometry>(
     orientation: &mut P::Orientation,
     rate: &mut P::Velocity,
     time: P::Real,
+    without: TruthOf<P>,
 ) {
     let zero = P::Real::ZERO;
     let w = P::velocity(rate);
-    if w.y == zero {
+    let resting = w.y.equals(zero) | without;
+    if resting.all() {
         return;
     }
     let t = Turn::by(time * w.y);
     let z = t.sine * (body.ratio.y * w.x) - t.versine * w.z;
     let x = -(t.sine * (body.inverse_ratio.y * w.z)) - t.versine * w.x;
-    P::accelerate(rate, Vec3::new(x, zero, z));
-    P::Orientation::turn(orientation, Quaternion::new(t.half_cos, zero, t.half_sin, zero));
+    P::accelerate(rate, Vec3::new(x, zero, z).unless(resting));
+    let turn = Quaternion::new(t.half_cos, zero, t.half_sin, zero);
+    turn_unless::<P>(orientation, turn, resting);
 }
 
 #[inline(always)]
@@ -194,17 +222,20 @@ fn about_z<P: Geometry>(
     orientation: &mut P::Orientation,
     rate: &mut P::Velocity,
     time: P::Real,
+    without: TruthOf<P>,
 ) {
     let zero = P::Real::ZERO;
     let w = P::velocity(rate);
-    if w.z == zero {
+    let resting = w.z.equals(zero) | without;
+    if resting.all() {
         return;
     }
     let t = Turn::by(time * w.z);
     let x = t.sine * (body.ratio.z * w.y) - t.versine * w.x;
     let y = -(t.sine * (body.inverse_ratio.z * w.x)) - t.versine * w.y;
-    P::accelerate(rate, Vec3::new(x, y, zero));
-    P::Orientation::turn(orientation, Quaternion::new(t.half_cos, zero, zero, t.half_sin));
+    P::accelerate(rate, Vec3::new(x, y, zero).unless(resting));
+    let turn = Quaternion::new(t.half_cos, zero, zero, t.half_sin);
+    turn_unless::<P>(orientation, turn, resting);
 }
 
 #[cfg(test)]

@@ -10,16 +10,18 @@ use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{ModelRef, Terms};
 use crate::pose::{Places, placed};
-use crate::real::Real;
+use crate::real::{Real, Truth as _};
 
 /// What an impulse of 1 along a damper does to its two bodies.
 #[derive(Clone, Copy)]
-pub(super) struct Motion<R> {
+pub(super) struct Motion<R: Real> {
     bodies: [BodyIndex; 2],
     increments: [Increment<R>; 2],
     /// `K_ii`, 1/μ.
     pub(super) rate: R,
     coefficient: R,
+    /// The lanes in which it moves anything.
+    pub(super) known: R::Truth,
 }
 
 /// Where dampers stand: groups in order, then torsion springs.
@@ -89,6 +91,7 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
                 }
             }
             Mount::Torsion(row) => {
+                let turns = P::Real::counts(turns);
                 let Some((spring, &turns)) = model.torsions.iter().zip(turns).nth(row) else {
                     return;
                 };
@@ -112,7 +115,13 @@ impl<R: Real> Motion<R> {
         direction: &Direction<R>,
     ) -> Option<Self> {
         let mut motion =
-            Self { bodies, increments: [Increment::default(); 2], rate: R::ZERO, coefficient };
+            Self {
+                bodies,
+                increments: [Increment::default(); 2],
+                rate: R::ZERO,
+                coefficient,
+                known: R::truth(true),
+            };
         let ends = bodies.into_iter().zip(direction.moments).zip([-R::ONE, R::ONE]);
         for (((body, moment), sign), increment) in ends.zip(&mut motion.increments) {
             if let Some(body) = model.bodies.get(body.row()) {
@@ -123,7 +132,8 @@ impl<R: Real> Motion<R> {
             }
         }
         motion.rate = motion.rate(bodies, direction);
-        (motion.rate > R::ZERO && coefficient > R::ZERO).then_some(motion)
+        motion.known = R::ZERO.less_than(motion.rate) & R::ZERO.less_than(coefficient);
+        motion.known.any().then_some(motion)
     }
 
     /// The rate along a direction between two bodies.

@@ -6,7 +6,7 @@ use crate::body::{BodyState, Diagonal, Increment};
 use crate::forces::Wrench;
 use crate::geometry::Geometry;
 use crate::model::{ModelRef, Terms};
-use crate::real::Real;
+use crate::real::{Real, Truth as _};
 use crate::vector::Vec3;
 
 /// What a damper knows of itself besides its levers.
@@ -103,16 +103,36 @@ struct Side<R> {
     turn: Vec3<R>,
 }
 
+/// The body in a row with its inverse mass, velocity and what the kick gave to that.
+#[inline(always)]
+#[allow(clippy::type_complexity)]
+fn side<P: Geometry, T: Terms, K: Kick<P>>(
+    model: &ModelRef<'_, P, T>,
+    row: usize,
+    bodies: &[BodyState<P>],
+    kick: &K,
+) -> Option<(Side<P::Real>, P::Real, Vec3<P::Real>, Vec3<P::Real>)> {
+    let (body, state) = (model.bodies.get(row)?, bodies.get(row)?);
+    let kick = kick.of(row);
+    let side = Side {
+        inverse_inertia: body.inverse_inertia,
+        spin: P::velocity(&state.angular_velocity),
+        kick: kick.angular,
+        turn: Vec3::ZERO,
+    };
+    Some((side, body.inverse_mass, P::velocity(&state.velocity), kick.linear))
+}
+
 impl<R: Real> Side<R> {
     #[inline(always)]
     fn rate(&self, moment: Vec3<R>) -> R {
         moment.dot(self.spin + self.turn)
     }
 
-    /// An impulsive moment; what it does per unit is at hand.
+    /// What an impulsive moment does.
     #[inline(always)]
-    fn turn(&mut self, response: Vec3<R>, impulse: R) {
-        self.turn = self.turn + response * impulse;
+    fn turn(&mut self, response: Vec3<R>) {
+        self.turn = self.turn + response;
     }
 }
 
@@ -143,17 +163,8 @@ impl<R: Real> Pair<R> {
         ground_rate: Vec3<R>,
         kick: &K,
     ) -> Self {
-        let [a, b] = rows.map(|row| {
-            let (body, state) = (model.bodies.get(row)?, bodies.get(row)?);
-            let kick = kick.of(row);
-            let side = Side {
-                inverse_inertia: body.inverse_inertia,
-                spin: P::velocity(&state.angular_velocity),
-                kick: kick.angular,
-                turn: Vec3::ZERO,
-            };
-            Some((side, body.inverse_mass, P::velocity(&state.velocity), kick.linear))
-        });
+        let [a, b] = rows;
+        let (a, b) = (side(model, a, bodies, kick), side(model, b, bodies, kick));
         let mut velocity = ground_rate;
         let mut pushed = Vec3::ZERO;
         let mut inverse_masses = [R::ZERO; 2];
@@ -184,12 +195,13 @@ impl<R: Real> Pair<R> {
         matches!(self.sides.get(end), Some(Some(_)))
     }
 
-    /// One damper acts.
+    /// One damper acts, but in lanes where it is idle.
     #[inline(always)]
     pub(super) fn damp<P: Geometry<Real = R>, K: Kick<P>>(
         &mut self,
         direction: &Direction<R>,
         damper: Damper<R>,
+        idle: R::Truth,
     ) {
         let Direction { along: u, moments: [moment_a, moment_b] } = *direction;
         let [a, b] = &mut self.sides;
@@ -214,7 +226,8 @@ impl<R: Real> Pair<R> {
             }
         }
         // Without a direction (coincident points) nothing can be pushed.
-        if inverse == R::ZERO {
+        let idle = idle | inverse.equals(R::ZERO);
+        if idle.all() {
             return;
         }
         let (x, impulse_per_rate) = damper.impulse_per_rate(inverse);
@@ -222,12 +235,12 @@ impl<R: Real> Pair<R> {
             rate = rate - kick * damper.unmet(x);
         }
         let impulse = impulse_per_rate * rate;
-        self.impulse = self.impulse + u * impulse;
+        self.impulse = self.impulse + (u * impulse).unless(idle);
         if let Some(a) = a {
-            a.turn(response_a, impulse);
+            a.turn((response_a * impulse).unless(idle));
         }
         if let Some(b) = b {
-            b.turn(response_b, -impulse);
+            b.turn((response_b * -impulse).unless(idle));
         }
     }
 

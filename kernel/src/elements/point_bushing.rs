@@ -43,7 +43,7 @@ impl<R: Real> PointBushing<R> {
 
 impl<R: Real> PointLaw<R> for PointBushing<R> {
     /// `|d|` \[m\].
-    #[inline]
+    #[inline(always)]
     fn extension(&self, d: Vec3<R>) -> R {
         d.dot(d).sqrt()
     }

@@ -11,7 +11,7 @@
 
 use crate::elements::clearance::{beyond, engaged};
 use crate::elements::point_law::{PointLaw, Stretch};
-use crate::real::Real;
+use crate::real::{Real, choose};
 use crate::vector::Vec3;
 
 /// The constants of a point on a line.
@@ -67,12 +67,12 @@ impl<R: Real> PointOnLine<R> {
     /// is one.
     #[inline(always)]
     pub fn force(&self, e: Vec3<R>, clearance: Option<R>) -> Vec3<R> {
-        if clearance.is_none() && self.free_length == R::ZERO {
-            return e * self.stiffness;
-        }
-        let length = e.dot(e).sqrt();
-        let tension = self.stiffness * beyond(length - self.free_length, clearance);
-        e * (tension * length.reciprocal_or_zero())
+        let smooth = R::truth(clearance.is_none()) & self.free_length.equals(R::ZERO);
+        choose!(R, smooth, e * self.stiffness, {
+            let length = e.dot(e).sqrt();
+            let tension = self.stiffness * beyond(length - self.free_length, clearance);
+            e * (tension * length.reciprocal_or_zero())
+        })
     }
 
     /// Force on A \[N\] with the damper's share: `damping` in N·s/m, `rate` is `ė`.
@@ -91,7 +91,7 @@ impl<R: Real> PointOnLine<R> {
 
 impl<R: Real> PointLaw<R> for PointOnLine<R> {
     /// `|e| − L0` \[m\].
-    #[inline]
+    #[inline(always)]
     fn extension(&self, e: Vec3<R>) -> R {
         e.dot(e).sqrt() - self.free_length
     }

@@ -13,7 +13,7 @@
 
 use crate::arctangent::atan2;
 use crate::index::{BodyIndex, DamperIndex};
-use crate::real::Real;
+use crate::real::{Real, choose};
 use crate::vector::{Quaternion, Vec3};
 
 /// The constants of a torsion spring.
@@ -63,22 +63,17 @@ pub struct SinceStart<R> {
 impl<R: Real> SinceStart<R> {
     /// (w, v·n) with the sign that belongs to the turn count.
     #[inline(always)]
-    fn wound(&self, turns: i32) -> (R, R) {
-        let odd = turns & 1 != 0;
-        if odd { (-self.turn.w, -self.s) } else { (self.turn.w, self.s) }
+    fn wound(&self, turns: R::Count) -> (R, R) {
+        choose!(R, R::is_odd(turns), (-self.turn.w, -self.s), (self.turn.w, self.s))
     }
 
     /// The turn count brought to the half winding nearest the pose, which a step does near its
     /// boundary.
     #[inline(always)]
     #[must_use]
-    pub fn settled(&self, turns: i32) -> i32 {
+    pub fn settled(&self, turns: R::Count) -> R::Count {
         let (w, s) = self.wound(turns);
-        if w < R::ZERO {
-            if s > R::ZERO { turns.wrapping_add(1) } else { turns.wrapping_sub(1) }
-        } else {
-            turns
-        }
+        R::recount(turns, w.less_than(R::ZERO), R::ZERO.less_than(s))
     }
 }
 
@@ -104,17 +99,21 @@ impl<R: Real> TorsionSpring<R> {
         let s = turn.v.dot(self.axis);
         let norm = turn.w * turn.w + s * s;
         // Written so that NaN counts as undefined, too.
-        let defined = norm >= R::from_f64(LEAST_TWIST_NORM);
-        if defined { Some(SinceStart { turn, s, norm }) } else { None }
+        let norm = norm.only_where(R::from_f64(LEAST_TWIST_NORM).at_most(norm))?;
+        Some(SinceStart { turn, s, norm })
     }
 
     /// The twist of a rotation at the turn count `turns`.
     #[inline(always)]
-    pub fn twist(&self, since: &SinceStart<R>, turns: i32) -> Twist<R> {
+    pub fn twist(&self, since: &SinceStart<R>, turns: R::Count) -> Twist<R> {
         let (w, s) = since.wound(turns);
         let principal = R::TWO * atan2(s, w);
-        let angle =
-            if turns == 0 { principal } else { R::from_i32(turns) * (R::TWO * R::PI) + principal };
+        let angle = choose!(
+            R,
+            R::is_nil(turns),
+            principal,
+            R::from_count(turns) * (R::TWO * R::PI) + principal
+        );
         let (n, q) = (self.axis, since.turn);
         let along = n * (q.w * q.w) + q.v.cross(n) * q.w + q.v * since.s;
         Twist { angle, gradient: along * (R::ONE / since.norm) }

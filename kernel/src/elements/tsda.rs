@@ -61,7 +61,7 @@ impl<R: Real> Tsda<R> {
 
 impl<R: Real> PointLaw<R> for Tsda<R> {
     /// `L − L0` \[m\].
-    #[inline]
+    #[inline(always)]
     fn extension(&self, d: Vec3<R>) -> R {
         d.dot(d).sqrt() - self.free_length
     }

@@ -29,7 +29,10 @@ pub(super) fn stars<P: Geometry, T: Terms, D: Dampers, const ARMS: usize>(
     let clearance = model.clearance(group);
     let (mut springs, mut dampers) = (tsdas.iter(), dampers.map(<[_]>::iter));
     for (centres, others) in blocks::<_, ARMS>(model.points, group) {
-        let tips: [_; ARMS] = core::array::from_fn(|j| end_b.place(&others[j]));
+        let mut tips = [(P::Location::default(), Vec3::ZERO); ARMS];
+        for (tip, point) in tips.iter_mut().zip(others) {
+            *tip = end_b.place(point);
+        }
         let mut pulls = [Vec3::ZERO; ARMS];
         for (centre, springs) in centres.iter().zip(&mut springs) {
             let (centre, arm) = end_a.place(centre);
