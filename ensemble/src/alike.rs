@@ -83,11 +83,11 @@ pub(crate) fn difference<R: Real + Named>(
     parts.into_iter().find_map(|(part, row)| row.map(|row| Difference::Part { part, row }))
 }
 
-fn spring<R>(spring: &TorsionSpring<R>) -> ([BodyIndex; 2], Option<usize>) {
+fn spring<R: Real>(spring: &TorsionSpring<R>) -> ([BodyIndex; 2], Option<usize>) {
     ([spring.a, spring.b], spring.damper.row())
 }
 
-fn load<R>(load: &Load<R>) -> (BodyIndex, LoadFrame, [f64; 2]) {
+fn load<R: Real>(load: &Load<R>) -> (BodyIndex, LoadFrame, [f64; 2]) {
     (load.body, load.frame, [load.from, load.until])
 }
 

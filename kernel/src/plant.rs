@@ -11,7 +11,7 @@ use crate::damping::{Damping, share};
 use crate::forces::Wrench;
 use crate::guards::first_fault;
 use crate::index::{BodyIndex, InputIndex};
-use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, Terms};
+use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, SpaceOf, Terms};
 use crate::pose::{Places, place_bodies};
 use crate::real::Real;
 pub use crate::refusal::{InputError, PlantError, StateError};
@@ -33,13 +33,13 @@ where
     scheme: S,
     step_size: f64,
     h: RealOf<H::Target>,
-    diagonals: PerBody<H, Diagonal<RealOf<H::Target>>>,
+    diagonals: PerBody<H, Diagonal<SpaceOf<H::Target>>>,
     shares: <H::Target as ModelOwner>::PerDamper,
     windows: <H::Target as ModelOwner>::PerLoad,
     knots: <H::Target as ModelOwner>::PerKnot,
     state: State<H::Target>,
     frames: PerBody<H, FrameOf<H::Target>>,
-    wrenches: PerBody<H, Wrench<RealOf<H::Target>>>,
+    wrenches: PerBody<H, Wrench<SpaceOf<H::Target>>>,
     memory: PerBody<H, S::Memory<<H::Target as ModelOwner>::Precision>>,
     ledger: Ledger,
     status: Status,

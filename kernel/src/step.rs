@@ -14,6 +14,7 @@ use crate::pose::{Places, place_bodies};
 use crate::real::Real;
 use crate::rotation;
 use crate::schedule::{self, KnotStep, LoadWindow, Signal, StageTime};
+use crate::space::Moment as _;
 use crate::status::Cause;
 
 /// What a plant knows of its evaluations. Never part of the state: evaluating anew gives the same
@@ -38,7 +39,7 @@ pub struct Stepper<'s, 'm, P: Geometry, T, S> {
     /// \[s\] the step size, rounded to the precision.
     pub(crate) h: P::Real,
     /// h·D⁻¹ per body.
-    pub(crate) diagonals: &'s [Diagonal<P::Real>],
+    pub(crate) diagonals: &'s [Diagonal<P::Space>],
     /// The dampers' shares.
     pub(crate) shares: &'s [Share<P::Real>],
     /// The loads' windows.
@@ -56,7 +57,7 @@ pub struct Stepper<'s, 'm, P: Geometry, T, S> {
     /// The bodies' frames.
     pub(crate) frames: &'s mut [P::Frame],
     /// The bodies' wrenches.
-    pub(crate) wrenches: &'s mut [Wrench<P::Real>],
+    pub(crate) wrenches: &'s mut [Wrench<P::Space>],
     /// The scheme's memory per body.
     pub(crate) memory: &'s mut [S],
     /// Evaluations and the freshness of the wrenches.
@@ -160,7 +161,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
         for ((state, wrench), diagonal) in rows {
             let increment = diagonal.increment(wrench.force, wrench.torque, scale);
             P::accelerate(&mut state.velocity, increment.linear);
-            P::accelerate(&mut state.angular_velocity, increment.angular);
+            P::spin_up(&mut state.angular_velocity, increment.angular);
         }
     }
 
@@ -266,7 +267,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     #[inline(always)]
     pub fn each(
         &mut self,
-        mut visit: impl FnMut(&mut S, &mut BodyState<P>, Increment<P::Real>, P::Real),
+        mut visit: impl FnMut(&mut S, &mut BodyState<P>, Increment<P::Space>, P::Real),
     ) {
         self.ledger.fresh = false;
         let h = self.h;
@@ -277,8 +278,8 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
             .zip(self.model.bodies)
             .zip(self.wrenches.iter().zip(self.diagonals));
         for (((state, memory), body), (wrench, diagonal)) in rows {
-            let w = P::velocity(&state.angular_velocity);
-            let torque = wrench.torque - w.cross(body.inertia.scale(w));
+            let w = P::spin(&state.angular_velocity);
+            let torque = wrench.torque - w.commutator(body.inertia.scale(w));
             let increment = Increment {
                 linear: wrench.force * diagonal.mass,
                 angular: torque.scale(diagonal.inertia),

@@ -95,14 +95,6 @@ impl<R: Real> Vec3<R> {
         Self::new(self.x * other.x, self.y * other.y, self.z * other.z)
     }
 
-    /// The vector, or where `truth` holds what changes nothing when it is added: zeros of negative
-    /// sign.
-    #[inline(always)]
-    pub(crate) fn unless(self, truth: R::Truth) -> Self {
-        let nothing = -R::ZERO;
-        Self::select(truth, Self::new(nothing, nothing, nothing), self)
-    }
-
     /// Whether every component is finite.
     // `x − x` is the test: 0 exactly where x is finite, NaN elsewhere.
     #[allow(clippy::eq_op)]

@@ -38,7 +38,7 @@ use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelRef, Terms};
 use crate::pose::{CountOf, End, MOST_ARMS, Placed, Places, Spot, placed, twist_of};
 use crate::real::{Real, Truth as _};
-use crate::vector::Vec3;
+use crate::space::{Linear as _, Vector as _};
 
 /// How a scheme treats dampers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -161,7 +161,7 @@ fn new_pair<P: Geometry, T: Terms, K: Kick<P>>(
     sweep: &Sweep<'_, P, K>,
     ends: [BodyIndex; 2],
     bodies: &[BodyState<P>],
-) -> Pair<P::Real> {
+) -> Pair<P::Space> {
     let [a, b] = ends;
     let a = End::new(model, sweep.places, a, None);
     let b = End::new(model, sweep.places, b, None);
@@ -174,8 +174,8 @@ fn new_pair<P: Geometry, T: Terms, K: Kick<P>>(
 fn each_direction<P: Geometry, T: Terms, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
-    element: &Placed<'_, P::Real>,
-    mut visit: impl FnMut(Direction<P::Real>),
+    element: &Placed<'_, P::Vector>,
+    mut visit: impl FnMut(Direction<P::Space>),
 ) {
     let group = element.group;
     let Some((mut directions, count)) = model.damped(group.law, &element.stretch) else { return };
@@ -196,11 +196,11 @@ fn each_direction<P: Geometry, T: Terms, const REVERSE: bool>(
 fn moment<P: Geometry>(
     places: Places<'_, P>,
     body: BodyIndex,
-    world: Vec3<P::Real>,
-) -> Vec3<P::Real> {
+    world: P::Moment,
+) -> P::Moment {
     match places.frames.get(body.row()) {
-        Some(frame) => P::to_body(frame, world),
-        None => Vec3::ZERO,
+        Some(frame) => P::moment_to_body(frame, world),
+        None => P::Moment::ZERO,
     }
 }
 
@@ -223,7 +223,7 @@ fn sweep_stars<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     let end_a = End::new(model, places, group.a, None);
     let end_b = End::new(model, places, group.b, None);
     let mut pair = new_pair(model, sweep, [group.a, group.b], bodies);
-    let mut tips = [(P::Location::default(), Vec3::ZERO); MOST_ARMS];
+    let mut tips = [(P::Location::default(), P::Vector::ZERO); MOST_ARMS];
     let stars = group.stars as usize;
     for i in 0..stars {
         let star = if REVERSE { stars - 1 - i } else { i };
@@ -245,12 +245,12 @@ fn sweep_stars<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
         let mut element = |((tip, arm_b), (&coefficient, share)): Damped<'_, P, P::Real>| {
             let d = P::displacement(&centre, tip);
             let u = d * d.dot(d).sqrt().reciprocal_or_zero();
-            let mut moments = [Vec3::ZERO; 2];
+            let mut moments = [P::Moment::ZERO; 2];
             if pair.has(0) {
-                moments[0] = end_a.to_axes(arm_a.cross(u));
+                moments[0] = end_a.moment_to_axes(arm_a.cross(u));
             }
             if pair.has(1) {
-                moments[1] = end_b.to_axes(arm_b.cross(u));
+                moments[1] = end_b.moment_to_axes(arm_b.cross(u));
             }
             let damper = sweep.damper::<REVERSE>(coefficient, share);
             let idle = P::Real::truth(false);
@@ -271,7 +271,7 @@ fn sweep_stars<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
 #[inline(always)]
 fn engaged<P: Geometry, T: Terms>(
     model: &ModelRef<'_, P, T>,
-    element: &Placed<'_, P::Real>,
+    element: &Placed<'_, P::Vector>,
     damping: P::Real,
 ) -> P::Real {
     let clearance = model.clearance(element.group);
@@ -288,7 +288,7 @@ fn engaged<P: Geometry, T: Terms>(
 fn torsion<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
-    spring: &TorsionSpring<P::Real>,
+    spring: &TorsionSpring<P::Space>,
     turns: CountOf<P>,
     bodies: &mut [BodyState<P>],
 ) {
@@ -308,12 +308,12 @@ fn torsion<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
 fn torsion_direction<P: Geometry, T: Terms>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
-    spring: &TorsionSpring<P::Real>,
+    spring: &TorsionSpring<P::Space>,
     turns: CountOf<P>,
     bodies: &[BodyState<P>],
-) -> Option<Direction<P::Real>> {
+) -> Option<Direction<P::Space>> {
     let twist = twist_of::<P>(spring, bodies, turns)?;
-    let world = End::new(model, places, spring.a, None).to_world(twist.gradient);
+    let world = End::new(model, places, spring.a, None).moment_to_world(twist.gradient);
     let moments = [moment(places, spring.a, world), moment(places, spring.b, world)];
-    Some(Direction { along: Vec3::ZERO, moments })
+    Some(Direction { along: P::Vector::ZERO, moments })
 }

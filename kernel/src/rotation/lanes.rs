@@ -10,18 +10,19 @@ use crate::compositions::PEFRL;
 use crate::geometry::Geometry;
 use crate::real::{Real, Truth as _};
 use crate::rotation::{Axis, TruthOf, about_x, about_y, about_z, half_turn, turn_unless};
+use crate::space::{Linear as _, Moment as _};
 use crate::vector::Vec3;
 
 /// [`super::free_rotor_of_order_four`] in lanes.
 #[inline(always)]
 pub(super) fn of_order_four<P: Geometry>(
-    body: &Body<P::Real>,
+    body: &Body<P::Space>,
     orientation: &mut P::Orientation,
-    rate: &mut P::Velocity,
+    rate: &mut P::Spin,
     time: P::Real,
 ) {
     let zero = P::Real::ZERO;
-    let w = P::velocity(rate);
+    let w = P::spin(rate).in_space();
     let [x, y, z] = [w.x, w.y, w.z].map(|rate| rate.equals(zero));
     let resting = x & y & z;
     if resting.all() {
@@ -43,27 +44,28 @@ pub(super) fn of_order_four<P: Geometry>(
 /// Lanes that turn about more than one axis.
 #[inline(always)]
 fn tumble<P: Geometry>(
-    body: &Body<P::Real>,
+    body: &Body<P::Space>,
     orientation: &mut P::Orientation,
-    rate: &mut P::Velocity,
+    rate: &mut P::Spin,
     time: P::Real,
     others: TruthOf<P>,
 ) {
     let one = P::Real::ONE;
-    let Vec3 { x, y, z } = body.inertia;
+    let Vec3 { x, y, z } = body.inertia.in_space();
+    let (ratio, inverse_ratio) = (body.ratio.in_space(), body.inverse_ratio.in_space());
     let lies_between = |b: P::Real, a: P::Real, c: P::Real| {
         (a.at_most(b) & b.at_most(c)) | (c.at_most(b) & b.at_most(a))
     };
     let of_y = lies_between(y, x, z);
     let of_x = (!of_y) & lies_between(x, y, z);
     let middle = P::Real::pick(of_y, y, P::Real::pick(of_x, x, z));
-    let momentum = body.inertia.scale(P::velocity(rate));
+    let momentum = body.inertia.scale(P::spin(rate));
     let about_momentum = half_turn(momentum * (P::Real::HALF * time / middle));
     turn_unless::<P>(orientation, about_momentum, others);
     let ways = [
-        (of_y, (Axis::X, one - body.inverse_ratio.z), (Axis::Z, one - body.ratio.x)),
-        (of_x, (Axis::Y, one - body.ratio.z), (Axis::Z, one - body.inverse_ratio.y)),
-        (!(of_x | of_y), (Axis::X, one - body.ratio.y), (Axis::Y, one - body.inverse_ratio.x)),
+        (of_y, (Axis::X, one - inverse_ratio.z), (Axis::Z, one - ratio.x)),
+        (of_x, (Axis::Y, one - ratio.z), (Axis::Z, one - inverse_ratio.y)),
+        (!(of_x | of_y), (Axis::X, one - ratio.y), (Axis::Y, one - inverse_ratio.x)),
     ];
     for (these, first, second) in ways {
         let others = others | !these;
@@ -76,9 +78,9 @@ fn tumble<P: Geometry>(
 /// The turns about the two axes that are not the middle one.
 #[inline(always)]
 fn split<P: Geometry>(
-    body: &Body<P::Real>,
+    body: &Body<P::Space>,
     orientation: &mut P::Orientation,
-    rate: &mut P::Velocity,
+    rate: &mut P::Spin,
     time: P::Real,
     others: TruthOf<P>,
     [(first, share), (second, other)]: [(Axis, P::Real); 2],
@@ -106,9 +108,9 @@ fn split<P: Geometry>(
 #[inline(always)]
 fn turn<P: Geometry>(
     axis: Axis,
-    body: &Body<P::Real>,
+    body: &Body<P::Space>,
     orientation: &mut P::Orientation,
-    rate: &mut P::Velocity,
+    rate: &mut P::Spin,
     (time, without): (P::Real, TruthOf<P>),
 ) {
     match axis {
