@@ -8,6 +8,9 @@
 use dbd_kernel::geometry::Named;
 use dbd_kernel::{Plant, Real, Scheme, State};
 
+#[cfg(test)]
+mod tests;
+
 use crate::gather::{self, LanesModel, ModelOf};
 use crate::lanes::Lanes;
 use crate::register::{Register, Work};

@@ -28,9 +28,7 @@ fn vector<V: Register>(of: impl Fn(usize) -> Vec3<V::Number>) -> Vec3<Lanes<V>> 
     Vec3::new(number(|i| of(i).x), number(|i| of(i).y), number(|i| of(i).z))
 }
 
-fn quaternion<V: Register>(
-    of: impl Fn(usize) -> Quaternion<V::Number>,
-) -> Quaternion<Lanes<V>> {
+fn quaternion<V: Register>(of: impl Fn(usize) -> Quaternion<V::Number>) -> Quaternion<Lanes<V>> {
     Quaternion { w: number(|i| of(i).w), v: vector(|i| of(i).v) }
 }
 

@@ -54,15 +54,15 @@ macro_rules! number {
             ) -> Box<dyn Batch<Self, S>> {
                 match set {
                     InstructionSet::Baseline => {
-                        Box::new(Members::<register::$narrow, S>::new(plants))
+                        Box::new(Members::<register::$array, S>::new(plants))
                     }
                     #[cfg(target_arch = "x86_64")]
                     InstructionSet::Avx2 => Box::new(Members::<register::$narrow, S>::new(plants)),
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx512 => Box::new(Members::<register::$narrow, S>::new(plants)),
+                    InstructionSet::Avx512 => Box::new(Members::<register::$wide, S>::new(plants)),
                     #[cfg(not(target_arch = "x86_64"))]
                     InstructionSet::Avx2 | InstructionSet::Avx512 => {
-                        Box::new(Members::<register::$narrow, S>::new(plants))
+                        Box::new(Members::<register::$array, S>::new(plants))
                     }
                 }
             }

@@ -11,7 +11,7 @@
 //! - `compositions`, [`index`]: coefficients, and names of a model's parts.
 //! - [`attitude`], [`geometry`], [`euler`], [`loose`]: a precision is a type: [`F64`], [`F32`]; an
 //!   orientation is a quaternion or, as in the paper, angles.
-//! - [`body`], [`rotation`]: one rigid body, and how it turns.
+//! - [`body`], [`rotation`], `lockstep`: one rigid body, and how it turns, alone or in lanes.
 //! - [`status`], [`elements`], [`schedule`]: what can fail; the laws, one per file; what happens when.
 //! - [`mod@model`], [`sketch`], [`state`]: read-only constants of bodies and elements, and how a person
 //!   writes them; plain data and its hash.
@@ -79,6 +79,7 @@ pub mod frequency;
 pub mod geometry;
 mod guards;
 pub mod index;
+mod lockstep;
 #[cfg(feature = "micromath")]
 pub mod loose;
 pub mod model;

@@ -180,7 +180,6 @@ where
         })
     }
 
-
     /// Latches a failure.
     #[cold]
     pub(crate) fn fail(&mut self, cause: Cause) -> Status {

@@ -32,9 +32,7 @@ impl Constant {
 }
 
 /// What a comparison tells: one truth, or one per lane.
-pub trait Truth:
-    Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
-{
+pub trait Truth: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
     /// Whether it holds in any lane.
     fn any(self) -> bool;
     /// Whether it holds in every lane.

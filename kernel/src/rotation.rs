@@ -7,8 +7,6 @@
 //! terms are below 2.7e-20 (f64) and 1e-12 (f32) at x = 0.05, the advised limit h·ω = 0.1, and
 //! below 3e-10 and 1e-7 at x = 0.5.
 
-mod lanes;
-
 use crate::attitude::Attitude as _;
 use crate::body::Body;
 use crate::compositions::PEFRL;
@@ -55,7 +53,7 @@ pub fn free_rotor<P: Geometry>(
 /// `L²/2I₂ + ½(1/I₁ − 1/I₂)·L₁² + ½(1/I₃ − 1/I₂)·L₃²`, I₂ the middle inertia, is split (Touma &
 /// Wisdom 1994; Fassò 2003): the first term turns about L, exactly, and commutes with the others;
 /// those two turn about their axes, composed with the coefficients of [`crate::schemes::Pefrl`]. A body of
-/// two equal inertias takes one of them only: its flow is exact, too.
+/// two equal inertias takes one of them only: its flow is exact, too. For one lane.
 #[inline(always)]
 pub fn free_rotor_of_order_four<P: Geometry>(
     body: &Body<P::Space>,
@@ -63,10 +61,6 @@ pub fn free_rotor_of_order_four<P: Geometry>(
     rate: &mut P::Spin,
     time: P::Real,
 ) {
-    if P::Real::LANES > 1 {
-        lanes::of_order_four::<P>(body, orientation, rate, time);
-        return;
-    }
     let (zero, none) = (P::Real::ZERO, P::Real::truth(false));
     let w = P::spin(rate).in_space();
     match (w.x == zero, w.y == zero, w.z == zero) {
@@ -123,7 +117,7 @@ fn tumble<P: Geometry>(
 
 /// A principal axis.
 #[derive(Clone, Copy)]
-enum Axis {
+pub(crate) enum Axis {
     X,
     Y,
     Z,
@@ -131,7 +125,7 @@ enum Axis {
 
 /// The quaternion of a turn by the rotation vector `2·half`.
 #[inline(always)]
-fn half_turn<M: Moment>(half: M) -> Quaternion<M::Real> {
+pub(crate) fn half_turn<M: Moment>(half: M) -> Quaternion<M::Real> {
     let x2 = half.dot(half);
     let w = x2.polynomial(M::Real::COS);
     let s = x2.polynomial(M::Real::SINC);
@@ -159,11 +153,11 @@ impl<R: Real> Turn<R> {
 }
 
 /// The truth of a geometry's number.
-type TruthOf<P> = <<P as Geometry>::Real as Real>::Truth;
+pub(crate) type TruthOf<P> = <<P as Geometry>::Real as Real>::Truth;
 
 /// Turns all but the resting lanes.
 #[inline(always)]
-fn turn_unless<P: Geometry>(
+pub(crate) fn turn_unless<P: Geometry>(
     orientation: &mut P::Orientation,
     turn: Quaternion<P::Real>,
     resting: TruthOf<P>,
@@ -175,7 +169,7 @@ fn turn_unless<P: Geometry>(
 
 // In lanes `without` an axis turns nothing.
 #[inline(always)]
-fn about_x<P: Geometry>(
+pub(crate) fn about_x<P: Geometry>(
     body: &Body<P::Space>,
     orientation: &mut P::Orientation,
     rate: &mut P::Spin,
@@ -197,7 +191,7 @@ fn about_x<P: Geometry>(
 }
 
 #[inline(always)]
-fn about_y<P: Geometry>(
+pub(crate) fn about_y<P: Geometry>(
     body: &Body<P::Space>,
     orientation: &mut P::Orientation,
     rate: &mut P::Spin,
@@ -219,7 +213,7 @@ fn about_y<P: Geometry>(
 }
 
 #[inline(always)]
-fn about_z<P: Geometry>(
+pub(crate) fn about_z<P: Geometry>(
     body: &Body<P::Space>,
     orientation: &mut P::Orientation,
     rate: &mut P::Spin,

@@ -182,10 +182,10 @@ fn table<R: Real>(knots: &[Knot<R>], steps: &[KnotStep<R>], at: StageTime<R>) ->
     // Since a knot that lies within the step, negative before it.
     let within = |knot: &KnotStep<R>| (part - R::ONE) * h + knot.offset;
     let mut begun = steps.partition_point(|knot| knot.first <= n);
-    while part != R::ZERO
-        && steps.get(begun).is_some_and(|knot| {
-            knot.first == n.wrapping_add(1) && within(knot) > R::constant(ON_THE_END) * h
-        })
+    while let Some(knot) = steps.get(begun)
+        && part != R::ZERO
+        && knot.first == n.wrapping_add(1)
+        && within(knot) > R::constant(ON_THE_END) * h
     {
         begun += 1;
     }

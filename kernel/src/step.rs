@@ -9,6 +9,7 @@ use crate::body::{BodyState, Increment};
 use crate::damping::{self, HalfKick, NoKick, Share, Sweep};
 use crate::forces::{self, At, Dampers, Evaluation, Instant, Turns, Wrench};
 use crate::geometry::Geometry;
+use crate::lockstep;
 use crate::model::{ModelRef, Terms};
 use crate::pose::{Places, place_bodies};
 use crate::real::Real;
@@ -186,12 +187,12 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
         self.ledger.fresh = false;
         for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
             P::translate(&mut state.position, P::velocity(&state.velocity) * time);
-            rotation::free_rotor_of_order_four::<P>(
-                body,
-                &mut state.orientation,
-                &mut state.angular_velocity,
-                time,
-            );
+            let (q, w) = (&mut state.orientation, &mut state.angular_velocity);
+            if P::Real::LANES == 1 {
+                rotation::free_rotor_of_order_four::<P>(body, q, w, time);
+            } else {
+                lockstep::free_rotor_of_order_four::<P>(body, q, w, time);
+            }
         }
     }
 

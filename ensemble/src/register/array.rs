@@ -6,7 +6,7 @@ use std::ops::{BitAnd, BitOr, Not};
 use dbd_kernel::Real;
 use dbd_kernel::real::Truth;
 
-use super::{Register, Work, constants};
+use crate::register::interface::{Register, Work, constants};
 
 /// Two numbers of double precision.
 pub(crate) type Doubles = Array<f64, 2>;

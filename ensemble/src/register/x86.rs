@@ -8,7 +8,7 @@ use std::ops::{BitAnd, BitOr, Not};
 use dbd_kernel::Real;
 use dbd_kernel::real::Truth;
 
-use super::{Register, Work, constants};
+use crate::register::interface::{Register, Work, constants};
 
 // SAFETY of all below: a register is used within `enter` alone, which its caller reaches only where
 // `InstructionSet` has found the instructions on this machine. Arrays and registers of one size are

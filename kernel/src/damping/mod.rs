@@ -193,11 +193,7 @@ fn each_direction<P: Geometry, T: Terms, const REVERSE: bool>(
 
 /// A moment in world axes as a body sees it; the ground sees none.
 #[inline(always)]
-fn moment<P: Geometry>(
-    places: Places<'_, P>,
-    body: BodyIndex,
-    world: P::Moment,
-) -> P::Moment {
+fn moment<P: Geometry>(places: Places<'_, P>, body: BodyIndex, world: P::Moment) -> P::Moment {
     match places.frames.get(body.row()) {
         Some(frame) => P::moment_to_body(frame, world),
         None => P::Moment::ZERO,

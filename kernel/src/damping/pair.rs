@@ -76,10 +76,12 @@ impl<P: Geometry> Kick<P> for HalfKick<'_, P::Space> {
 
     #[inline(always)]
     fn of(&self, row: usize) -> Increment<P::Space> {
-        let rows = self.wrenches.get(row).zip(self.diagonals.get(row));
-        rows.map_or_else(Increment::default, |(wrench, diagonal)| {
-            diagonal.increment(wrench.force, wrench.torque, P::Real::HALF)
-        })
+        match (self.wrenches.get(row), self.diagonals.get(row)) {
+            (Some(wrench), Some(diagonal)) => {
+                diagonal.increment(wrench.force, wrench.torque, P::Real::HALF)
+            }
+            _ => Increment::default(),
+        }
     }
 }
 

@@ -66,8 +66,7 @@ impl<S: Space> PointOnLine<S> {
     /// is one.
     #[inline(always)]
     pub fn force(&self, e: S::Vector, clearance: Option<S::Real>) -> S::Vector {
-        let smooth =
-            S::Real::truth(clearance.is_none()) & self.free_length.equals(S::Real::ZERO);
+        let smooth = S::Real::truth(clearance.is_none()) & self.free_length.equals(S::Real::ZERO);
         choose!(S::Real, smooth, e * self.stiffness, {
             let length = e.dot(e).sqrt();
             let tension = self.stiffness * beyond(length - self.free_length, clearance);

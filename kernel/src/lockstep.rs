@@ -1,7 +1,7 @@
 //! The free rotor of fourth order in lanes that need not turn alike.
 //!
 //! `(ω, h, orientation) => orientation, ω`, each lane with the bits of
-//! [`super::free_rotor_of_order_four`]: every way that any lane goes is gone once, without the lanes
+//! [`crate::rotation::free_rotor_of_order_four`]: every way that any lane goes is gone once, without the lanes
 //! that go another.
 
 use crate::attitude::Attitude as _;
@@ -13,9 +13,9 @@ use crate::rotation::{Axis, TruthOf, about_x, about_y, about_z, half_turn, turn_
 use crate::space::{Linear as _, Moment as _};
 use crate::vector::Vec3;
 
-/// [`super::free_rotor_of_order_four`] in lanes.
+/// [`crate::rotation::free_rotor_of_order_four`] in lanes.
 #[inline(always)]
-pub(super) fn of_order_four<P: Geometry>(
+pub(crate) fn free_rotor_of_order_four<P: Geometry>(
     body: &Body<P::Space>,
     orientation: &mut P::Orientation,
     rate: &mut P::Spin,
