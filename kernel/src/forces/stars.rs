@@ -276,6 +276,8 @@ mod tests {
             inputs: [],
             knots: [],
             clearances: [1e-3],
+            revolutes: [],
+            universals: [],
         };
         let frames = states.map(|state| F64::frame(&state.position, &state.orientation));
         let view = model.view();
@@ -334,6 +336,8 @@ mod tests {
             inputs: [],
             knots: [],
             clearances: [],
+            revolutes: [],
+            universals: [],
         };
         let view = model.view();
         let frame = F64::frame(&Vec3::ZERO, &Default::default());
