@@ -96,6 +96,24 @@ impl<'s, P: Geometry> End<'s, P> {
         }
     }
 
+    /// This end where it is a body's, known to be one.
+    #[inline(always)]
+    pub(crate) fn body(&self) -> Option<Self> {
+        self.frame.map(|frame| Self { frame: Some(frame), moved: None, ..*self })
+    }
+
+    /// This end of the ground, known to be one.
+    #[inline(always)]
+    pub(crate) fn ground(&self) -> Self {
+        Self { frame: None, ..*self }
+    }
+
+    /// The moment of a force at the end of an arm; the ground takes none.
+    #[inline(always)]
+    pub(crate) fn moment(&self, arm: P::Vector, force: P::Vector) -> P::Moment {
+        if self.frame.is_some() { arm.cross(force) } else { P::Moment::ZERO }
+    }
+
     /// Body axes to world axes.
     #[inline(always)]
     pub(crate) fn to_world(&self, v: P::Vector) -> P::Vector {

@@ -10,21 +10,16 @@ use crate::space::Vector as _;
 
 /// A group of point bushings.
 #[inline(always)]
-pub(super) fn bushing<P: Geometry, T: Terms, D: Dampers>(
+pub(super) fn bushings<P: Geometry, T: Terms, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Record<P::Space> {
+) -> Option<Record<P::Space>> {
     let stars = group.stars as usize;
     let (first, element) = (group.point as usize, group.element as usize);
-    let (Some(centres), Some(tips), Some(bushings)) = (
-        model.points.get(first..first + stars),
-        model.points.get(first + stars..first + 2 * stars),
-        model.bushings.get(element..element + stars),
-    ) else {
-        return Record::ZERO;
-    };
+    let (centres, tips) = model.points.get(first..first + 2 * stars)?.split_at_checked(stars)?;
+    let bushings = model.bushings.get(element..element + stars)?;
     let mut dampers = match group.damper.row() {
         Some(row) if D::ACT && T::DAMPERS => model.dampers.get(row..).unwrap_or_default(),
         _ => &[],
@@ -44,5 +39,5 @@ pub(super) fn bushing<P: Geometry, T: Terms, D: Dampers>(
         Record { force, torque_a: arm_a.cross(force), torque_b: -arm_b.cross(force) }
     });
     // The first is no sum: one star alone keeps the signs of its zeros.
-    records.reduce(|sum, next| sum.with(&next)).unwrap_or(Record::ZERO)
+    records.reduce(|sum, next| sum.with(&next))
 }

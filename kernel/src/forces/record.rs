@@ -23,7 +23,7 @@ pub(crate) struct Record<S: Space> {
 }
 
 impl<S: Space> Record<S> {
-    pub(super) const ZERO: Self =
+    pub(crate) const ZERO: Self =
         Self { force: S::Vector::ZERO, torque_a: S::Moment::ZERO, torque_b: S::Moment::ZERO };
 
     /// This and another.
