@@ -42,13 +42,13 @@ impl Stretch {
 #[must_use]
 pub fn stretches(scene: &Scene) -> Vec<Stretch> {
     let bodies = scene.model.bodies.len();
+    if bodies > MOST_BODIES {
+        return Vec::new();
+    }
     let elements = scene.joint_elements();
     let joints = scene.element_frequencies().into_iter().take(scene.joints.len());
     let frequencies = joints.map(|joint| joint.frequency).filter(|frequency| *frequency > 0.0);
     let softest = frequencies.fold(f64::INFINITY, f64::min);
-    if bodies > MOST_BODIES {
-        return Vec::new();
-    }
     if elements.is_empty() {
         return Vec::new();
     }

@@ -49,6 +49,16 @@ impl<R: Real> Energy<R> {
 /// The energies of a state, loads as they act at its time for steps of `step_size` \[s\]. A
 /// torsion spring whose twist is undefined counts 0.
 pub fn energy<M: ModelOwner>(model: &M, state: &State<M>, step_size: f64) -> Energy<RealOf<M>> {
+    energy_with_extensions(model, state, step_size, |_, _| {})
+}
+
+/// The same, and on the way what [`each_extension`] visits: each element is placed once for both.
+pub fn energy_with_extensions<M: ModelOwner>(
+    model: &M,
+    state: &State<M>,
+    step_size: f64,
+    mut visit: impl FnMut(usize, RealOf<M>),
+) -> Energy<RealOf<M>> {
     let view = model.view();
     let bodies = state.bodies.as_ref();
     let mut sum = Energy::default();
@@ -78,6 +88,7 @@ pub fn energy<M: ModelOwner>(model: &M, state: &State<M>, step_size: f64) -> Ene
             Element::PointOnLine(_) => &mut sum.line,
         };
         *kind = *kind + energy;
+        visit(placed.number, law.extension(&placed.stretch));
     });
     for (spring, &turns) in view.torsions.iter().zip(state.turns.as_ref()) {
         if let Some(twist) = twist_of::<M::Precision>(spring, bodies, turns) {

@@ -188,10 +188,20 @@ pub(crate) fn placed<'m, P: Geometry, T: Terms>(
     (number, group): (usize, &'m Group),
     i: usize,
 ) -> Option<Placed<'m, P::Vector>> {
+    let ends = [group.a, group.b].map(|end| End::new(model, places, end, None));
+    placed_between(model, &ends, (number, group), i)
+}
+
+/// The same where the group's ends are at hand.
+#[inline(always)]
+fn placed_between<'m, P: Geometry, T: Terms>(
+    model: &ModelRef<'m, P, T>,
+    [end_a, end_b]: &[End<'_, P>; 2],
+    (number, group): (usize, &'m Group),
+    i: usize,
+) -> Option<Placed<'m, P::Vector>> {
     let arms = group.arms.max(1) as usize;
     let (star, arm) = (i / arms, i % arms);
-    let end_a = End::new(model, places, group.a, None);
-    let end_b = End::new(model, places, group.b, None);
     let (a, mut arm_a) = end_a.place(model.points.get(group.centre(star))?);
     let (b, arm_b) = end_b.place(model.points.get(group.tips(star) + arm)?);
     let mut displacement = P::displacement(&a, &b);
@@ -263,23 +273,6 @@ pub(crate) const MOST_ARMS: usize = 3;
 /// Where a point lies, and its arm.
 pub(crate) type Spot<P> = (<P as Geometry>::Location, <P as Geometry>::Vector);
 
-/// The stars of a group in blocks: the first body's points, and the second's points that they share.
-/// Stars that share none are a block each.
-#[inline(always)]
-pub(crate) fn blocks<'m, L, const ARMS: usize>(
-    points: &'m [L],
-    group: &Group,
-) -> impl Iterator<Item = (&'m [L], &'m [L; ARMS])> {
-    let own = points.get(group.point as usize..).unwrap_or_default();
-    let (mut centres, tips) = own.split_at_checked(group.stars as usize).unwrap_or_default();
-    let stars = group.stars_per_block();
-    tips.as_chunks::<ARMS>().0.iter().map_while(move |tips| {
-        let (block, rest) = centres.split_at_checked(stars)?;
-        centres = rest;
-        Some((block, tips))
-    })
-}
-
 /// Visits every element of the groups in order; frames are those of the pose.
 pub(crate) fn each_element<'m, P: Geometry, T: Terms>(
     model: &ModelRef<'m, P, T>,
@@ -287,8 +280,9 @@ pub(crate) fn each_element<'m, P: Geometry, T: Terms>(
     mut visit: impl FnMut(Placed<'m, P::Vector>),
 ) {
     for (number, group) in model.groups.iter().enumerate() {
+        let ends = [group.a, group.b].map(|end| End::new(model, places, end, None));
         for i in 0..group.elements() {
-            if let Some(element) = placed(model, places, (number, group), i) {
+            if let Some(element) = placed_between(model, &ends, (number, group), i) {
                 visit(element);
             }
         }

@@ -11,7 +11,7 @@ use crate::elements::input::InputKind;
 use crate::forces::{self, ExplicitDampers, Record};
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, InputIndex};
-use crate::model::{FrameOf, Group, ModelOwner, ModelRef, RealOf, Terms};
+use crate::model::{FrameOf, Group, ModelOwner, ModelRef, RealOf, SpaceOf, Terms};
 use crate::plant::Plant;
 use crate::pose::{End, Places, place_bodies, placed, twist_of};
 use crate::real::Real;
@@ -186,10 +186,11 @@ pub fn read<M: ModelOwner>(
         }
         Readout::JointForce { group } => {
             let group = view.groups.get(group as usize)?;
-            let record = forces::record::<M::Precision, M::Terms, ExplicitDampers>(
-                &view, places, bodies, group,
-            );
-            let record = record.unwrap_or(Record::ZERO);
+            let record: Record<SpaceOf<M>> =
+                forces::record::<M::Precision, M::Terms, ExplicitDampers>(
+                    &view, places, bodies, group,
+                )
+                .unwrap_or(Record::ZERO);
             Some(Reading::Vector((-record.force).in_space()))
         }
         Readout::Imu { body, point } => {
@@ -280,9 +281,9 @@ pub fn each_force<M: ModelOwner>(
     place_bodies::<M::Precision>(bodies, frames.as_mut());
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
     for (row, group) in view.groups.iter().enumerate() {
-        let record =
-            forces::record::<M::Precision, M::Terms, ExplicitDampers>(&view, places, bodies, group);
-        let record = record.unwrap_or(Record::ZERO);
+        let record: Record<SpaceOf<M>> =
+            forces::record::<M::Precision, M::Terms, ExplicitDampers>(&view, places, bodies, group)
+                .unwrap_or(Record::ZERO);
         visit(row, (-record.force).in_space());
     }
 }

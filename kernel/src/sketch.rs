@@ -245,9 +245,9 @@ impl Sketch {
     }
 
     /// The TSDAs of one joint: each of the `centres` \[m\] of the first body is joined to all `arms`
-    /// \[m\] of the second, 1 or 3. A spherical joint is one centre with three arms, a revolute
-    /// two with the same three. Without a free length each centre has an arm of its own: a spherical
-    /// joint is one such pair, a revolute two.
+    /// \[m\] of the second, 1 to 3. A spherical joint is one centre with three arms, a revolute
+    /// two with the same three; in the plane a revolute is one centre with two arms. Without a free
+    /// length each centre has an arm of its own: a spherical joint is one such pair, a revolute two.
     ///
     /// # Panics
     /// Where a number is out of range or a list is full; without a free length there are as many arms
@@ -266,8 +266,8 @@ impl Sketch {
         assert!(!centres.is_empty() && centres.len() <= 255, "a joint has 1 to 255 centres");
         let bushing = spring.free_length == 0.0;
         let known =
-            if bushing { arms.len() == centres.len() } else { arms.len() == 1 || arms.len() == 3 };
-        assert!(known, "a star has one or three arms, without a free length one of its own");
+            if bushing { arms.len() == centres.len() } else { arms.len() >= 1 && arms.len() <= 3 };
+        assert!(known, "a star has one to three arms, without a free length one of its own");
         let elements = if bushing { centres.len() } else { centres.len() * arms.len() };
         let damper = if spring.damping > 0.0 {
             DamperIndex(self.dampers.count as u16)

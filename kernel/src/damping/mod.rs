@@ -22,11 +22,13 @@
 //! bushing or point on a line has the law `c·v_rel`, whose torque vanishes only with its deflection.
 
 mod motion;
+mod near;
 mod pair;
 mod shares;
 mod strength;
 
 pub use crate::elements::share::Share;
+pub(crate) use near::Held;
 pub(crate) use pair::{HalfKick, Kick, NoKick};
 pub(crate) use shares::share;
 pub use strength::{DampersOf, Strength, strengths};

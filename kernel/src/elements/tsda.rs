@@ -40,6 +40,25 @@ impl<R: Real> Tsda<R> {
         d * (tension * inverse)
     }
 
+    /// [`Self::force`] of several without clearance: whether any has no length is asked once.
+    #[inline(always)]
+    pub(crate) fn forces<V: Linear<Real = R>, const N: usize>(
+        springs: &[Self; N],
+        d: &[V; N],
+    ) -> [V; N] {
+        let mut lengths = [R::ZERO; N];
+        for i in 0..N {
+            lengths[i] = d[i].dot(d[i]).sqrt();
+        }
+        let inverses = R::reciprocals_or_zero(lengths);
+        let mut forces = *d;
+        for i in 0..N {
+            let tension = springs[i].stiffness * (lengths[i] - springs[i].free_length);
+            forces[i] = d[i] * (tension * inverses[i]);
+        }
+        forces
+    }
+
     /// Force on A \[N\] with the damper's share, `damping` in N·s/m.
     #[inline(always)]
     pub fn damped_force<V: Linear<Real = R>>(

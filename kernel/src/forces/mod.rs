@@ -131,19 +131,18 @@ pub(crate) fn record<P: Geometry, T: Terms, D: Dampers>(
     let moving = if moving { Some(bodies) } else { None };
     let end_a = End::new(model, places, group.a, moving);
     let end_b = End::new(model, places, group.b, moving);
-    let (a, b) = (&end_a, &end_b);
     match group.law {
-        Law::Tsda if T::TSDAS && group.arms == 3 => {
-            Some(stars::stars::<P, T, D, 3>(model, group, a, b))
+        Law::Tsda if T::TSDAS => stars::stars::<P, T, D>(model, group, &end_a, &end_b),
+        Law::PointBushing if T::BUSHINGS => {
+            bushing::bushings::<P, T, D>(model, group, &end_a, &end_b)
         }
-        Law::Tsda if T::TSDAS && group.arms == 2 => {
-            Some(stars::stars::<P, T, D, 2>(model, group, a, b))
+        Law::PointOnLine if T::LINES => Some(lines::lines::<P, T, D>(model, group, &end_a, &end_b)),
+        Law::Revolute if T::REVOLUTES => {
+            revolute::revolute::<P, T, D>(model, group, &end_a, &end_b)
         }
-        Law::Tsda if T::TSDAS => Some(stars::stars::<P, T, D, 1>(model, group, a, b)),
-        Law::PointBushing if T::BUSHINGS => bushing::bushings::<P, T, D>(model, group, a, b),
-        Law::PointOnLine if T::LINES => Some(lines::lines::<P, T, D>(model, group, a, b)),
-        Law::Revolute if T::REVOLUTES => revolute::revolute::<P, T, D>(model, group, a, b),
-        Law::Universal if T::UNIVERSALS => universal::universal::<P, T, D>(model, group, a, b),
+        Law::Universal if T::UNIVERSALS => {
+            universal::universal::<P, T, D>(model, group, &end_a, &end_b)
+        }
         _ => None,
     }
 }

@@ -79,12 +79,6 @@ impl Group {
         self.stars as usize + blocks * self.arms as usize
     }
 
-    /// The number of stars that share the second body's points.
-    #[inline(always)]
-    pub(crate) const fn stars_per_block(&self) -> usize {
-        if self.shared { self.stars as usize } else { 1 }
-    }
-
     /// The row of a star's first point among the model's points.
     #[inline(always)]
     pub(crate) const fn centre(&self, star: usize) -> usize {

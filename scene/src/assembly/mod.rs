@@ -52,6 +52,8 @@ pub(crate) struct Assembly {
     left_out: BTreeMap<usize, f64>,
     /// Per body where it has points of its own, from its centre of mass, body axes.
     ends: Vec<Vec<(String, Vec3<f64>)>>,
+    /// Rows of the torsion springs between two bodies, ascending.
+    torsions_between: BTreeMap<[u16; 2], Vec<usize>>,
     /// Per body the turn from its principal axes to those that it is written in, where it is one.
     turns: Vec<Option<Quaternion<f64>>>,
 }
@@ -319,6 +321,8 @@ impl Assembly {
         let relative = Quaternion::relative(orientation(pair.a), orientation(pair.b));
         let axis = self.vector_in(pair.a, axis_w);
         let damper = self.add_dampers(spring.damping, 1)?;
+        let between = self.torsions_between.entry([pair.a.0, pair.b.0]).or_default();
+        between.push(self.model.torsions.len());
         self.model.torsions.push(TorsionSpring {
             a: pair.a,
             b: pair.b,

@@ -41,11 +41,12 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
         placed[place.body] += usize::from((MIDDLE..=1.0).contains(&place.part));
     }
     for (number, joint) in scene.joints.iter().enumerate() {
-        let own = |place: &&Place| {
-            joint.groups.contains(&place.group)
-                && scene.body_names.get(place.body) != joint.spider.as_ref()
-        };
-        let beyond = places.iter().filter(own).filter(|p| p.part > 1.0 && placed[p.body] > 0);
+        // Places are in the order of their groups.
+        let [from, until] = [joint.groups.start, joint.groups.end]
+            .map(|group| places.partition_point(|place| place.group < group));
+        let own = |place: &&Place| scene.body_names.get(place.body) != joint.spider.as_ref();
+        let beyond = places[from..until].iter().filter(own);
+        let beyond = beyond.filter(|p| p.part > 1.0 && placed[p.body] > 0);
         // Of a joint that lies off both its bodies the one that is farther is named.
         let Some(worst) = beyond.max_by(|a, b| a.part.total_cmp(&b.part)) else { continue };
         let text = format!(

@@ -187,7 +187,7 @@ fn complete(table: &str, tables: &[TableKeys]) -> Value {
         json!({ "required": [key], "properties": { key: any(&keys) } })
     };
     // A bushing has no use for them.
-    let free = |key: &&str| table == "joint" && matches!(*key, "arm" | "spider");
+    let free = |key: &str| table == "joint" && matches!(key, "arm" | "spider");
     let bushing = json!({
         "required": ["realisation"],
         "properties": { "realisation": { "const": "bushing" } },
@@ -197,7 +197,7 @@ fn complete(table: &str, tables: &[TableKeys]) -> Value {
             let keys = required_of(table, kind);
             let always: Vec<_> = keys.iter().filter(|key| !free(key)).collect();
             let mut then = json!({ "required": always });
-            if let Some(key) = keys.iter().find(free) {
+            if let Some(key) = keys.iter().find(|key| free(key)) {
                 then["anyOf"] = any(&[has(key), bushing.clone()])["anyOf"].take();
             }
             then
