@@ -8,7 +8,7 @@ use core::fmt::Debug;
 use crate::plane::Heading;
 use crate::real::Real;
 use crate::space::Turn;
-use crate::vector::{Quaternion, Rotation};
+use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::Words;
 
 /// The stored orientation of a body, body → world.
@@ -29,6 +29,13 @@ pub trait Attitude: Copy + Debug + Default + PartialEq + Words + 'static {
     fn since_world(&self) -> Self::Turn;
     /// Composes with a turn given in body axes: `q ← q ∘ turn`.
     fn turn(&mut self, turn: Quaternion<Self::Real>);
+    /// [`Self::turn`] about body axis `AXIS`, 0 to 2, by cosine and sine of half the angle.
+    #[inline(always)]
+    fn turn_about<const AXIS: usize>(&mut self, cos: Self::Real, sin: Self::Real) {
+        let mut v = [Self::Real::ZERO; 3];
+        v[AXIS] = sin;
+        self.turn(Quaternion { w: cos, v: Vec3::new(v[0], v[1], v[2]) });
+    }
     /// Restores unit length, or the range of angles, after the turns of a step.
     fn renormalise(&mut self);
     /// Rounds a unit quaternion once, scalar first.
@@ -69,6 +76,10 @@ impl<R: Real> Attitude for Quaternion<R> {
     #[inline(always)]
     fn turn(&mut self, turn: Quaternion<R>) {
         *self = self.product(turn);
+    }
+    #[inline(always)]
+    fn turn_about<const AXIS: usize>(&mut self, cos: R, sin: R) {
+        *self = self.turned_about::<AXIS>(cos, sin);
     }
     #[inline(always)]
     fn renormalise(&mut self) {

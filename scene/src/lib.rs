@@ -63,7 +63,7 @@ pub use facts::{ElementDamping, ElementFrequency, Facts, Island, JointElement, J
 pub use geometry::GeometryInfo;
 pub use hinge::Hinge;
 pub use input::InputInfo;
-pub use joints::{Assembled, JointInfo, Moved, OpenJoint};
+pub use joints::{Assembled, JointInfo, Moved, OpenJoint, Realisation};
 pub use lint::{Severity, Warning};
 pub use lookup::{UnfitInput, UnknownName};
 pub use nearest::nearest;
@@ -96,6 +96,7 @@ const KEYS: &[&str] = &[
     "step",
     "every",
     "planar",
+    "realisation",
     "points",
     "defaults",
     "parameters",

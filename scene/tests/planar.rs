@@ -1,7 +1,7 @@
 //! Which scenes move in a plane, what becomes of them there, and what leaves it.
 
-use dbd_kernel::model::Law;
 use dbd_kernel::energy::energy;
+use dbd_kernel::model::Law;
 use dbd_kernel::schemes::Leapfrog;
 use dbd_kernel::{Plant, State, Vec3};
 use dbd_scene::{Scene, SceneError};
@@ -95,7 +95,9 @@ fn the_reduced_model_moves_as_the_spatial_one() {
         let steps = (time / step) as u64;
         let (mut apart, mut moved) = (0.0_f64, 0.0_f64);
         for _ in 0..20 {
-            assert!(whole.advance(steps / 20).is_running() && flat.advance(steps / 20).is_running());
+            assert!(
+                whole.advance(steps / 20).is_running() && flat.advance(steps / 20).is_running()
+            );
             for (row, body) in whole.state().bodies.iter().enumerate() {
                 let mine = planar.plane.state_outward(row, &flat.state().bodies[row]);
                 apart = apart.max(length(body.position - mine.position));
@@ -164,7 +166,8 @@ target = "knee"
 
 #[test]
 fn a_plane_may_have_any_normal_and_lie_anywhere() {
-    let scene = Scene::parse(TILTED, "tilted.toml").unwrap_or_else(|error| panic!("{error}: {}", error.help()));
+    let scene = Scene::parse(TILTED, "tilted.toml")
+        .unwrap_or_else(|error| panic!("{error}: {}", error.help()));
     let planar = scene.reduced().unwrap_or_else(|u| panic!("{:?}", u.departures));
     let normal = planar.plane.normal();
     assert!(length(normal.cross(Vec3::new(2.0, -1.0, 0.5))) < 1e-12);
@@ -209,16 +212,25 @@ fn refusal(text: &str) -> SceneError {
 #[test]
 fn a_planar_scene_that_leaves_its_plane_is_refused_with_the_place_and_by_how_much() {
     assert!(Scene::parse(&pinned(PLACE, AT, ""), "pinned.toml").unwrap().planar.is_some());
-    let tail = "\n[[body]]\nname = \"off\"\nmass = 1\ninertia = [1, 1, 1]\nposition = [0, 0, 0.02]\n";
+    let tail =
+        "\n[[body]]\nname = \"off\"\nmass = 1\ninertia = [1, 1, 1]\nposition = [0, 0, 0.02]\n";
     for (text, key, words) in [
-        (pinned(PLACE, AT, "") + tail, "[0, 0, 0.02]", "`position` of body `off` leaves the plane z = 0 by 0.02 m"),
+        (
+            pinned(PLACE, AT, "") + tail,
+            "[0, 0, 0.02]",
+            "`position` of body `off` leaves the plane z = 0 by 0.02 m",
+        ),
         (
             pinned(PLACE, AT, "gravity = [0, -9.81, 0.5]"),
             "[0, -9.81, 0.5]",
             "`gravity` of the scene leaves the plane z = 0: 0.5 m/s² along its normal",
         ),
         (
-            pinned("position = [0.5, 0, 0]\norientation = { axis = [1, 0, 0], angle = \"10 deg\" }", AT, ""),
+            pinned(
+                "position = [0.5, 0, 0]\norientation = { axis = [1, 0, 0], angle = \"10 deg\" }",
+                AT,
+                "",
+            ),
             "{ axis = [1, 0, 0], angle = \"10 deg\" }",
             "`orientation` of body `arm` leaves the plane z = 0: no principal axis is normal to it, the nearest leans by \
              10 degrees",
@@ -239,13 +251,15 @@ fn a_planar_scene_that_leaves_its_plane_is_refused_with_the_place_and_by_how_muc
             "`at` of joint `pin` leaves the plane z = 0 by 0.01 m",
         ),
         (
-            pinned(PLACE, AT, "") + "[[tsda]]\nbetween = [\"world\", \"arm\"]\npoints = [[0, 1, 0], [0, 0, 0.03]]\n\
+            pinned(PLACE, AT, "")
+                + "[[tsda]]\nbetween = [\"world\", \"arm\"]\npoints = [[0, 1, 0], [0, 0, 0.03]]\n\
              stiffness = 9\nfree_length = 0.5\n",
             "[[0, 1, 0], [0, 0, 0.03]]",
             "`points` of tsda 1 leaves the plane z = 0 by 0.03 m",
         ),
         (
-            pinned(PLACE, AT, "") + "[[torsion_spring]]\nbetween = [\"world\", \"arm\"]\naxis = [0, 1, 1]\n\
+            pinned(PLACE, AT, "")
+                + "[[torsion_spring]]\nbetween = [\"world\", \"arm\"]\naxis = [0, 1, 1]\n\
              stiffness = 9\n",
             "[0, 1, 1]",
             "`axis` of torsion_spring 1 leaves the plane z = 0: its axis leans by 45 degrees from the normal",
@@ -261,12 +275,14 @@ fn a_planar_scene_that_leaves_its_plane_is_refused_with_the_place_and_by_how_muc
             "`torque` of load 1 leaves the plane z = 0: 0.5 N·m about an axis that lies in it",
         ),
         (
-            pinned(PLACE, AT, "") + "[[input]]\nname = \"push\"\ntype = \"force\"\nbody = \"arm\"\naxis = [0, 3, 3]\n",
+            pinned(PLACE, AT, "")
+                + "[[input]]\nname = \"push\"\ntype = \"force\"\nbody = \"arm\"\naxis = [0, 3, 3]\n",
             "[0, 3, 3]",
             "`axis` of input `push` leaves the plane z = 0: its axis leans by 45 degrees",
         ),
         (
-            pinned(PLACE, AT, "") + "[[input]]\nname = \"push\"\ntype = \"force\"\nbody = \"arm\"\naxis = [0, 1, 0]\n\
+            pinned(PLACE, AT, "")
+                + "[[input]]\nname = \"push\"\ntype = \"force\"\nbody = \"arm\"\naxis = [0, 1, 0]\n\
              point = [0, 0, 0.1]\n",
             "[0, 0, 0.1]",
             "`point` of input `push` leaves the plane z = 0 by 0.1 m",
@@ -322,6 +338,9 @@ fn a_pin_becomes_two_springs_of_its_stiffness_and_what_lies_in_the_plane_stays()
     assert_eq!(planar.at_rest, [0]);
     let raw = model.groups[1];
     let first = usize::from(raw.point);
-    assert_eq!(model.points[first..first + 2], [Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 0.25, 0.0)]);
+    assert_eq!(
+        model.points[first..first + 2],
+        [Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 0.25, 0.0)]
+    );
     assert_eq!((model.tsdas[2].stiffness, model.tsdas[2].free_length), (9.0, 0.5));
 }

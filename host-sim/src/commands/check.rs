@@ -17,7 +17,7 @@ use crate::commands::assembled::AssembledCheck;
 use crate::commands::derived::{DerivedCheck, derived, lines as derived_lines};
 use crate::commands::planar::PlaneCheck;
 use crate::commands::stability::StabilityCheck;
-use crate::commands::warnings::{notes, of_scene, of_step};
+use crate::commands::warnings::{of_step, with_notes};
 use crate::terminal::Look;
 
 /// What is known of a scene before it runs.
@@ -216,8 +216,9 @@ pub fn check(scene: &Scene) -> Check {
         check.warnings = of_step(scene, &frequencies, &method, step, "the scene's step");
     }
     note_count(facts.planar_loops, &mut check);
-    check.warnings.extend(of_scene(scene));
-    check.notes.extend(notes(scene));
+    let [warnings, notes] = with_notes(scene, &facts);
+    check.warnings.extend(warnings);
+    check.notes.extend(notes);
     check
 }
 

@@ -13,6 +13,7 @@
 //! - [`sweep`]: many values of a scene, a row per case.
 //! - [`compare`]: two recorded runs in one report.
 //! - [`trade`]: speed against accuracy.
+//! - [`mod@bench`]: what a step costs this machine.
 //! - [`export`]: Rust source of a scene's const model and its plant.
 //! - [`mod@import`]: another program's file becomes a scene.
 //! - [`schema`]: what a scene file may hold, for editors.
@@ -20,6 +21,7 @@
 //! - [`completions`]: a script for a shell.
 
 pub mod assembled;
+pub mod bench;
 pub mod check;
 pub mod compare;
 pub mod completions;

@@ -3,8 +3,10 @@
 use crate::body::{Body, BodyState};
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
+use crate::elements::revolute::Revolute;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
+use crate::elements::universal::Universal;
 use crate::geometry::{F32, F64};
 use crate::model::Model;
 use crate::planar::{Planar32, Planar64};
@@ -91,6 +93,8 @@ macro_rules! models {
                     const TORSIONS: usize,
                     const GRAVITY: usize,
                     const LOADS: usize,
+                    const REVOLUTES: usize,
+                    const UNIVERSALS: usize,
                 >(
                     &self,
                 ) -> Model<
@@ -104,6 +108,12 @@ macro_rules! models {
                     TORSIONS,
                     GRAVITY,
                     LOADS,
+                    0,
+                    0,
+                    0,
+                    0,
+                    REVOLUTES,
+                    UNIVERSALS,
                 > {
                     Model {
                         bodies: rounded!(self.bodies, BODIES, b => Body {
@@ -152,6 +162,16 @@ macro_rules! models {
                         inputs: [],
                         knots: [],
                         clearances: [],
+                        revolutes: rounded!(self.revolutes, REVOLUTES, r => Revolute {
+                            stiffness: r.stiffness as $real,
+                            along: r.along as $real,
+                            levers: [$vector(&r.levers[0]), $vector(&r.levers[1])],
+                        }),
+                        universals: rounded!(self.universals, UNIVERSALS, u => Universal {
+                            stiffness: u.stiffness as $real,
+                            lever: $vector(&u.lever),
+                            axis: $vector(&u.axis),
+                        }),
                     }
                     .checked()
                 }
@@ -238,6 +258,12 @@ macro_rules! model {
             { $sketch.counts()[6] },
             { $sketch.counts()[7] },
             { $sketch.counts()[8] },
+            0,
+            0,
+            0,
+            0,
+            { $sketch.counts()[9] },
+            { $sketch.counts()[10] },
         > = $sketch.$function();
     };
 }

@@ -14,7 +14,8 @@ use super::UNUSED;
 use super::names::{constant_name, constant_names, quoted, type_name};
 use super::number::{SourceGeometry, SourceNumber};
 use super::rows::{
-    body, bushing, group, input, knot, list, load, point_on_line, readout, state, torsion, tsda,
+    body, bushing, group, input, knot, list, load, point_on_line, readout, revolute, state,
+    torsion, tsda, universal,
 };
 use crate::{Scene, SceneModel};
 
@@ -49,6 +50,8 @@ fn of<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>) -> String {
         model.inputs.len(),
         model.knots.len(),
         model.clearances.len(),
+        model.revolutes.len(),
+        model.universals.len(),
     ];
     let counts = counts.map(|n| n.to_string()).join(", ");
     let mut out = String::new();
@@ -74,6 +77,8 @@ fn of<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>) -> String {
     line(&format_args!("    inputs: {},", list(&model.inputs, input::<P>)));
     line(&format_args!("    knots: {},", list(&model.knots, knot)));
     line(&format_args!("    clearances: {},", list(&model.clearances, |c| c.number())));
+    line(&format_args!("    revolutes: {},", list(&model.revolutes, revolute::<P>)));
+    line(&format_args!("    universals: {},", list(&model.universals, universal::<P>)));
     line(&"}");
     line(&".checked();");
     let names = constant_names(scene.readouts.iter().map(|readout| readout.name.as_str()));

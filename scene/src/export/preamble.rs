@@ -58,7 +58,7 @@ pub(super) fn shared(scene: &Scene, step: f64) -> String {
 
 /// The types of a model in space.
 const SPATIAL: &str = "Body, BodyIndex, BodyState, F32, F64, Load, LoadFrame, Model, PointBushing, \
-                       PointOnLine,\n    Quaternion, TorsionSpring, Tsda, Vec3,\n    ";
+                       PointOnLine,\n    Quaternion, Revolute, TorsionSpring, Tsda, Universal, Vec3,\n    ";
 
 /// The types of one in its plane.
 const PLANAR: &str = "Body, BodyIndex, BodyState, Load, LoadFrame, Model, Planar32, Planar64, \

@@ -7,7 +7,9 @@ use dbd_kernel::elements::input::{Input, InputKind, Knot};
 use dbd_kernel::index::{BodyIndex, DamperIndex};
 use dbd_kernel::model::Group;
 use dbd_kernel::readouts::Readout;
-use dbd_kernel::{BodyState, Load, LoadFrame, PointBushing, PointOnLine, TorsionSpring, Tsda};
+use dbd_kernel::{
+    BodyState, Load, LoadFrame, PointBushing, PointOnLine, Revolute, TorsionSpring, Tsda, Universal,
+};
 
 use super::number::{SourceGeometry, SourceNumber};
 
@@ -82,6 +84,20 @@ pub(super) fn bushing<R: SourceNumber>(bushing: &PointBushing<R>) -> String {
     format!("PointBushing {{ stiffness: {} }}", bushing.stiffness.number())
 }
 
+pub(super) fn revolute<P: SourceGeometry>(revolute: &Revolute<P::Space>) -> String {
+    let (k, along) = (revolute.stiffness.number(), revolute.along.number());
+    let [a, b] = revolute.levers.each_ref().map(P::vector);
+    format!("Revolute {{ stiffness: {k}, along: {along}, levers: [{a}, {b}] }}")
+}
+
+pub(super) fn universal<P: SourceGeometry>(universal: &Universal<P::Space>) -> String {
+    let (lever, axis) = (P::vector(&universal.lever), P::vector(&universal.axis));
+    format!(
+        "Universal {{ stiffness: {}, lever: {lever}, axis: {axis} }}",
+        universal.stiffness.number()
+    )
+}
+
 pub(super) fn point_on_line<P: SourceGeometry>(line: &PointOnLine<P::Space>) -> String {
     let (k, l0) = (line.stiffness.number(), line.free_length.number());
     let direction = P::vector(&line.direction);
@@ -105,7 +121,12 @@ pub(super) fn input<P: SourceGeometry>(input: &Input<P>) -> String {
             axes(*frame),
         ),
         InputKind::JointTorque { a, b, axis } => {
-            format!("JointTorque {{ a: {}, b: {}, axis: {} }}", index(*a), index(*b), P::moment(axis))
+            format!(
+                "JointTorque {{ a: {}, b: {}, axis: {} }}",
+                index(*a),
+                index(*b),
+                P::moment(axis)
+            )
         }
         InputKind::Actuator { group, element } => {
             format!("Actuator {{ group: {group}, element: {element} }}")

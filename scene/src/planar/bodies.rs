@@ -55,7 +55,10 @@ pub(super) fn read(
             leaves(part, "position", &format!(" by {} m", short(off)));
         }
         if let Some(lean) = lean(body, normal_b) {
-            let by = format!(": no principal axis is normal to it, the nearest leans by {} degrees", short(lean));
+            let by = format!(
+                ": no principal axis is normal to it, the nearest leans by {} degrees",
+                short(lean)
+            );
             leaves(part, "orientation", &by);
         }
         let speed = plane.inward(state.velocity).z;

@@ -77,7 +77,9 @@ impl Unplanar {
         let more = match self.departures.len() - 1 {
             0 => String::new(),
             1 => format!(", as 1 other thing does that `host-sim check` names without `planar`"),
-            more => format!(", as {more} other things do that `host-sim check` counts without `planar`"),
+            more => {
+                format!(", as {more} other things do that `host-sim check` counts without `planar`")
+            }
         };
         let help = format!(
             "with `planar = true` all of a scene lies in one plane and moves along it, here {plane}; \

@@ -46,6 +46,9 @@ impl Placed<'_> {
         let (stiffness, free_length, line) = match group.law {
             Law::Tsda => model.tsdas.get(row).map(|e| (e.stiffness, e.free_length, None))?,
             Law::PointBushing => model.bushings.get(row).map(|e| (e.stiffness, 0.0, None))?,
+            // In the plane each is its point alone.
+            Law::Revolute => model.revolutes.get(row).map(|e| (e.stiffness, 0.0, None))?,
+            Law::Universal => model.universals.get(row).map(|e| (e.stiffness, 0.0, None))?,
             Law::PointOnLine => {
                 let line = model.lines.get(row)?;
                 let along = self.plane.of_body_inward(group.a.row(), line.direction);

@@ -18,11 +18,7 @@ impl Planar {
     /// A model of the plane, this one or a rounding of it, in the world's axes. `whole` is the spatial
     /// model, of whose bodies the moments are that the plane does not know.
     #[must_use]
-    pub fn in_world(
-        &self,
-        whole: &SceneModel<F64>,
-        flat: &SceneModel<F64>,
-    ) -> SceneModel<F64> {
+    pub fn in_world(&self, whole: &SceneModel<F64>, flat: &SceneModel<F64>) -> SceneModel<F64> {
         let plane = &self.plane;
         let bodies = flat.bodies.iter().zip(&whole.bodies).enumerate();
         let states = flat.initial.iter().enumerate();

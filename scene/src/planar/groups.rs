@@ -28,9 +28,11 @@ pub(super) fn read(
     let states = model.initial.clone();
     let placed = Placed { model: &scene.model, plane, states: &states };
     let raw = scene.joints.last().map_or(0, |joint| joint.groups.end);
-    let mut owners = scene.joints.iter().enumerate().flat_map(|(row, joint)| {
-        joint.groups.clone().map(move |_| row)
-    });
+    let mut owners = scene
+        .joints
+        .iter()
+        .enumerate()
+        .flat_map(|(row, joint)| joint.groups.clone().map(move |_| row));
     let mut at_rest = Vec::new();
     for (row, group) in scene.model.groups.iter().enumerate() {
         let elements = placed.elements(group);
@@ -46,7 +48,11 @@ pub(super) fn read(
                 Part::Raw(row - raw)
             }
         };
-        match reduced(group.law, &elements, clearance.copied().unwrap_or(0.0), near) {
+        let law = match group.law {
+            Law::Revolute | Law::Universal => Law::PointBushing,
+            law => law,
+        };
+        match reduced(law, &elements, clearance.copied().unwrap_or(0.0), near) {
             Ok(found) => {
                 if !found.is_exact {
                     at_rest.push(row);
@@ -73,16 +79,14 @@ fn turns(scene: &Scene, plane: &Plane, joint: usize) -> Option<f64> {
 }
 
 /// Tells of a joint that does not stay in the plane.
-fn stays(
-    part: Part,
-    elements: &[Element],
-    turns: Option<f64>,
-    near: f64,
-    leaves: &mut Leaves<'_>,
-) {
+fn stays(part: Part, elements: &[Element], turns: Option<f64>, near: f64, leaves: &mut Leaves<'_>) {
     let found = coupling(elements);
     if let Some(lean) = turns {
-        leaves(part, "axis", &format!(": its axis leans by {} degrees from the normal", short(lean)));
+        leaves(
+            part,
+            "axis",
+            &format!(": its axis leans by {} degrees from the normal", short(lean)),
+        );
     } else if found.height.abs() > near {
         leaves(part, "at", &format!(" by {} m", short(found.height)));
     } else if found.share > ACROSS {
@@ -155,14 +159,16 @@ fn add(model: &mut SceneModel<F64>, states: &[BodyState<F64>], of: &Group, reduc
     }
     let element = match law {
         Law::Tsda => model.tsdas.len(),
-        Law::PointBushing => model.bushings.len(),
+        Law::PointBushing | Law::Revolute | Law::Universal => model.bushings.len(),
         Law::PointOnLine => model.lines.len(),
     } as u16;
     for arm in &arms {
         let (stiffness, free_length) = (arm.stiffness, arm.free_length);
         match law {
             Law::Tsda => model.tsdas.push(Tsda::from_f64(stiffness, free_length)),
-            Law::PointBushing => model.bushings.push(PointBushing::from_f64(stiffness)),
+            Law::PointBushing | Law::Revolute | Law::Universal => {
+                model.bushings.push(PointBushing::from_f64(stiffness));
+            }
             Law::PointOnLine => {
                 let along = line.unwrap_or(Vec3::ZERO);
                 let along = match states.get(of.a.row()) {

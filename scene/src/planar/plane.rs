@@ -102,7 +102,9 @@ impl Plane {
         let axis = ["x", "y", "z"].into_iter().zip(normal).find(|(_, n)| n.abs() == 1.0);
         let height = self.height;
         match axis {
-            Some((axis, sign)) => format!("{axis} = {}", short(if height == 0.0 { 0.0 } else { sign * height })),
+            Some((axis, sign)) => {
+                format!("{axis} = {}", short(if height == 0.0 { 0.0 } else { sign * height }))
+            }
             None => format!(
                 "normal to [{}], {} m from the origin",
                 normal.map(short).join(", "),
@@ -152,7 +154,11 @@ impl Plane {
     /// the plane; of the world as [`Self::place_inward`].
     #[must_use]
     pub fn point_inward(&self, row: usize, point: Vec3<f64>) -> Vec3<f64> {
-        if row < self.bodies.len() { self.of_body_inward(row, point) } else { self.place_inward(point) }
+        if row < self.bodies.len() {
+            self.of_body_inward(row, point)
+        } else {
+            self.place_inward(point)
+        }
     }
 
     /// How body `b` stands to body `a`, or its inverse, in the plane's turns as it is between their own axes.

@@ -217,9 +217,8 @@ fn condensed(star: &[Arm]) -> Option<Vec<Arm>> {
         free_length,
         reach: free_length,
     };
-    let acts = |arm: &Arm| {
-        arm.stiffness > ALIKE * whole(stiff) || arm.damping > ALIKE * whole(damp)
-    };
+    let acts =
+        |arm: &Arm| arm.stiffness > ALIKE * whole(stiff) || arm.damping > ALIKE * whole(damp);
     Some([main, across].map(arm).into_iter().filter(acts).collect())
 }
 
