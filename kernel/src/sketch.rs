@@ -254,7 +254,7 @@ impl Sketch {
         assert_not_negative(spring.stiffness);
         assert_not_negative(spring.damping);
         assert_not_negative(spring.free_length);
-        assert!(arms.len() >= 1 && arms.len() <= 3, "a star has one to three arms");
+        assert!(!arms.is_empty() && arms.len() <= 3, "a star has one to three arms");
         assert!(!centres.is_empty() && centres.len() <= 255, "a joint has 1 to 255 centres");
         let elements = centres.len() * arms.len();
         let bushing = spring.free_length == 0.0;
