@@ -8,7 +8,7 @@ use dbd_scene::{Scene, SceneModel, widen};
 use dbd_tests::{page, scene, scene_names};
 
 /// \[s\] the longest that is compared.
-const LONGEST: f64 = 2.0;
+const LONGEST: f64 = 1.0;
 
 /// Instants at which both runs are compared.
 const INSTANTS: u64 = 100;
