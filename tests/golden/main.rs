@@ -128,11 +128,7 @@ fn states_in_the_plane_have_their_golden_hashes() {
     compare("planar.csv", &present);
 }
 
-fn planar_row<P: Geometry, S: Scheme>(
-    scene: &Scene,
-    model: &SceneModel<F64>,
-    scheme: S,
-) -> String {
+fn planar_row<P: Geometry, S: Scheme>(scene: &Scene, model: &SceneModel<F64>, scheme: S) -> String {
     row_of_model::<P, S>(scene, model, S::NAME, scheme, STEPS)
 }
 
