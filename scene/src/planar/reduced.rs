@@ -154,11 +154,12 @@ fn stars(elements: &[Element], clearance: f64, near: f64) -> Result<Reduced, Obs
         }
     }
     for star in &mut stars {
-        if star.len() > 2 && clearance == 0.0 {
-            if let Some(two) = condensed(star) {
-                *star = two;
-                is_exact = false;
-            }
+        if star.len() > 2
+            && clearance == 0.0
+            && let Some(two) = condensed(star)
+        {
+            *star = two;
+            is_exact = false;
         }
     }
     if stars.is_empty() {
