@@ -26,6 +26,9 @@ pub enum Lacks {
     /// A point may lie on a line, but not at a distance from it.
     #[error("the plain loop has no free distances from lines")]
     Distances,
+    /// A joint is springs between points, not one law for point and axes.
+    #[error("the plain loop has no revolute or universal joints of bushings")]
+    Axes,
 }
 
 impl Plain {
@@ -46,10 +49,11 @@ impl Plain {
         let springs = model.groups.iter();
         let springs =
             springs.flat_map(|group| (0..group.elements()).map(|i| spring(model, group, i)));
+        let springs: Result<_, _> = springs.collect();
         Ok(Self {
             bodies: bodies(model),
             gravity: model.gravity.first().map_or([0.0; 3], |gravity| gravity.to_f64()),
-            springs: springs.collect(),
+            springs: springs?,
             torsions: torsions(model),
             loads: loads(model),
             step,
@@ -81,7 +85,7 @@ fn bodies(model: &SceneModel<F64>) -> Vec<Body> {
 }
 
 /// Element `i` of a group: star by star, arm by arm.
-fn spring(model: &SceneModel<F64>, group: &Group, i: usize) -> Spring {
+fn spring(model: &SceneModel<F64>, group: &Group, i: usize) -> Result<Spring, Lacks> {
     let (stars, arms) = (usize::from(group.stars), usize::from(group.arms));
     let tip = if group.shared { i % arms } else { i };
     let point = |row: usize| -> Vector { model.points[usize::from(group.point) + row].to_f64() };
@@ -96,14 +100,15 @@ fn spring(model: &SceneModel<F64>, group: &Group, i: usize) -> Spring {
             let line = &model.lines[row];
             (Stretch::Across(line.direction.to_f64()), line.stiffness)
         }
+        Law::Revolute | Law::Universal => return Err(Lacks::Axes),
     };
-    Spring {
+    Ok(Spring {
         ends: [end(group.a), end(group.b)],
         points: [point(i / arms), point(stars + tip)],
         stretch,
         stiffness,
         damping: group.damper.row().map_or(0.0, |first| model.dampers[first + i]),
-    }
+    })
 }
 
 fn torsions(model: &SceneModel<F64>) -> Vec<Torsion> {
