@@ -32,6 +32,7 @@ pages! {
     joints "docs/joints.md"
     measured "docs/measured.md"
     method "docs/method.md"
+    planar "docs/planar.md"
     precision "docs/precision.md"
     proof "docs/proof.md"
     real_time "docs/real-time.md"

@@ -51,6 +51,7 @@ pub mod vocabulary;
 mod write;
 mod written;
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -311,6 +312,15 @@ impl Scene {
     #[must_use]
     pub fn stepped(&self) -> &SceneModel<F64> {
         self.planar.as_ref().map_or(&self.model, |planar| &planar.model)
+    }
+
+    /// The elements that step, in the world's axes: those of [`Self::stepped`] where the scene is planar.
+    #[must_use]
+    pub fn in_world(&self) -> Cow<'_, SceneModel<F64>> {
+        match &self.planar {
+            Some(planar) => Cow::Owned(planar.in_world(&self.model, &planar.model)),
+            None => Cow::Borrowed(&self.model),
+        }
     }
 
     /// Takes every input from its table, so that the caller drives it, as [`SceneModel::release_all`].
