@@ -19,6 +19,7 @@ const CRATES: &[&str] = &[
     "reference",
     "study",
     "sweep",
+    "ensemble",
     "output",
     "picture",
     "report",
