@@ -149,7 +149,7 @@ impl<V: Register> Real for Lanes<V> {
     }
     #[inline(always)]
     fn is_finite(self) -> bool {
-        (self - self) == Self::ZERO
+        self * Self::ZERO == Self::ZERO
     }
     fn word(self) -> Word {
         self.lane(0).word()
