@@ -63,6 +63,8 @@ pub(crate) fn difference<R: Real + Named>(
             ("inputs", model.inputs.len()),
             ("knots of tables", model.knots.len()),
             ("clearances", model.clearances.len()),
+            ("revolutes of bushings", model.revolutes.len()),
+            ("universal joints of bushings", model.universals.len()),
         ]
     };
     for ((parts, first), (_, other)) in counts(first).into_iter().zip(counts(other)) {

@@ -7,7 +7,8 @@ use dbd_kernel::elements::input::{Input, InputKind, Knot};
 use dbd_kernel::geometry::Float;
 use dbd_kernel::schedule::Signal;
 use dbd_kernel::{
-    Body, BodyState, Load, PointBushing, PointOnLine, Quaternion, State, TorsionSpring, Tsda, Vec3,
+    Body, BodyState, Load, PointBushing, PointOnLine, Quaternion, Revolute, State, TorsionSpring,
+    Tsda, Universal, Vec3,
 };
 use dbd_scene::SceneModel;
 
@@ -120,6 +121,22 @@ pub(crate) fn model<V: Register>(models: &[&ModelOf<V::Number>]) -> LanesModel<V
             }
         }),
         clearances: each!(clearances, |row| number(|i| models[i].clearances[row])),
+        revolutes: each!(revolutes, |row| {
+            let of = |i: usize| models[i].revolutes[row];
+            Revolute {
+                stiffness: number(|i| of(i).stiffness),
+                along: number(|i| of(i).along),
+                levers: [vector(|i| of(i).levers[0]), vector(|i| of(i).levers[1])],
+            }
+        }),
+        universals: each!(universals, |row| {
+            let of = |i: usize| models[i].universals[row];
+            Universal {
+                stiffness: number(|i| of(i).stiffness),
+                lever: vector(|i| of(i).lever),
+                axis: vector(|i| of(i).axis),
+            }
+        }),
     }
 }
 

@@ -12,7 +12,7 @@ use crate::body::Body;
 use crate::compositions::PEFRL;
 use crate::geometry::Geometry;
 use crate::real::{Real, Truth as _};
-use crate::space::{Linear as _, Moment};
+use crate::space::{Linear as _, Moment, Space as _};
 use crate::vector::{Quaternion, Vec3};
 
 /// Turns by the rotation vector `2·half` in body axes (exponential map).
@@ -37,12 +37,26 @@ pub fn free_rotor<P: Geometry>(
     rate: &mut P::Spin,
     time: P::Real,
 ) {
-    let (half, none) = (P::Real::HALF * time, P::Real::truth(false));
-    about_x::<P>(body, orientation, rate, half, none);
-    about_y::<P>(body, orientation, rate, half, none);
-    about_z::<P>(body, orientation, rate, time, none);
-    about_y::<P>(body, orientation, rate, half, none);
-    about_x::<P>(body, orientation, rate, half, none);
+    if P::Space::PLANAR {
+        return turn_in_plane::<P>(orientation, rate, time);
+    }
+    let (zero, half) = (P::Real::ZERO, P::Real::HALF * time);
+    let none = P::Real::truth(false);
+    let w = P::spin(rate).in_space();
+    if P::Real::LANES == 1 && w.x == zero && w.y == zero {
+        // What moves in a plane turns about z alone, and this is all that the five would do.
+        if w.z != zero {
+            let turn = Turn::by(time * w.z);
+            P::spin_up(rate, P::Moment::ZERO);
+            P::Orientation::turn_about::<2>(orientation, turn.half_cos, turn.half_sin);
+        }
+    } else {
+        about_x::<P>(body, orientation, rate, half, none);
+        about_y::<P>(body, orientation, rate, half, none);
+        about_z::<P>(body, orientation, rate, time, none);
+        about_y::<P>(body, orientation, rate, half, none);
+        about_x::<P>(body, orientation, rate, half, none);
+    }
     P::Orientation::renormalise(orientation);
 }
 
@@ -61,6 +75,9 @@ pub fn free_rotor_of_order_four<P: Geometry>(
     rate: &mut P::Spin,
     time: P::Real,
 ) {
+    if P::Space::PLANAR {
+        return turn_in_plane::<P>(orientation, rate, time);
+    }
     let (zero, none) = (P::Real::ZERO, P::Real::truth(false));
     let w = P::spin(rate).in_space();
     match (w.x == zero, w.y == zero, w.z == zero) {
@@ -71,6 +88,12 @@ pub fn free_rotor_of_order_four<P: Geometry>(
         _ => tumble::<P>(body, orientation, rate, time),
     }
     P::Orientation::renormalise(orientation);
+}
+
+/// The free rotor of a plane: one turn, exact.
+#[inline(always)]
+fn turn_in_plane<P: Geometry>(orientation: &mut P::Orientation, rate: &P::Spin, time: P::Real) {
+    turn_by::<P>(orientation, P::spin(rate) * (P::Real::HALF * time));
 }
 
 /// [`free_rotor_of_order_four`] about more than one axis.
@@ -167,6 +190,18 @@ pub(crate) fn turn_unless<P: Geometry>(
     P::Orientation::keep(orientation, resting, &start);
 }
 
+/// Turns about an axis, by cosine and sine of half the angle, all but the resting lanes.
+#[inline(always)]
+fn turn_about<P: Geometry, const AXIS: usize>(
+    orientation: &mut P::Orientation,
+    (cos, sin): (P::Real, P::Real),
+    resting: TruthOf<P>,
+) {
+    let start = *orientation;
+    P::Orientation::turn_about::<AXIS>(orientation, cos, sin);
+    P::Orientation::keep(orientation, resting, &start);
+}
+
 // In lanes `without` an axis turns nothing.
 #[inline(always)]
 pub(crate) fn about_x<P: Geometry>(
@@ -186,8 +221,7 @@ pub(crate) fn about_x<P: Geometry>(
     let y = t.sine * (body.ratio.in_space().x * w.z) - t.versine * w.y;
     let z = -(t.sine * (body.inverse_ratio.in_space().x * w.y)) - t.versine * w.z;
     P::spin_up(rate, P::Moment::of_space(Vec3::new(zero, y, z)).unless(resting));
-    let turn = Quaternion::new(t.half_cos, t.half_sin, zero, zero);
-    turn_unless::<P>(orientation, turn, resting);
+    turn_about::<P, 0>(orientation, (t.half_cos, t.half_sin), resting);
 }
 
 #[inline(always)]
@@ -208,8 +242,7 @@ pub(crate) fn about_y<P: Geometry>(
     let z = t.sine * (body.ratio.in_space().y * w.x) - t.versine * w.z;
     let x = -(t.sine * (body.inverse_ratio.in_space().y * w.z)) - t.versine * w.x;
     P::spin_up(rate, P::Moment::of_space(Vec3::new(x, zero, z)).unless(resting));
-    let turn = Quaternion::new(t.half_cos, zero, t.half_sin, zero);
-    turn_unless::<P>(orientation, turn, resting);
+    turn_about::<P, 1>(orientation, (t.half_cos, t.half_sin), resting);
 }
 
 #[inline(always)]
@@ -230,8 +263,7 @@ pub(crate) fn about_z<P: Geometry>(
     let x = t.sine * (body.ratio.in_space().z * w.y) - t.versine * w.x;
     let y = -(t.sine * (body.inverse_ratio.in_space().z * w.x)) - t.versine * w.y;
     P::spin_up(rate, P::Moment::of_space(Vec3::new(x, y, zero)).unless(resting));
-    let turn = Quaternion::new(t.half_cos, zero, zero, t.half_sin);
-    turn_unless::<P>(orientation, turn, resting);
+    turn_about::<P, 2>(orientation, (t.half_cos, t.half_sin), resting);
 }
 
 #[cfg(test)]
