@@ -1,19 +1,20 @@
 //! Every lane has the bits of its instance stepped by itself.
 
 use dbd_kernel::geometry::Named;
-use dbd_kernel::index::{DamperIndex, InputIndex};
+use dbd_kernel::index::{ClearanceIndex, DamperIndex, InputIndex};
+use dbd_kernel::model::{Group, Law};
 use dbd_kernel::status::Cause;
 use dbd_kernel::{
     BlanesMoanS6, Body, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F64, Leapfrog, Pefrl,
-    Plant, Quaternion, Real, Rk4, Scheme, SemiImplicitEuler, Status, TorsionSpring, Vec3,
+    Plant, Quaternion, Real, Rk4, Scheme, SemiImplicitEuler, Status, TorsionSpring, Tsda, Vec3,
 };
 use dbd_scene::{Scene, SceneModel};
 
 use super::{Batch, Members, PlantOf};
 use crate::InstructionSet;
-use crate::register::{Register, Singles};
 #[cfg(target_arch = "x86_64")]
 use crate::register::{Doubles256, Singles256 as Eight, Singles512};
+use crate::register::{Register, Singles};
 
 /// Where there is no other register.
 #[cfg(not(target_arch = "x86_64"))]
@@ -23,7 +24,6 @@ type Eight = Singles;
 fn eight() -> bool {
     cfg!(not(target_arch = "x86_64")) || InstructionSet::Avx2.is_there()
 }
-
 
 /// A scene that ships, and its step.
 fn shipped(name: &str) -> (SceneModel<F64>, f64) {
@@ -171,6 +171,39 @@ fn flywheel(spin: f64) -> SceneModel<F64> {
         dampers: vec![1e-3],
         ..SceneModel::default()
     }
+}
+
+#[test]
+fn points_that_coincide_in_one_lane_give_it_no_force() {
+    if !eight() {
+        return;
+    }
+    // A ball tied to the origin, at it or apart from it, and let go or thrown.
+    let ball = |x: f64| {
+        let mut model = flywheel(0.0);
+        model.torsions.clear();
+        model.dampers.clear();
+        model.initial[0].position.x = x;
+        model.initial[0].velocity.y = x;
+        model.groups = vec![Group {
+            law: Law::Tsda,
+            a: BodyIndex::WORLD,
+            b: BodyIndex(0),
+            stars: 1,
+            arms: 1,
+            shared: false,
+            point: 0,
+            element: 0,
+            damper: DamperIndex::NONE,
+            clearance: ClearanceIndex::NONE,
+        }];
+        model.points = vec![Vec3::ZERO; 2];
+        model.tsdas = vec![Tsda { stiffness: 30.0, free_length: 0.2 }];
+        model
+    };
+    let models: Vec<_> = [0.5, 0.0, -0.1].into_iter().map(ball).collect();
+    let alone = compare::<Eight, _>("ball", &models, Leapfrog, 0.01);
+    assert_eq!(alone[1].state().bodies[0].position, Vec3::ZERO);
 }
 
 #[test]
