@@ -23,9 +23,6 @@ pub enum Lacks {
     /// It has no clearances.
     #[error("the plain loop has no clearances")]
     Clearances,
-    /// A point may lie on a line, but not at a distance from it.
-    #[error("the plain loop has no free distances from lines")]
-    Distances,
 }
 
 impl Plain {
@@ -39,9 +36,6 @@ impl Plain {
         }
         if !model.clearances.is_empty() {
             return Err(Lacks::Clearances);
-        }
-        if model.lines.iter().any(|line| line.free_length != 0.0) {
-            return Err(Lacks::Distances);
         }
         let springs = model.groups.iter();
         let springs =
@@ -94,7 +88,7 @@ fn spring(model: &SceneModel<F64>, group: &Group, i: usize) -> Spring {
         Law::PointBushing => (Stretch::Anywhere, model.bushings[row].stiffness),
         Law::PointOnLine => {
             let line = &model.lines[row];
-            (Stretch::Across(line.direction.to_f64()), line.stiffness)
+            (Stretch::Across(line.direction.to_f64(), line.free_length), line.stiffness)
         }
     };
     Spring {
