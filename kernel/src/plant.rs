@@ -7,7 +7,7 @@
 use core::ops::Deref;
 
 use crate::attitude::Attitude as _;
-use crate::damping::{Damping, share};
+use crate::damping::{Damping, Held, share};
 use crate::forces::Wrench;
 use crate::guards::first_fault;
 use crate::index::{BodyIndex, InputIndex};
@@ -84,7 +84,8 @@ where
             let (bodies, signals) = (state.bodies.as_ref(), state.signals.as_ref());
             place_bodies(bodies, frames.as_mut());
             let places = Places { frames: frames.as_ref(), signals };
-            share(&view, places, bodies, state.turns.as_ref(), shares.as_mut());
+            let (mut held, shares) = (owner.per_body(Held::default()), shares.as_mut());
+            share(&view, places, bodies, state.turns.as_ref(), held.as_mut(), shares);
         }
         let wrenches = owner.per_body(Wrench::default());
         let memory = owner.per_body(S::Memory::default());

@@ -2,7 +2,7 @@
 //!
 //! - [`list`]: the scenes that ship.
 //! - [`warnings`]: what is probably not meant, in one place for all.
-//! - [`assembled`], [`stability`], [`derived`], [`check`]: what a scene is, without running it.
+//! - [`assembled`], [`stability`], [`derived`], [`planar`], [`check`]: what a scene is, without running it.
 //! - [`picture`]: the mechanism as an SVG. [`mod@write`]: a scene in its long form.
 //! - [`watch`]: a file is looked at again each time it has changed.
 //! - [`folder`]: where results go.
@@ -34,6 +34,7 @@ pub mod list;
 pub mod modes;
 pub mod new;
 pub mod picture;
+pub mod planar;
 pub mod run;
 pub mod schema;
 pub mod stability;

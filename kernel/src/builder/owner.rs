@@ -24,6 +24,8 @@ impl<
     const LINES: usize,
     const INPUTS: usize,
     const KNOTS: usize,
+    const REVOLUTES: usize,
+    const UNIVERSALS: usize,
 > ModelOwner
     for ModelBuilder<
         P,
@@ -38,6 +40,8 @@ impl<
         LINES,
         INPUTS,
         KNOTS,
+        REVOLUTES,
+        UNIVERSALS,
     >
 {
     type Precision = P;
@@ -64,6 +68,8 @@ impl<
             inputs: &self.inputs,
             knots: &self.knots,
             clearances: &self.clearances,
+            revolutes: &self.revolutes,
+            universals: &self.universals,
             terms: PhantomData,
         }
     }
