@@ -23,6 +23,9 @@ pub enum Lacks {
     /// It has no clearances.
     #[error("the plain loop has no clearances")]
     Clearances,
+    /// It has joints of TSDAs, points and lines alone.
+    #[error("the plain loop has no joints that are one element")]
+    Joints,
 }
 
 impl Plain {
@@ -40,10 +43,11 @@ impl Plain {
         let springs = model.groups.iter();
         let springs =
             springs.flat_map(|group| (0..group.elements()).map(|i| spring(model, group, i)));
+        let springs = springs.collect::<Result<_, _>>()?;
         Ok(Self {
             bodies: bodies(model),
             gravity: model.gravity.first().map_or([0.0; 3], |gravity| gravity.to_f64()),
-            springs: springs.collect(),
+            springs,
             torsions: torsions(model),
             loads: loads(model),
             step,
@@ -75,7 +79,7 @@ fn bodies(model: &SceneModel<F64>) -> Vec<Body> {
 }
 
 /// Element `i` of a group: star by star, arm by arm.
-fn spring(model: &SceneModel<F64>, group: &Group, i: usize) -> Spring {
+fn spring(model: &SceneModel<F64>, group: &Group, i: usize) -> Result<Spring, Lacks> {
     let (stars, arms) = (usize::from(group.stars), usize::from(group.arms));
     let tip = if group.shared { i % arms } else { i };
     let point = |row: usize| -> Vector { model.points[usize::from(group.point) + row].to_f64() };
@@ -90,14 +94,15 @@ fn spring(model: &SceneModel<F64>, group: &Group, i: usize) -> Spring {
             let line = &model.lines[row];
             (Stretch::Across(line.direction.to_f64(), line.free_length), line.stiffness)
         }
+        Law::Revolute | Law::Universal => return Err(Lacks::Joints),
     };
-    Spring {
+    Ok(Spring {
         ends: [end(group.a), end(group.b)],
         points: [point(i / arms), point(stars + tip)],
         stretch,
         stiffness,
         damping: group.damper.row().map_or(0.0, |first| model.dampers[first + i]),
-    }
+    })
 }
 
 fn torsions(model: &SceneModel<F64>) -> Vec<Torsion> {
