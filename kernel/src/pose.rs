@@ -13,13 +13,23 @@ use crate::elements::universal::{Lean, Universal};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelRef, Terms};
-use crate::real::Real as _;
+use crate::real::Real;
 use crate::schedule::Signal;
 use crate::space::{Linear as _, Moment as _, Vector};
 
 /// Computes the frames of all bodies.
-#[inline]
+#[inline(always)]
 pub(crate) fn place_bodies<P: Geometry>(bodies: &[BodyState<P>], frames: &mut [P::Frame]) {
+    if P::Real::LANES == 1 { place_apart(bodies, frames) } else { place_here(bodies, frames) }
+}
+
+#[inline]
+fn place_apart<P: Geometry>(bodies: &[BodyState<P>], frames: &mut [P::Frame]) {
+    place_here(bodies, frames);
+}
+
+#[inline(always)]
+fn place_here<P: Geometry>(bodies: &[BodyState<P>], frames: &mut [P::Frame]) {
     for (state, frame) in bodies.iter().zip(frames) {
         *frame = P::frame(&state.position, &state.orientation);
     }
@@ -289,11 +299,36 @@ pub(crate) fn each_element<'m, P: Geometry, T: Terms>(
     }
 }
 
+/// The turn count of a geometry's number.
+pub(crate) type CountOf<P> = <<P as Geometry>::Real as Real>::Count;
+
 /// The twist of a torsion spring, `None` where it is undefined.
+#[inline(always)]
 pub(crate) fn twist_of<P: Geometry>(
     spring: &TorsionSpring<P::Space>,
     bodies: &[BodyState<P>],
-    turns: i32,
+    turns: CountOf<P>,
+) -> Option<Twist<P::Space>> {
+    if P::Real::LANES == 1 {
+        twist_apart(spring, bodies, turns)
+    } else {
+        twist_here(spring, bodies, turns)
+    }
+}
+
+fn twist_apart<P: Geometry>(
+    spring: &TorsionSpring<P::Space>,
+    bodies: &[BodyState<P>],
+    turns: CountOf<P>,
+) -> Option<Twist<P::Space>> {
+    twist_here(spring, bodies, turns)
+}
+
+#[inline(always)]
+fn twist_here<P: Geometry>(
+    spring: &TorsionSpring<P::Space>,
+    bodies: &[BodyState<P>],
+    turns: CountOf<P>,
 ) -> Option<Twist<P::Space>> {
     let orientation = |row: usize| bodies.get(row).map(|s| &s.orientation);
     let relative =

@@ -23,9 +23,9 @@ pub enum Lacks {
     /// It has no clearances.
     #[error("the plain loop has no clearances")]
     Clearances,
-    /// It has joints of TSDAs, points and lines alone.
-    #[error("the plain loop has no joints that are one element")]
-    Joints,
+    /// A joint is springs between points, not one law for point and axes.
+    #[error("the plain loop has no revolute or universal joints of bushings")]
+    Axes,
 }
 
 impl Plain {
@@ -94,7 +94,7 @@ fn spring(model: &SceneModel<F64>, group: &Group, i: usize) -> Result<Spring, La
             let line = &model.lines[row];
             (Stretch::Across(line.direction.to_f64(), line.free_length), line.stiffness)
         }
-        Law::Revolute | Law::Universal => return Err(Lacks::Joints),
+        Law::Revolute | Law::Universal => return Err(Lacks::Axes),
     };
     Ok(Spring {
         ends: [end(group.a), end(group.b)],

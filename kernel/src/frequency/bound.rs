@@ -168,7 +168,8 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
                 }
             }
             Mount::Torsion(spring) => {
-                let Some((spring, &turns)) = view.torsions.iter().zip(self.turns).nth(spring)
+                let Some((spring, &turns)) =
+                    view.torsions.iter().zip(P::Real::counts(self.turns)).nth(spring)
                 else {
                     return;
                 };

@@ -38,7 +38,7 @@ pub trait Scheme: Copy {
     /// How dampers act.
     const DAMPING: Damping;
     /// Memory per body that the scheme needs within a step.
-    type Memory<P: Geometry>: Copy + Default;
+    type Memory<P: Geometry>: Copy + Default + Send;
 
     /// Force evaluations per step, when nothing changes between steps.
     fn evaluations(&self) -> u32;
