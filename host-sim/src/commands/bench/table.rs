@@ -24,9 +24,32 @@ impl Outcome {
             ("f32, std, plain", "time over that of f64, round by round, the median: the kernel in f32; the std reference (Vec, nalgebra, Box<dyn Element>); a plain loop over the same elements".to_owned()),
             ("bound", "time of f64 over that of its flops, two in a cycle of the clock".to_owned()),
         ]);
+        text += &self.together(look);
         text += &self.fitted(look);
         text += &self.aimed_at(look);
         text
+    }
+
+    fn together(&self, look: Look) -> String {
+        let Some(first) = self.ensembles.first() else { return String::new() };
+        let lines: Vec<[String; 6]> = self
+            .ensembles
+            .iter()
+            .map(|ensemble| {
+                [
+                    ensemble.precision.to_owned(),
+                    ensemble.instructions.to_owned(),
+                    ensemble.threads.to_string(),
+                    ensemble.instances.to_string(),
+                    cell(ensemble.over_alone.map(|ratio| ratio.median), 2),
+                    cell(ensemble.over_alone.map(|ratio| 100.0 * ratio.spread), 0),
+                ]
+            })
+            .collect();
+        let head = ["numbers", "instructions", "threads", "instances", "faster", "±%"];
+        let title =
+            format!("\nensembles of {}, beside the same instances one by one\n", first.name);
+        title + &look.columns(Some(head), &lines)
     }
 
     fn fitted(&self, look: Look) -> String {
