@@ -11,6 +11,7 @@ mod built;
 mod command;
 mod cost;
 mod fuzz;
+mod growth;
 mod packages;
 mod prove;
 mod semver;
@@ -81,6 +82,9 @@ enum Command {
         #[arg(long, conflicts_with_all = ["compare", "scenes", "baseline"])]
         guards: bool,
     },
+    /// Counts how the work of reading and looking at a scene grows with its bodies, by valgrind's
+    /// callgrind; writes docs/results/growth.csv, fails where it grows faster than the bodies.
+    Growth,
     /// Gives random input to the reader of scenes, to snapshots, to steps and to the command line, on
     /// all cores; fails where anything fails.
     Fuzz(fuzz::Campaign),
@@ -133,6 +137,7 @@ fn main() -> ExitCode {
         Command::Cost { baseline: true, .. } => cost::baseline(),
         Command::Cost { guards: true, .. } => cost::guards::run(),
         Command::Cost { scenes, compare, .. } => cost::run(&scenes, compare),
+        Command::Growth => growth::run(),
         Command::Fuzz(campaign) => fuzz::run(&campaign),
         Command::Bits { names } => bits::machines::run(&names),
         Command::Prove { names } => prove::run(&names),
