@@ -10,7 +10,8 @@ use std::path::Path;
 use anyhow::{Context as _, Result, bail};
 
 use crate::built::{Program, build};
-use crate::command::{cargo, find, output, program, root};
+use crate::command::{cargo, output, program, root};
+use crate::target::setup;
 
 /// The program, as cargo's messages name it.
 const PROGRAM: &str = "plant::growth";
@@ -24,8 +25,6 @@ const FEW: [u64; 2] = [80, 320];
 /// instructions for each pair of bodies come to 1.04 and more at the few sizes.
 const MOST: f64 = 1.03;
 const FILE: &str = "docs/results/growth.csv";
-const REMEDY: &str =
-    "valgrind is missing: apt-get install valgrind, or your system's package of it";
 
 /// Instructions of a way, by size.
 struct Row {
@@ -38,9 +37,7 @@ struct Row {
 /// # Errors
 /// Where valgrind is missing, building, counting or writing fails, or an exponent is above its limit.
 pub fn run() -> Result<()> {
-    if find("valgrind").is_none() {
-        bail!(REMEDY);
-    }
+    setup::counter()?;
     let options = ["build", "--release", "--package", "dbd-plant", "--example", "growth"];
     let rows = rows(&build(cargo().args(options))?, &SIZES)?;
     println!("\n{}", table(&rows, &SIZES));
@@ -55,10 +52,7 @@ pub fn run() -> Result<()> {
 /// # Errors
 /// Where counting fails or an exponent is above its limit.
 pub fn check(built: &[Program]) -> Result<()> {
-    if find("valgrind").is_none() {
-        println!("left out, {REMEDY}");
-        return Ok(());
-    }
+    setup::counter()?;
     let rows = rows(built, &FEW)?;
     println!("{}", table(&rows, &FEW));
     judge(&rows, &FEW)

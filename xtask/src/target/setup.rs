@@ -36,6 +36,14 @@ pub fn browser() -> Result<()> {
     tool("browser", other.unwrap_or(BROWSERS[0]), BROWSERS[0], otherwise)
 }
 
+/// Finds or installs what counts the host's instructions, and prints its version.
+///
+/// # Errors
+/// Where there is none and it cannot be installed.
+pub fn counter() -> Result<()> {
+    tool("counter of instructions", "valgrind", "valgrind", "install valgrind")
+}
+
 /// Finds or installs everything and prints what was found.
 ///
 /// # Errors
