@@ -121,12 +121,8 @@ fn ensembles_are_as_measured() {
         }
         seen.push(of);
         let ratio = |set: &str, threads: &str| {
-            let wanted = [
-                ("scene", of.0),
-                ("precision", of.1),
-                ("instructions", set),
-                ("threads", threads),
-            ];
+            let wanted =
+                [("scene", of.0), ("precision", of.1), ("instructions", set), ("threads", threads)];
             let row = all.iter().find(|row| row.is(&wanted));
             row.map_or("–".into(), |row| format!("{:.1}", row.number("ratio")))
         };
