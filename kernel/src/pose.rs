@@ -232,7 +232,7 @@ fn placed_between<'m, P: Geometry, T: Terms>(
         arm_a = end_a.arm_at(arm_a, displacement);
     }
     if T::UNIVERSALS && group.law == Law::Universal {
-        leans = lean(model.universals.get(index)?, [&end_a, &end_b]).by;
+        leans = lean(model.universals.get(index)?, [end_a, end_b]).by;
     }
     let stretch = Stretch { displacement, direction, ratio, lean: leans };
     Some(Placed { group, number, index, stretch, arm_a, arm_b })
