@@ -307,8 +307,7 @@ mod tests {
 
     #[test]
     fn a_turn_about_an_axis_is_the_turn_of_its_quaternion() {
-        let start = Quaternion::new(0.8, -0.2, 0.4, 0.4);
-        let mut about = [start; 3];
+        let mut about @ [start, ..] = [Quaternion::new(0.8, -0.2, 0.4, 0.4); 3];
         about[0].turn_about::<0>(0.995, 0.0998);
         about[1].turn_about::<1>(0.995, 0.0998);
         about[2].turn_about::<2>(0.995, 0.0998);
@@ -326,7 +325,6 @@ mod tests {
             free_rotor::<F64>(&body, &mut q, &mut rate, 0.1);
             about_z::<F64>(&body, &mut all, &mut all_rate, 0.1, false);
             all.renormalise();
-            // In words, for they tell −0 from 0.
             assert_eq!(std::format!("{q:?} {rate:?}"), std::format!("{all:?} {all_rate:?}"));
         }
     }
