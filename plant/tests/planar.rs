@@ -2,7 +2,7 @@
 
 use dbd_kernel::plant::StateError;
 use dbd_kernel::readouts::Reading;
-use dbd_kernel::{BodyIndex, Vec3};
+use dbd_kernel::{BodyIndex, BodyState, F64, Vec3};
 use dbd_plant::judge::Judge;
 use dbd_plant::{Method, OrientationName, PlantError, PrecisionName, SchemeName, plant};
 use dbd_scene::Scene;
@@ -140,18 +140,20 @@ fn a_state_goes_in_again_and_one_beside_the_plane_is_refused() {
     assert!(own.advance(1).is_running());
     own.restore(&snapshot).unwrap();
     assert_eq!(own.hash(), hash);
-    let beside = |change: &dyn Fn(&mut Vec3<f64>, &mut Vec3<f64>, &mut Vec3<f64>)| {
+    let beside = |change: &dyn Fn(&mut BodyState<F64>)| {
         let mut state = state.clone();
-        let body = &mut state.bodies[0];
-        change(&mut body.position, &mut body.velocity, &mut body.angular_velocity);
+        change(&mut state.bodies[0]);
         plant(&flat, &Method::default(), 1e-4).unwrap().set_state(&state)
     };
     let off = Err(StateError::OffPlane(BodyIndex(0)));
-    assert_eq!(beside(&|x, _, _| x.y += 1e-3), off);
-    assert_eq!(beside(&|_, v, _| v.y += 1e-3), off);
-    assert_eq!(beside(&|_, _, w| w.z += 1e-3), off);
-    assert_eq!(beside(&|x, _, _| x.x = f64::NAN), Err(StateError::NotFinite(BodyIndex(0))));
-    assert_eq!(beside(&|x, _, _| x.x += 1e-9), Ok(()));
+    assert_eq!(beside(&|body| body.position.y += 1e-3), off);
+    assert_eq!(beside(&|body| body.velocity.y += 1e-3), off);
+    assert_eq!(beside(&|body| body.angular_velocity.z += 1e-3), off);
+    assert_eq!(
+        beside(&|body| body.position.x = f64::NAN),
+        Err(StateError::NotFinite(BodyIndex(0)))
+    );
+    assert_eq!(beside(&|body| body.position.x += 1e-9), Ok(()));
 }
 
 #[test]
