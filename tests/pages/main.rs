@@ -108,37 +108,6 @@ fn times_are_as_measured() {
     block("docs/measured.md", "times", &table(&[&["ns per step"], &SHOWN[..]].concat(), &lines));
 }
 
-/// Scene by scene, precision by precision: one thread on each instruction set, then two on the best.
-#[test]
-fn ensembles_are_as_measured() {
-    let all = rows("docs/results/ensembles.csv");
-    let mut lines: Vec<Vec<String>> = Vec::new();
-    let mut seen: Vec<(&str, &str)> = Vec::new();
-    for row in &all {
-        let of = (row.text("scene"), row.text("precision"));
-        if seen.contains(&of) {
-            continue;
-        }
-        seen.push(of);
-        let ratio = |set: &str, threads: &str| {
-            let wanted =
-                [("scene", of.0), ("precision", of.1), ("instructions", set), ("threads", threads)];
-            let row = all.iter().find(|row| row.is(&wanted));
-            row.map_or("–".into(), |row| format!("{:.1}", row.number("ratio")))
-        };
-        lines.push(vec![
-            of.0.to_owned(),
-            of.1.to_owned(),
-            ratio("baseline", "1"),
-            ratio("avx2", "1"),
-            ratio("avx512", "1"),
-            ratio("avx2", "2"),
-        ]);
-    }
-    let head = ["scene", "precision", "baseline", "AVX2", "AVX-512", "AVX2, two threads"];
-    block("docs/ensembles.md", "ratios", &table(&head, &lines));
-}
-
 #[test]
 fn counts_are_those_of_the_costs() {
     let of = |name: &str| cost(name, "leapfrog", "f32");
