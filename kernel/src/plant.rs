@@ -7,7 +7,7 @@
 use core::ops::Deref;
 
 use crate::attitude::Attitude as _;
-use crate::damping::{Damping, share};
+use crate::damping::{Damping, Keep, Share, find, prepare_grounded, share};
 use crate::forces::Wrench;
 use crate::guards::first_fault;
 use crate::index::{BodyIndex, InputIndex};
@@ -34,7 +34,8 @@ where
     step_size: f64,
     h: RealOf<H::Target>,
     diagonals: PerBody<H, Diagonal<RealOf<H::Target>>>,
-    shares: <H::Target as ModelOwner>::PerDamper,
+    shares: <H::Target as ModelOwner>::PerDamper<Share<RealOf<H::Target>>>,
+    levers: <S::Levers as Keep>::Memory<H::Target>,
     windows: <H::Target as ModelOwner>::PerLoad,
     knots: <H::Target as ModelOwner>::PerKnot,
     state: State<H::Target>,
@@ -79,12 +80,21 @@ where
         }
         let state = State::initial(owner);
         let mut frames = owner.per_body(FrameOf::<H::Target>::default());
-        let mut shares = owner.per_damper();
-        if <H::Target as ModelOwner>::Terms::DAMPERS && S::DAMPING == Damping::Sweeps {
+        let mut shares = owner.per_damper(Share::ALONE);
+        let mut levers = S::Levers::memory(owner);
+        if <H::Target as ModelOwner>::Terms::DAMPERS && S::DAMPING != Damping::Explicit {
             let (bodies, signals) = (state.bodies.as_ref(), state.signals.as_ref());
             place_bodies(bodies, frames.as_mut());
             let places = Places { frames: frames.as_ref(), signals };
-            share(&view, places, bodies, state.turns.as_ref(), shares.as_mut());
+            let half = RealOf::<H::Target>::HALF * h;
+            if S::DAMPING == Damping::JointWise {
+                find(&view, places, half, levers.as_mut());
+            }
+            let others = (state.turns.as_ref(), levers.as_ref());
+            share(&view, places, bodies, others, shares.as_mut());
+            if S::DAMPING == Damping::JointWise {
+                prepare_grounded(&view, shares.as_ref(), half, levers.as_mut());
+            }
         }
         let wrenches = owner.per_body(Wrench::default());
         let memory = owner.per_body(S::Memory::default());
@@ -95,6 +105,7 @@ where
             h,
             diagonals,
             shares,
+            levers,
             windows,
             knots,
             state,
@@ -140,6 +151,7 @@ where
             h: self.h,
             diagonals: self.diagonals.as_ref(),
             shares: self.shares.as_ref(),
+            levers: self.levers.as_mut(),
             windows: self.windows.as_ref(),
             knots: self.knots.as_ref(),
             signals: self.state.signals.as_mut(),
@@ -171,6 +183,7 @@ where
     #[cold]
     pub(crate) fn fail(&mut self, cause: Cause) -> Status {
         self.ledger.fresh = false;
+        self.ledger.ready = false;
         self.status = Status::Failed(Failure { cause, step: self.state.step });
         self.status
     }
@@ -338,6 +351,7 @@ where
     pub(crate) fn resume(&mut self, state: State<H::Target>) {
         self.state = state;
         self.ledger.fresh = false;
+        self.ledger.ready = false;
         self.status = Status::Running;
         self.sample();
     }

@@ -6,7 +6,7 @@
 
 pub use crate::body::Diagonal;
 use crate::body::{BodyState, Increment};
-use crate::damping::{self, HalfKick, NoKick, Share, Sweep};
+use crate::damping::{self, HalfKick, Lever, NoKick, Share, Sweep};
 use crate::forces::{self, At, Dampers, Evaluation, Instant, Turns, Wrench};
 use crate::geometry::Geometry;
 use crate::model::{ModelRef, Terms};
@@ -26,6 +26,8 @@ pub(crate) struct Ledger {
     /// Whether frames and wrenches are those of the present pose, without dampers and with settled
     /// turn counts: a scheme that ends on an evaluation need not begin with one.
     pub(crate) fresh: bool,
+    /// Whether the joints' levers are those of the present pose.
+    pub(crate) ready: bool,
 }
 
 /// Model, state and scratch of one plant, lent for one step. `S` is the scheme's memory per body.
@@ -41,6 +43,8 @@ pub struct Stepper<'s, 'm, P: Geometry, T, S> {
     pub(crate) diagonals: &'s [Diagonal<P::Real>],
     /// The dampers' shares.
     pub(crate) shares: &'s [Share<P::Real>],
+    /// The joints' levers, none where dampers act otherwise.
+    pub(crate) levers: &'s mut [Lever<P>],
     /// The loads' windows.
     pub(crate) windows: &'s [LoadWindow],
     /// The tables' knots among the steps.
@@ -106,6 +110,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     pub fn evaluate<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
         self.ledger.evaluations += 1;
         self.ledger.fresh = false;
+        self.ledger.ready = false;
         forces::evaluate::<P, T, D>(
             &self.model,
             Instant {
@@ -146,6 +151,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     #[inline]
     pub fn drift(&mut self, time: P::Real) {
         self.ledger.fresh = false;
+        self.ledger.ready = false;
         for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
             P::translate(&mut state.position, P::velocity(&state.velocity) * time);
             rotation::free_rotor::<P>(
@@ -161,6 +167,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     #[inline]
     pub fn drift_of_order_four(&mut self, time: P::Real) {
         self.ledger.fresh = false;
+        self.ledger.ready = false;
         for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
             P::translate(&mut state.position, P::velocity(&state.velocity) * time);
             rotation::free_rotor_of_order_four::<P>(
@@ -209,6 +216,25 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
             };
             damping::sweep::<P, T, _, REVERSE>(&self.model, &sweep, self.bodies);
         }
+    }
+
+    /// [`Self::damped_kick_forward`] or its reverse, with the dampers as `D` says.
+    #[inline(always)]
+    pub(crate) fn damped_kick<D: Dampers, const REVERSE: bool>(&mut self) {
+        self.kick(P::Real::HALF);
+        if !(D::JOINT_WISE && T::DAMPERS) {
+            return self.sweep_after_kick::<REVERSE>();
+        }
+        let h = P::Real::HALF * self.h;
+        let places = Places { frames: &*self.frames, signals: &*self.signals };
+        if !self.ledger.ready {
+            let pose = (places, &*self.bodies);
+            damping::prepare(&self.model, pose, self.shares, h, self.levers);
+            self.ledger.ready = true;
+        }
+        let kick = HalfKick { wrenches: &*self.wrenches, diagonals: self.diagonals };
+        let sweep = Sweep { h, places, turns: &*self.turns, shares: self.shares, kick };
+        damping::sweep_joints::<P, T, _, REVERSE>(&self.model, &sweep, self.levers, self.bodies);
     }
 
     /// Half a step of the dampers by themselves in ascending order; frames are those of the

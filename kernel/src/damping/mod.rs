@@ -19,12 +19,17 @@
 //! Angular momentum is kept by dampers of TSDAs with a free length and of torsion springs; a damped
 //! bushing or point on a line has the law `c·v_rel`, whose torque vanishes only with its deflection.
 
+mod joints;
+mod levers;
 mod motion;
 mod pair;
 mod shares;
 mod strength;
 
 pub use crate::elements::share::Share;
+pub(crate) use joints::sweep_joints;
+pub use levers::{Keep, Lever, Levers, NoLevers};
+pub(crate) use levers::{find, prepare, prepare_grounded};
 pub(crate) use pair::{HalfKick, Kick, NoKick};
 pub(crate) use shares::share;
 pub use strength::{DampersOf, Strength, strengths};
@@ -46,16 +51,19 @@ use crate::vector::Vec3;
 pub enum Damping {
     /// A sweep of half a step after each half kick, or around a composition: of this module.
     Sweeps,
+    /// As sweeps, with a joint's dampers at once, as they stand at the start seen from its body.
+    JointWise,
     /// Forces at the velocities of each evaluation: limits the step to about 2·m/c.
     Explicit,
 }
 
 impl Damping {
-    /// The name users give: `sweeps`, `explicit`.
+    /// The name users give: `sweeps`, `joint-wise`, `explicit`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Damping::Sweeps => "sweeps",
+            Damping::JointWise => "joint-wise",
             Damping::Explicit => "explicit",
         }
     }

@@ -4,6 +4,7 @@
 //! before a run or beside it; the sweeps of a step have a way of their own.
 
 use crate::body::{BodyState, Increment};
+use crate::damping::levers::{Lever, fixed, rows};
 use crate::damping::pair::Direction;
 use crate::damping::{each_direction, torsion_direction};
 use crate::geometry::Geometry;
@@ -41,6 +42,8 @@ pub(super) struct Pose<'s, 'm, P: Geometry, T> {
     pub(super) places: Places<'s, P>,
     pub(super) bodies: &'s [BodyState<P>],
     pub(super) turns: &'s [i32],
+    /// The joints' levers, which stand for their dampers; none where dampers act one by one.
+    pub(super) levers: &'s [Lever<P>],
 }
 
 impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
@@ -71,12 +74,19 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
         mount: Mount,
         mut visit: impl FnMut(usize, P::Real, P::Real, &Direction<P::Real>),
     ) {
-        let Self { model, places, bodies, turns } = *self;
+        let Self { model, places, bodies, turns, levers } = *self;
         let one = P::Real::ONE;
         match mount {
             Mount::Group(group) => {
                 let Some(group) = model.groups.get(group) else { return };
                 let Some(first) = group.damper.row() else { return };
+                if let Some(ends) = fixed(model, group).filter(|_| !levers.is_empty()) {
+                    let levers = levers.get(rows(group)).unwrap_or_default();
+                    for (i, lever) in levers.iter().enumerate().filter(|(_, lever)| lever.acts()) {
+                        visit(first + i, one, one, &lever.direction(places, ends, group.a));
+                    }
+                    return;
+                }
                 for i in 0..group.elements() {
                     let Some(&coefficient) = model.dampers.get(first + i) else { return };
                     let Some(element) = placed(model, places, (0, group), i) else { return };

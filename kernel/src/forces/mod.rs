@@ -16,7 +16,7 @@ mod stars;
 mod torsions;
 
 use crate::body::BodyState;
-pub use record::{At, Dampers, DampersLeft, ExplicitDampers, Wrench};
+pub use record::{At, Dampers, DampersLeft, DampersOfJoints, ExplicitDampers, Wrench};
 pub(crate) use record::{Record, Turns, apply};
 
 use crate::elements::gravity;

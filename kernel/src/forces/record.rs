@@ -33,6 +33,8 @@ impl<R: Real> Record<R> {
 pub trait Dampers {
     /// Whether they act.
     const ACT: bool;
+    /// Whether what is left of them acts joint by joint.
+    const JOINT_WISE: bool = false;
 }
 
 /// Dampers act as forces at the velocities of the evaluation.
@@ -49,6 +51,15 @@ pub struct DampersLeft;
 
 impl Dampers for DampersLeft {
     const ACT: bool = false;
+}
+
+/// Dampers are left to the joints' levers of [`crate::damping`].
+#[derive(Clone, Copy, Debug)]
+pub struct DampersOfJoints;
+
+impl Dampers for DampersOfJoints {
+    const ACT: bool = false;
+    const JOINT_WISE: bool = true;
 }
 
 /// Where in a step an evaluation stands.

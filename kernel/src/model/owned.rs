@@ -7,7 +7,6 @@ use crate::elements::input::{Input, InputKind, Knot};
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_on_line::PointOnLine;
-use crate::elements::share::Share;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::geometry::Geometry;
@@ -234,7 +233,7 @@ impl<
     type PerTorsion = [i32; TORSIONS];
     type PerLoad = [LoadWindow; LOADS];
     type PerInput = [Signal<P::Real>; INPUTS];
-    type PerDamper = [Share<P::Real>; DAMPERS];
+    type PerDamper<T: Copy> = [T; DAMPERS];
     type PerKnot = [KnotStep<P::Real>; KNOTS];
 
     #[inline(always)]
@@ -282,8 +281,8 @@ impl<
     }
 
     #[inline]
-    fn per_damper(&self) -> [Share<P::Real>; DAMPERS] {
-        [Share::ALONE; DAMPERS]
+    fn per_damper<T: Copy>(&self, value: T) -> [T; DAMPERS] {
+        [value; DAMPERS]
     }
 
     #[inline]
