@@ -5,6 +5,7 @@
 //! even that.
 
 use dbd_kernel::builder::{LineLaw, Stars};
+use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
     BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Geometry, Leapfrog,
     Load, LoadFrame, Pefrl, Plant, Quaternion, Rk4, Scheme, SemiImplicitEuler, Vec3,
@@ -160,7 +161,8 @@ impl<P: Geometry> Scene<P> {
             LoadFrame::World => [change.in_world(force), change.axis_in_world(torque)],
             LoadFrame::Body => [change.in_body(force), change.axis_in_body(torque)],
         };
-        let [force, torque] = [force, torque].map(|v| Vec3::from_f64(v.map(|c| c * change.factor)));
+        let [force, torque] = [force, torque].map(|v| v.map(|c| c * change.factor));
+        let (force, torque) = (P::Vector::from_f64(force), P::Moment::from_f64(torque));
         let load = Load { body, frame, force, torque, from: 0.01, until: 0.06 };
         self.model.add_load(load).unwrap();
     }

@@ -7,6 +7,7 @@ use dbd_kernel::index::{ClearanceIndex, DamperIndex};
 use dbd_kernel::model::{Group, Law, ModelOwner as _};
 use dbd_kernel::plant::InputError;
 use dbd_kernel::real::Real as _;
+use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
     Body, BodyIndex, Dbd, F32, F64, Geometry, Leapfrog, LoadFrame, Model, Plant, Scheme, Tsda, Vec3,
 };
@@ -83,7 +84,7 @@ fn moving_base<P: Geometry, S: Scheme>(scheme: S, damping: f64) -> f64 {
     let (mass, stiffness, speed) = (2.0, 50.0, 0.3);
     let mut model = Bench::<P>::new();
     let body = model.add_body(mass, [0.1; 3], at([0.0; 3])).unwrap();
-    let direction = Vec3::from_f64([1.0, 0.0, 0.0]);
+    let direction = P::Vector::from_f64([1.0, 0.0, 0.0]);
     let table = [[0.0, 0.0], [2.0, 2.0 * speed]];
     let road = model.add_table(InputKind::Anchor { direction }, &table, true).unwrap();
     let between = [BodyIndex::anchor(road), body];
@@ -142,7 +143,7 @@ fn what_is_not_an_input_or_not_finite_is_refused_and_changes_nothing() {
 fn an_input_is_set_in_the_plants_number_or_in_double_precision() {
     fn driven<P: Geometry>(set: impl Fn(&mut Driven<P>)) -> u64 {
         let mut model = free_ring::<P>(0.0);
-        let (axis, body) = (Vec3::from_f64([0.0, 0.0, 1.0]), BodyIndex(0));
+        let (axis, body) = (P::Moment::from_f64([0.0, 0.0, 1.0]), BodyIndex(0));
         let kind = InputKind::Torque { body, axis, frame: LoadFrame::World };
         model.add_input(kind, 0.0).unwrap();
         let mut plant = Plant::new(Box::new(model), Leapfrog, 1e-3).unwrap();
@@ -255,7 +256,7 @@ fn a_table_holds_its_last_value_for_ever() {
     fn held<P: Geometry>(step: f64, linear: bool) {
         let mut model = Bench::<P>::new();
         let body = model.add_body(1.0, [0.1; 3], at([0.0; 3])).unwrap();
-        let axis = Vec3::from_f64([0.0, 0.0, 1.0]);
+        let axis = P::Moment::from_f64([0.0, 0.0, 1.0]);
         let kind = InputKind::Torque { body, axis, frame: LoadFrame::World };
         model.add_table(kind, &[[0.0, 1.0], [1.0, 0.0]], linear).unwrap();
         let mut plant = Plant::new(&model, Leapfrog, step).unwrap();

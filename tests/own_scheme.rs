@@ -71,20 +71,20 @@ impl Scheme for Midpoint {
         stepper.evaluate::<ExplicitDampers>(At::Boundary)?;
         stepper.each(|start, state, increment, h| {
             *start = *state;
-            let (v, w) = (P::velocity(&state.velocity), P::velocity(&state.angular_velocity));
+            let (v, w) = (P::velocity(&state.velocity), P::spin(&state.angular_velocity));
             P::translate(&mut state.position, v * (half * h));
             rotation::turn_by::<P>(&mut state.orientation, w * (half * half * h));
             P::accelerate(&mut state.velocity, increment.linear * half);
-            P::accelerate(&mut state.angular_velocity, increment.angular * half);
+            P::spin_up(&mut state.angular_velocity, increment.angular * half);
         });
         stepper.evaluate::<ExplicitDampers>(At::Stage)?;
         stepper.each(|start, state, increment, h| {
-            let (v, w) = (P::velocity(&state.velocity), P::velocity(&state.angular_velocity));
+            let (v, w) = (P::velocity(&state.velocity), P::spin(&state.angular_velocity));
             *state = *start;
             P::translate(&mut state.position, v * h);
             rotation::turn_by::<P>(&mut state.orientation, w * (half * h));
             P::accelerate(&mut state.velocity, increment.linear);
-            P::accelerate(&mut state.angular_velocity, increment.angular);
+            P::spin_up(&mut state.angular_velocity, increment.angular);
         });
         Ok(())
     }

@@ -5,6 +5,7 @@ use dbd_kernel::energy::energy;
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::model::Law;
 use dbd_kernel::readouts::{Reading, Readout, each_force, each_tension, read};
+use dbd_kernel::space::Linear as _;
 use dbd_kernel::{BodyIndex, BodyState, F64, Geometry, Leapfrog, Plant, Vec3};
 use dbd_tests::{Bench, at, scene, scene_names, turned};
 
@@ -102,7 +103,7 @@ fn every_column_of_every_scene_has_a_name_of_its_own() {
 fn stepped<P: Geometry>() -> Bench<P> {
     let mut model = Bench::new();
     let body = model.add_body(2.0, [0.1; 3], at([0.0; 3])).unwrap();
-    let direction = Vec3::from_f64([1.0, 0.0, 0.0]);
+    let direction = P::Vector::from_f64([1.0, 0.0, 0.0]);
     let road = [[0.0, 0.0], [0.005, 0.25]];
     let road = model.add_table(InputKind::Anchor { direction }, &road, false).unwrap();
     let points = [[-1.0, 0.0, 0.0], [0.0; 3]];

@@ -3,6 +3,7 @@
 use dbd_kernel::builder::Stars;
 use dbd_kernel::model;
 use dbd_kernel::sketch::{Sketch, Spring, Start};
+use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
     BodyIndex, BodyState, F32, F64, Geometry, Leapfrog, Load, LoadFrame, ModelOwner, Plant, Real,
     Vec3,
@@ -72,13 +73,12 @@ fn built<P: Geometry>() -> Bench<P> {
     tsda([CRANK, ROD], [[0.1, 0.0, 0.0], [-0.2, -0.1, 0.1]], BUSHING);
     tsda([ROD, WORLD], [[0.1, -0.0, 0.0], [1.0, 0.5, 0.0]], TIE);
     model.add_torsion_spring([CRANK, ROD], [0.0, 0.0, 1.0], 12.0, 0.3, 0.5).unwrap();
-    let vector = |v| Vec3::<P::Real>::from_f64(v);
     model
         .add_load(Load {
             body: ROD,
             frame: LoadFrame::Body,
-            force: vector(FORCE),
-            torque: vector([0.0, 0.0, 0.01]),
+            force: P::Vector::from_f64(FORCE),
+            torque: P::Moment::from_f64([0.0, 0.0, 0.01]),
             from: 0.01,
             until: 0.05,
         })

@@ -3,19 +3,20 @@
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::euler::{EulerF32, SingleEulerF64};
 use dbd_kernel::snapshot::SnapshotError;
+use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
     BlanesMoanS6, BodyIndex, Dbd, DbdP2, Explicit, F32, F64, Geometry, Leapfrog, Load, LoadFrame,
-    Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler, Vec3,
+    Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler,
 };
 use dbd_tests::{Bench, at, hung_ring};
 
 /// A model with dampers, torsion springs, a load that ends and inputs of both sorts.
 fn busy<P: Geometry>() -> Bench<P> {
     let mut model = hung_ring::<P>(0.5);
-    let axis = Vec3::from_f64([0.0, 0.0, 1.0]);
-    let torque = Vec3::from_f64([0.0, 0.2, 0.0]);
+    let axis = P::Moment::from_f64([0.0, 0.0, 1.0]);
+    let torque = P::Moment::from_f64([0.0, 0.2, 0.0]);
     let body = BodyIndex(1);
-    let force = Vec3::ZERO;
+    let force = P::Vector::ZERO;
     let frame = LoadFrame::Body;
     model.add_load(Load { body, frame, force, torque, from: 0.01, until: 0.06 }).unwrap();
     model.add_input(InputKind::Torque { body, axis, frame }, 0.1).unwrap();

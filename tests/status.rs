@@ -3,6 +3,7 @@
 use dbd_kernel::builder::{BuildError, LineLaw, ModelBuilder, Part, Quantity, Stars};
 use dbd_kernel::model::ModelOwner;
 use dbd_kernel::plant::{PlantError, StateError};
+use dbd_kernel::space::Linear as _;
 use dbd_kernel::status::Cause;
 use dbd_kernel::{
     BodyIndex, BodyState, Dbd, F32, F64, Failure, Geometry, Leapfrog, Plant, Rk4, Scheme, Status,

@@ -11,10 +11,10 @@ use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::energy::energy;
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::readouts::Readout;
+use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
     BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Geometry, Leapfrog,
-    Load, LoadFrame, ModelOwner, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler, State, Vec3,
-    frequency,
+    Load, LoadFrame, ModelOwner, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler, State, frequency,
 };
 use fastrand::Rng;
 
@@ -232,8 +232,8 @@ pub fn model<P: Geometry>(bytes: &mut Unstructured<'_>) -> (Wildness, Model<P>) 
                 let _ = model.add_load(Load {
                     body: body(bytes),
                     frame: frame(bytes),
-                    force: Vec3::from_f64(triple(bytes, wild)),
-                    torque: Vec3::from_f64(triple(bytes, wild)),
+                    force: P::Vector::from_f64(triple(bytes, wild)),
+                    torque: P::Moment::from_f64(triple(bytes, wild)),
                     from: 1e-3 * from,
                     until: if one_in(bytes, 2) { f64::INFINITY } else { until },
                 });
@@ -318,15 +318,16 @@ fn add_line<P: Geometry>(model: &mut Model<P>, bytes: &mut Unstructured<'_>, wil
 }
 
 fn add_input<P: Geometry>(model: &mut Model<P>, bytes: &mut Unstructured<'_>, wild: Wildness) {
-    let direction = Vec3::from_f64(triple(bytes, wild));
+    let along = triple(bytes, wild);
+    let (direction, axis) = (P::Vector::from_f64(along), P::Moment::from_f64(along));
     let (one, frame) = (body(bytes), frame(bytes));
     let kind = match byte(bytes) % 5 {
         0 => {
             let point = P::local_from_f64(triple(bytes, wild));
             InputKind::Force { body: one, point, direction, frame }
         }
-        1 => InputKind::Torque { body: one, axis: direction, frame },
-        2 => InputKind::JointTorque { a: one, b: body(bytes), axis: direction },
+        1 => InputKind::Torque { body: one, axis, frame },
+        2 => InputKind::JointTorque { a: one, b: body(bytes), axis },
         3 => InputKind::Actuator {
             group: u16::from(byte(bytes) % 4),
             element: u16::from(byte(bytes) % 4),

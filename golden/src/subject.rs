@@ -85,7 +85,7 @@ pub(crate) fn numbers<P: Geometry>(body: &BodyState<P>) -> BodyNumbers {
     let [x, y, z] = P::position_to_f64(&body.position);
     let [qw, qx, qy, qz] = body.orientation.to_f64();
     let [vx, vy, vz] = P::velocity_to_f64(&body.velocity);
-    let [wx, wy, wz] = P::velocity_to_f64(&body.angular_velocity);
+    let [wx, wy, wz] = P::spin_to_f64(&body.angular_velocity);
     [x, y, z, qw, qx, qy, qz, vx, vy, vz, wx, wy, wz]
 }
 

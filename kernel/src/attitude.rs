@@ -6,6 +6,7 @@
 use core::fmt::Debug;
 
 use crate::real::Real;
+use crate::space::Turn;
 use crate::vector::{Quaternion, Rotation};
 use crate::words::Words;
 
@@ -13,6 +14,8 @@ use crate::words::Words;
 pub trait Attitude: Copy + Debug + Default + PartialEq + Words + 'static {
     /// The number in which rotations are computed.
     type Real: Real;
+    /// How one orientation stands to another.
+    type Turn: Turn<Real = Self::Real>;
 
     /// The name users give: `quaternion`.
     const NAME: &'static str;
@@ -21,6 +24,8 @@ pub trait Attitude: Copy + Debug + Default + PartialEq + Words + 'static {
     fn rotation(&self) -> Rotation<Self::Real>;
     /// The unit quaternion.
     fn quaternion(&self) -> Quaternion<Self::Real>;
+    /// The turn from the world's axes.
+    fn since_world(&self) -> Self::Turn;
     /// Composes with a turn given in body axes: `q ← q ∘ turn`.
     fn turn(&mut self, turn: Quaternion<Self::Real>);
     /// Restores unit length, or the range of angles, after the turns of a step.
@@ -32,18 +37,19 @@ pub trait Attitude: Copy + Debug + Default + PartialEq + Words + 'static {
 
     /// The orientation of the second body in the axes of the first; `None` is the world.
     #[inline(always)]
-    fn relative(first: Option<&Self>, second: Option<&Self>) -> Quaternion<Self::Real> {
+    fn relative(first: Option<&Self>, second: Option<&Self>) -> Self::Turn {
         match (first, second) {
-            (Some(a), Some(b)) => a.quaternion().conjugate().product(b.quaternion()),
-            (Some(a), None) => a.quaternion().conjugate(),
-            (None, Some(b)) => b.quaternion(),
-            (None, None) => Quaternion::IDENTITY,
+            (Some(a), Some(b)) => a.since_world().conjugate().product(b.since_world()),
+            (Some(a), None) => a.since_world().conjugate(),
+            (None, Some(b)) => b.since_world(),
+            (None, None) => Self::Turn::default(),
         }
     }
 }
 
 impl<R: Real> Attitude for Quaternion<R> {
     type Real = R;
+    type Turn = Self;
 
     const NAME: &'static str = "quaternion";
 
@@ -53,6 +59,10 @@ impl<R: Real> Attitude for Quaternion<R> {
     }
     #[inline(always)]
     fn quaternion(&self) -> Quaternion<R> {
+        *self
+    }
+    #[inline(always)]
+    fn since_world(&self) -> Self {
         *self
     }
     #[inline(always)]

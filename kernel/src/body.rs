@@ -6,77 +6,79 @@
 use crate::attitude::Attitude as _;
 use crate::geometry::{F32, F64, Geometry};
 use crate::real::Real;
+use crate::space::{Linear as _, Moment as _, Space};
 use crate::vector::{Quaternion, Vec3};
 use crate::words::{WordSource, WordVisitor, Words};
 
 /// A rigid body: mass, principal inertia and what is derived from them, rounded once each.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Body<R> {
+pub struct Body<S: Space> {
     /// \[kg\] mass, > 0.
-    pub mass: R,
+    pub mass: S::Real,
     /// \[kg·m²\] principal inertia (Ix, Iy, Iz) about the centre of mass, body axes, > 0.
-    pub inertia: Vec3<R>,
+    pub inertia: S::Moment,
     /// \[1/kg\] inverse mass.
-    pub inverse_mass: R,
+    pub inverse_mass: S::Real,
     /// \[1/(kg·m²)\] inverse inertia.
-    pub inverse_inertia: Vec3<R>,
+    pub inverse_inertia: S::Moment,
     /// \[1\] (Iz/Iy, Ix/Iz, Iy/Ix): how a rotation about x, y, z carries the next axis' rate over.
-    pub ratio: Vec3<R>,
+    pub ratio: S::Moment,
     /// \[1\] (Iy/Iz, Iz/Ix, Ix/Iy).
-    pub inverse_ratio: Vec3<R>,
+    pub inverse_ratio: S::Moment,
 }
 
-impl<R: Real> Body<R> {
+impl<S: Space> Body<S> {
     /// A body of mass \[kg\] and principal inertia \[kg·m²\]. In a constant: `Body::<f64>::new`.
     pub fn from_f64(mass: f64, inertia: [f64; 3]) -> Self {
         let [x, y, z] = inertia;
         Self {
-            mass: R::from_f64(mass),
-            inertia: Vec3::from_f64(inertia),
-            inverse_mass: R::from_f64(1.0 / mass),
-            inverse_inertia: Vec3::from_f64([1.0 / x, 1.0 / y, 1.0 / z]),
-            ratio: Vec3::from_f64([z / y, x / z, y / x]),
-            inverse_ratio: Vec3::from_f64([y / z, z / x, x / y]),
+            mass: S::Real::from_f64(mass),
+            inertia: S::Moment::from_f64(inertia),
+            inverse_mass: S::Real::from_f64(1.0 / mass),
+            inverse_inertia: S::Moment::from_f64([1.0 / x, 1.0 / y, 1.0 / z]),
+            ratio: S::Moment::from_f64([z / y, x / z, y / x]),
+            inverse_ratio: S::Moment::from_f64([y / z, z / x, x / y]),
         }
     }
 
     /// The same body in another precision: the stored mass and inertia, all else derived anew.
-    pub fn convert<Q: Real>(&self) -> Body<Q> {
+    pub fn convert<Q: Space>(&self) -> Body<Q> {
         Body::from_f64(self.mass.to_f64(), self.inertia.to_f64())
     }
 }
 
 /// A change of velocity \[m/s\] (world) and of angular velocity \[rad/s\] (body axes).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Increment<R> {
+pub struct Increment<S: Space> {
     /// \[m/s\] world axes.
-    pub linear: Vec3<R>,
+    pub linear: S::Vector,
     /// \[rad/s\] body axes.
-    pub angular: Vec3<R>,
+    pub angular: S::Moment,
 }
 
 /// h·D⁻¹ of one body: the step over its mass and its principal inertias.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Diagonal<R> {
+pub struct Diagonal<S: Space> {
     /// \[s/kg\].
-    pub mass: R,
+    pub mass: S::Real,
     /// \[s/(kg·m²)\].
-    pub inertia: Vec3<R>,
+    pub inertia: S::Moment,
 }
 
-impl<R: Real> Diagonal<R> {
+impl<S: Space> Diagonal<S> {
     /// The diagonal of a body for the step `h` \[s\]: one division each.
-    pub fn new(body: &Body<R>, h: R) -> Self {
-        let i = body.inertia;
-        Self { mass: h / body.mass, inertia: Vec3::new(h / i.x, h / i.y, h / i.z) }
+    pub fn new(body: &Body<S>, h: S::Real) -> Self {
+        Self { mass: h / body.mass, inertia: body.inertia.under(h) }
     }
 
     /// `scale·(h·D⁻¹)·Q` of a force (world) and a torque (body axes), without the gyroscopic term.
     #[inline(always)]
-    pub(crate) fn increment(&self, force: Vec3<R>, torque: Vec3<R>, scale: R) -> Increment<R> {
+    pub(crate) fn increment(
+        &self,
+        force: S::Vector,
+        torque: S::Moment,
+        scale: S::Real,
+    ) -> Increment<S> {
         Increment {
             linear: force * (scale * self.mass),
             angular: torque.scale(self.inertia * scale),
@@ -94,7 +96,7 @@ pub struct BodyState<P: Geometry> {
     /// \[m/s\] velocity of the centre of mass, world.
     pub velocity: P::Velocity,
     /// \[rad/s\] angular velocity, body axes.
-    pub angular_velocity: P::Velocity,
+    pub angular_velocity: P::Spin,
 }
 
 impl<P: Geometry> BodyState<P> {
@@ -111,7 +113,7 @@ impl<P: Geometry> BodyState<P> {
             position: P::position_from_f64(position),
             orientation: P::Orientation::from_f64(orientation),
             velocity: P::velocity_from_f64(velocity),
-            angular_velocity: P::velocity_from_f64(angular_velocity),
+            angular_velocity: P::spin_from_f64(angular_velocity),
         }
     }
 
@@ -121,7 +123,7 @@ impl<P: Geometry> BodyState<P> {
             P::position_to_f64(&self.position),
             P::Orientation::to_f64(&self.orientation),
             P::velocity_to_f64(&self.velocity),
-            P::velocity_to_f64(&self.angular_velocity),
+            P::spin_to_f64(&self.angular_velocity),
         )
     }
 }

@@ -11,6 +11,7 @@ use crate::model::{FrameOf, ModelOwner, RealOf};
 use crate::pose::{Places, each_element, place_bodies, twist_of};
 use crate::real::Real;
 use crate::schedule::LoadWindow;
+use crate::space::{Linear as _, Moment as _};
 use crate::state::State;
 
 /// Energies \[J\] by kind.
@@ -54,7 +55,7 @@ pub fn energy<M: ModelOwner>(model: &M, state: &State<M>, step_size: f64) -> Ene
     let half = RealOf::<M>::HALF;
     for (body, state) in view.bodies.iter().zip(bodies) {
         let v = M::Precision::velocity(&state.velocity);
-        let w = M::Precision::velocity(&state.angular_velocity);
+        let w = M::Precision::spin(&state.angular_velocity);
         sum.kinetic =
             sum.kinetic + half * (body.mass * v.dot(v)) + half * w.dot(body.inertia.scale(w));
         for gravity in view.gravity {

@@ -5,12 +5,52 @@ use core::ops::Deref;
 use defmt::{Format, Formatter, write};
 
 use crate::attitude::Attitude as _;
-use crate::body::BodyState;
+use crate::body::{Body, BodyState, Diagonal, Increment};
+use crate::elements::load::Load;
+use crate::elements::point_on_line::PointOnLine;
+use crate::elements::torsion_spring::{TorsionSpring, Twist};
+use crate::forces::Wrench;
 use crate::geometry::Geometry;
 use crate::model::ModelOwner;
 use crate::plant::Plant;
+use crate::real::Real as _;
 use crate::schemes::Scheme;
+use crate::space::{Linear as _, Space, Turn as _};
 use crate::state::State;
+
+/// Formats a type of a space by its fields, each as a way to show it.
+macro_rules! of_a_space {
+    ($($name:ident, $text:literal: $value:ident => $($shown:expr),+;)*) => {
+        $(impl<S: Space> Format for $name<S> {
+            fn format(&self, f: Formatter<'_>) {
+                let $value = self;
+                write!(f, $text, $($shown),+);
+            }
+        })*
+    };
+}
+
+of_a_space! {
+    Body, "Body {{ mass: {}, inertia: {} }}": body =>
+        body.mass.to_f64(), body.inertia.to_f64();
+    Increment, "Increment {{ linear: {}, angular: {} }}": increment =>
+        increment.linear.to_f64(), increment.angular.to_f64();
+    Diagonal, "Diagonal {{ mass: {}, inertia: {} }}": diagonal =>
+        diagonal.mass.to_f64(), diagonal.inertia.to_f64();
+    Wrench, "Wrench {{ force: {}, torque: {} }}": wrench =>
+        wrench.force.to_f64(), wrench.torque.to_f64();
+    Load, "Load {{ body: {}, frame: {}, force: {}, torque: {}, from: {}, until: {} }}": load =>
+        load.body, load.frame, load.force.to_f64(), load.torque.to_f64(), load.from, load.until;
+    PointOnLine, "PointOnLine {{ direction: {}, stiffness: {}, free_length: {} }}": line =>
+        line.direction.to_f64(), line.stiffness.to_f64(), line.free_length.to_f64();
+    Twist, "Twist {{ angle: {}, gradient: {} }}": twist =>
+        twist.angle.to_f64(), twist.gradient.to_f64();
+    TorsionSpring,
+        "TorsionSpring {{ a: {}, b: {}, axis: {}, reference: {}, stiffness: {}, preload: {}, \
+         damper: {} }}": spring =>
+        spring.a, spring.b, spring.axis.to_f64(), spring.reference.to_f64(),
+        spring.stiffness.to_f64(), spring.preload.to_f64(), spring.damper;
+}
 
 impl<P: Geometry> Format for BodyState<P> {
     fn format(&self, f: Formatter<'_>) {
@@ -21,7 +61,7 @@ impl<P: Geometry> Format for BodyState<P> {
             P::position_to_f64(&self.position),
             P::Orientation::to_f64(&self.orientation),
             P::velocity_to_f64(&self.velocity),
-            P::velocity_to_f64(&self.angular_velocity),
+            P::spin_to_f64(&self.angular_velocity),
         );
     }
 }

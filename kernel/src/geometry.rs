@@ -3,13 +3,15 @@
 //! Kept apart from [`Real`] because this is where precision is won or lost: a displacement of
 //! micrometres is the difference of coordinates of metres. A precision is one type that
 //! implements [`Geometry`]; laws and schemes see displacements, arms and rates as vectors of its
-//! `Real` and never a coordinate. Orientations are [`Attitude`]s, stored apart from positions.
+//! `Real` and never a coordinate. Orientations are [`Attitude`]s, stored apart from positions. Which
+//! vectors there are says its [`Space`].
 
 use core::fmt::Debug;
 use core::marker::PhantomData;
 
 use crate::attitude::Attitude;
 use crate::real::Real;
+use crate::space::{Moment, Space, Vector};
 use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::Words;
 
@@ -17,12 +19,20 @@ use crate::words::Words;
 pub trait Geometry: Copy + Debug + Default + PartialEq + 'static {
     /// The number in which forces and rates are computed.
     type Real: Real;
+    /// Displacements, arms, velocities and forces.
+    type Vector: Vector<Real = Self::Real, Moment = Self::Moment>;
+    /// Angular velocities, torques and inertias.
+    type Moment: Moment<Real = Self::Real, Vector = Self::Vector>;
+    /// The space that these are of.
+    type Space: Space<Real = Self::Real, Vector = Self::Vector, Moment = Self::Moment>;
     /// The stored position of a body's centre of mass, world.
     type Position: Copy + Debug + Default + PartialEq + Words;
     /// The stored orientation of a body.
-    type Orientation: Attitude<Real = Self::Real>;
-    /// A stored velocity or angular velocity, with its compensation where the precision has one.
+    type Orientation: Attitude<Real = Self::Real, Turn = <Self::Space as Space>::Turn>;
+    /// A stored velocity, with its compensation where the precision has one.
     type Velocity: Copy + Debug + Default + PartialEq + Words;
+    /// A stored angular velocity, likewise.
+    type Spin: Copy + Debug + Default + PartialEq + Words;
     /// A point in body axes from the centre of mass; a point in the world for the ground.
     type Local: Copy + Debug + Default + PartialEq + Words;
     /// A point in the world.
@@ -32,31 +42,41 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + 'static {
 
     /// The name users give: `f64`, `f32`.
     const NAME: &'static str;
+    /// The space's name: `spatial`, `planar`.
+    const SPACE: &'static str = <Self::Space as Space>::NAME;
     /// How orientations are stored, in users' words.
     const ORIENTATION: &'static str = <Self::Orientation as Attitude>::NAME;
 
     /// Prepares a pose for [`Self::place`].
     fn frame(position: &Self::Position, orientation: &Self::Orientation) -> Self::Frame;
     /// The point's world location and its arm from the centre of mass in world axes \[m\].
-    fn place(frame: &Self::Frame, local: &Self::Local) -> (Self::Location, Vec3<Self::Real>);
+    fn place(frame: &Self::Frame, local: &Self::Local) -> (Self::Location, Self::Vector);
     /// The location of a point of the ground.
     fn ground(local: &Self::Local) -> Self::Location;
     /// A location moved by a displacement \[m\].
-    fn shift(location: &Self::Location, by: Vec3<Self::Real>) -> Self::Location;
+    fn shift(location: &Self::Location, by: Self::Vector) -> Self::Location;
     /// `to − from` \[m\], world axes.
-    fn displacement(from: &Self::Location, to: &Self::Location) -> Vec3<Self::Real>;
+    fn displacement(from: &Self::Location, to: &Self::Location) -> Self::Vector;
     /// Body axes to world axes.
-    fn to_world(frame: &Self::Frame, v: Vec3<Self::Real>) -> Vec3<Self::Real>;
+    fn to_world(frame: &Self::Frame, v: Self::Vector) -> Self::Vector;
     /// World axes to body axes.
-    fn to_body(frame: &Self::Frame, v: Vec3<Self::Real>) -> Vec3<Self::Real>;
+    fn to_body(frame: &Self::Frame, v: Self::Vector) -> Self::Vector;
+    /// A moment's body axes to world axes.
+    fn moment_to_world(frame: &Self::Frame, m: Self::Moment) -> Self::Moment;
+    /// A moment's world axes to body axes.
+    fn moment_to_body(frame: &Self::Frame, m: Self::Moment) -> Self::Moment;
     /// The value of a stored position \[m\].
-    fn position(stored: &Self::Position) -> Vec3<Self::Real>;
+    fn position(stored: &Self::Position) -> Self::Vector;
     /// The value of a stored velocity.
-    fn velocity(stored: &Self::Velocity) -> Vec3<Self::Real>;
+    fn velocity(stored: &Self::Velocity) -> Self::Vector;
+    /// The value of a stored angular velocity.
+    fn spin(stored: &Self::Spin) -> Self::Moment;
     /// Adds an increment to a stored velocity.
-    fn accelerate(stored: &mut Self::Velocity, increment: Vec3<Self::Real>);
+    fn accelerate(stored: &mut Self::Velocity, increment: Self::Vector);
+    /// Adds an increment to a stored angular velocity.
+    fn spin_up(stored: &mut Self::Spin, increment: Self::Moment);
     /// Adds a displacement to a stored position.
-    fn translate(position: &mut Self::Position, displacement: Vec3<Self::Real>);
+    fn translate(position: &mut Self::Position, displacement: Self::Vector);
 
     /// Rounds a world position \[m\] once.
     fn position_from_f64(position: [f64; 3]) -> Self::Position;
@@ -66,6 +86,10 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + 'static {
     fn velocity_from_f64(velocity: [f64; 3]) -> Self::Velocity;
     /// The velocity in double precision.
     fn velocity_to_f64(velocity: &Self::Velocity) -> [f64; 3];
+    /// Rounds an angular velocity once.
+    fn spin_from_f64(spin: [f64; 3]) -> Self::Spin;
+    /// The angular velocity in double precision.
+    fn spin_to_f64(spin: &Self::Spin) -> [f64; 3];
     /// Rounds a point \[m\] once.
     fn local_from_f64(local: [f64; 3]) -> Self::Local;
     /// The point in double precision \[m\].
@@ -104,11 +128,15 @@ impl Named for f32 {
     const NAME: &'static str = "f32";
 }
 
-impl<R: Real + Named, A: Attitude<Real = R>> Geometry for Float<R, A> {
+impl<R: Real + Named, A: Attitude<Real = R, Turn = Quaternion<R>>> Geometry for Float<R, A> {
     type Real = R;
+    type Vector = Vec3<R>;
+    type Moment = Vec3<R>;
+    type Space = R;
     type Position = Vec3<R>;
     type Orientation = A;
     type Velocity = Vec3<R>;
+    type Spin = Vec3<R>;
     type Local = Vec3<R>;
     type Location = Vec3<R>;
     type Frame = Pose<R>;
@@ -145,6 +173,14 @@ impl<R: Real + Named, A: Attitude<Real = R>> Geometry for Float<R, A> {
         frame.rotation.to_body(v)
     }
     #[inline(always)]
+    fn moment_to_world(frame: &Pose<R>, m: Vec3<R>) -> Vec3<R> {
+        frame.rotation.to_world(m)
+    }
+    #[inline(always)]
+    fn moment_to_body(frame: &Pose<R>, m: Vec3<R>) -> Vec3<R> {
+        frame.rotation.to_body(m)
+    }
+    #[inline(always)]
     fn position(stored: &Vec3<R>) -> Vec3<R> {
         *stored
     }
@@ -153,7 +189,15 @@ impl<R: Real + Named, A: Attitude<Real = R>> Geometry for Float<R, A> {
         *stored
     }
     #[inline(always)]
+    fn spin(stored: &Vec3<R>) -> Vec3<R> {
+        *stored
+    }
+    #[inline(always)]
     fn accelerate(stored: &mut Vec3<R>, increment: Vec3<R>) {
+        *stored = *stored + increment;
+    }
+    #[inline(always)]
+    fn spin_up(stored: &mut Vec3<R>, increment: Vec3<R>) {
         *stored = *stored + increment;
     }
     #[inline(always)]
@@ -171,6 +215,12 @@ impl<R: Real + Named, A: Attitude<Real = R>> Geometry for Float<R, A> {
     }
     fn velocity_to_f64(velocity: &Vec3<R>) -> [f64; 3] {
         velocity.to_f64()
+    }
+    fn spin_from_f64(spin: [f64; 3]) -> Vec3<R> {
+        Vec3::from_f64(spin)
+    }
+    fn spin_to_f64(spin: &Vec3<R>) -> [f64; 3] {
+        spin.to_f64()
     }
     fn local_from_f64(local: [f64; 3]) -> Vec3<R> {
         // + 0.0 turns a negative zero into a positive one, so that placing a ground point by an

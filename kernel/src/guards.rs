@@ -7,7 +7,8 @@ use crate::body::BodyState;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, TorsionIndex};
 use crate::model::Terms;
-use crate::real::Real;
+use crate::real::Real as _;
+use crate::space::Linear as _;
 use crate::status::{Cause, MOST_TURN};
 use crate::words::is_finite;
 
@@ -23,7 +24,7 @@ pub(crate) fn first_fault<P: Geometry, T: Terms>(
     const { assert!(MOST_TURN == 1.0) };
     for (row, state) in bodies.iter().enumerate() {
         let body = BodyIndex(row as u16);
-        let turn = P::velocity(&state.angular_velocity) * h;
+        let turn = P::spin(&state.angular_velocity) * h;
         let slow = turn.dot(turn) <= P::Real::ONE;
         if !is_finite(state) {
             return Some(Cause::NonFinite { body });

@@ -6,8 +6,8 @@
 //!
 //! The modules in the order of the road; each uses only those before it (a test holds it to that):
 //!
-//! - [`words`], `square_root`, [`real`], [`vector`], [`arctangent`]: the arithmetic, and the words in
-//!   which it is stored.
+//! - [`words`], `square_root`, [`real`], [`vector`], [`space`], [`arctangent`]: the arithmetic, and the
+//!   words in which it is stored.
 //! - `compositions`, [`index`]: coefficients, and names of a model's parts.
 //! - [`attitude`], [`geometry`], [`euler`], [`loose`]: a precision is a type: [`F64`], [`F32`]; an
 //!   orientation is a quaternion or, as in the paper, angles.
@@ -92,6 +92,7 @@ pub mod schedule;
 pub mod schemes;
 pub mod sketch;
 pub mod snapshot;
+pub mod space;
 mod square_root;
 pub mod state;
 pub mod status;

@@ -7,11 +7,11 @@
 use core::ops::Deref;
 
 use crate::attitude::Attitude as _;
-use crate::damping::{Damping, Keep, Share, find, prepare_grounded, share};
+use crate::damping::{Damping, Keep, Share, find, share};
 use crate::forces::Wrench;
 use crate::guards::first_fault;
 use crate::index::{BodyIndex, InputIndex};
-use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, Terms};
+use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, SpaceOf, Terms};
 use crate::pose::{Places, place_bodies};
 use crate::real::Real;
 pub use crate::refusal::{InputError, PlantError, StateError};
@@ -33,14 +33,14 @@ where
     scheme: S,
     step_size: f64,
     h: RealOf<H::Target>,
-    diagonals: PerBody<H, Diagonal<RealOf<H::Target>>>,
+    diagonals: PerBody<H, Diagonal<SpaceOf<H::Target>>>,
     shares: <H::Target as ModelOwner>::PerDamper<Share<RealOf<H::Target>>>,
     levers: <S::Levers as Keep>::Memory<H::Target>,
     windows: <H::Target as ModelOwner>::PerLoad,
     knots: <H::Target as ModelOwner>::PerKnot,
     state: State<H::Target>,
     frames: PerBody<H, FrameOf<H::Target>>,
-    wrenches: PerBody<H, Wrench<RealOf<H::Target>>>,
+    wrenches: PerBody<H, Wrench<SpaceOf<H::Target>>>,
     memory: PerBody<H, S::Memory<<H::Target as ModelOwner>::Precision>>,
     ledger: Ledger,
     status: Status,
@@ -92,9 +92,6 @@ where
             }
             let others = (state.turns.as_ref(), levers.as_ref());
             share(&view, places, bodies, others, shares.as_mut());
-            if S::DAMPING == Damping::JointWise {
-                prepare_grounded(&view, shares.as_ref(), half, levers.as_mut());
-            }
         }
         let wrenches = owner.per_body(Wrench::default());
         let memory = owner.per_body(S::Memory::default());

@@ -13,7 +13,7 @@ use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelRef, Terms};
 use crate::schedule::Signal;
-use crate::vector::Vec3;
+use crate::space::{Linear as _, Moment as _};
 
 /// Computes the frames of all bodies.
 #[inline]
@@ -43,11 +43,11 @@ impl<P: Geometry> Copy for Places<'_, P> {}
 /// without a frame; an anchor is a world whose points are moved.
 pub(crate) struct End<'s, P: Geometry> {
     frame: Option<&'s P::Frame>,
-    moved: Option<Vec3<P::Real>>,
+    moved: Option<P::Vector>,
     /// \[m/s\] world axes.
-    pub(crate) velocity: Vec3<P::Real>,
+    pub(crate) velocity: P::Vector,
     /// \[rad/s\] world axes.
-    pub(crate) spin: Vec3<P::Real>,
+    pub(crate) spin: P::Moment,
 }
 
 impl<'s, P: Geometry> End<'s, P> {
@@ -61,10 +61,11 @@ impl<'s, P: Geometry> End<'s, P> {
         bodies: Option<&[BodyState<P>]>,
     ) -> Self {
         let frame = places.frames.get(index.row());
-        let mut end = Self { frame, moved: None, velocity: Vec3::ZERO, spin: Vec3::ZERO };
+        let (velocity, spin) = (P::Vector::ZERO, P::Moment::ZERO);
+        let mut end = Self { frame, moved: None, velocity, spin };
         if let (Some(frame), Some(state)) = (frame, bodies.and_then(|b| b.get(index.row()))) {
             end.velocity = P::velocity(&state.velocity);
-            end.spin = P::to_world(frame, P::velocity(&state.angular_velocity));
+            end.spin = P::moment_to_world(frame, P::spin(&state.angular_velocity));
         }
         if T::INPUTS
             && let Some(row) = index.anchor_row()
@@ -79,7 +80,7 @@ impl<'s, P: Geometry> End<'s, P> {
 
     /// The point's location and its arm, 0 for the ground's.
     #[inline(always)]
-    pub(crate) fn place(&self, local: &P::Local) -> (P::Location, Vec3<P::Real>) {
+    pub(crate) fn place(&self, local: &P::Local) -> Spot<P> {
         match self.frame {
             Some(frame) => P::place(frame, local),
             None => {
@@ -88,14 +89,14 @@ impl<'s, P: Geometry> End<'s, P> {
                     Some(by) => P::shift(&ground, by),
                     None => ground,
                 };
-                (location, Vec3::ZERO)
+                (location, P::Vector::ZERO)
             }
         }
     }
 
     /// Body axes to world axes.
     #[inline(always)]
-    pub(crate) fn to_world(&self, v: Vec3<P::Real>) -> Vec3<P::Real> {
+    pub(crate) fn to_world(&self, v: P::Vector) -> P::Vector {
         match self.frame {
             Some(frame) => P::to_world(frame, v),
             None => v,
@@ -104,28 +105,46 @@ impl<'s, P: Geometry> End<'s, P> {
 
     /// World axes to body axes.
     #[inline(always)]
-    pub(crate) fn to_axes(&self, v: Vec3<P::Real>) -> Vec3<P::Real> {
+    pub(crate) fn to_axes(&self, v: P::Vector) -> P::Vector {
         match self.frame {
             Some(frame) => P::to_body(frame, v),
             None => v,
         }
     }
 
+    /// A moment's body axes to world axes.
+    #[inline(always)]
+    pub(crate) fn moment_to_world(&self, m: P::Moment) -> P::Moment {
+        match self.frame {
+            Some(frame) => P::moment_to_world(frame, m),
+            None => m,
+        }
+    }
+
+    /// A moment's world axes to body axes.
+    #[inline(always)]
+    pub(crate) fn moment_to_axes(&self, m: P::Moment) -> P::Moment {
+        match self.frame {
+            Some(frame) => P::moment_to_body(frame, m),
+            None => m,
+        }
+    }
+
     /// The arm of a point `offset` away from the point of `arm`; the ground has none.
     #[inline(always)]
-    pub(crate) fn arm_at(&self, arm: Vec3<P::Real>, offset: Vec3<P::Real>) -> Vec3<P::Real> {
+    pub(crate) fn arm_at(&self, arm: P::Vector, offset: P::Vector) -> P::Vector {
         if self.frame.is_some() { arm + offset } else { arm }
     }
 
     /// `v + ω × r`.
     #[inline(always)]
-    pub(crate) fn point_velocity(&self, arm: Vec3<P::Real>) -> Vec3<P::Real> {
+    pub(crate) fn point_velocity(&self, arm: P::Vector) -> P::Vector {
         self.velocity + self.spin.cross(arm)
     }
 }
 
 /// An element of a group at a pose.
-pub(crate) struct Placed<'m, R> {
+pub(crate) struct Placed<'m, V> {
     /// Its group.
     pub(crate) group: &'m Group,
     /// Its group's index.
@@ -133,11 +152,11 @@ pub(crate) struct Placed<'m, R> {
     /// Its index among the elements of its law.
     pub(crate) index: usize,
     /// From its first point to its second, and its line.
-    pub(crate) stretch: Stretch<R>,
+    pub(crate) stretch: Stretch<V>,
     /// The arm of the first point, world axes; 0 on the ground; on a line that of the foot.
-    pub(crate) arm_a: Vec3<R>,
+    pub(crate) arm_a: V,
     /// The arm of the second point.
-    pub(crate) arm_b: Vec3<R>,
+    pub(crate) arm_b: V,
 }
 
 /// Element `i` of a group with its index, `None` where the model lacks it or its points.
@@ -147,7 +166,7 @@ pub(crate) fn placed<'m, P: Geometry, T: Terms>(
     places: Places<'_, P>,
     (number, group): (usize, &'m Group),
     i: usize,
-) -> Option<Placed<'m, P::Real>> {
+) -> Option<Placed<'m, P::Vector>> {
     let arms = group.arms.max(1) as usize;
     let (star, arm) = (i / arms, i % arms);
     let end_a = End::new(model, places, group.a, None);
@@ -155,7 +174,7 @@ pub(crate) fn placed<'m, P: Geometry, T: Terms>(
     let (a, mut arm_a) = end_a.place(model.points.get(group.centre(star))?);
     let (b, arm_b) = end_b.place(model.points.get(group.tips(star) + arm)?);
     let mut displacement = P::displacement(&a, &b);
-    let mut direction = Vec3::ZERO;
+    let mut direction = P::Vector::ZERO;
     let index = group.element as usize + i;
     if T::LINES && group.law == Law::PointOnLine {
         direction = end_a.to_world(model.lines.get(index)?.direction);
@@ -171,7 +190,7 @@ pub(crate) fn placed<'m, P: Geometry, T: Terms>(
 pub(crate) const MOST_ARMS: usize = 3;
 
 /// Where a point lies, and its arm.
-pub(crate) type Spot<P> = (<P as Geometry>::Location, Vec3<<P as Geometry>::Real>);
+pub(crate) type Spot<P> = (<P as Geometry>::Location, <P as Geometry>::Vector);
 
 /// The stars of a group in blocks: the first body's points, and the second's points that they share.
 /// Stars that share none are a block each.
@@ -194,7 +213,7 @@ pub(crate) fn blocks<'m, L, const ARMS: usize>(
 pub(crate) fn each_element<'m, P: Geometry, T: Terms>(
     model: &ModelRef<'m, P, T>,
     places: Places<'_, P>,
-    mut visit: impl FnMut(Placed<'m, P::Real>),
+    mut visit: impl FnMut(Placed<'m, P::Vector>),
 ) {
     for (number, group) in model.groups.iter().enumerate() {
         for i in 0..group.elements() {
@@ -207,10 +226,10 @@ pub(crate) fn each_element<'m, P: Geometry, T: Terms>(
 
 /// The twist of a torsion spring, `None` where it is undefined.
 pub(crate) fn twist_of<P: Geometry>(
-    spring: &TorsionSpring<P::Real>,
+    spring: &TorsionSpring<P::Space>,
     bodies: &[BodyState<P>],
     turns: i32,
-) -> Option<Twist<P::Real>> {
+) -> Option<Twist<P::Space>> {
     let orientation = |row: usize| bodies.get(row).map(|s| &s.orientation);
     let relative =
         P::Orientation::relative(orientation(spring.a.row()), orientation(spring.b.row()));

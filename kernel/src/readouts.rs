@@ -11,11 +11,12 @@ use crate::elements::input::InputKind;
 use crate::forces::{self, ExplicitDampers, Record};
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, InputIndex};
-use crate::model::{FrameOf, Group, ModelOwner, ModelRef, RealOf, Terms};
+use crate::model::{FrameOf, Group, ModelOwner, ModelRef, RealOf, SpaceOf, Terms};
 use crate::plant::Plant;
 use crate::pose::{End, Places, place_bodies, placed, twist_of};
 use crate::real::Real;
 use crate::schemes::Scheme;
+use crate::space::{Linear, Moment as _};
 use crate::state::State;
 use crate::vector::Vec3;
 
@@ -166,16 +167,16 @@ pub fn read<M: ModelOwner>(
             let spring = view.torsions.get(spring as usize)?;
             let twist = twist_of::<M::Precision>(spring, bodies, 0)?;
             let (a, b) = (end(spring.a), end(spring.b));
-            Some(Reading::Scalar(a.to_axes(b.spin - a.spin).dot(twist.gradient)))
+            Some(Reading::Scalar(a.moment_to_axes(b.spin - a.spin).dot(twist.gradient)))
         }
         Readout::Point { body, point } => {
             let position = M::Precision::position(&there(body)?.position);
-            Some(Reading::Vector(position + end(body).place(&point).1))
+            Some(Reading::Vector((position + end(body).place(&point).1).in_space()))
         }
         Readout::PointVelocity { body, point } => {
             there(body)?;
             let end = end(body);
-            Some(Reading::Vector(end.point_velocity(end.place(&point).1)))
+            Some(Reading::Vector(end.point_velocity(end.place(&point).1).in_space()))
         }
         Readout::TsdaForce { group, element } => {
             let row = group as usize;
@@ -185,24 +186,26 @@ pub fn read<M: ModelOwner>(
         }
         Readout::JointForce { group } => {
             let group = view.groups.get(group as usize)?;
-            let record: Record<RealOf<M>> = forces::record::<M::Precision, M::Terms, ExplicitDampers>(
-                &view, places, bodies, group,
-            );
-            Some(Reading::Vector(-record.force))
+            let record: Record<SpaceOf<M>> =
+                forces::record::<M::Precision, M::Terms, ExplicitDampers>(
+                    &view, places, bodies, group,
+                );
+            Some(Reading::Vector((-record.force).in_space()))
         }
         Readout::Imu { body, point } => {
             let constants = view.bodies.get(body.row())?;
             let wrenches = forces::wrenches(model, state, step_size).ok()?;
             let wrench = wrenches.as_ref().get(body.row())?;
-            let rate = M::Precision::velocity(&there(body)?.angular_velocity);
-            let gravity = view.gravity.first().copied().unwrap_or(Vec3::ZERO);
+            let rate = M::Precision::spin(&there(body)?.angular_velocity);
+            let gravity = view.gravity.first().copied().unwrap_or(Linear::ZERO);
             let end = end(body);
             // Arm, rates and accelerations in body axes.
             let arm = end.to_axes(end.place(&point).1);
             let centre = end.to_axes(wrench.force * constants.inverse_mass - gravity);
-            let torque = wrench.torque - rate.cross(constants.inertia.scale(rate));
+            let torque = wrench.torque - rate.commutator(constants.inertia.scale(rate));
             let angular = torque.scale(constants.inverse_inertia);
             let specific_force = centre + angular.cross(arm) + rate.cross(rate.cross(arm));
+            let (specific_force, rate) = (specific_force.in_space(), rate.in_space());
             Some(Reading::Imu { specific_force, rate })
         }
         Readout::Input { input } => {
@@ -277,8 +280,8 @@ pub fn each_force<M: ModelOwner>(
     place_bodies::<M::Precision>(bodies, frames.as_mut());
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
     for (row, group) in view.groups.iter().enumerate() {
-        let record: Record<RealOf<M>> =
+        let record: Record<SpaceOf<M>> =
             forces::record::<M::Precision, M::Terms, ExplicitDampers>(&view, places, bodies, group);
-        visit(row, -record.force);
+        visit(row, (-record.force).in_space());
     }
 }

@@ -12,11 +12,12 @@ use crate::body::Body;
 use crate::compositions::PEFRL;
 use crate::geometry::Geometry;
 use crate::real::Real;
+use crate::space::{Linear as _, Moment};
 use crate::vector::{Quaternion, Vec3};
 
 /// Turns by the rotation vector `2·half` in body axes (exponential map).
 #[inline(always)]
-pub fn turn_by<P: Geometry>(orientation: &mut P::Orientation, half: Vec3<P::Real>) {
+pub fn turn_by<P: Geometry>(orientation: &mut P::Orientation, half: P::Moment) {
     P::Orientation::turn(orientation, half_turn(half));
     P::Orientation::renormalise(orientation);
 }
@@ -31,9 +32,9 @@ pub fn turn_by<P: Geometry>(orientation: &mut P::Orientation, half: Vec3<P::Real
 /// would change nothing.
 #[inline(always)]
 pub fn free_rotor<P: Geometry>(
-    body: &Body<P::Real>,
+    body: &Body<P::Space>,
     orientation: &mut P::Orientation,
-    rate: &mut P::Velocity,
+    rate: &mut P::Spin,
     time: P::Real,
 ) {
     let half = P::Real::HALF * time;
@@ -55,13 +56,13 @@ pub fn free_rotor<P: Geometry>(
 /// two equal inertias takes one of them only: its flow is exact, too.
 #[inline]
 pub fn free_rotor_of_order_four<P: Geometry>(
-    body: &Body<P::Real>,
+    body: &Body<P::Space>,
     orientation: &mut P::Orientation,
-    rate: &mut P::Velocity,
+    rate: &mut P::Spin,
     time: P::Real,
 ) {
     let zero = P::Real::ZERO;
-    let w = P::velocity(rate);
+    let w = P::spin(rate).in_space();
     match (w.x == zero, w.y == zero, w.z == zero) {
         (false, true, true) => about_x::<P>(body, orientation, rate, time),
         (true, false, true) => about_y::<P>(body, orientation, rate, time),
@@ -75,24 +76,25 @@ pub fn free_rotor_of_order_four<P: Geometry>(
 /// [`free_rotor_of_order_four`] about more than one axis.
 #[inline]
 fn tumble<P: Geometry>(
-    body: &Body<P::Real>,
+    body: &Body<P::Space>,
     orientation: &mut P::Orientation,
-    rate: &mut P::Velocity,
+    rate: &mut P::Spin,
     time: P::Real,
 ) {
     let (zero, one) = (P::Real::ZERO, P::Real::ONE);
-    let Vec3 { x, y, z } = body.inertia;
+    let Vec3 { x, y, z } = body.inertia.in_space();
+    let (ratio, inverse_ratio) = (body.ratio.in_space(), body.inverse_ratio.in_space());
     let lies_between =
         |b: P::Real, a: P::Real, c: P::Real| (a <= b && b <= c) || (c <= b && b <= a);
     // Of each of the other axes the part 1 − I/I₂ of its rate that turns about it alone.
     let (middle, (first, share), (second, other)) = if lies_between(y, x, z) {
-        (y, (Axis::X, one - body.inverse_ratio.z), (Axis::Z, one - body.ratio.x))
+        (y, (Axis::X, one - inverse_ratio.z), (Axis::Z, one - ratio.x))
     } else if lies_between(x, y, z) {
-        (x, (Axis::Y, one - body.ratio.z), (Axis::Z, one - body.inverse_ratio.y))
+        (x, (Axis::Y, one - ratio.z), (Axis::Z, one - inverse_ratio.y))
     } else {
-        (z, (Axis::X, one - body.ratio.y), (Axis::Y, one - body.inverse_ratio.x))
+        (z, (Axis::X, one - ratio.y), (Axis::Y, one - inverse_ratio.x))
     };
-    let momentum = body.inertia.scale(P::velocity(rate));
+    let momentum = body.inertia.scale(P::spin(rate));
     P::Orientation::turn(orientation, half_turn(momentum * (P::Real::HALF * time / middle)));
     let mut turn = |axis: Axis, time: P::Real| match axis {
         Axis::X => about_x::<P>(body, orientation, rate, time),
@@ -123,11 +125,11 @@ enum Axis {
 
 /// The quaternion of a turn by the rotation vector `2·half`.
 #[inline(always)]
-fn half_turn<R: Real>(half: Vec3<R>) -> Quaternion<R> {
+fn half_turn<M: Moment>(half: M) -> Quaternion<M::Real> {
     let x2 = half.dot(half);
-    let w = x2.polynomial(R::COS);
-    let s = x2.polynomial(R::SINC);
-    Quaternion { w, v: half * s }
+    let w = x2.polynomial(M::Real::COS);
+    let s = x2.polynomial(M::Real::SINC);
+    Quaternion { w, v: (half * s).in_space() }
 }
 
 /// Half-angle cosine and sine, and the full angle's `1 − cos` and sine.
@@ -152,58 +154,58 @@ impl<R: Real> Turn<R> {
 
 #[inline(always)]
 fn about_x<P: Geometry>(
-    body: &Body<P::Real>,
+    body: &Body<P::Space>,
     orientation: &mut P::Orientation,
-    rate: &mut P::Velocity,
+    rate: &mut P::Spin,
     time: P::Real,
 ) {
     let zero = P::Real::ZERO;
-    let w = P::velocity(rate);
+    let w = P::spin(rate).in_space();
     if w.x == zero {
         return;
     }
     let t = Turn::by(time * w.x);
-    let y = t.sine * (body.ratio.x * w.z) - t.versine * w.y;
-    let z = -(t.sine * (body.inverse_ratio.x * w.y)) - t.versine * w.z;
-    P::accelerate(rate, Vec3::new(zero, y, z));
+    let y = t.sine * (body.ratio.in_space().x * w.z) - t.versine * w.y;
+    let z = -(t.sine * (body.inverse_ratio.in_space().x * w.y)) - t.versine * w.z;
+    P::spin_up(rate, P::Moment::of_space(Vec3::new(zero, y, z)));
     P::Orientation::turn(orientation, Quaternion::new(t.half_cos, t.half_sin, zero, zero));
 }
 
 #[inline(always)]
 fn about_y<P: Geometry>(
-    body: &Body<P::Real>,
+    body: &Body<P::Space>,
     orientation: &mut P::Orientation,
-    rate: &mut P::Velocity,
+    rate: &mut P::Spin,
     time: P::Real,
 ) {
     let zero = P::Real::ZERO;
-    let w = P::velocity(rate);
+    let w = P::spin(rate).in_space();
     if w.y == zero {
         return;
     }
     let t = Turn::by(time * w.y);
-    let z = t.sine * (body.ratio.y * w.x) - t.versine * w.z;
-    let x = -(t.sine * (body.inverse_ratio.y * w.z)) - t.versine * w.x;
-    P::accelerate(rate, Vec3::new(x, zero, z));
+    let z = t.sine * (body.ratio.in_space().y * w.x) - t.versine * w.z;
+    let x = -(t.sine * (body.inverse_ratio.in_space().y * w.z)) - t.versine * w.x;
+    P::spin_up(rate, P::Moment::of_space(Vec3::new(x, zero, z)));
     P::Orientation::turn(orientation, Quaternion::new(t.half_cos, zero, t.half_sin, zero));
 }
 
 #[inline(always)]
 fn about_z<P: Geometry>(
-    body: &Body<P::Real>,
+    body: &Body<P::Space>,
     orientation: &mut P::Orientation,
-    rate: &mut P::Velocity,
+    rate: &mut P::Spin,
     time: P::Real,
 ) {
     let zero = P::Real::ZERO;
-    let w = P::velocity(rate);
+    let w = P::spin(rate).in_space();
     if w.z == zero {
         return;
     }
     let t = Turn::by(time * w.z);
-    let x = t.sine * (body.ratio.z * w.y) - t.versine * w.x;
-    let y = -(t.sine * (body.inverse_ratio.z * w.x)) - t.versine * w.y;
-    P::accelerate(rate, Vec3::new(x, y, zero));
+    let x = t.sine * (body.ratio.in_space().z * w.y) - t.versine * w.x;
+    let y = -(t.sine * (body.inverse_ratio.in_space().z * w.x)) - t.versine * w.y;
+    P::spin_up(rate, P::Moment::of_space(Vec3::new(x, y, zero)));
     P::Orientation::turn(orientation, Quaternion::new(t.half_cos, zero, zero, t.half_sin));
 }
 

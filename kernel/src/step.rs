@@ -14,6 +14,7 @@ use crate::pose::{Places, place_bodies};
 use crate::real::Real;
 use crate::rotation;
 use crate::schedule::{self, KnotStep, LoadWindow, Signal, StageTime};
+use crate::space::Moment as _;
 use crate::status::Cause;
 
 /// What a plant knows of its evaluations. Never part of the state: evaluating anew gives the same
@@ -40,7 +41,7 @@ pub struct Stepper<'s, 'm, P: Geometry, T, S> {
     /// \[s\] the step size, rounded to the precision.
     pub(crate) h: P::Real,
     /// h·D⁻¹ per body.
-    pub(crate) diagonals: &'s [Diagonal<P::Real>],
+    pub(crate) diagonals: &'s [Diagonal<P::Space>],
     /// The dampers' shares.
     pub(crate) shares: &'s [Share<P::Real>],
     /// The joints' levers, none where dampers act otherwise.
@@ -60,7 +61,7 @@ pub struct Stepper<'s, 'm, P: Geometry, T, S> {
     /// The bodies' frames.
     pub(crate) frames: &'s mut [P::Frame],
     /// The bodies' wrenches.
-    pub(crate) wrenches: &'s mut [Wrench<P::Real>],
+    pub(crate) wrenches: &'s mut [Wrench<P::Space>],
     /// The scheme's memory per body.
     pub(crate) memory: &'s mut [S],
     /// Evaluations and the freshness of the wrenches.
@@ -143,7 +144,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
         for ((state, wrench), diagonal) in rows {
             let increment = diagonal.increment(wrench.force, wrench.torque, scale);
             P::accelerate(&mut state.velocity, increment.linear);
-            P::accelerate(&mut state.angular_velocity, increment.angular);
+            P::spin_up(&mut state.angular_velocity, increment.angular);
         }
     }
 
@@ -227,13 +228,12 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
         }
         let h = P::Real::HALF * self.h;
         let places = Places { frames: &*self.frames, signals: &*self.signals };
-        if !self.ledger.ready {
-            let pose = (places, &*self.bodies);
-            damping::prepare(&self.model, pose, self.shares, h, self.levers);
-            self.ledger.ready = true;
-        }
         let kick = HalfKick { wrenches: &*self.wrenches, diagonals: self.diagonals };
         let sweep = Sweep { h, places, turns: &*self.turns, shares: self.shares, kick };
+        if !self.ledger.ready {
+            damping::prepare::<P, T, _>(&self.model, &sweep, self.bodies, self.levers);
+            self.ledger.ready = true;
+        }
         damping::sweep_joints::<P, T, _, REVERSE>(&self.model, &sweep, self.levers, self.bodies);
     }
 
@@ -270,7 +270,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     #[inline(always)]
     pub fn each(
         &mut self,
-        mut visit: impl FnMut(&mut S, &mut BodyState<P>, Increment<P::Real>, P::Real),
+        mut visit: impl FnMut(&mut S, &mut BodyState<P>, Increment<P::Space>, P::Real),
     ) {
         self.ledger.fresh = false;
         let h = self.h;
@@ -281,8 +281,8 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
             .zip(self.model.bodies)
             .zip(self.wrenches.iter().zip(self.diagonals));
         for (((state, memory), body), (wrench, diagonal)) in rows {
-            let w = P::velocity(&state.angular_velocity);
-            let torque = wrench.torque - w.cross(body.inertia.scale(w));
+            let w = P::spin(&state.angular_velocity);
+            let torque = wrench.torque - w.commutator(body.inertia.scale(w));
             let increment = Increment {
                 linear: wrench.force * diagonal.mass,
                 angular: torque.scale(diagonal.inertia),

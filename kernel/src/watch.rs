@@ -17,6 +17,7 @@ use crate::model::{ModelOwner, RealOf};
 use crate::plant::Plant;
 use crate::real::Real;
 use crate::schemes::Scheme;
+use crate::space::{Linear as _, Moment as _};
 use crate::status::{Cause, Status};
 
 /// How far the bound of a frequency may grow beyond what the scheme bears or, where it was beyond
@@ -98,7 +99,7 @@ where
     for (row, (state, body)) in plant.state().bodies.as_ref().iter().zip(bodies).enumerate() {
         let BodyState { velocity, angular_velocity, .. } = state;
         let v = <H::Target as ModelOwner>::Precision::velocity(velocity);
-        let w = <H::Target as ModelOwner>::Precision::velocity(angular_velocity);
+        let w = <H::Target as ModelOwner>::Precision::spin(angular_velocity);
         let twice = body.mass * v.dot(v) + w.dot(body.inertia.scale(w));
         if twice > most.1 {
             most = (row, twice);

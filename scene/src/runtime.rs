@@ -10,20 +10,20 @@ use dbd_kernel::index::InputIndex;
 use dbd_kernel::model::{AllTerms, Group, ModelOwner, ModelRef};
 use dbd_kernel::schedule::LoadWindow;
 use dbd_kernel::schedule::{KnotStep, Signal};
+use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
     BodyState, F64, Geometry, Load, PointBushing, PointOnLine, Real, State, TorsionSpring, Tsda,
-    Vec3,
 };
 
 /// A model on the heap, see [`dbd_kernel::Model`] for the fields.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneModel<P: Geometry> {
     /// Bodies in scene order, spiders after them.
-    pub bodies: Vec<Body<P::Real>>,
+    pub bodies: Vec<Body<P::Space>>,
     /// The bodies' states at t = 0.
     pub initial: Vec<BodyState<P>>,
     /// \[m/s²\] the field of gravity, or nothing.
-    pub gravity: Vec<Vec3<P::Real>>,
+    pub gravity: Vec<P::Vector>,
     /// Groups in the order of their records' sums.
     pub groups: Vec<Group>,
     /// \[m\] points of the groups, in the axes of their bodies.
@@ -35,11 +35,11 @@ pub struct SceneModel<P: Geometry> {
     /// \[N·s/m, N·m·s/rad\] damping coefficients of groups and torsion springs.
     pub dampers: Vec<P::Real>,
     /// Torsion springs.
-    pub torsions: Vec<TorsionSpring<P::Real>>,
+    pub torsions: Vec<TorsionSpring<P::Space>>,
     /// Loads.
-    pub loads: Vec<Load<P::Real>>,
+    pub loads: Vec<Load<P::Space>>,
     /// Points on lines of the groups.
-    pub lines: Vec<PointOnLine<P::Real>>,
+    pub lines: Vec<PointOnLine<P::Space>>,
     /// Inputs.
     pub inputs: Vec<Input<P>>,
     /// Knots of the inputs' tables.
@@ -55,7 +55,7 @@ impl<P: Geometry> SceneModel<P> {
         SceneModel {
             bodies: self.bodies.iter().map(Body::convert).collect(),
             initial: self.initial.iter().map(BodyState::convert).collect(),
-            gravity: self.gravity.iter().map(|g| Vec3::from_f64(g.to_f64())).collect(),
+            gravity: self.gravity.iter().map(|g| Q::Vector::from_f64(g.to_f64())).collect(),
             groups: self.groups.clone(),
             points: self.points.iter().map(|p| Q::local_from_f64(P::local_to_f64(p))).collect(),
             tsdas: self.tsdas.iter().map(Tsda::convert).collect(),

@@ -2,6 +2,7 @@
 
 use dbd_kernel::builder::Stars;
 use dbd_kernel::forces::wrenches;
+use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
     BodyIndex, BodyState, Dbd, F32, F64, Geometry, Leapfrog, Pefrl, Plant, Rk4, Scheme,
     SemiImplicitEuler, State, Vec3,

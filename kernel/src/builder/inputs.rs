@@ -5,6 +5,7 @@ use crate::elements::input::{Input, InputKind, Knot};
 use crate::geometry::Geometry;
 use crate::index::InputIndex;
 use crate::real::Real;
+use crate::space::Linear as _;
 
 impl<
     P: Geometry,

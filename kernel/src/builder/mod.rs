@@ -24,7 +24,8 @@ use crate::geometry::Geometry;
 use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
 use crate::model::{Group, Law};
 use crate::real::Real;
-use crate::vector::{Quaternion, Vec3};
+use crate::space::{Linear as _, Space, Turn as _};
+use crate::vector::Quaternion;
 
 /// Stars of TSDAs between two bodies: what a joint expands into.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,17 +77,17 @@ pub struct ModelBuilder<
     const INPUTS: usize = 0,
     const KNOTS: usize = 0,
 > {
-    bodies: Vec<Body<P::Real>, BODIES>,
+    bodies: Vec<Body<P::Space>, BODIES>,
     initial: Vec<BodyState<P>, BODIES>,
-    gravity: Vec<Vec3<P::Real>, 1>,
+    gravity: Vec<P::Vector, 1>,
     groups: Vec<Group, GROUPS>,
     points: Vec<P::Local, POINTS>,
     tsdas: Vec<Tsda<P::Real>, TSDAS>,
     bushings: Vec<PointBushing<P::Real>, BUSHINGS>,
     dampers: Vec<P::Real, DAMPERS>,
-    torsions: Vec<TorsionSpring<P::Real>, TORSIONS>,
-    loads: Vec<Load<P::Real>, LOADS>,
-    lines: Vec<PointOnLine<P::Real>, LINES>,
+    torsions: Vec<TorsionSpring<P::Space>, TORSIONS>,
+    loads: Vec<Load<P::Space>, LOADS>,
+    lines: Vec<PointOnLine<P::Space>, LINES>,
     inputs: Vec<Input<P>, INPUTS>,
     knots: Vec<Knot<P::Real>, KNOTS>,
     // At most one per group.
@@ -151,7 +152,7 @@ impl<
         check(finite(&gravity), Quantity::Gravity)?;
         self.gravity.clear();
         // A capacity of 1 holds one field.
-        let _ = self.gravity.push(Vec3::from_f64(gravity));
+        let _ = self.gravity.push(P::Vector::from_f64(gravity));
         Ok(())
     }
 
@@ -173,7 +174,7 @@ impl<
         let known = P::position(&state.position).is_finite()
             && finite(&P::Orientation::to_f64(&state.orientation))
             && P::velocity(&state.velocity).is_finite()
-            && P::velocity(&state.angular_velocity).is_finite();
+            && P::spin(&state.angular_velocity).is_finite();
         check(known, Quantity::State)?;
         let index = BodyIndex(self.bodies.len() as u16);
         self.bodies
@@ -350,8 +351,8 @@ impl<
         let _ = self.torsions.push(TorsionSpring {
             a,
             b,
-            axis: Vec3::from_f64(axis.map(|c| c / norm)),
-            reference: Quaternion::from_f64(reference.to_f64()),
+            axis: P::Moment::from_f64(axis.map(|c| c / norm)),
+            reference: <P::Space as Space>::Turn::from_f64(reference.to_f64()),
             stiffness: P::Real::from_f64(stiffness),
             preload: P::Real::from_f64(preload),
             damper,
@@ -363,7 +364,7 @@ impl<
     ///
     /// # Errors
     /// [`BuildError::Full`], a body that is not there, a force, torque or window out of range.
-    pub fn add_load(&mut self, load: Load<P::Real>) -> Result<(), BuildError> {
+    pub fn add_load(&mut self, load: Load<P::Space>) -> Result<(), BuildError> {
         if load.body.row() >= self.bodies.len() {
             return Err(BuildError::UnknownBody(load.body));
         }

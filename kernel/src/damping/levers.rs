@@ -8,32 +8,30 @@
 //! 1958). Joints between the same two bodies share theirs. Between a body and the ground they stay at
 //! right angles for ever; between two bodies as far as the bodies' inertias do not turn.
 
-use crate::body::BodyState;
 use crate::damping::each_direction;
 use crate::damping::pair::Direction;
-use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelOwner, ModelRef, Terms};
 use crate::pose::{Places, placed};
 use crate::real::Real;
-use crate::vector::Vec3;
+use crate::space::{Linear as _, Moment as _};
 
-/// One lever of a joint, and what it does in half a step.
+/// One lever of a joint, and what it does in half a step at a pose.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lever<P: Geometry> {
-    /// \[√(N·s/m)\] force on the joint's body, that body's axes.
-    pub(super) along: Vec3<P::Real>,
+    /// \[√(N·s/m)\] force on the body that sees it at rest, that body's axes.
+    pub(super) along: P::Vector,
     /// Moment about that body's centre of mass, its axes.
-    pub(super) moment: Vec3<P::Real>,
+    pub(super) moment: P::Moment,
     /// Moment of the same force and moment about the other body's centre of mass, that body's axes.
-    pub(super) other: Vec3<P::Real>,
+    pub(super) other: P::Moment,
     /// \[1/s\] rate per impulse, without the other body's turning; 0 where there is no lever.
     pub(super) rate: P::Real,
     /// \[s\] impulse per rate.
     pub(super) impulse: P::Real,
-    /// \[s\] impulse per rate that the kick gave, of the lever's own share.
-    pub(super) told: P::Real,
+    /// The impulse less, for what the kick and moved ground gave: ascending, descending.
+    pub(super) less: [P::Real; 2],
 }
 
 impl<P: Geometry> Lever<P> {
@@ -43,29 +41,16 @@ impl<P: Geometry> Lever<P> {
         self.rate > P::Real::ZERO
     }
 
-    /// Makes ready for half a step `h` \[s\] with 1/μ = `rate`: of the rate it takes
-    /// `1 − 1/(1 + x + x²/2)`, `x = h·rate`, and is told of a kick as any damper
-    /// (`damping::pair::Damper`).
-    #[inline(always)]
-    pub(super) fn prepare(&mut self, share: &Share<P::Real>, rate: P::Real, h: P::Real) {
-        let (half, one) = (P::Real::HALF, P::Real::ONE);
-        let x = h * rate;
-        let y = one + half * x;
-        let part = h / (one + x * y);
-        self.impulse = part * y;
-        self.told = share.own * half * part;
-    }
-
     /// Its direction, seen from the ends of its joint: of the body that sees it and the other one.
     pub(super) fn direction(
         &self,
         places: Places<'_, P>,
         [own, _]: [BodyIndex; 2],
         first: BodyIndex,
-    ) -> Direction<P::Real> {
+    ) -> Direction<P::Space> {
         let along = match places.frames.get(own.row()) {
             Some(frame) => P::to_world(frame, self.along),
-            None => Vec3::ZERO,
+            None => P::Vector::ZERO,
         };
         let moments =
             if own == first { [self.moment, self.other] } else { [self.other, self.moment] };
@@ -108,7 +93,7 @@ impl Keep for NoLevers {
     }
 }
 
-/// Levers: twelve numbers per damper.
+/// Levers: thirteen numbers per damper in space, eight in the plane.
 #[derive(Clone, Copy, Debug)]
 pub struct Levers;
 
@@ -129,20 +114,37 @@ pub(super) fn fixed<P: Geometry, T: Terms>(
     group: &Group,
 ) -> Option<[BodyIndex; 2]> {
     let Group { law, a, b, arms, .. } = *group;
-    if group.damper.row().is_none() || (T::CLEARANCES && group.clearance.row().is_some()) {
-        return None;
-    }
     let moved = |end: BodyIndex| T::INPUTS && end.anchor_row().is_some();
-    if moved(a) || moved(b) {
+    if !whole::<T>(group) || moved(a) || moved(b) {
         return None;
     }
-    let ground = |end: BodyIndex| model.bodies.get(end.row()).is_none();
+    // As many levers as a wrench has components always have room.
+    let room = P::Vector::DIMENSION + P::Moment::DIMENSION;
     match law {
-        Law::Tsda if T::TSDAS && arms == 3 => Some(if ground(b) { [a, b] } else { [b, a] }),
-        // On a line that turns it is no wrench of both bodies. Six levers always have room.
-        Law::PointOnLine if T::LINES && group.elements() >= 6 && ground(a) => Some([b, a]),
+        Law::Tsda if T::TSDAS && arms > 1 => Some(seen(a, b)),
+        // On a line that turns it is no wrench of both bodies.
+        Law::PointOnLine if T::LINES && a.is_world() && group.elements() >= room => Some([b, a]),
         _ => None,
     }
+}
+
+/// The ends of a raw spring, whose one lever turns: a body first.
+#[inline(always)]
+pub(super) fn turning<T: Terms>(group: &Group) -> Option<[BodyIndex; 2]> {
+    let raw = T::TSDAS && group.law == Law::Tsda && group.elements() == 1;
+    (raw && whole::<T>(group)).then(|| seen(group.a, group.b))
+}
+
+/// Whether all of a group's dampers act always.
+#[inline(always)]
+fn whole<T: Terms>(group: &Group) -> bool {
+    group.damper.row().is_some() && !(T::CLEARANCES && group.clearance.row().is_some())
+}
+
+/// The second body first, unless it is the ground.
+#[inline(always)]
+fn seen(a: BodyIndex, b: BodyIndex) -> [BodyIndex; 2] {
+    if b.is_world() { [a, b] } else { [b, a] }
 }
 
 /// The rows of a group's levers.
@@ -179,7 +181,7 @@ pub(crate) fn find<P: Geometry, T: Terms>(
                 let (moment, other) = if ends[0] == group.b { (b, a) } else { (a, b) };
                 let along = match places.frames.get(ends[0].row()) {
                     Some(frame) => P::to_body(frame, direction.along),
-                    None => Vec3::ZERO,
+                    None => P::Vector::ZERO,
                 };
                 let lever = Lever { along, moment, other, ..Lever::default() };
                 metric.insert(shared, here, lever.scaled(root));
@@ -191,34 +193,26 @@ pub(crate) fn find<P: Geometry, T: Terms>(
 }
 
 /// What the masses of a pair make of levers.
-struct Metric<R> {
-    inverse_mass: R,
-    own: Vec3<R>,
-    other: Vec3<R>,
+struct Metric<P: Geometry> {
+    inverse_mass: P::Real,
+    own: P::Moment,
+    other: P::Moment,
 }
 
 /// Turns of a pair of levers towards right angles, at most: they converge in a few.
 const SWEEPS: u32 = 40;
 
-impl<R: Real> Metric<R> {
-    fn new<P: Geometry<Real = R>, T: Terms>(
-        model: &ModelRef<'_, P, T>,
-        ends: [BodyIndex; 2],
-    ) -> Self {
-        let [own, other] = ends.map(|end| model.bodies.get(end.row()));
-        let mass = |body: Option<&crate::body::Body<R>>| body.map_or(R::ZERO, |b| b.inverse_mass);
-        let inertia = |body: Option<&crate::body::Body<R>>| {
-            body.map_or(Vec3::ZERO, |body| body.inverse_inertia)
-        };
-        Self {
-            inverse_mass: mass(own) + mass(other),
-            own: inertia(own),
-            other: inertia(other),
-        }
+impl<P: Geometry> Metric<P> {
+    fn new<T: Terms>(model: &ModelRef<'_, P, T>, ends: [BodyIndex; 2]) -> Self {
+        let none = (P::Real::ZERO, P::Moment::ZERO);
+        let [own, other] = ends.map(|end| {
+            model.bodies.get(end.row()).map_or(none, |body| (body.inverse_mass, body.inverse_inertia))
+        });
+        Self { inverse_mass: own.0 + other.0, own: own.1, other: other.1 }
     }
 
     /// \[1/s\] the rate along one per impulse along the other.
-    fn rate<P: Geometry<Real = R>>(&self, a: &Lever<P>, b: &Lever<P>) -> R {
+    fn rate(&self, a: &Lever<P>, b: &Lever<P>) -> P::Real {
         a.along.dot(b.along) * self.inverse_mass
             + a.moment.dot(b.moment.scale(self.own))
             + a.other.dot(b.other.scale(self.other))
@@ -226,18 +220,18 @@ impl<R: Real> Metric<R> {
 
     /// Turns two levers until they are at right angles, the stronger one first; whether they were
     /// not.
-    fn turn<P: Geometry<Real = R>>(&self, a: &mut Lever<P>, b: &mut Lever<P>) -> bool {
+    fn turn(&self, a: &mut Lever<P>, b: &mut Lever<P>) -> bool {
         let (x, y, xy) = (self.rate(a, a), self.rate(b, b), self.rate(a, b));
-        let least = R::from_f64(8.0) * epsilon::<R>();
+        let least = P::Real::from_f64(8.0) * epsilon::<P::Real>();
         let crossed = xy.abs() > least * (x * y).sqrt();
         let (c, s) = if crossed {
             let slope = (y - x) / (xy + xy);
-            let root = (R::ONE + slope * slope).sqrt();
-            let t = R::ONE / if slope < R::ZERO { slope - root } else { slope + root };
-            let c = R::ONE / (R::ONE + t * t).sqrt();
+            let root = (P::Real::ONE + slope * slope).sqrt();
+            let t = P::Real::ONE / if slope < P::Real::ZERO { slope - root } else { slope + root };
+            let c = P::Real::ONE / (P::Real::ONE + t * t).sqrt();
             (c, t * c)
         } else {
-            (R::ONE, R::ZERO)
+            (P::Real::ONE, P::Real::ZERO)
         };
         let (first, second) = (a.turned(c, b, -s), b.turned(c, a, s));
         let [x, y] = [&first, &second].map(|lever| self.rate(lever, lever));
@@ -249,12 +243,12 @@ impl<R: Real> Metric<R> {
         *a = strong;
         // What rounding leaves is none.
         let rest = self.rate(&weak, &weak);
-        *b = if rest > R::from_f64(32.0) * epsilon::<R>() * least { weak } else { Lever::default() };
+        *b = if rest > P::Real::from_f64(32.0) * epsilon::<P::Real>() * least { weak } else { Lever::default() };
         crossed
     }
 
     /// Brings one more lever in. With as many places as levers, or with six, there is always one.
-    fn insert<P: Geometry<Real = R>>(
+    fn insert(
         &self,
         shared: &mut [Lever<P>],
         own: &mut [Lever<P>],
@@ -282,21 +276,21 @@ impl<R: Real> Metric<R> {
 
     /// Brings levers to the front, and takes the part of 1/μ that no pose changes. Beyond `LARGEST`
     /// of h/μ nothing changes any more.
-    fn finish<P: Geometry<Real = R>>(&self, levers: &mut [Lever<P>], h: R) {
-        let largest = R::from_f64(LARGEST);
+    fn finish(&self, levers: &mut [Lever<P>], h: P::Real) {
+        let largest = P::Real::from_f64(LARGEST);
         for lever in levers {
             let x = h * self.rate(lever, lever);
             if x > largest {
                 *lever = lever.scaled((largest / x).sqrt());
             }
-            let still = Lever { other: Vec3::ZERO, ..*lever };
+            let still = Lever { other: P::Moment::ZERO, ..*lever };
             lever.rate = self.rate(&still, &still);
         }
     }
 }
 
 /// The largest h/μ of a lever: its square is a number in single precision.
-const LARGEST: f64 = 1e12;
+pub(super) const LARGEST: f64 = 1e12;
 
 /// The spacing of numbers beside 1.
 fn epsilon<R: Real>() -> R {
@@ -328,58 +322,4 @@ fn two<'s, L>(
         return Some([first.get_mut(i)?, second.get_mut(j - before)?]);
     }
     second.get_disjoint_mut([i - before, j - before]).ok()
-}
-
-/// Makes the levers of joints to the ground ready, once and for all.
-pub(crate) fn prepare_grounded<P: Geometry, T: Terms>(
-    model: &ModelRef<'_, P, T>,
-    shares: &[Share<P::Real>],
-    h: P::Real,
-    levers: &mut [Lever<P>],
-) {
-    for group in model.groups {
-        if fixed(model, group).is_some_and(|[_, other]| model.bodies.get(other.row()).is_none())
-            && let (Some(levers), Some(shares)) = (levers.get_mut(rows(group)), shares.get(rows(group)))
-        {
-            for (lever, share) in levers.iter_mut().zip(shares).filter(|(lever, _)| lever.acts()) {
-                lever.prepare(share, lever.rate, h);
-            }
-        }
-    }
-}
-
-/// Makes the levers of joints between two bodies ready at a pose.
-#[inline]
-pub(crate) fn prepare<P: Geometry, T: Terms>(
-    model: &ModelRef<'_, P, T>,
-    (places, bodies): (Places<'_, P>, &[BodyState<P>]),
-    shares: &[Share<P::Real>],
-    h: P::Real,
-    levers: &mut [Lever<P>],
-) {
-    for group in model.groups {
-        let Some([own, other]) = fixed(model, group) else { continue };
-        let at = |end: BodyIndex| {
-            let row = end.row();
-            Some((model.bodies.get(row)?, bodies.get(row)?, places.frames.get(row)?))
-        };
-        let (Some((_, own, own_frame)), Some((body, other, frame))) = (at(own), at(other)) else {
-            continue;
-        };
-        let (Some(levers), Some(shares)) = (levers.get_mut(rows(group)), shares.get(rows(group)))
-        else {
-            continue;
-        };
-        let between = P::position(&own.position) - P::position(&other.position);
-        let between = P::to_body(own_frame, between);
-        for (lever, share) in levers.iter_mut().zip(shares) {
-            if !lever.acts() {
-                break;
-            }
-            let moment = lever.moment + between.cross(lever.along);
-            lever.other = P::to_body(frame, P::to_world(own_frame, moment));
-            let rate = lever.rate + lever.other.dot(lever.other.scale(body.inverse_inertia));
-            lever.prepare(share, rate, h);
-        }
-    }
 }

@@ -27,9 +27,9 @@ mod shares;
 mod strength;
 
 pub use crate::elements::share::Share;
-pub(crate) use joints::sweep_joints;
+pub(crate) use joints::{prepare, sweep_joints};
 pub use levers::{Keep, Lever, Levers, NoLevers};
-pub(crate) use levers::{find, prepare, prepare_grounded};
+pub(crate) use levers::find;
 pub(crate) use pair::{HalfKick, Kick, NoKick};
 pub(crate) use shares::share;
 pub use strength::{DampersOf, Strength, strengths};
@@ -43,7 +43,7 @@ use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelRef, Terms};
 use crate::pose::{End, MOST_ARMS, Placed, Places, Spot, placed, twist_of};
 use crate::real::Real;
-use crate::vector::Vec3;
+use crate::space::{Linear as _, Vector as _};
 
 /// How a scheme treats dampers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -168,7 +168,7 @@ fn new_pair<P: Geometry, T: Terms, K: Kick<P>>(
     sweep: &Sweep<'_, P, K>,
     ends: [BodyIndex; 2],
     bodies: &[BodyState<P>],
-) -> Pair<P::Real> {
+) -> Pair<P::Space> {
     let [a, b] = ends.map(|end| End::new(model, sweep.places, end, None));
     let rate = b.velocity - a.velocity;
     Pair::new(model, ends.map(BodyIndex::row), bodies, rate, &sweep.kick)
@@ -179,8 +179,8 @@ fn new_pair<P: Geometry, T: Terms, K: Kick<P>>(
 fn each_direction<P: Geometry, T: Terms, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
-    element: &Placed<'_, P::Real>,
-    mut visit: impl FnMut(Direction<P::Real>),
+    element: &Placed<'_, P::Vector>,
+    mut visit: impl FnMut(Direction<P::Space>),
 ) {
     let group = element.group;
     let Some((mut directions, count)) = model.damped(group.law, &element.stretch) else { return };
@@ -188,9 +188,9 @@ fn each_direction<P: Geometry, T: Terms, const REVERSE: bool>(
         directions.swap(0, count - 1);
     }
     for along in directions.into_iter().take(count) {
-        let moment = |body: BodyIndex, arm: Vec3<P::Real>| match places.frames.get(body.row()) {
-            Some(frame) => P::to_body(frame, arm.cross(along)),
-            None => Vec3::ZERO,
+        let moment = |body: BodyIndex, arm: P::Vector| match places.frames.get(body.row()) {
+            Some(frame) => P::moment_to_body(frame, arm.cross(along)),
+            None => P::Moment::ZERO,
         };
         let moments = [moment(group.a, element.arm_a), moment(group.b, element.arm_b)];
         visit(Direction { along, moments });
@@ -216,7 +216,7 @@ fn sweep_stars<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     let end_a = End::new(model, places, group.a, None);
     let end_b = End::new(model, places, group.b, None);
     let mut pair = new_pair(model, sweep, [group.a, group.b], bodies);
-    let mut tips = [(P::Location::default(), Vec3::ZERO); MOST_ARMS];
+    let mut tips = [(P::Location::default(), P::Vector::ZERO); MOST_ARMS];
     let stars = group.stars as usize;
     for i in 0..stars {
         let star = if REVERSE { stars - 1 - i } else { i };
@@ -238,12 +238,12 @@ fn sweep_stars<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
         let mut element = |((tip, arm_b), (&coefficient, share)): Damped<'_, P, P::Real>| {
             let d = P::displacement(&centre, tip);
             let u = d * d.dot(d).sqrt().reciprocal_or_zero();
-            let mut moments = [Vec3::ZERO; 2];
+            let mut moments = [P::Moment::ZERO; 2];
             if pair.has(0) {
-                moments[0] = end_a.to_axes(arm_a.cross(u));
+                moments[0] = end_a.moment_to_axes(arm_a.cross(u));
             }
             if pair.has(1) {
-                moments[1] = end_b.to_axes(arm_b.cross(u));
+                moments[1] = end_b.moment_to_axes(arm_b.cross(u));
             }
             let damper = sweep.damper::<REVERSE>(coefficient, share);
             pair.damp::<P, K>(&Direction { along: u, moments }, damper);
@@ -263,7 +263,7 @@ fn sweep_stars<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
 #[inline(always)]
 fn engaged<P: Geometry, T: Terms>(
     model: &ModelRef<'_, P, T>,
-    element: &Placed<'_, P::Real>,
+    element: &Placed<'_, P::Vector>,
     damping: P::Real,
 ) -> P::Real {
     let clearance = model.clearance(element.group);
@@ -280,7 +280,7 @@ fn engaged<P: Geometry, T: Terms>(
 fn torsion<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
-    spring: &TorsionSpring<P::Real>,
+    spring: &TorsionSpring<P::Space>,
     turns: i32,
     bodies: &mut [BodyState<P>],
 ) {
@@ -299,15 +299,15 @@ fn torsion<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
 fn torsion_direction<P: Geometry, T: Terms>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
-    spring: &TorsionSpring<P::Real>,
+    spring: &TorsionSpring<P::Space>,
     turns: i32,
     bodies: &[BodyState<P>],
-) -> Option<Direction<P::Real>> {
+) -> Option<Direction<P::Space>> {
     let twist = twist_of::<P>(spring, bodies, turns)?;
-    let world = End::new(model, places, spring.a, None).to_world(twist.gradient);
+    let world = End::new(model, places, spring.a, None).moment_to_world(twist.gradient);
     let moments = [spring.a, spring.b].map(|body| match places.frames.get(body.row()) {
-        Some(frame) => P::to_body(frame, world),
-        None => Vec3::ZERO,
+        Some(frame) => P::moment_to_body(frame, world),
+        None => P::Moment::ZERO,
     });
-    Some(Direction { along: Vec3::ZERO, moments })
+    Some(Direction { along: P::Vector::ZERO, moments })
 }

@@ -11,16 +11,17 @@ use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{ModelRef, Terms};
 use crate::pose::{Places, placed};
-use crate::real::Real;
+use crate::real::Real as _;
+use crate::space::{Linear as _, Moment as _, Space};
 
 /// What an impulse of 1 along a damper does to its two bodies.
 #[derive(Clone, Copy)]
-pub(super) struct Motion<R> {
+pub(super) struct Motion<S: Space> {
     bodies: [BodyIndex; 2],
-    increments: [Increment<R>; 2],
+    increments: [Increment<S>; 2],
     /// `K_ii`, 1/μ.
-    pub(super) rate: R,
-    coefficient: R,
+    pub(super) rate: S::Real,
+    coefficient: S::Real,
 }
 
 /// Where dampers stand: groups in order, then torsion springs.
@@ -72,7 +73,7 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
     pub(super) fn each_damper(
         &self,
         mount: Mount,
-        mut visit: impl FnMut(usize, P::Real, P::Real, &Direction<P::Real>),
+        mut visit: impl FnMut(usize, P::Real, P::Real, &Direction<P::Space>),
     ) {
         let Self { model, places, bodies, turns, levers } = *self;
         let one = P::Real::ONE;
@@ -113,17 +114,21 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
     }
 }
 
-impl<R: Real> Motion<R> {
+impl<S: Space> Motion<S> {
     /// `None` for a damper that moves nothing.
-    pub(super) fn new<P: Geometry<Real = R>, T: Terms>(
+    pub(super) fn new<P: Geometry<Space = S, Real = S::Real>, T: Terms>(
         model: &ModelRef<'_, P, T>,
         bodies: [BodyIndex; 2],
-        coefficient: R,
-        direction: &Direction<R>,
+        coefficient: S::Real,
+        direction: &Direction<S>,
     ) -> Option<Self> {
-        let mut motion =
-            Self { bodies, increments: [Increment::default(); 2], rate: R::ZERO, coefficient };
-        let ends = bodies.into_iter().zip(direction.moments).zip([-R::ONE, R::ONE]);
+        let mut motion = Self {
+            bodies,
+            increments: [Increment::default(); 2],
+            rate: S::Real::ZERO,
+            coefficient,
+        };
+        let ends = bodies.into_iter().zip(direction.moments).zip([-S::Real::ONE, S::Real::ONE]);
         for (((body, moment), sign), increment) in ends.zip(&mut motion.increments) {
             if let Some(body) = model.bodies.get(body.row()) {
                 *increment = Increment {
@@ -133,14 +138,16 @@ impl<R: Real> Motion<R> {
             }
         }
         motion.rate = motion.rate(bodies, direction);
-        (motion.rate > R::ZERO && coefficient > R::ZERO).then_some(motion)
+        (motion.rate > S::Real::ZERO && coefficient > S::Real::ZERO).then_some(motion)
     }
 
     /// The rate along a direction between two bodies.
-    pub(super) fn rate(&self, ends: [BodyIndex; 2], direction: &Direction<R>) -> R {
-        let mut rate = R::ZERO;
+    pub(super) fn rate(&self, ends: [BodyIndex; 2], direction: &Direction<S>) -> S::Real {
+        let mut rate = S::Real::ZERO;
         for (moved, increment) in self.bodies.iter().zip(&self.increments) {
-            for ((end, moment), sign) in ends.iter().zip(direction.moments).zip([-R::ONE, R::ONE]) {
+            for ((end, moment), sign) in
+                ends.iter().zip(direction.moments).zip([-S::Real::ONE, S::Real::ONE])
+            {
                 if end == moved && !end.is_world() {
                     let here =
                         direction.along.dot(increment.linear) + moment.dot(increment.angular);
@@ -155,9 +162,9 @@ impl<R: Real> Motion<R> {
     pub(super) fn power(
         &self,
         ends: [BodyIndex; 2],
-        coefficient: R,
-        direction: &Direction<R>,
-    ) -> R {
+        coefficient: S::Real,
+        direction: &Direction<S>,
+    ) -> S::Real {
         let share = self.rate(ends, direction) / self.rate;
         coefficient / self.coefficient * (share * share)
     }

@@ -7,7 +7,7 @@ use crate::forces::Wrench;
 use crate::geometry::Geometry;
 use crate::model::{ModelRef, Terms};
 use crate::real::Real;
-use crate::vector::Vec3;
+use crate::space::{Linear as _, Moment as _, Space};
 
 /// What a damper knows of itself besides its levers.
 #[derive(Clone, Copy)]
@@ -50,7 +50,7 @@ pub(crate) trait Kick<P: Geometry> {
     /// Whether there is one.
     const KNOWN: bool;
     /// What it gave to the body in this row.
-    fn of(&self, row: usize) -> Increment<P::Real>;
+    fn of(&self, row: usize) -> Increment<P::Space>;
 }
 
 /// A sweep by itself: no kick came before.
@@ -60,22 +60,22 @@ impl<P: Geometry> Kick<P> for NoKick {
     const KNOWN: bool = false;
 
     #[inline(always)]
-    fn of(&self, _: usize) -> Increment<P::Real> {
+    fn of(&self, _: usize) -> Increment<P::Space> {
         Increment::default()
     }
 }
 
 /// The kick of half a step.
-pub(crate) struct HalfKick<'s, R> {
-    pub(crate) wrenches: &'s [Wrench<R>],
-    pub(crate) diagonals: &'s [Diagonal<R>],
+pub(crate) struct HalfKick<'s, S: Space> {
+    pub(crate) wrenches: &'s [Wrench<S>],
+    pub(crate) diagonals: &'s [Diagonal<S>],
 }
 
-impl<P: Geometry> Kick<P> for HalfKick<'_, P::Real> {
+impl<P: Geometry> Kick<P> for HalfKick<'_, P::Space> {
     const KNOWN: bool = true;
 
     #[inline(always)]
-    fn of(&self, row: usize) -> Increment<P::Real> {
+    fn of(&self, row: usize) -> Increment<P::Space> {
         let rows = self.wrenches.get(row).zip(self.diagonals.get(row));
         rows.map_or_else(Increment::default, |(wrench, diagonal)| {
             diagonal.increment(wrench.force, wrench.torque, P::Real::HALF)
@@ -86,32 +86,32 @@ impl<P: Geometry> Kick<P> for HalfKick<'_, P::Real> {
 /// A damper's direction u in world axes, and the moments `r × u` of a unit force along it on the
 /// two bodies, body axes. The ground has none.
 #[derive(Clone, Copy)]
-pub(super) struct Direction<R> {
-    pub(super) along: Vec3<R>,
-    pub(super) moments: [Vec3<R>; 2],
+pub(super) struct Direction<S: Space> {
+    pub(super) along: S::Vector,
+    pub(super) moments: [S::Moment; 2],
 }
 
 /// One of a pair's bodies while its dampers turn it.
 #[derive(Clone, Copy)]
-struct Side<R> {
-    inverse_inertia: Vec3<R>,
+struct Side<S: Space> {
+    inverse_inertia: S::Moment,
     /// \[rad/s\] body axes, before.
-    spin: Vec3<R>,
+    spin: S::Moment,
     /// \[rad/s\] what the kick gave to it.
-    kick: Vec3<R>,
+    kick: S::Moment,
     /// \[rad/s\] what the dampers gave to it so far.
-    turn: Vec3<R>,
+    turn: S::Moment,
 }
 
-impl<R: Real> Side<R> {
+impl<S: Space> Side<S> {
     #[inline(always)]
-    fn rate(&self, moment: Vec3<R>) -> R {
+    fn rate(&self, moment: S::Moment) -> S::Real {
         moment.dot(self.spin + self.turn)
     }
 
     /// An impulsive moment; what it does per unit is at hand.
     #[inline(always)]
-    fn turn(&mut self, response: Vec3<R>, impulse: R) {
+    fn turn(&mut self, response: S::Moment, impulse: S::Real) {
         self.turn = self.turn + response * impulse;
     }
 }
@@ -119,28 +119,32 @@ impl<R: Real> Side<R> {
 /// A pair's two bodies while its dampers push them. Impulses are summed apart from the velocities,
 /// which are rounded once per pair, not once per damper: a fast body's velocity in single precision
 /// has no digits for what one damper of its joint takes away.
-pub(super) struct Pair<R> {
+pub(super) struct Pair<S: Space> {
     rows: [usize; 2],
-    sides: [Option<Side<R>>; 2],
-    inverse_masses: [R; 2],
+    sides: [Option<Side<S>>; 2],
+    inverse_masses: [S::Real; 2],
     /// \[m/s\] of the second body less that of the first, moved ground included, before.
-    velocity: Vec3<R>,
+    velocity: S::Vector,
     /// \[m/s\] what the kick gave to it.
-    kick: Vec3<R>,
+    kick: S::Vector,
     /// \[N·s\] on the first body so far, the second's reversed.
-    impulse: Vec3<R>,
+    impulse: S::Vector,
     /// \[1/kg\] of both bodies together.
-    inverse_mass: R,
+    inverse_mass: S::Real,
 }
 
-impl<R: Real> Pair<R> {
+impl<S: Space> Pair<S> {
     /// The bodies in two rows; the ground has none.
     #[inline(always)]
-    pub(super) fn new<P: Geometry<Real = R>, T: Terms, K: Kick<P>>(
+    pub(super) fn new<
+        P: Geometry<Space = S, Real = S::Real, Vector = S::Vector, Moment = S::Moment>,
+        T: Terms,
+        K: Kick<P>,
+    >(
         model: &ModelRef<'_, P, T>,
         rows: [usize; 2],
         bodies: &[BodyState<P>],
-        ground_rate: Vec3<R>,
+        ground_rate: S::Vector,
         kick: &K,
     ) -> Self {
         let [a, b] = rows.map(|row| {
@@ -148,15 +152,15 @@ impl<R: Real> Pair<R> {
             let kick = kick.of(row);
             let side = Side {
                 inverse_inertia: body.inverse_inertia,
-                spin: P::velocity(&state.angular_velocity),
+                spin: P::spin(&state.angular_velocity),
                 kick: kick.angular,
-                turn: Vec3::ZERO,
+                turn: S::Moment::ZERO,
             };
             Some((side, body.inverse_mass, P::velocity(&state.velocity), kick.linear))
         });
         let mut velocity = ground_rate;
-        let mut pushed = Vec3::ZERO;
-        let mut inverse_masses = [R::ZERO; 2];
+        let mut pushed = S::Vector::ZERO;
+        let mut inverse_masses = [S::Real::ZERO; 2];
         if let Some((_, inverse_mass, linear, kick)) = b {
             velocity = velocity + linear;
             pushed = kick;
@@ -173,7 +177,7 @@ impl<R: Real> Pair<R> {
             inverse_masses,
             velocity,
             kick: pushed,
-            impulse: Vec3::ZERO,
+            impulse: S::Vector::ZERO,
             inverse_mass: inverse_masses[0] + inverse_masses[1],
         }
     }
@@ -186,17 +190,20 @@ impl<R: Real> Pair<R> {
 
     /// One damper acts.
     #[inline(always)]
-    pub(super) fn damp<P: Geometry<Real = R>, K: Kick<P>>(
+    pub(super) fn damp<
+        P: Geometry<Space = S, Real = S::Real, Vector = S::Vector, Moment = S::Moment>,
+        K: Kick<P>,
+    >(
         &mut self,
-        direction: &Direction<R>,
-        damper: Damper<R>,
+        direction: &Direction<S>,
+        damper: Damper<S::Real>,
     ) {
         let Direction { along: u, moments: [moment_a, moment_b] } = *direction;
         let [a, b] = &mut self.sides;
         let mut inverse = u.dot(u) * self.inverse_mass;
         let mut rate = u.dot(self.velocity - self.impulse * self.inverse_mass);
-        let mut kick = if K::KNOWN { u.dot(self.kick) } else { R::ZERO };
-        let (mut response_a, mut response_b) = (Vec3::ZERO, Vec3::ZERO);
+        let mut kick = if K::KNOWN { u.dot(self.kick) } else { S::Real::ZERO };
+        let (mut response_a, mut response_b) = (S::Moment::ZERO, S::Moment::ZERO);
         if let Some(b) = b {
             response_b = moment_b.scale(b.inverse_inertia);
             inverse = inverse + moment_b.dot(response_b);
@@ -214,7 +221,7 @@ impl<R: Real> Pair<R> {
             }
         }
         // Without a direction (coincident points) nothing can be pushed.
-        if inverse == R::ZERO {
+        if inverse == S::Real::ZERO {
             return;
         }
         let (x, impulse_per_rate) = damper.impulse_per_rate(inverse);
@@ -233,7 +240,12 @@ impl<R: Real> Pair<R> {
 
     /// Adds what the dampers did to the bodies' velocities.
     #[inline(always)]
-    pub(super) fn store<P: Geometry<Real = R>>(self, bodies: &mut [BodyState<P>]) {
+    pub(super) fn store<
+        P: Geometry<Space = S, Real = S::Real, Vector = S::Vector, Moment = S::Moment>,
+    >(
+        self,
+        bodies: &mut [BodyState<P>],
+    ) {
         let [row_a, row_b] = self.rows;
         let [a, b] = self.sides;
         let [inverse_a, inverse_b] = self.inverse_masses;
@@ -241,7 +253,7 @@ impl<R: Real> Pair<R> {
         for (row, side, inverse_mass) in sides {
             if let (Some(side), Some(state)) = (side, bodies.get_mut(row)) {
                 P::accelerate(&mut state.velocity, self.impulse * inverse_mass);
-                P::accelerate(&mut state.angular_velocity, side.turn);
+                P::spin_up(&mut state.angular_velocity, side.turn);
             }
         }
     }

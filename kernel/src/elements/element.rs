@@ -7,8 +7,7 @@ use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_law::{PointLaw, Stretch};
 use crate::elements::point_on_line::PointOnLine;
 use crate::elements::tsda::Tsda;
-use crate::real::Real;
-use crate::vector::Vec3;
+use crate::space::Space;
 
 /// The law that a group's elements follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,7 +27,7 @@ impl Law {
     #[must_use]
     pub const fn takes_arms(self, arms: u8) -> bool {
         match self {
-            Law::Tsda => arms == 1 || arms == 3,
+            Law::Tsda => arms >= 1 && arms <= 3,
             Law::PointBushing => arms == 1,
             Law::PointOnLine => arms == 1 || arms == 2,
         }
@@ -37,13 +36,13 @@ impl Law {
 
 /// One element of any law.
 #[derive(Clone, Copy, Debug)]
-pub enum Element<'m, R> {
+pub enum Element<'m, S: Space> {
     /// A TSDA with a free length.
-    Tsda(&'m Tsda<R>),
+    Tsda(&'m Tsda<S::Real>),
     /// A TSDA of no free length.
-    PointBushing(&'m PointBushing<R>),
+    PointBushing(&'m PointBushing<S::Real>),
     /// A point held to a line.
-    PointOnLine(&'m PointOnLine<R>),
+    PointOnLine(&'m PointOnLine<S>),
 }
 
 /// Calls a method of the law that an element follows.
@@ -57,16 +56,16 @@ macro_rules! of_law {
     };
 }
 
-impl<R: Real> Element<'_, R> {
+impl<S: Space> Element<'_, S> {
     /// As [`PointLaw::extension`].
     #[inline(always)]
-    pub fn extension(&self, displacement: Vec3<R>) -> R {
+    pub fn extension(&self, displacement: S::Vector) -> S::Real {
         of_law!(self, law => PointLaw::extension(*law, displacement))
     }
 
     /// As [`PointLaw::energy`].
     #[inline(always)]
-    pub fn energy(&self, displacement: Vec3<R>, clearance: Option<R>) -> R {
+    pub fn energy(&self, displacement: S::Vector, clearance: Option<S::Real>) -> S::Real {
         of_law!(self, law => PointLaw::energy(*law, displacement, clearance))
     }
 
@@ -74,10 +73,10 @@ impl<R: Real> Element<'_, R> {
     #[inline(always)]
     pub fn tangent(
         &self,
-        stretch: &Stretch<R>,
-        arm: Vec3<R>,
-        add: &mut impl FnMut(R, Vec3<R>),
-    ) -> R {
-        of_law!(self, law => law.tangent(stretch, arm, add))
+        stretch: &Stretch<S::Vector>,
+        arm: S::Vector,
+        add: &mut impl FnMut(S::Real, S::Vector),
+    ) -> S::Real {
+        of_law!(self, law => PointLaw::tangent(*law, stretch, arm, add))
     }
 }

@@ -2,24 +2,24 @@
 //!
 //! `(mass, g) => force = m·g`, world axes, at the centre of mass. Energy `−m·(g·x)`.
 
-use crate::real::Real;
-use crate::vector::Vec3;
+use crate::space::Linear;
 
 /// The weight \[N\] of a body of `mass` \[kg\] in the field `gravity` \[m/s²\].
 #[inline(always)]
-pub fn weight<R: Real>(mass: R, gravity: Vec3<R>) -> Vec3<R> {
+pub fn weight<V: Linear>(mass: V::Real, gravity: V) -> V {
     gravity * mass
 }
 
 /// Potential energy \[J\] of a body of `mass` \[kg\] at `position` \[m\], 0 at the origin.
 #[inline]
-pub fn energy<R: Real>(mass: R, gravity: Vec3<R>, position: Vec3<R>) -> R {
+pub fn energy<V: Linear>(mass: V::Real, gravity: V, position: V) -> V::Real {
     -(mass * gravity.dot(position))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::vector::Vec3;
 
     #[test]
     fn energy_grows_against_the_field() {

@@ -7,7 +7,7 @@ use crate::elements::load::LoadFrame;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::real::Real;
-use crate::vector::Vec3;
+use crate::space::Linear as _;
 
 /// What an input's signal does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +19,7 @@ pub enum InputKind<P: Geometry> {
         /// The point in body axes.
         point: P::Local,
         /// Unit direction.
-        direction: Vec3<P::Real>,
+        direction: P::Vector,
         /// The direction's axes.
         frame: LoadFrame,
     },
@@ -28,7 +28,7 @@ pub enum InputKind<P: Geometry> {
         /// The body.
         body: BodyIndex,
         /// Unit axis.
-        axis: Vec3<P::Real>,
+        axis: P::Moment,
         /// The axis' axes.
         frame: LoadFrame,
     },
@@ -39,7 +39,7 @@ pub enum InputKind<P: Geometry> {
         /// Second body.
         b: BodyIndex,
         /// Unit axis in A's axes.
-        axis: Vec3<P::Real>,
+        axis: P::Moment,
     },
     /// A tension \[N\] along a TSDA beside its spring's: the actuator of the TSDA.
     Actuator {
@@ -52,7 +52,7 @@ pub enum InputKind<P: Geometry> {
     /// are those of the elements whose body is [`BodyIndex::anchor`] of this input.
     Anchor {
         /// Unit direction, world axes.
-        direction: Vec3<P::Real>,
+        direction: P::Vector,
     },
 }
 
@@ -81,7 +81,8 @@ impl<P: Geometry> Input<P> {
 
     /// The same input in another precision.
     pub fn convert<Q: Geometry>(&self) -> Input<Q> {
-        let vector = |v: Vec3<P::Real>| Vec3::from_f64(v.to_f64());
+        let vector = |v: P::Vector| Q::Vector::from_f64(v.to_f64());
+        let moment = |m: P::Moment| Q::Moment::from_f64(m.to_f64());
         let kind = match self.kind {
             InputKind::Force { body, point, direction, frame } => InputKind::Force {
                 body,
@@ -90,10 +91,10 @@ impl<P: Geometry> Input<P> {
                 frame,
             },
             InputKind::Torque { body, axis, frame } => {
-                InputKind::Torque { body, axis: vector(axis), frame }
+                InputKind::Torque { body, axis: moment(axis), frame }
             }
             InputKind::JointTorque { a, b, axis } => {
-                InputKind::JointTorque { a, b, axis: vector(axis) }
+                InputKind::JointTorque { a, b, axis: moment(axis) }
             }
             InputKind::Actuator { group, element } => InputKind::Actuator { group, element },
             InputKind::Anchor { direction } => InputKind::Anchor { direction: vector(direction) },

@@ -5,8 +5,8 @@
 //! and a torque have none.
 
 use crate::index::BodyIndex;
-use crate::real::Real;
-use crate::vector::Vec3;
+use crate::real::Real as _;
+use crate::space::{Linear as _, Space};
 
 /// The axes in which a load is given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -21,30 +21,29 @@ pub enum LoadFrame {
 
 /// A constant load.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Load<R> {
+pub struct Load<S: Space> {
     /// The body it acts on.
     pub body: BodyIndex,
     /// The axes of `force` and `torque`.
     pub frame: LoadFrame,
     /// \[N\] force at the centre of mass.
-    pub force: Vec3<R>,
+    pub force: S::Vector,
     /// \[N·m\] torque.
-    pub torque: Vec3<R>,
+    pub torque: S::Moment,
     /// \[s\] start of the window.
     pub from: f64,
     /// \[s\] end of the window, exclusive; infinite where it never ends.
     pub until: f64,
 }
 
-impl<R: Real> Load<R> {
+impl<S: Space> Load<S> {
     /// The same load in another precision.
-    pub fn convert<Q: Real>(&self) -> Load<Q> {
+    pub fn convert<Q: Space>(&self) -> Load<Q> {
         Load {
             body: self.body,
             frame: self.frame,
-            force: Vec3::from_f64(self.force.to_f64()),
-            torque: Vec3::from_f64(self.torque.to_f64()),
+            force: Q::Vector::from_f64(self.force.to_f64()),
+            torque: Q::Moment::from_f64(self.torque.to_f64()),
             from: self.from,
             until: self.until,
         }
@@ -52,10 +51,10 @@ impl<R: Real> Load<R> {
 
     /// Potential energy \[J\] of an active load on a body at `position` \[m\].
     #[inline]
-    pub fn energy(&self, position: Vec3<R>) -> R {
+    pub fn energy(&self, position: S::Vector) -> S::Real {
         match self.frame {
             LoadFrame::World => -self.force.dot(position),
-            LoadFrame::Body => R::ZERO,
+            LoadFrame::Body => S::Real::ZERO,
         }
     }
 }

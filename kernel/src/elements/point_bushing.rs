@@ -7,7 +7,7 @@
 
 use crate::elements::point_law::{PointLaw, Stretch};
 use crate::real::Real;
-use crate::vector::Vec3;
+use crate::space::{Linear, Vector};
 
 /// The constants of a point bushing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -30,39 +30,39 @@ impl<R: Real> PointBushing<R> {
 
     /// Force on A \[N\] without damping.
     #[inline(always)]
-    pub fn force(&self, d: Vec3<R>) -> Vec3<R> {
+    pub fn force<V: Linear<Real = R>>(&self, d: V) -> V {
         d * self.stiffness
     }
 
     /// Force on A \[N\] with the damper's share, `damping` in N·s/m.
     #[inline(always)]
-    pub fn damped_force(&self, damping: R, d: Vec3<R>, v_rel: Vec3<R>) -> Vec3<R> {
+    pub fn damped_force<V: Linear<Real = R>>(&self, damping: R, d: V, v_rel: V) -> V {
         d * self.stiffness + v_rel * damping
     }
 }
 
-impl<R: Real> PointLaw<R> for PointBushing<R> {
+impl<V: Vector> PointLaw<V> for PointBushing<V::Real> {
     /// `|d|` \[m\].
     #[inline]
-    fn extension(&self, d: Vec3<R>) -> R {
+    fn extension(&self, d: V) -> V::Real {
         d.dot(d).sqrt()
     }
 
     /// A point bushing has no clearance.
     #[inline]
-    fn energy(&self, d: Vec3<R>, _: Option<R>) -> R {
-        R::HALF * self.stiffness * d.dot(d)
+    fn energy(&self, d: V, _: Option<V::Real>) -> V::Real {
+        V::Real::HALF * self.stiffness * d.dot(d)
     }
 
     /// Along the world's axes.
     #[inline(always)]
-    fn damped(_: &Stretch<R>) -> ([Vec3<R>; 3], usize) {
-        (Vec3::axes(), 3)
+    fn damped(_: &Stretch<V>) -> ([V; 3], usize) {
+        (V::axes(), V::DIMENSION)
     }
 
     /// k in every direction, and the force on a turning arm.
-    fn tangent(&self, stretch: &Stretch<R>, arm: Vec3<R>, add: &mut impl FnMut(R, Vec3<R>)) -> R {
-        for u in Vec3::axes() {
+    fn tangent(&self, stretch: &Stretch<V>, arm: V, add: &mut impl FnMut(V::Real, V)) -> V::Real {
+        for u in V::axes().into_iter().take(V::DIMENSION) {
             add(self.stiffness, u);
         }
         let d = stretch.displacement;
@@ -73,6 +73,7 @@ impl<R: Real> PointLaw<R> for PointBushing<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::vector::Vec3;
 
     #[test]
     fn the_law_is_linear_in_displacement_and_rate() {

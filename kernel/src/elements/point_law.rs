@@ -4,43 +4,43 @@
 //! A law acts along the way from a point of A to a point of B; [`crate::forces`] holds the walk that
 //! places its points.
 
-use crate::real::Real;
-use crate::vector::Vec3;
+use crate::real::Real as _;
+use crate::space::Vector;
 
 /// An element at a pose, world axes.
 #[derive(Clone, Copy, Debug)]
-pub struct Stretch<R> {
+pub struct Stretch<V> {
     /// \[m\] from its first point to its second; on a line from the foot to the point.
-    pub displacement: Vec3<R>,
+    pub displacement: V,
     /// \[1\] the direction of its line; 0 where the law knows no line.
-    pub direction: Vec3<R>,
+    pub direction: V,
 }
 
 /// What energies, sweeps, read-outs and frequencies ask of a law.
-pub trait PointLaw<R: Real> {
+pub trait PointLaw<V: Vector> {
     /// \[m\] how far the element is from its free length.
-    fn extension(&self, displacement: Vec3<R>) -> R;
+    fn extension(&self, displacement: V) -> V::Real;
 
     /// \[J\] stored energy, beyond a clearance \[m\] if there is one.
-    fn energy(&self, displacement: Vec3<R>, clearance: Option<R>) -> R;
+    fn energy(&self, displacement: V, clearance: Option<V::Real>) -> V::Real;
 
     /// The directions in which its damper acts, and how many of them there are.
-    fn damped(stretch: &Stretch<R>) -> ([Vec3<R>; 3], usize);
+    fn damped(stretch: &Stretch<V>) -> ([V; 3], usize);
 
     /// Its tangent as springs, `add(κ \[N/m\], direction)`, which act on a body at the end of `arm`
     /// \[m\]; returns \[N·m\] what its force does to a turn of the body, in any direction at most.
-    fn tangent(&self, stretch: &Stretch<R>, arm: Vec3<R>, add: &mut impl FnMut(R, Vec3<R>)) -> R;
+    fn tangent(&self, stretch: &Stretch<V>, arm: V, add: &mut impl FnMut(V::Real, V)) -> V::Real;
 }
 
 /// The tangent that a tension \[N\] adds to whatever it pulls along `displacement`: |T|/L along both
 /// normals; returns |T|·|arm|.
 #[inline(always)]
-pub(crate) fn taut<R: Real>(
-    tension: R,
-    displacement: Vec3<R>,
-    arm: Vec3<R>,
-    add: &mut impl FnMut(R, Vec3<R>),
-) -> R {
+pub(crate) fn taut<V: Vector>(
+    tension: V::Real,
+    displacement: V,
+    arm: V,
+    add: &mut impl FnMut(V::Real, V),
+) -> V::Real {
     let inverse = displacement.dot(displacement).sqrt().reciprocal_or_zero();
     for n in (displacement * inverse).normals() {
         add(tension * inverse, n);

@@ -12,50 +12,49 @@
 use crate::elements::clearance::{beyond, engaged};
 use crate::elements::point_law::{PointLaw, Stretch};
 use crate::real::Real;
-use crate::vector::Vec3;
+use crate::space::{Linear as _, Space, Vector};
 
 /// The constants of a point on a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct PointOnLine<R> {
+pub struct PointOnLine<S: Space> {
     /// \[1\] unit direction of the line in A's axes.
-    pub direction: Vec3<R>,
+    pub direction: S::Vector,
     /// \[N/m\] stiffness normal to the line, ≥ 0.
-    pub stiffness: R,
+    pub stiffness: S::Real,
     /// \[m\] free distance from the line, ≥ 0.
-    pub free_length: R,
+    pub free_length: S::Real,
 }
 
 /// A point relative to its line, world axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Projection<R> {
+pub(crate) struct Projection<V: Vector> {
     /// Along the line from its defining point to the foot.
-    pub(crate) slide: R,
+    pub(crate) slide: V::Real,
     /// From the foot to the point.
-    pub(crate) deflection: Vec3<R>,
+    pub(crate) deflection: V,
 }
 
-impl<R: Real> Projection<R> {
+impl<V: Vector> Projection<V> {
     /// Projects `d` on the unit direction `n`.
     #[inline(always)]
-    pub(crate) fn new(d: Vec3<R>, n: Vec3<R>) -> Self {
+    pub(crate) fn new(d: V, n: V) -> Self {
         let slide = d.dot(n);
         Self { slide, deflection: d - n * slide }
     }
 }
 
-impl<R: Real> PointOnLine<R> {
+impl<S: Space> PointOnLine<S> {
     /// Each constant rounded once from double precision.
     pub fn from_f64(direction: [f64; 3], stiffness: f64, free_length: f64) -> Self {
         Self {
-            direction: Vec3::from_f64(direction),
-            stiffness: R::from_f64(stiffness),
-            free_length: R::from_f64(free_length),
+            direction: S::Vector::from_f64(direction),
+            stiffness: S::Real::from_f64(stiffness),
+            free_length: S::Real::from_f64(free_length),
         }
     }
 
     /// The same constants in another precision.
-    pub fn convert<Q: Real>(&self) -> PointOnLine<Q> {
+    pub fn convert<Q: Space>(&self) -> PointOnLine<Q> {
         PointOnLine::from_f64(
             self.direction.to_f64(),
             self.stiffness.to_f64(),
@@ -66,8 +65,8 @@ impl<R: Real> PointOnLine<R> {
     /// Force on A \[N\] for the deflection `e` without damping, beyond a clearance \[m\] if there
     /// is one.
     #[inline(always)]
-    pub fn force(&self, e: Vec3<R>, clearance: Option<R>) -> Vec3<R> {
-        if clearance.is_none() && self.free_length == R::ZERO {
+    pub fn force(&self, e: S::Vector, clearance: Option<S::Real>) -> S::Vector {
+        if clearance.is_none() && self.free_length == S::Real::ZERO {
             return e * self.stiffness;
         }
         let length = e.dot(e).sqrt();
@@ -79,54 +78,59 @@ impl<R: Real> PointOnLine<R> {
     #[inline(always)]
     pub fn damped_force(
         &self,
-        damping: R,
-        e: Vec3<R>,
-        rate: Vec3<R>,
-        clearance: Option<R>,
-    ) -> Vec3<R> {
+        damping: S::Real,
+        e: S::Vector,
+        rate: S::Vector,
+        clearance: Option<S::Real>,
+    ) -> S::Vector {
         let damping = engaged(damping, self.extension(e), clearance);
         self.force(e, clearance) + rate * damping
     }
 }
 
-impl<R: Real> PointLaw<R> for PointOnLine<R> {
+impl<S: Space> PointLaw<S::Vector> for PointOnLine<S> {
     /// `|e| − L0` \[m\].
     #[inline]
-    fn extension(&self, e: Vec3<R>) -> R {
+    fn extension(&self, e: S::Vector) -> S::Real {
         e.dot(e).sqrt() - self.free_length
     }
 
     #[inline]
-    fn energy(&self, e: Vec3<R>, clearance: Option<R>) -> R {
+    fn energy(&self, e: S::Vector, clearance: Option<S::Real>) -> S::Real {
         let extension = beyond(self.extension(e), clearance);
-        R::HALF * self.stiffness * extension * extension
+        S::Real::HALF * self.stiffness * extension * extension
     }
 
-    /// Along the line's two normals.
+    /// Along the line's normals.
     #[inline(always)]
-    fn damped(stretch: &Stretch<R>) -> ([Vec3<R>; 3], usize) {
+    fn damped(stretch: &Stretch<S::Vector>) -> ([S::Vector; 3], usize) {
         let [n, m] = stretch.direction.normals();
-        ([n, m, Vec3::ZERO], 2)
+        ([n, m, S::Vector::ZERO], S::Vector::DIMENSION - 1)
     }
 
     /// k along e and, where the law is isotropic, across it; otherwise the force over |e| there. A
     /// loaded line that turns trades the turn against the slide: both get a spring, with the arm
     /// as the length that weighs one against the other.
-    fn tangent(&self, stretch: &Stretch<R>, arm: Vec3<R>, add: &mut impl FnMut(R, Vec3<R>)) -> R {
+    fn tangent(
+        &self,
+        stretch: &Stretch<S::Vector>,
+        arm: S::Vector,
+        add: &mut impl FnMut(S::Real, S::Vector),
+    ) -> S::Real {
         let (e, line) = (stretch.displacement, stretch.direction);
         let inverse = e.dot(e).sqrt().reciprocal_or_zero();
         let force = (self.stiffness * self.extension(e)).abs();
-        let isotropic = self.free_length == R::ZERO;
+        let isotropic = self.free_length == S::Real::ZERO;
         let [n, m] =
-            if isotropic { line.normals() } else { [e * inverse, line.cross(e * inverse)] };
+            if isotropic { line.normals() } else { [e * inverse, line.across(e * inverse)] };
         add(self.stiffness, n);
         add(if isotropic { self.stiffness } else { force * inverse }, m);
-        if force > R::ZERO {
+        if force > S::Real::ZERO {
             let reach = arm.dot(arm).sqrt();
             add(force * reach.reciprocal_or_zero(), line);
-            R::TWO * force * reach
+            S::Real::TWO * force * reach
         } else {
-            R::ZERO
+            S::Real::ZERO
         }
     }
 }
@@ -134,6 +138,7 @@ impl<R: Real> PointLaw<R> for PointOnLine<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::vector::Vec3;
 
     #[test]
     fn sliding_along_the_line_costs_nothing() {

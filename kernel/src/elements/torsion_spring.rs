@@ -14,36 +14,34 @@
 use crate::arctangent::atan2;
 use crate::index::{BodyIndex, DamperIndex};
 use crate::real::Real;
-use crate::vector::{Quaternion, Vec3};
+use crate::space::{Linear as _, Space, Turn as _};
 
 /// The constants of a torsion spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct TorsionSpring<R> {
+pub struct TorsionSpring<S: Space> {
     /// First body; the axis is fixed in it.
     pub a: BodyIndex,
     /// Second body; its twist is measured.
     pub b: BodyIndex,
     /// \[1\] unit axis in A's axes.
-    pub axis: Vec3<R>,
+    pub axis: S::Moment,
     /// \[1\] inverse of B's orientation in A at t = 0.
-    pub reference: Quaternion<R>,
+    pub reference: S::Turn,
     /// \[N·m/rad\] stiffness k, ≥ 0.
-    pub stiffness: R,
+    pub stiffness: S::Real,
     /// \[N·m\] torque on B at θ = 0.
-    pub preload: R,
+    pub preload: S::Real,
     /// Its damping coefficient \[N·m·s/rad\] among the model's dampers, if it has one.
     pub damper: DamperIndex,
 }
 
 /// A twist and its gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Twist<R> {
+pub struct Twist<S: Space> {
     /// \[rad\] unwrapped twist θ of B in A since t = 0.
-    pub angle: R,
+    pub angle: S::Real,
     /// \[1\] gradient g of the twist with respect to a rotation of B, A's axes.
-    pub gradient: Vec3<R>,
+    pub gradient: S::Moment,
 }
 
 /// The least `w² + (v·n)²` at which a twist is defined: B has then turned by almost half a turn
@@ -52,20 +50,22 @@ pub const LEAST_TWIST_NORM: f64 = 1e-6;
 
 /// How B has turned in A since t = 0.
 #[derive(Clone, Copy, Debug)]
-pub struct SinceStart<R> {
-    turn: Quaternion<R>,
+pub struct SinceStart<S: Space> {
+    turn: S::Turn,
+    /// w.
+    w: S::Real,
     /// `v·n`.
-    s: R,
+    s: S::Real,
     /// `w² + (v·n)²`.
-    norm: R,
+    norm: S::Real,
 }
 
-impl<R: Real> SinceStart<R> {
+impl<S: Space> SinceStart<S> {
     /// (w, v·n) with the sign that belongs to the turn count.
     #[inline(always)]
-    fn wound(&self, turns: i32) -> (R, R) {
+    fn wound(&self, turns: i32) -> (S::Real, S::Real) {
         let odd = turns & 1 != 0;
-        if odd { (-self.turn.w, -self.s) } else { (self.turn.w, self.s) }
+        if odd { (-self.w, -self.s) } else { (self.w, self.s) }
     }
 
     /// The turn count brought to the half winding nearest the pose, which a step does near its
@@ -74,24 +74,24 @@ impl<R: Real> SinceStart<R> {
     #[must_use]
     pub fn settled(&self, turns: i32) -> i32 {
         let (w, s) = self.wound(turns);
-        if w < R::ZERO {
-            if s > R::ZERO { turns.wrapping_add(1) } else { turns.wrapping_sub(1) }
+        if w < S::Real::ZERO {
+            if s > S::Real::ZERO { turns.wrapping_add(1) } else { turns.wrapping_sub(1) }
         } else {
             turns
         }
     }
 }
 
-impl<R: Real> TorsionSpring<R> {
+impl<S: Space> TorsionSpring<S> {
     /// The same spring in another precision.
-    pub fn convert<Q: Real>(&self) -> TorsionSpring<Q> {
+    pub fn convert<Q: Space>(&self) -> TorsionSpring<Q> {
         TorsionSpring {
             a: self.a,
             b: self.b,
-            axis: Vec3::from_f64(self.axis.to_f64()),
-            reference: Quaternion::from_f64(self.reference.to_f64()),
-            stiffness: Q::from_f64(self.stiffness.to_f64()),
-            preload: Q::from_f64(self.preload.to_f64()),
+            axis: Q::Moment::from_f64(self.axis.to_f64()),
+            reference: Q::Turn::from_f64(self.reference.to_f64()),
+            stiffness: Q::Real::from_f64(self.stiffness.to_f64()),
+            preload: Q::Real::from_f64(self.preload.to_f64()),
             damper: self.damper,
         }
     }
@@ -99,36 +99,38 @@ impl<R: Real> TorsionSpring<R> {
     /// The rotation since t = 0 for B's orientation `relative` in A's axes, or `None` where its twist
     /// is undefined.
     #[inline(always)]
-    pub fn since_start(&self, relative: Quaternion<R>) -> Option<SinceStart<R>> {
+    pub fn since_start(&self, relative: S::Turn) -> Option<SinceStart<S>> {
         let turn = relative.product(self.reference);
-        let s = turn.v.dot(self.axis);
-        let norm = turn.w * turn.w + s * s;
+        let (w, s) = turn.about(self.axis);
+        let norm = w * w + s * s;
         // Written so that NaN counts as undefined, too.
-        let defined = norm >= R::from_f64(LEAST_TWIST_NORM);
-        if defined { Some(SinceStart { turn, s, norm }) } else { None }
+        let defined = norm >= S::Real::from_f64(LEAST_TWIST_NORM);
+        if defined { Some(SinceStart { turn, w, s, norm }) } else { None }
     }
 
     /// The twist of a rotation at the turn count `turns`.
     #[inline(always)]
-    pub fn twist(&self, since: &SinceStart<R>, turns: i32) -> Twist<R> {
+    pub fn twist(&self, since: &SinceStart<S>, turns: i32) -> Twist<S> {
         let (w, s) = since.wound(turns);
-        let principal = R::TWO * atan2(s, w);
-        let angle =
-            if turns == 0 { principal } else { R::from_i32(turns) * (R::TWO * R::PI) + principal };
-        let (n, q) = (self.axis, since.turn);
-        let along = n * (q.w * q.w) + q.v.cross(n) * q.w + q.v * since.s;
-        Twist { angle, gradient: along * (R::ONE / since.norm) }
+        let two = S::Real::TWO;
+        let principal = two * atan2(s, w);
+        let angle = if turns == 0 {
+            principal
+        } else {
+            S::Real::from_i32(turns) * (two * S::Real::PI) + principal
+        };
+        Twist { angle, gradient: since.turn.gradient(self.axis, since.s, since.norm) }
     }
 
     /// Torque on B \[N·m\] in A's axes without damping.
     #[inline(always)]
-    pub fn torque(&self, twist: &Twist<R>) -> Vec3<R> {
+    pub fn torque(&self, twist: &Twist<S>) -> S::Moment {
         twist.gradient * (self.preload - self.stiffness * twist.angle)
     }
 
     /// Torque on B \[N·m\] in A's axes with the damper's share; `rate` is `ω_B − ω_A` in A's axes.
     #[inline(always)]
-    pub fn damped_torque(&self, damping: R, twist: &Twist<R>, rate: Vec3<R>) -> Vec3<R> {
+    pub fn damped_torque(&self, damping: S::Real, twist: &Twist<S>, rate: S::Moment) -> S::Moment {
         let spring = self.preload - self.stiffness * twist.angle;
         twist.gradient * (spring - damping * rate.dot(twist.gradient))
     }
@@ -137,21 +139,22 @@ impl<R: Real> TorsionSpring<R> {
     /// with the gradient g in any axes: its share of the frequency bound beside the stiffness
     /// along g.
     #[inline]
-    pub fn turning(&self, angle: R, gradient: Vec3<R>) -> R {
+    pub fn turning(&self, angle: S::Real, gradient: S::Moment) -> S::Real {
         let torque = (self.preload - self.stiffness * angle).abs();
-        R::HALF * torque * gradient.dot(gradient)
+        S::Real::HALF * torque * gradient.dot(gradient)
     }
 
     /// Stored energy \[J\]; 0 at θ = 0.
     #[inline]
-    pub fn energy(&self, angle: R) -> R {
-        R::HALF * self.stiffness * angle * angle - self.preload * angle
+    pub fn energy(&self, angle: S::Real) -> S::Real {
+        S::Real::HALF * self.stiffness * angle * angle - self.preload * angle
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::vector::{Quaternion, Vec3};
 
     fn spring(axis: [f64; 3]) -> TorsionSpring<f64> {
         TorsionSpring {

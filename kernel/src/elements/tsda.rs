@@ -8,7 +8,7 @@
 use crate::elements::clearance::{beyond, engaged};
 use crate::elements::point_law::{PointLaw, Stretch, taut};
 use crate::real::Real;
-use crate::vector::Vec3;
+use crate::space::{Linear, Vector};
 
 /// The constants of a TSDA with a free length.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,7 +33,7 @@ impl<R: Real> Tsda<R> {
 
     /// Force on A \[N\] without damping, beyond a clearance \[m\] if there is one.
     #[inline(always)]
-    pub fn force(&self, d: Vec3<R>, clearance: Option<R>) -> Vec3<R> {
+    pub fn force<V: Linear<Real = R>>(&self, d: V, clearance: Option<R>) -> V {
         let length = d.dot(d).sqrt();
         let inverse = length.reciprocal_or_zero();
         let tension = self.stiffness * beyond(length - self.free_length, clearance);
@@ -42,13 +42,13 @@ impl<R: Real> Tsda<R> {
 
     /// Force on A \[N\] with the damper's share, `damping` in N·s/m.
     #[inline(always)]
-    pub fn damped_force(
+    pub fn damped_force<V: Linear<Real = R>>(
         &self,
         damping: R,
-        d: Vec3<R>,
-        v_rel: Vec3<R>,
+        d: V,
+        v_rel: V,
         clearance: Option<R>,
-    ) -> Vec3<R> {
+    ) -> V {
         let length = d.dot(d).sqrt();
         let inverse = length.reciprocal_or_zero();
         let extension = length - self.free_length;
@@ -59,39 +59,41 @@ impl<R: Real> Tsda<R> {
     }
 }
 
-impl<R: Real> PointLaw<R> for Tsda<R> {
+impl<V: Vector> PointLaw<V> for Tsda<V::Real> {
     /// `L − L0` \[m\].
     #[inline]
-    fn extension(&self, d: Vec3<R>) -> R {
+    fn extension(&self, d: V) -> V::Real {
         d.dot(d).sqrt() - self.free_length
     }
 
     #[inline]
-    fn energy(&self, d: Vec3<R>, clearance: Option<R>) -> R {
+    fn energy(&self, d: V, clearance: Option<V::Real>) -> V::Real {
         let extension = beyond(self.extension(d), clearance);
-        R::HALF * self.stiffness * extension * extension
+        V::Real::HALF * self.stiffness * extension * extension
     }
 
     /// Along its line.
     #[inline(always)]
-    fn damped(stretch: &Stretch<R>) -> ([Vec3<R>; 3], usize) {
+    fn damped(stretch: &Stretch<V>) -> ([V; 3], usize) {
         let d = stretch.displacement;
         let along = d * d.dot(d).sqrt().reciprocal_or_zero();
-        ([along, Vec3::ZERO, Vec3::ZERO], 1)
+        ([along, V::ZERO, V::ZERO], 1)
     }
 
     /// k along its line, and what its tension adds; a clearance counts as taken up.
-    fn tangent(&self, stretch: &Stretch<R>, arm: Vec3<R>, add: &mut impl FnMut(R, Vec3<R>)) -> R {
+    fn tangent(&self, stretch: &Stretch<V>, arm: V, add: &mut impl FnMut(V::Real, V)) -> V::Real {
         let d = stretch.displacement;
         add(self.stiffness, d * d.dot(d).sqrt().reciprocal_or_zero());
         let tension = (self.stiffness * self.extension(d)).abs();
-        if tension > R::ZERO { taut(tension, d, arm, add) } else { R::ZERO }
+        let zero = V::Real::ZERO;
+        if tension > zero { taut(tension, d, arm, add) } else { zero }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::vector::Vec3;
 
     const SPRING: Tsda<f64> = Tsda { stiffness: 250.0, free_length: 0.5 };
 

@@ -38,6 +38,7 @@ fn rotation_vector<R: Real>(turn: Quaternion<R>) -> Vec3<R> {
 
 impl<R: Trigonometric, const SWITCH: bool> Attitude for EulerAngles<R, SWITCH> {
     type Real = R;
+    type Turn = Quaternion<R>;
 
     const NAME: &'static str = if SWITCH { "euler-321" } else { "euler-321-single" };
 
@@ -45,6 +46,9 @@ impl<R: Trigonometric, const SWITCH: bool> Attitude for EulerAngles<R, SWITCH> {
         EulerAngles::rotation(self)
     }
     fn quaternion(&self) -> Quaternion<R> {
+        EulerAngles::quaternion(self)
+    }
+    fn since_world(&self) -> Quaternion<R> {
         EulerAngles::quaternion(self)
     }
     fn turn(&mut self, turn: Quaternion<R>) {

@@ -6,6 +6,7 @@ use crate::forces::record::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::End;
+use crate::space::Vector as _;
 
 /// A point bushing.
 #[inline(always)]
@@ -14,7 +15,7 @@ pub(super) fn bushing<P: Geometry, T: Terms, D: Dampers>(
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Record<P::Real> {
+) -> Record<P::Space> {
     let first = group.point as usize;
     let (Some(a), Some(b), Some(bushing)) = (
         model.points.get(first),

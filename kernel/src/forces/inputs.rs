@@ -10,22 +10,26 @@ use crate::index::BodyIndex;
 use crate::model::{ModelRef, Terms};
 use crate::pose::{End, Places, placed};
 use crate::real::Real;
-use crate::vector::Vec3;
+use crate::space::{Linear as _, Vector as _};
 
 /// The forces and torques of inputs.
 #[inline(always)]
 pub(crate) fn push<P: Geometry, T: Terms>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
-    wrenches: &mut [Wrench<P::Real>],
+    wrenches: &mut [Wrench<P::Space>],
 ) {
-    let turned = |body: BodyIndex, frame: LoadFrame, v: Vec3<P::Real>| match frame {
+    let turned = |body: BodyIndex, frame: LoadFrame, v: P::Vector| match frame {
         LoadFrame::World => v,
         LoadFrame::Body => End::new(model, places, body, None).to_world(v),
     };
+    let turned_axis = |body: BodyIndex, frame: LoadFrame, m: P::Moment| match frame {
+        LoadFrame::World => m,
+        LoadFrame::Body => End::new(model, places, body, None).moment_to_world(m),
+    };
     for (input, signal) in model.inputs.iter().zip(places.signals) {
         let value = signal.value;
-        let zero = Vec3::ZERO;
+        let zero = P::Moment::ZERO;
         match input.kind {
             InputKind::Force { body, point, direction, frame } => {
                 let force = turned(body, frame, direction) * value;
@@ -34,13 +38,13 @@ pub(crate) fn push<P: Geometry, T: Terms>(
                 apply(wrenches, body.row(), BodyIndex::WORLD.row(), &record);
             }
             InputKind::Torque { body, axis, frame } => {
-                let torque_a = turned(body, frame, axis) * value;
-                let record = Record { force: zero, torque_a, torque_b: zero };
+                let torque_a = turned_axis(body, frame, axis) * value;
+                let record = Record { force: P::Vector::ZERO, torque_a, torque_b: zero };
                 apply(wrenches, body.row(), BodyIndex::WORLD.row(), &record);
             }
             InputKind::JointTorque { a, b, axis } => {
-                let torque_b = turned(a, LoadFrame::Body, axis) * value;
-                let record = Record { force: zero, torque_a: -torque_b, torque_b };
+                let torque_b = turned_axis(a, LoadFrame::Body, axis) * value;
+                let record = Record { force: P::Vector::ZERO, torque_a: -torque_b, torque_b };
                 apply(wrenches, a.row(), b.row(), &record);
             }
             InputKind::Actuator { group, element } => {

@@ -7,7 +7,7 @@ use crate::forces::record::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::End;
-use crate::vector::Vec3;
+use crate::space::{Linear as _, Vector as _};
 
 /// A group of points on lines. The force on A acts at the foot: its torque is that of the star's
 /// whole pull at the line's point and of each pull along its slide.
@@ -17,7 +17,7 @@ pub(super) fn lines<P: Geometry, T: Terms, D: Dampers>(
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Record<P::Real> {
+) -> Record<P::Space> {
     let mut record = Record::ZERO;
     let (stars, arms) = (group.stars as usize, group.arms.max(1) as usize);
     let (Some(points), Some(springs)) =
@@ -37,8 +37,8 @@ pub(super) fn lines<P: Geometry, T: Terms, D: Dampers>(
     let mut dampers = dampers.iter();
     for centre in centres {
         let (centre, arm) = end_a.place(centre);
-        let (mut pull_a, mut slid) = (Vec3::ZERO, Vec3::ZERO);
-        let mut line = Vec3::ZERO;
+        let (mut pull_a, mut slid) = (P::Vector::ZERO, P::Vector::ZERO);
+        let mut line = P::Vector::ZERO;
         for (tip, spring) in elements.by_ref().take(arms) {
             line = end_a.to_world(spring.direction);
             let (tip, tip_arm) = end_b.place(tip);

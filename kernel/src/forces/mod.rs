@@ -22,12 +22,12 @@ pub(crate) use record::{Record, Turns, apply};
 use crate::elements::gravity;
 use crate::elements::load::LoadFrame;
 use crate::geometry::Geometry;
-use crate::model::{FrameOf, Group, Law, ModelOwner, ModelRef, RealOf, Terms};
+use crate::model::{FrameOf, Group, Law, ModelOwner, ModelRef, SpaceOf, Terms};
 use crate::pose::{End, Places, place_bodies};
 use crate::schedule::{LoadWindow, Signal};
+use crate::space::Linear as _;
 use crate::state::State;
 use crate::status::Cause;
-use crate::vector::Vec3;
 
 /// What acts in a step, and the states it acts on.
 pub(crate) struct Instant<'s, P: Geometry> {
@@ -46,7 +46,7 @@ pub(crate) struct Evaluation<'s, P: Geometry> {
     /// The frames of the pose.
     pub(crate) frames: &'s mut [P::Frame],
     /// The wrenches.
-    pub(crate) wrenches: &'s mut [Wrench<P::Real>],
+    pub(crate) wrenches: &'s mut [Wrench<P::Space>],
 }
 
 /// The wrenches on all bodies in a state, dampers and loads included, for steps of `step_size`
@@ -58,7 +58,7 @@ pub fn wrenches<M: ModelOwner>(
     model: &M,
     state: &State<M>,
     step_size: f64,
-) -> Result<M::PerBody<Wrench<RealOf<M>>>, Cause> {
+) -> Result<M::PerBody<Wrench<SpaceOf<M>>>, Cause> {
     let view = model.view();
     let mut windows = model.per_load();
     for (window, load) in windows.as_mut().iter_mut().zip(view.loads) {
@@ -111,7 +111,7 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, D: Dampers>(
         torsions::torsions::<P, T, D>(model, places, bodies, turns, wrenches)?;
     }
     for (wrench, frame) in wrenches.iter_mut().zip(frames.iter()) {
-        wrench.torque = P::to_body(frame, wrench.torque);
+        wrench.torque = P::moment_to_body(frame, wrench.torque);
     }
     Ok(())
 }
@@ -123,7 +123,7 @@ pub(crate) fn record<P: Geometry, T: Terms, D: Dampers>(
     places: Places<'_, P>,
     bodies: &[BodyState<P>],
     group: &Group,
-) -> Record<P::Real> {
+) -> Record<P::Space> {
     let moving = D::ACT && T::DAMPERS && group.damper.row().is_some();
     let moving = if moving { Some(bodies) } else { None };
     let end_a = End::new(model, places, group.a, moving);
@@ -131,6 +131,9 @@ pub(crate) fn record<P: Geometry, T: Terms, D: Dampers>(
     match group.law {
         Law::Tsda if T::TSDAS && group.arms == 3 => {
             stars::stars::<P, T, D, 3>(model, group, &end_a, &end_b)
+        }
+        Law::Tsda if T::TSDAS && group.arms == 2 => {
+            stars::stars::<P, T, D, 2>(model, group, &end_a, &end_b)
         }
         Law::Tsda if T::TSDAS => stars::stars::<P, T, D, 1>(model, group, &end_a, &end_b),
         Law::PointBushing if T::BUSHINGS => {
@@ -148,15 +151,15 @@ fn start<P: Geometry, T: Terms>(
     windows: &[LoadWindow],
     step: u64,
     frames: &[P::Frame],
-    wrenches: &mut [Wrench<P::Real>],
+    wrenches: &mut [Wrench<P::Space>],
 ) {
     let field = if T::GRAVITY { model.gravity.first() } else { None };
     for (body, wrench) in model.bodies.iter().zip(wrenches.iter_mut()) {
         let force = match field {
             Some(gravity) => gravity::weight(body.mass, *gravity),
-            None => Vec3::ZERO,
+            None => P::Vector::ZERO,
         };
-        *wrench = Wrench { force, torque: Vec3::ZERO };
+        *wrench = Wrench { force, torque: P::Moment::ZERO };
     }
     if T::LOADS {
         for (load, window) in model.loads.iter().zip(windows) {
@@ -168,7 +171,7 @@ fn start<P: Geometry, T: Terms>(
                 let (force, torque) = match load.frame {
                     LoadFrame::World => (load.force, load.torque),
                     LoadFrame::Body => {
-                        (P::to_world(frame, load.force), P::to_world(frame, load.torque))
+                        (P::to_world(frame, load.force), P::moment_to_world(frame, load.torque))
                     }
                 };
                 wrench.force = wrench.force + force;

@@ -3,30 +3,28 @@
 //!
 //! `record => wrenches of its two bodies`.
 
-use crate::real::Real;
-use crate::vector::Vec3;
+use crate::space::{Linear as _, Space};
 
 /// The force on a body and its torque.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Wrench<R> {
+pub struct Wrench<S: Space> {
     /// \[N\] force, world axes.
-    pub force: Vec3<R>,
+    pub force: S::Vector,
     /// \[N·m\] torque about the centre of mass, body axes once the evaluation is complete.
-    pub torque: Vec3<R>,
+    pub torque: S::Moment,
 }
 
 /// What a group does to its two bodies, world axes; the force on B is the opposite of A's.
 #[derive(Clone, Copy)]
-pub(crate) struct Record<R> {
-    pub(crate) force: Vec3<R>,
-    pub(crate) torque_a: Vec3<R>,
-    pub(crate) torque_b: Vec3<R>,
+pub(crate) struct Record<S: Space> {
+    pub(crate) force: S::Vector,
+    pub(crate) torque_a: S::Moment,
+    pub(crate) torque_b: S::Moment,
 }
 
-impl<R: Real> Record<R> {
+impl<S: Space> Record<S> {
     pub(super) const ZERO: Self =
-        Self { force: Vec3::ZERO, torque_a: Vec3::ZERO, torque_b: Vec3::ZERO };
+        Self { force: S::Vector::ZERO, torque_a: S::Moment::ZERO, torque_b: S::Moment::ZERO };
 }
 
 /// Whether the dampers' forces are part of an evaluation.
@@ -82,7 +80,7 @@ pub(crate) struct Turns<'s> {
 
 /// Adds a record to its two bodies; the world takes none.
 #[inline(always)]
-pub(crate) fn apply<R: Real>(wrenches: &mut [Wrench<R>], a: usize, b: usize, record: &Record<R>) {
+pub(crate) fn apply<S: Space>(wrenches: &mut [Wrench<S>], a: usize, b: usize, record: &Record<S>) {
     if let Some(wrench) = wrenches.get_mut(a) {
         wrench.force = wrench.force + record.force;
         wrench.torque = wrench.torque + record.torque_a;

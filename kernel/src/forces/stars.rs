@@ -8,7 +8,7 @@ use crate::forces::record::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::{End, blocks};
-use crate::vector::Vec3;
+use crate::space::{Linear as _, Vector as _};
 
 /// A group of TSDA stars with `ARMS` arms each.
 #[inline(always)]
@@ -17,7 +17,7 @@ pub(super) fn stars<P: Geometry, T: Terms, D: Dampers, const ARMS: usize>(
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Record<P::Real> {
+) -> Record<P::Space> {
     let mut record = Record::ZERO;
     let Some(tsdas) = model.tsdas.get(group.element as usize..) else { return record };
     let (tsdas, _) = tsdas.as_chunks::<ARMS>();
@@ -30,11 +30,11 @@ pub(super) fn stars<P: Geometry, T: Terms, D: Dampers, const ARMS: usize>(
     let (mut springs, mut dampers) = (tsdas.iter(), dampers.map(<[_]>::iter));
     for (centres, others) in blocks::<_, ARMS>(model.points, group) {
         let tips: [_; ARMS] = core::array::from_fn(|j| end_b.place(&others[j]));
-        let mut pulls = [Vec3::ZERO; ARMS];
+        let mut pulls = [P::Vector::ZERO; ARMS];
         for (centre, springs) in centres.iter().zip(&mut springs) {
             let (centre, arm) = end_a.place(centre);
             let coefficients = dampers.as_mut().and_then(Iterator::next);
-            let mut pull_a = Vec3::ZERO;
+            let mut pull_a = P::Vector::ZERO;
             for j in 0..ARMS {
                 let (tip, tip_arm) = &tips[j];
                 let d = P::displacement(&centre, tip);

@@ -9,8 +9,8 @@ use crate::geometry::Geometry;
 use crate::index::TorsionIndex;
 use crate::model::{ModelRef, Terms};
 use crate::pose::{End, Places};
+use crate::space::Linear as _;
 use crate::status::Cause;
-use crate::vector::Vec3;
 
 /// The torsion springs.
 #[inline(always)]
@@ -19,7 +19,7 @@ pub(super) fn torsions<P: Geometry, T: Terms, D: Dampers>(
     places: Places<'_, P>,
     bodies: &[BodyState<P>],
     turns: Turns<'_>,
-    wrenches: &mut [Wrench<P::Real>],
+    wrenches: &mut [Wrench<P::Space>],
 ) -> Result<(), Cause> {
     let settle = turns.at == At::Boundary;
     for (i, (spring, turns)) in model.torsions.iter().zip(turns.counts).enumerate() {
@@ -41,13 +41,13 @@ pub(super) fn torsions<P: Geometry, T: Terms, D: Dampers>(
         let torque = match damper {
             Some(&damping) => {
                 let end_b = End::new(model, places, spring.b, Some(bodies));
-                let rate = end_a.to_axes(end_b.spin - end_a.spin);
+                let rate = end_a.moment_to_axes(end_b.spin - end_a.spin);
                 spring.damped_torque(damping, &twist, rate)
             }
             None => spring.torque(&twist),
         };
-        let torque = end_a.to_world(torque);
-        let record = Record { force: Vec3::ZERO, torque_a: -torque, torque_b: torque };
+        let torque = end_a.moment_to_world(torque);
+        let record = Record { force: P::Vector::ZERO, torque_a: -torque, torque_b: torque };
         apply(wrenches, spring.a.row(), spring.b.row(), &record);
     }
     Ok(())

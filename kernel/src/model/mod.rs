@@ -6,7 +6,7 @@
 //! element a model has at all: what it lacks leaves no code.
 //!
 //! Elements lie in groups, one per joint and one per raw element. A TSDA group is made of stars:
-//! a point of the first body joined to each of one or three points of the second. A revolute is
+//! a point of the first body joined to each of one to three points of the second. A revolute is
 //! two stars that share three points, a spherical joint one star of three, a raw TSDA one of one.
 
 mod owned;
@@ -31,7 +31,6 @@ use crate::elements::tsda::Tsda;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
 use crate::schedule::{KnotStep, LoadWindow, Signal};
-use crate::vector::Vec3;
 
 /// The elements of one joint or one raw element: one record of force and torques.
 ///
@@ -48,7 +47,7 @@ pub struct Group {
     pub b: BodyIndex,
     /// Points of the first body, ≥ 1.
     pub stars: u8,
-    /// Points of the second body per star: 1 or 3; 1 or 2 on a line.
+    /// Points of the second body per star: 1 to 3; 1 or 2 on a line.
     pub arms: u8,
     /// Whether all stars share the second body's points.
     pub shared: bool,
@@ -100,9 +99,9 @@ impl Group {
 #[derive(Clone, Copy, Debug)]
 pub struct ModelRef<'m, P: Geometry, T> {
     /// Bodies in scene order.
-    pub bodies: &'m [Body<P::Real>],
+    pub bodies: &'m [Body<P::Space>],
     /// \[m/s²\] the field of gravity, or nothing.
-    pub gravity: &'m [Vec3<P::Real>],
+    pub gravity: &'m [P::Vector],
     /// Groups in the order of their records' sums.
     pub groups: &'m [Group],
     /// \[m\] points of the groups, in the axes of their bodies.
@@ -114,11 +113,11 @@ pub struct ModelRef<'m, P: Geometry, T> {
     /// \[N·s/m, N·m·s/rad\] damping coefficients of groups and torsion springs.
     pub dampers: &'m [P::Real],
     /// Torsion springs, summed after all groups.
-    pub torsions: &'m [TorsionSpring<P::Real>],
+    pub torsions: &'m [TorsionSpring<P::Space>],
     /// Loads, summed before all groups.
-    pub loads: &'m [Load<P::Real>],
+    pub loads: &'m [Load<P::Space>],
     /// Points on lines of the groups.
-    pub lines: &'m [PointOnLine<P::Real>],
+    pub lines: &'m [PointOnLine<P::Space>],
     /// Inputs, added after the loads.
     pub inputs: &'m [Input<P>],
     /// Knots of the inputs' tables.
@@ -132,7 +131,7 @@ pub struct ModelRef<'m, P: Geometry, T> {
 impl<'m, P: Geometry, T: Terms> ModelRef<'m, P, T> {
     /// Element `row` of a law, `None` where the model has no such one.
     #[inline(always)]
-    pub(crate) fn element(&self, law: Law, row: usize) -> Option<Element<'m, P::Real>> {
+    pub(crate) fn element(&self, law: Law, row: usize) -> Option<Element<'m, P::Space>> {
         match law {
             Law::Tsda if T::TSDAS => self.tsdas.get(row).map(Element::Tsda),
             Law::PointBushing if T::BUSHINGS => self.bushings.get(row).map(Element::PointBushing),
@@ -147,12 +146,12 @@ impl<'m, P: Geometry, T: Terms> ModelRef<'m, P, T> {
     pub(crate) fn damped(
         &self,
         law: Law,
-        stretch: &Stretch<P::Real>,
-    ) -> Option<([Vec3<P::Real>; 3], usize)> {
+        stretch: &Stretch<P::Vector>,
+    ) -> Option<([P::Vector; 3], usize)> {
         match law {
             Law::Tsda if T::TSDAS => Some(Tsda::damped(stretch)),
             Law::PointBushing if T::BUSHINGS => Some(PointBushing::damped(stretch)),
-            Law::PointOnLine if T::LINES => Some(PointOnLine::damped(stretch)),
+            Law::PointOnLine if T::LINES => Some(PointOnLine::<P::Space>::damped(stretch)),
             _ => None,
         }
     }
@@ -206,5 +205,7 @@ pub trait ModelOwner {
 
 /// The real number of a model's precision.
 pub type RealOf<M> = <<M as ModelOwner>::Precision as Geometry>::Real;
+/// The space of a model's precision.
+pub type SpaceOf<M> = <<M as ModelOwner>::Precision as Geometry>::Space;
 /// The frame of a model's precision.
 pub type FrameOf<M> = <<M as ModelOwner>::Precision as Geometry>::Frame;

@@ -14,7 +14,6 @@ use crate::index::{BodyIndex, DamperIndex};
 use crate::model::{CountedTerms, Group, Law, ModelOwner, ModelRef};
 use crate::real::Real;
 use crate::schedule::{KnotStep, LoadWindow, Signal};
-use crate::vector::Vec3;
 
 /// A model whose sizes are const generics. A kind that a scene lacks has count 0, the default.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,11 +34,11 @@ pub struct Model<
     const CLEARANCES: usize = 0,
 > {
     /// Bodies in scene order.
-    pub bodies: [Body<P::Real>; BODIES],
+    pub bodies: [Body<P::Space>; BODIES],
     /// The bodies' states at t = 0.
     pub initial: [BodyState<P>; BODIES],
     /// \[m/s²\] the field of gravity, or nothing.
-    pub gravity: [Vec3<P::Real>; GRAVITY],
+    pub gravity: [P::Vector; GRAVITY],
     /// Groups in the order of their records' sums.
     pub groups: [Group; GROUPS],
     /// \[m\] points of the groups, in the axes of their bodies.
@@ -51,11 +50,11 @@ pub struct Model<
     /// \[N·s/m, N·m·s/rad\] damping coefficients of groups and torsion springs.
     pub dampers: [P::Real; DAMPERS],
     /// Torsion springs, summed after all groups.
-    pub torsions: [TorsionSpring<P::Real>; TORSIONS],
+    pub torsions: [TorsionSpring<P::Space>; TORSIONS],
     /// Loads, summed before all groups.
-    pub loads: [Load<P::Real>; LOADS],
+    pub loads: [Load<P::Space>; LOADS],
     /// Points on lines of the groups.
-    pub lines: [PointOnLine<P::Real>; LINES],
+    pub lines: [PointOnLine<P::Space>; LINES],
     /// Inputs, added after the loads.
     pub inputs: [Input<P>; INPUTS],
     /// Knots of the inputs' tables.

@@ -39,20 +39,20 @@ pub struct DbdMemory<P: Geometry> {
     /// The state at the step's start.
     start: BodyState<P>,
     /// `(h·D⁻¹)·Q(q_n, v_n)`.
-    first: Increment<P::Real>,
+    first: Increment<P::Space>,
 }
 
 impl<P: Geometry> DbdMemory<P> {
     /// Remembers the step's start; the state takes its velocity on by AB1.
     #[inline(always)]
-    pub(super) fn predict(&mut self, state: &mut BodyState<P>, first: Increment<P::Real>) {
+    pub(super) fn predict(&mut self, state: &mut BodyState<P>, first: Increment<P::Space>) {
         *self = DbdMemory { start: *state, first };
         accelerate(state, first);
     }
 
     /// Takes the velocities of the start on by `increment`.
     #[inline(always)]
-    pub(super) fn correct(&self, state: &mut BodyState<P>, increment: Increment<P::Real>) {
+    pub(super) fn correct(&self, state: &mut BodyState<P>, increment: Increment<P::Space>) {
         state.velocity = self.start.velocity;
         state.angular_velocity = self.start.angular_velocity;
         accelerate(state, increment);
@@ -60,7 +60,7 @@ impl<P: Geometry> DbdMemory<P> {
 
     /// AM2 with the last evaluation: the mean of it and of the first.
     #[inline(always)]
-    pub(super) fn mean(&self, last: Increment<P::Real>) -> Increment<P::Real> {
+    pub(super) fn mean(&self, last: Increment<P::Space>) -> Increment<P::Space> {
         let half = P::Real::HALF;
         Increment {
             linear: (self.first.linear + last.linear) * half,
@@ -124,7 +124,7 @@ pub(super) fn iterate<P: Geometry, T: Terms>(
             *state = memory.start;
             // h·v_n + (h²·D⁻¹)·Q, with h²·D⁻¹ = h·(h·D⁻¹).
             let linear = P::velocity(&state.velocity) * h + increment.linear * h;
-            let angular = P::velocity(&state.angular_velocity) * h + increment.angular * h;
+            let angular = P::spin(&state.angular_velocity) * h + increment.angular * h;
             accelerate(state, increment);
             P::translate(&mut state.position, linear);
             rotation::turn_by::<P>(&mut state.orientation, angular * half);
@@ -135,15 +135,15 @@ pub(super) fn iterate<P: Geometry, T: Terms>(
 
 /// Adds an increment to the velocities.
 #[inline(always)]
-pub(super) fn accelerate<P: Geometry>(state: &mut BodyState<P>, increment: Increment<P::Real>) {
+pub(super) fn accelerate<P: Geometry>(state: &mut BodyState<P>, increment: Increment<P::Space>) {
     P::accelerate(&mut state.velocity, increment.linear);
-    P::accelerate(&mut state.angular_velocity, increment.angular);
+    P::spin_up(&mut state.angular_velocity, increment.angular);
 }
 
 /// `q ← q ∘ h·v`.
 #[inline(always)]
 fn advance<P: Geometry>(state: &mut BodyState<P>, h: P::Real) {
     P::translate(&mut state.position, P::velocity(&state.velocity) * h);
-    let rate = P::velocity(&state.angular_velocity);
+    let rate = P::spin(&state.angular_velocity);
     rotation::turn_by::<P>(&mut state.orientation, rate * (P::Real::HALF * h));
 }

@@ -12,13 +12,13 @@ use crate::damping::{Damping, NoLevers};
 use crate::forces::{At, ExplicitDampers};
 use crate::geometry::Geometry;
 use crate::model::Terms;
-use crate::real::Real;
+use crate::real::Real as _;
 use crate::rotation;
 use crate::schemes::Scheme;
 use crate::schemes::dbd::accelerate;
+use crate::space::{Moment as _, Space};
 use crate::status::Cause;
 use crate::step::Stepper;
-use crate::vector::Vec3;
 
 /// Four stages at the start, twice the middle and the end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -31,11 +31,11 @@ pub struct Rk4Memory<P: Geometry> {
     /// The state at the step's start.
     start: BodyState<P>,
     /// The present stage's u, body axes.
-    turned: Vec3<P::Real>,
+    turned: P::Moment,
     /// Weighted sum of the stages' h·v̇.
-    accelerations: Increment<P::Real>,
+    accelerations: Increment<P::Space>,
     /// Weighted sum of the stages' velocities and u̇.
-    velocities: Increment<P::Real>,
+    velocities: Increment<P::Space>,
 }
 
 impl Scheme for Rk4 {
@@ -94,12 +94,13 @@ impl<P: Geometry> Rk4Memory<P> {
     fn add(
         &mut self,
         state: &BodyState<P>,
-        acceleration: Increment<P::Real>,
+        acceleration: Increment<P::Space>,
         weight: P::Real,
-    ) -> Increment<P::Real> {
-        let (u, w) = (self.turned, P::velocity(&state.angular_velocity));
-        let across = u.cross(w);
-        let angular = w + across * P::Real::HALF + u.cross(across) * P::Real::from_f64(1.0 / 12.0);
+    ) -> Increment<P::Space> {
+        let (u, w) = (self.turned, P::spin(&state.angular_velocity));
+        let across = u.commutator(w);
+        let angular =
+            w + across * P::Real::HALF + u.commutator(across) * P::Real::from_f64(1.0 / 12.0);
         let velocity = Increment { linear: P::velocity(&state.velocity), angular };
         self.accelerations = sum(self.accelerations, scaled(acceleration, weight));
         self.velocities = sum(self.velocities, scaled(velocity, weight));
@@ -111,9 +112,9 @@ impl<P: Geometry> Rk4Memory<P> {
 #[inline(always)]
 fn advance<P: Geometry>(
     state: &mut BodyState<P>,
-    velocity: Increment<P::Real>,
+    velocity: Increment<P::Space>,
     time: P::Real,
-) -> Vec3<P::Real> {
+) -> P::Moment {
     let turn = velocity.angular * time;
     P::translate(&mut state.position, velocity.linear * time);
     rotation::turn_by::<P>(&mut state.orientation, turn * P::Real::HALF);
@@ -121,11 +122,11 @@ fn advance<P: Geometry>(
 }
 
 #[inline(always)]
-fn scaled<R: Real>(a: Increment<R>, factor: R) -> Increment<R> {
+fn scaled<S: Space>(a: Increment<S>, factor: S::Real) -> Increment<S> {
     Increment { linear: a.linear * factor, angular: a.angular * factor }
 }
 
 #[inline(always)]
-fn sum<R: Real>(a: Increment<R>, b: Increment<R>) -> Increment<R> {
+fn sum<S: Space>(a: Increment<S>, b: Increment<S>) -> Increment<S> {
     Increment { linear: a.linear + b.linear, angular: a.angular + b.angular }
 }

@@ -1,0 +1,240 @@
+//! The space that bodies move in: what vectors, moments and turns are in it.
+//!
+//! A vector is a difference of positions, a velocity or a force; a moment is an angular velocity, a
+//! torque or a principal inertia. In space both are [`Vec3`]; a number stands for the space over it,
+//! so that what holds vectors and moments of space is written with its number: `Body<f64>`. What has a
+//! fixed layout elsewhere has three components here: a plane is z = 0, its moments lie along z.
+
+use core::fmt::Debug;
+use core::ops::{Add, Mul, Neg, Sub};
+
+use crate::real::Real;
+use crate::vector::{Quaternion, Vec3};
+use crate::words::Words;
+
+/// What vectors and moments have in common.
+pub trait Linear:
+    Copy
+    + Debug
+    + Default
+    + PartialEq
+    + Words
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Neg<Output = Self>
+    + Mul<<Self as Linear>::Real, Output = Self>
+    + 'static
+{
+    /// The number of its components.
+    type Real: Real;
+
+    /// Zero.
+    const ZERO: Self;
+    /// The number of its components.
+    const DIMENSION: usize;
+
+    /// Its components of a vector of space, each rounded once from double precision.
+    fn from_f64(v: [f64; 3]) -> Self;
+    /// As a vector of space in double precision, exact.
+    fn to_f64(self) -> [f64; 3];
+    /// Its components of a vector of space.
+    fn of_space(v: Vec3<Self::Real>) -> Self;
+    /// As a vector of space.
+    fn in_space(self) -> Vec3<Self::Real>;
+    /// The scalar product.
+    fn dot(self, other: Self) -> Self::Real;
+    /// Its [`Self::DIMENSION`] unit vectors, then zeros.
+    fn axes() -> [Self; 3];
+    /// Whether every component is finite.
+    fn is_finite(self) -> bool;
+}
+
+/// A difference of positions \[m\], a velocity \[m/s\] or a force \[N\].
+pub trait Vector: Linear {
+    /// What an arm makes of a force.
+    type Moment;
+
+    /// The moment `self × force`, self an arm.
+    fn cross(self, force: Self) -> Self::Moment;
+    /// Unit vectors normal to this unit vector and to each other, [`Linear::DIMENSION`] less one, then
+    /// zeros.
+    fn normals(self) -> [Self; 2];
+    /// The vector normal to this one and another, of their lengths and the sine between them; zero
+    /// where there is no such direction.
+    fn across(self, other: Self) -> Self;
+}
+
+/// An angular velocity \[rad/s\], a torque \[N·m\] or the principal inertia \[kg·m²\].
+pub trait Moment: Linear {
+    /// What turns.
+    type Vector;
+
+    /// The velocity `self × arm`, self an angular velocity.
+    fn cross(self, arm: Self::Vector) -> Self::Vector;
+    /// `self × other`, zero where all turns commute.
+    fn commutator(self, other: Self) -> Self;
+    /// The component-wise product.
+    fn scale(self, other: Self) -> Self;
+    /// `number` over each component.
+    fn under(self, number: Self::Real) -> Self;
+    /// The square root of each component.
+    fn root(self) -> Self;
+}
+
+/// How one orientation stands to another, as half angles: what torsion springs measure.
+pub trait Turn: Copy + Debug + Default + PartialEq + Words + 'static {
+    /// The number of its components.
+    type Real: Real;
+    /// An axis.
+    type Moment;
+
+    /// Of a unit quaternion, scalar first, each component rounded once.
+    fn from_f64(turn: [f64; 4]) -> Self;
+    /// The unit quaternion in double precision, scalar first, exact.
+    fn to_f64(self) -> [f64; 4];
+    /// The opposite turn.
+    fn conjugate(self) -> Self;
+    /// `other` first in its axes, then self.
+    fn product(self, other: Self) -> Self;
+    /// Cosine and sine of the half angle about a unit axis: w and v·n of the quaternion (w, v).
+    fn about(self, axis: Self::Moment) -> (Self::Real, Self::Real);
+    /// The gradient `(w²·n + w·v×n + (v·n)·v)/(w² + (v·n)²)` of the angle about the unit axis n, given
+    /// `sine`, v·n, and `norm`, the denominator.
+    fn gradient(self, axis: Self::Moment, sine: Self::Real, norm: Self::Real) -> Self::Moment;
+}
+
+/// A space that bodies move in, over a number.
+pub trait Space: Copy + Debug + Default + PartialEq + 'static {
+    /// The number in which forces and rates are computed.
+    type Real: Real;
+    /// Differences of positions, velocities, forces.
+    type Vector: Vector<Real = Self::Real, Moment = Self::Moment>;
+    /// Angular velocities, torques, inertias.
+    type Moment: Moment<Real = Self::Real, Vector = Self::Vector>;
+    /// Turns of one body in another.
+    type Turn: Turn<Real = Self::Real, Moment = Self::Moment>;
+
+    /// The name users give: `spatial`, `planar`.
+    const NAME: &'static str;
+    /// Whether every turn is about z.
+    const PLANAR: bool;
+}
+
+impl<R: Real> Space for R {
+    type Real = R;
+    type Vector = Vec3<R>;
+    type Moment = Vec3<R>;
+    type Turn = Quaternion<R>;
+
+    const NAME: &'static str = "spatial";
+    const PLANAR: bool = false;
+}
+
+impl<R: Real> Linear for Vec3<R> {
+    type Real = R;
+
+    const ZERO: Self = Self::ZERO;
+    const DIMENSION: usize = 3;
+
+    #[inline]
+    fn from_f64(v: [f64; 3]) -> Self {
+        Vec3::from_f64(v)
+    }
+    #[inline]
+    fn to_f64(self) -> [f64; 3] {
+        Vec3::to_f64(self)
+    }
+    #[inline(always)]
+    fn of_space(v: Self) -> Self {
+        v
+    }
+    #[inline(always)]
+    fn in_space(self) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn dot(self, other: Self) -> R {
+        Vec3::dot(self, other)
+    }
+    #[inline(always)]
+    fn axes() -> [Self; 3] {
+        Vec3::axes()
+    }
+    #[inline(always)]
+    fn is_finite(self) -> bool {
+        Vec3::is_finite(self)
+    }
+}
+
+impl<R: Real> Vector for Vec3<R> {
+    type Moment = Self;
+
+    #[inline(always)]
+    fn cross(self, force: Self) -> Self {
+        Vec3::cross(self, force)
+    }
+    #[inline]
+    fn normals(self) -> [Self; 2] {
+        Vec3::normals(self)
+    }
+    #[inline(always)]
+    fn across(self, other: Self) -> Self {
+        Vec3::cross(self, other)
+    }
+}
+
+impl<R: Real> Moment for Vec3<R> {
+    type Vector = Self;
+
+    #[inline(always)]
+    fn cross(self, arm: Self) -> Self {
+        Vec3::cross(self, arm)
+    }
+    #[inline(always)]
+    fn commutator(self, other: Self) -> Self {
+        Vec3::cross(self, other)
+    }
+    #[inline(always)]
+    fn scale(self, other: Self) -> Self {
+        Vec3::scale(self, other)
+    }
+    #[inline(always)]
+    fn under(self, number: R) -> Self {
+        Vec3::new(number / self.x, number / self.y, number / self.z)
+    }
+    #[inline]
+    fn root(self) -> Self {
+        Vec3::new(self.x.sqrt(), self.y.sqrt(), self.z.sqrt())
+    }
+}
+
+impl<R: Real> Turn for Quaternion<R> {
+    type Real = R;
+    type Moment = Vec3<R>;
+
+    #[inline]
+    fn from_f64(turn: [f64; 4]) -> Self {
+        Quaternion::from_f64(turn)
+    }
+    #[inline]
+    fn to_f64(self) -> [f64; 4] {
+        Quaternion::to_f64(self)
+    }
+    #[inline(always)]
+    fn conjugate(self) -> Self {
+        Quaternion::conjugate(self)
+    }
+    #[inline(always)]
+    fn product(self, other: Self) -> Self {
+        Quaternion::product(self, other)
+    }
+    #[inline(always)]
+    fn about(self, axis: Vec3<R>) -> (R, R) {
+        (self.w, self.v.dot(axis))
+    }
+    #[inline(always)]
+    fn gradient(self, axis: Vec3<R>, sine: R, norm: R) -> Vec3<R> {
+        let along = axis * (self.w * self.w) + self.v.cross(axis) * self.w + self.v * sine;
+        along * (R::ONE / norm)
+    }
+}
