@@ -56,7 +56,7 @@ fn sweep_joint<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     levers: &[Lever<P>],
     bodies: &mut [BodyState<P>],
 ) {
-    match fixed(model, group).or_else(|| turning::<T>(group)) {
+    match fixed::<P, T>(group).or_else(|| turning::<T>(group)) {
         Some([own, other]) => {
             let levers = levers.get(rows(group)).unwrap_or_default();
             if !levers.first().is_some_and(Lever::acts) {
@@ -165,7 +165,7 @@ pub(crate) fn prepare<P: Geometry, T: Terms, K: Kick<P>>(
     levers: &mut [Lever<P>],
 ) {
     for group in model.groups {
-        let fixed = fixed(model, group);
+        let fixed = fixed::<P, T>(group);
         let Some(ends) = fixed.or_else(|| turning::<T>(group)) else { continue };
         let (Some(levers), Some(shares)) =
             (levers.get_mut(rows(group)), sweep.shares.get(rows(group)))

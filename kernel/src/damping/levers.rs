@@ -109,10 +109,7 @@ impl Keep for Levers {
 /// The body that sees a group's points at rest and the other one, `None` where none does: raw
 /// elements turn and slide, what has a clearance is not always there, moved ground moves them.
 #[inline(always)]
-pub(super) fn fixed<P: Geometry, T: Terms>(
-    model: &ModelRef<'_, P, T>,
-    group: &Group,
-) -> Option<[BodyIndex; 2]> {
+pub(super) fn fixed<P: Geometry, T: Terms>(group: &Group) -> Option<[BodyIndex; 2]> {
     let Group { law, a, b, arms, .. } = *group;
     let moved = |end: BodyIndex| T::INPUTS && end.anchor_row().is_some();
     if !whole::<T>(group) || moved(a) || moved(b) {
@@ -162,12 +159,12 @@ pub(crate) fn find<P: Geometry, T: Terms>(
     levers: &mut [Lever<P>],
 ) {
     for (row, group) in model.groups.iter().enumerate() {
-        let Some(ends) = fixed(model, group) else { continue };
+        let Some(ends) = fixed::<P, T>(group) else { continue };
         let metric = Metric::new(model, ends);
         let own = rows(group);
         let Some((before, here)) = levers.split_at_mut_checked(own.start) else { continue };
         let Some(here) = here.get_mut(..own.len()) else { continue };
-        let head = model.groups.iter().take(row).find(|other| fixed(model, other) == Some(ends));
+        let head = model.groups.iter().take(row).find(|other| fixed::<P, T>(other) == Some(ends));
         let shared = head.map(rows).and_then(|rows| before.get_mut(rows)).unwrap_or_default();
         for i in 0..group.elements() {
             let (Some(element), Some(&coefficient)) =

@@ -81,7 +81,7 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
             Mount::Group(group) => {
                 let Some(group) = model.groups.get(group) else { return };
                 let Some(first) = group.damper.row() else { return };
-                if let Some(ends) = fixed(model, group).filter(|_| !levers.is_empty()) {
+                if let Some(ends) = fixed::<P, T>(group).filter(|_| !levers.is_empty()) {
                     let levers = levers.get(rows(group)).unwrap_or_default();
                     for (i, lever) in levers.iter().enumerate().filter(|(_, lever)| lever.acts()) {
                         visit(first + i, one, one, &lever.direction(places, ends, group.a));
