@@ -7,13 +7,13 @@
 //! damper.
 
 use crate::body::BodyState;
-use crate::damping::levers::{LARGEST, Lever, fixed, rows, turning};
+use crate::damping::levers::{Kind, LARGEST, Lever};
 use crate::damping::pair::Kick;
-use crate::damping::{Share, Sweep, each_direction, sweep_group, torsion};
+use crate::damping::{Share, Sweep, sweep_group, torsion};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, ModelRef, Terms};
-use crate::pose::{End, placed};
+use crate::pose::End;
 use crate::real::Real;
 use crate::space::{Linear as _, Moment as _, Vector as _};
 
@@ -56,17 +56,17 @@ fn sweep_joint<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     levers: &[Lever<P>],
     bodies: &mut [BodyState<P>],
 ) {
-    match fixed::<P, T>(group).or_else(|| turning::<T>(group)) {
-        Some([own, other]) => {
-            let levers = levers.get(rows(group)).unwrap_or_default();
-            if !levers.first().is_some_and(Lever::acts) {
-            } else if other.is_world() {
-                grounded::<P, T, REVERSE>(model, sweep.places.frames, own, levers, bodies);
-            } else {
-                between::<P, T, REVERSE>(model, sweep.places.frames, [own, other], levers, bodies);
-            }
-        }
-        None => sweep_group::<P, T, K, REVERSE>(model, sweep, group, bodies),
+    let levers = group.damper.row().and_then(|row| levers.get(row..)).unwrap_or_default();
+    let Some(&Lever { seat, .. }) = levers.first() else { return };
+    if seat.kind == Kind::Dampers {
+        return sweep_group::<P, T, K, REVERSE>(model, sweep, group, bodies);
+    }
+    let Some(levers) = levers.get(..seat.count.into()).filter(|_| seat.count > 0) else { return };
+    let ends = seat.ends.map(BodyIndex);
+    if ends[1].is_world() {
+        grounded::<P, T, REVERSE>(model, sweep.places.frames, ends[0], levers, bodies);
+    } else {
+        between::<P, T, REVERSE>(model, sweep.places.frames, ends, levers, bodies);
     }
 }
 
@@ -90,9 +90,6 @@ fn grounded<P: Geometry, T: Terms, const REVERSE: bool>(
     let mut push = P::Vector::ZERO;
     let mut turn = P::Moment::ZERO;
     for lever in levers {
-        if !lever.acts() {
-            break;
-        }
         let rate = lever.along.dot(velocity) + lever.moment.dot(spin);
         let impulse = lever.less[usize::from(REVERSE)] - lever.impulse * rate;
         push = push + lever.along * impulse;
@@ -126,7 +123,8 @@ fn between<P: Geometry, T: Terms, const REVERSE: bool>(
     let mut push = P::Vector::ZERO;
     let mut turn = P::Moment::ZERO;
     let mut partner_turn = P::Moment::ZERO;
-    let mut act = |lever: &Lever<P>| {
+    for i in 0..levers.len() {
+        let Some(lever) = levers.get(if REVERSE { levers.len() - 1 - i } else { i }) else { break };
         let rate = lever.along.dot(velocity + push * inverse_mass)
             + lever.moment.dot(spin + turn)
             - lever.other.dot(partner_spin - partner_turn);
@@ -134,20 +132,6 @@ fn between<P: Geometry, T: Terms, const REVERSE: bool>(
         push = push + lever.along * impulse;
         turn = turn + lever.moment.scale(body.inverse_inertia) * impulse;
         partner_turn = partner_turn + lever.other.scale(partner.inverse_inertia) * impulse;
-    };
-    if REVERSE {
-        for lever in levers.iter().rev() {
-            if lever.acts() {
-                act(lever);
-            }
-        }
-    } else {
-        for lever in levers {
-            if !lever.acts() {
-                break;
-            }
-            act(lever);
-        }
     }
     let push = P::to_world(frame, push);
     P::accelerate(&mut state.velocity, push * body.inverse_mass);
@@ -165,19 +149,26 @@ pub(crate) fn prepare<P: Geometry, T: Terms, K: Kick<P>>(
     levers: &mut [Lever<P>],
 ) {
     for group in model.groups {
-        let fixed = fixed::<P, T>(group);
-        let Some(ends) = fixed.or_else(|| turning::<T>(group)) else { continue };
-        let (Some(levers), Some(shares)) =
-            (levers.get_mut(rows(group)), sweep.shares.get(rows(group)))
-        else {
+        let row = group.damper.row().unwrap_or(usize::MAX);
+        let (Some(levers), Some(shares)) = (levers.get_mut(row..), sweep.shares.get(row..)) else {
             continue;
         };
-        if fixed.is_none()
-            && let (Some(lever), Some(share)) = (levers.first_mut(), shares.first())
-        {
-            turn(model, sweep, (group, ends), (lever, share));
-        } else if levers.first().is_some_and(Lever::acts) {
-            hold(model, sweep, ends, bodies, (levers, shares));
+        let Some(&Lever { seat, .. }) = levers.first() else { continue };
+        let ends = seat.ends.map(BodyIndex);
+        match seat.kind {
+            Kind::Dampers => {}
+            Kind::Joint => {
+                if let Some(levers) = levers.get_mut(..seat.count.into())
+                    && seat.count > 0
+                {
+                    hold(model, sweep, ends, bodies, (levers, shares));
+                }
+            }
+            Kind::Turning => {
+                if let (Some(lever), Some(share)) = (levers.first_mut(), shares.first()) {
+                    turn(model, sweep, (group, ends), (lever, share));
+                }
+            }
         }
     }
 }
@@ -198,12 +189,8 @@ fn hold<P: Geometry, T: Terms, K: Kick<P>>(
     let partner = (model.bodies.get(other_row), bodies.get(other_row), frames.get(other_row));
     let (Some(partner), Some(partner_state), Some(partner_frame)) = partner else {
         let pushed = P::to_body(frame, kick.linear);
-        for (lever, share) in levers.iter_mut().zip(shares) {
-            if !lever.acts() {
-                break;
-            }
-            let kicked = lever.along.dot(pushed) + lever.moment.dot(kick.angular);
-            told(lever, share, (sweep.h, lever.rate), (kicked, P::Real::ZERO));
+        for lever in levers {
+            lever.tell(lever.along.dot(pushed) + lever.moment.dot(kick.angular));
         }
         return;
     };
@@ -212,15 +199,13 @@ fn hold<P: Geometry, T: Terms, K: Kick<P>>(
     let apart = P::position(&state.position) - P::position(&partner_state.position);
     let apart = P::to_body(frame, apart);
     for (lever, share) in levers.iter_mut().zip(shares) {
-        if !lever.acts() {
-            break;
-        }
         let moment = P::moment_to_world(frame, lever.moment + apart.cross(lever.along));
         lever.other = P::moment_to_body(partner_frame, moment);
         let rate = lever.rate + lever.other.dot(lever.other.scale(partner.inverse_inertia));
         let kicked = lever.along.dot(pushed) + lever.moment.dot(kick.angular)
             - lever.other.dot(partner_kick.angular);
-        told(lever, share, (sweep.h, rate), (kicked, P::Real::ZERO));
+        lever.weigh(share, sweep.h, rate);
+        lever.tell(kicked);
     }
 }
 
@@ -229,66 +214,49 @@ fn hold<P: Geometry, T: Terms, K: Kick<P>>(
 fn turn<P: Geometry, T: Terms, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
-    (group, [own, other]): (&Group, [BodyIndex; 2]),
+    (group, ends): (&Group, [BodyIndex; 2]),
     (lever, share): (&mut Lever<P>, &Share<P::Real>),
 ) {
-    let places = sweep.places;
-    lever.rate = P::Real::ZERO;
-    let (Some(element), Some(&coefficient), Some(frame), Some(body)) = (
-        placed(model, places, (0, group), 0),
+    lever.seat.count = 0;
+    let first = group.point as usize;
+    let swapped = ends[0] == group.a;
+    let [a, b] = if swapped { [first, first + 1] } else { [first + 1, first] };
+    let (Some(a), Some(b), Some(&coefficient), Some(body)) = (
+        model.points.get(a),
+        model.points.get(b),
         group.damper.row().and_then(|row| model.dampers.get(row)),
-        places.frames.get(own.row()),
-        model.bodies.get(own.row()),
+        model.bodies.get(ends[0].row()),
     ) else {
         return;
     };
-    each_direction::<P, T, false>(model, places, &element, |direction| {
-        let [a, b] = direction.moments;
-        let (moment, partner) = if own == group.b { (b, a) } else { (a, b) };
-        lever.along = P::to_body(frame, direction.along);
-        lever.moment = moment;
-        lever.other = partner;
-        let kick = sweep.kick.of(own.row());
-        let mut inverse_mass = body.inverse_mass;
-        let mut rate = moment.dot(moment.scale(body.inverse_inertia));
-        let mut kicked = moment.dot(kick.angular);
-        let mut pushed = kick.linear;
-        let mut ground = P::Real::ZERO;
-        if let Some(body) = model.bodies.get(other.row()) {
-            let kick = sweep.kick.of(other.row());
-            inverse_mass = inverse_mass + body.inverse_mass;
-            rate = rate + partner.dot(partner.scale(body.inverse_inertia));
-            kicked = kicked - partner.dot(kick.angular);
-            pushed = pushed - kick.linear;
-        } else if T::INPUTS {
-            ground = direction.along.dot(End::new(model, places, other, None).velocity);
-        }
-        kicked = kicked + direction.along.dot(pushed);
-        lever.rate = direction.along.dot(direction.along) * inverse_mass + rate;
-        let strongest = P::Real::from_f64(LARGEST) / lever.rate;
-        let strength = sweep.h * coefficient;
-        let h = if strength < strongest { strength } else { strongest };
-        told(lever, share, (h, lever.rate), (kicked, ground));
-    });
-}
-
-/// What a lever does in half a step `h` \[s\], times its coefficient, with 1/μ = `rate`: of the rate
-/// it takes `1 − 1/(1 + x + x²/2)`, `x = h·rate`, and is told of a kick as any damper
-/// (`damping::pair::Damper`).
-#[inline(always)]
-fn told<P: Geometry>(
-    lever: &mut Lever<P>,
-    share: &Share<P::Real>,
-    (h, rate): (P::Real, P::Real),
-    (kicked, ground): (P::Real, P::Real),
-) {
-    let (half, one) = (P::Real::HALF, P::Real::ONE);
-    let x = h * rate;
-    let y = one + half * x;
-    let part = h / (one + x * y);
-    let Share { own, later } = *share;
-    lever.impulse = part * y;
-    let given = own * half * part * kicked + lever.impulse * ground;
-    let met = lever.impulse * kicked;
-    lever.less = [given + later * met, given + (one - (own + later)) * met];
+    let [own, other] = ends.map(|end| End::new(model, sweep.places, end, None));
+    let ((a, arm), (b, other_arm)) = (own.place(a), other.place(b));
+    let d = P::displacement(&a, &b);
+    let along = d * d.dot(d).sqrt().reciprocal_or_zero();
+    let kick = sweep.kick.of(ends[0].row());
+    lever.along = own.to_axes(along);
+    lever.moment = own.moment_to_axes(arm.cross(along));
+    let mut inverse_mass = body.inverse_mass;
+    let mut rate = lever.moment.dot(lever.moment.scale(body.inverse_inertia));
+    let mut kicked = lever.moment.dot(kick.angular);
+    let mut pushed = kick.linear;
+    if let Some(partner) = model.bodies.get(ends[1].row()) {
+        let kick = sweep.kick.of(ends[1].row());
+        lever.other = other.moment_to_axes(other_arm.cross(along));
+        inverse_mass = inverse_mass + partner.inverse_mass;
+        rate = rate + lever.other.dot(lever.other.scale(partner.inverse_inertia));
+        kicked = kicked - lever.other.dot(kick.angular);
+        pushed = pushed - kick.linear;
+    }
+    rate = rate + along.dot(along) * inverse_mass;
+    // Without a direction (coincident points) nothing can be pushed.
+    lever.seat.count = u8::from(rate > P::Real::ZERO);
+    let (strength, largest) = (sweep.h * coefficient, P::Real::from_f64(LARGEST));
+    let h = if strength * rate < largest { strength } else { largest / rate };
+    lever.weigh(share, h, rate);
+    lever.tell(kicked + along.dot(pushed));
+    if T::INPUTS {
+        let ground = lever.impulse * along.dot(other.velocity);
+        lever.less = lever.less.map(|less| less + ground);
+    }
 }

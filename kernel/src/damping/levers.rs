@@ -10,6 +10,7 @@
 
 use crate::damping::each_direction;
 use crate::damping::pair::Direction;
+use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelOwner, ModelRef, Terms};
@@ -26,21 +27,42 @@ pub struct Lever<P: Geometry> {
     pub(super) moment: P::Moment,
     /// Moment of the same force and moment about the other body's centre of mass, that body's axes.
     pub(super) other: P::Moment,
-    /// \[1/s\] rate per impulse, without the other body's turning; 0 where there is no lever.
+    /// \[1/s\] rate per impulse, without the other body's turning.
     pub(super) rate: P::Real,
     /// \[s\] impulse per rate.
     pub(super) impulse: P::Real,
+    /// \[s\] impulse less per rate that the kick gave: ascending, descending.
+    pub(super) told: [P::Real; 2],
     /// The impulse less, for what the kick and moved ground gave: ascending, descending.
     pub(super) less: [P::Real; 2],
+    /// What the levers from here on are, in the first of a group.
+    pub(super) seat: Seat,
+}
+
+/// Whose a group's levers are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Seat {
+    /// The body that sees them at rest and the other one.
+    pub(super) ends: [u16; 2],
+    /// How many there are.
+    pub(super) count: u8,
+    /// What acts there.
+    pub(super) kind: Kind,
+}
+
+/// What acts in a group's place.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// The group's dampers, one by one.
+    #[default]
+    Dampers,
+    /// The levers of a joint.
+    Joint,
+    /// The lever of a raw spring.
+    Turning,
 }
 
 impl<P: Geometry> Lever<P> {
-    /// Whether there is a lever.
-    #[inline(always)]
-    pub(super) fn acts(&self) -> bool {
-        self.rate > P::Real::ZERO
-    }
-
     /// Its direction, seen from the ends of its joint: of the body that sees it and the other one.
     pub(super) fn direction(
         &self,
@@ -55,6 +77,28 @@ impl<P: Geometry> Lever<P> {
         let moments =
             if own == first { [self.moment, self.other] } else { [self.other, self.moment] };
         Direction { along, moments }
+    }
+
+    /// What it does in half a step `h` \[s\], times its coefficient, with 1/μ = `rate`: of the rate it
+    /// takes `1 − 1/(1 + x + x²/2)`, `x = h·rate`, and is told of a kick as any damper
+    /// (`damping::pair::Damper`).
+    #[inline(always)]
+    pub(super) fn weigh(&mut self, share: &Share<P::Real>, h: P::Real, rate: P::Real) {
+        let (half, one) = (P::Real::HALF, P::Real::ONE);
+        let x = h * rate;
+        let y = one + half * x;
+        let part = h / (one + x * y);
+        let Share { own, later } = *share;
+        self.impulse = part * y;
+        let given = own * half * part;
+        self.told =
+            [given + later * self.impulse, given + (one - (own + later)) * self.impulse];
+    }
+
+    /// Tells it the rate that the kick gave.
+    #[inline(always)]
+    pub(super) fn tell(&mut self, kicked: P::Real) {
+        self.less = self.told.map(|told| told * kicked);
     }
 
     fn turned(&self, c: P::Real, other: &Self, s: P::Real) -> Self {
@@ -93,7 +137,7 @@ impl Keep for NoLevers {
     }
 }
 
-/// Levers: thirteen numbers per damper in space, eight in the plane.
+/// Levers: sixteen words per damper in space, eleven in the plane.
 #[derive(Clone, Copy, Debug)]
 pub struct Levers;
 
@@ -144,6 +188,31 @@ fn seen(a: BodyIndex, b: BodyIndex) -> [BodyIndex; 2] {
     if b.is_world() { [a, b] } else { [b, a] }
 }
 
+/// The levers of a joint.
+pub(super) fn held<'l, P: Geometry>(group: &Group, levers: &'l [Lever<P>]) -> &'l [Lever<P>] {
+    let levers = levers.get(rows(group)).unwrap_or_default();
+    let count = levers.first().map_or(0, |first| first.seat.count.into());
+    levers.get(..count).unwrap_or_default()
+}
+
+/// Weighs the levers of joints to the ground, whose 1/μ no pose changes.
+pub(crate) fn weigh<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    shares: &[Share<P::Real>],
+    h: P::Real,
+    levers: &mut [Lever<P>],
+) {
+    for group in model.groups {
+        if let (Some(levers), Some(shares)) = (levers.get_mut(rows(group)), shares.get(rows(group)))
+            && fixed::<P, T>(group).is_some()
+        {
+            for (lever, share) in levers.iter_mut().zip(shares) {
+                lever.weigh(share, h, lever.rate);
+            }
+        }
+    }
+}
+
 /// The rows of a group's levers.
 #[inline(always)]
 pub(super) fn rows(group: &Group) -> core::ops::Range<usize> {
@@ -159,7 +228,14 @@ pub(crate) fn find<P: Geometry, T: Terms>(
     levers: &mut [Lever<P>],
 ) {
     for (row, group) in model.groups.iter().enumerate() {
-        let Some(ends) = fixed::<P, T>(group) else { continue };
+        let Some(ends) = fixed::<P, T>(group) else {
+            if let Some(ends) = turning::<T>(group)
+                && let Some(lever) = levers.get_mut(rows(group).start)
+            {
+                lever.seat = Seat { ends: ends.map(|end| end.0), count: 1, kind: Kind::Turning };
+            }
+            continue;
+        };
         let metric = Metric::new(model, ends);
         let own = rows(group);
         let Some((before, here)) = levers.split_at_mut_checked(own.start) else { continue };
@@ -184,8 +260,8 @@ pub(crate) fn find<P: Geometry, T: Terms>(
                 metric.insert(shared, here, lever.scaled(root));
             });
         }
-        metric.finish(shared, h);
-        metric.finish(here, h);
+        metric.finish(shared, ends, h);
+        metric.finish(here, ends, h);
     }
 }
 
@@ -273,15 +349,20 @@ impl<P: Geometry> Metric<P> {
 
     /// Brings levers to the front, and takes the part of 1/μ that no pose changes. Beyond `LARGEST`
     /// of h/μ nothing changes any more.
-    fn finish(&self, levers: &mut [Lever<P>], h: P::Real) {
+    fn finish(&self, levers: &mut [Lever<P>], ends: [BodyIndex; 2], h: P::Real) {
         let largest = P::Real::from_f64(LARGEST);
-        for lever in levers {
+        let mut count = 0;
+        for lever in levers.iter_mut() {
             let x = h * self.rate(lever, lever);
             if x > largest {
                 *lever = lever.scaled((largest / x).sqrt());
             }
             let still = Lever { other: P::Moment::ZERO, ..*lever };
             lever.rate = self.rate(&still, &still);
+            count += u8::from(lever.rate > P::Real::ZERO);
+        }
+        if let Some(first) = levers.first_mut() {
+            first.seat = Seat { ends: ends.map(|end| end.0), count, kind: Kind::Joint };
         }
     }
 }

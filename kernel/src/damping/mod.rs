@@ -29,7 +29,7 @@ mod strength;
 pub use crate::elements::share::Share;
 pub(crate) use joints::{prepare, sweep_joints};
 pub use levers::{Keep, Lever, Levers, NoLevers};
-pub(crate) use levers::find;
+pub(crate) use levers::{find, weigh};
 pub(crate) use pair::{HalfKick, Kick, NoKick};
 pub(crate) use shares::share;
 pub use strength::{DampersOf, Strength, strengths};

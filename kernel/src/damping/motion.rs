@@ -4,7 +4,7 @@
 //! before a run or beside it; the sweeps of a step have a way of their own.
 
 use crate::body::{BodyState, Increment};
-use crate::damping::levers::{Lever, fixed, rows};
+use crate::damping::levers::{Lever, fixed, held};
 use crate::damping::pair::Direction;
 use crate::damping::{each_direction, torsion_direction};
 use crate::geometry::Geometry;
@@ -82,8 +82,7 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
                 let Some(group) = model.groups.get(group) else { return };
                 let Some(first) = group.damper.row() else { return };
                 if let Some(ends) = fixed::<P, T>(group).filter(|_| !levers.is_empty()) {
-                    let levers = levers.get(rows(group)).unwrap_or_default();
-                    for (i, lever) in levers.iter().enumerate().filter(|(_, lever)| lever.acts()) {
+                    for (i, lever) in held(group, levers).iter().enumerate() {
                         visit(first + i, one, one, &lever.direction(places, ends, group.a));
                     }
                     return;
