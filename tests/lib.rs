@@ -38,6 +38,7 @@ pages! {
     reference_solvers "docs/reference-solvers.md"
     scene_reference "docs/scene-reference.md"
     schemes "docs/schemes.md"
+    speed "docs/speed.md"
     step "docs/step.md"
     contents "docs/SUMMARY.md"
     sweeps "docs/sweeps.md"

@@ -1,5 +1,6 @@
 //! The std reference against the kernel: two writings of one set of equations.
 
+use dbd_bench::plain::Plain;
 use dbd_kernel::builder::{LineLaw, Stars};
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::forces::wrenches;
@@ -158,4 +159,31 @@ fn the_naive_steps_are_the_kernels_steps() {
     assert!(euler < 1e-10 && leapfrog < 1e-10, "{euler:e} {leapfrog:e}");
     // The measure tells the two apart.
     assert!(apart(Leapfrog, 1_000, |run| run.semi_implicit_euler()) > 1e-7);
+}
+
+/// The plain loop that times are compared with takes the reference's steps, of every scene that it does not refuse.
+#[test]
+fn a_plain_loop_takes_the_same_steps() {
+    let mut refused = Vec::new();
+    for name in scene_names() {
+        let scene = scene(&name);
+        let h = scene.step.unwrap();
+        let Ok(mut plain) = Plain::of_model(&scene.model, h) else {
+            refused.push(name);
+            continue;
+        };
+        let (mechanism, start) = Mechanism::of(&scene);
+        let mut naive = Naive::new(&mechanism, start, h);
+        (0..200).for_each(|_| naive.leapfrog());
+        plain.advance(200);
+        for (plain, naive) in plain.bodies.iter().zip(&naive.state.bodies) {
+            let apart =
+                |a: [f64; 3], b: Vector3<f64>| (Vector3::from(a) - b).norm() / (1.0 + b.norm());
+            let position = apart(plain.position, naive.position);
+            let rate = apart(plain.rate, naive.rate);
+            assert!(position < 1e-10 && rate < 1e-7, "{name}: {position:e} {rate:e}");
+        }
+    }
+    println!("{refused:?}");
+    assert_eq!(refused, [""; 0]);
 }

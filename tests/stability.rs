@@ -116,6 +116,8 @@ fn damped(name: &str) -> Scene {
             Law::Tsda => model.tsdas[elements].iter().map(|tsda| tsda.stiffness).collect(),
             Law::PointOnLine => model.lines[elements].iter().map(|line| line.stiffness).collect(),
             Law::PointBushing => model.bushings[elements].iter().map(|b| b.stiffness).collect(),
+            Law::Revolute => model.revolutes[elements].iter().map(|b| b.stiffness).collect(),
+            Law::Universal => model.universals[elements].iter().map(|b| b.stiffness).collect(),
         };
         model.dampers.extend(stiffnesses.iter().map(|stiffness| 2.0 * stiffness / dominant));
     }

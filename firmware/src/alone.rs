@@ -41,6 +41,8 @@ impl<T: Terms, S: Scheme + Default + 'static> Terms for TermsAlone<T, S> {
     const LINES: bool = T::LINES;
     const INPUTS: bool = T::INPUTS;
     const CLEARANCES: bool = T::CLEARANCES;
+    const REVOLUTES: bool = T::REVOLUTES;
+    const UNIVERSALS: bool = T::UNIVERSALS;
 }
 
 impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
@@ -70,6 +72,8 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
             inputs: view.inputs,
             knots: view.knots,
             clearances: view.clearances,
+            revolutes: view.revolutes,
+            universals: view.universals,
             terms: PhantomData,
         }
     }

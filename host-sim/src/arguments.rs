@@ -24,4 +24,16 @@ pub struct SceneArgument {
     /// name: body.cart.mass=1.2, joint.*.stiffness=1e6, step=20us
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub set: Vec<String>,
+    /// Three freedoms per body in the scene's plane, as --set planar=true; refused where anything leaves it
+    #[arg(long)]
+    pub planar: bool,
+}
+
+impl SceneArgument {
+    /// The changes of the scene.
+    #[must_use]
+    pub fn changes(&self) -> Vec<String> {
+        let planar = self.planar.then(|| "planar=true".to_owned());
+        self.set.iter().cloned().chain(planar).collect()
+    }
 }

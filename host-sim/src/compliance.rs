@@ -42,13 +42,13 @@ impl Stretch {
 #[must_use]
 pub fn stretches(scene: &Scene) -> Vec<Stretch> {
     let bodies = scene.model.bodies.len();
+    if bodies > MOST_BODIES {
+        return Vec::new();
+    }
     let elements = scene.joint_elements();
     let joints = scene.element_frequencies().into_iter().take(scene.joints.len());
     let frequencies = joints.map(|joint| joint.frequency).filter(|frequency| *frequency > 0.0);
     let softest = frequencies.fold(f64::INFINITY, f64::min);
-    if bodies > MOST_BODIES {
-        return Vec::new();
-    }
     if elements.is_empty() {
         return Vec::new();
     }
@@ -88,11 +88,11 @@ type Row = Vec<(usize, f64)>;
 
 fn row(element: &JointElement, roots: &[f64]) -> Row {
     let mut row = Vec::new();
-    let ends = element.bodies.iter().zip(element.points).zip(element.directions);
-    for (((body, point), direction), sign) in ends.zip([-1.0, 1.0]) {
+    let ends = element.bodies.iter().zip(element.moments);
+    for ((body, moment), sign) in ends.zip([-1.0, 1.0]) {
         let Some(body) = body else { continue };
         // n·R(ω × p) = ω·(p × n), in body axes.
-        let parts = [element.direction_w, point.cross(direction)].map(Vec3::to_f64);
+        let parts = [element.direction_w, moment].map(Vec3::to_f64);
         for (i, part) in parts.as_flattened().iter().enumerate() {
             row.push((6 * body + i, sign * part / roots[6 * body + i]));
         }

@@ -5,6 +5,7 @@ use dbd_study::SurveyError;
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::commands::bench::BenchError;
 use crate::commands::compare::CompareRefusal;
 use crate::commands::export::ExportError;
 use crate::commands::import::ImportError;
@@ -65,6 +66,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Trade(#[from] TradeError),
+    /// Nothing was measured.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Bench(#[from] BenchError),
     /// A sweep was refused, or not brought to its end.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -84,7 +89,7 @@ impl Error {
     #[must_use]
     pub fn exit(&self) -> Exit {
         match self {
-            Self::Load(_) | Self::Method(_) | Self::Plant(_) => Exit::Refused,
+            Self::Load(_) | Self::Method(_) | Self::Plant(_) | Self::Bench(_) => Exit::Refused,
             Self::Export(ExportError::Write { .. })
             | Self::Import(ImportError::Write { .. })
             | Self::New(NewError::Write { .. })

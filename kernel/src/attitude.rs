@@ -1,13 +1,14 @@
 //! How an orientation is stored and turned, apart from where its body is.
 //!
 //! `(stored, turn) => stored; stored => rotation matrix`. A way of storing is one type: the unit
-//! [`Quaternion`] here, Euler angles in [`crate::euler`].
+//! [`Quaternion`] and, in the plane, [`Heading`] here, Euler angles in [`crate::euler`].
 
 use core::fmt::Debug;
 
+use crate::plane::Heading;
 use crate::real::Real;
 use crate::space::Turn;
-use crate::vector::{Quaternion, Rotation};
+use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::Words;
 
 /// The stored orientation of a body, body → world.
@@ -28,6 +29,13 @@ pub trait Attitude: Copy + Debug + Default + PartialEq + Words + 'static {
     fn since_world(&self) -> Self::Turn;
     /// Composes with a turn given in body axes: `q ← q ∘ turn`.
     fn turn(&mut self, turn: Quaternion<Self::Real>);
+    /// [`Self::turn`] about body axis `AXIS`, 0 to 2, by cosine and sine of half the angle.
+    #[inline(always)]
+    fn turn_about<const AXIS: usize>(&mut self, cos: Self::Real, sin: Self::Real) {
+        let mut v = [Self::Real::ZERO; 3];
+        v[AXIS] = sin;
+        self.turn(Quaternion { w: cos, v: Vec3::new(v[0], v[1], v[2]) });
+    }
     /// Restores unit length, or the range of angles, after the turns of a step.
     fn renormalise(&mut self);
     /// Rounds a unit quaternion once, scalar first.
@@ -70,6 +78,10 @@ impl<R: Real> Attitude for Quaternion<R> {
         *self = self.product(turn);
     }
     #[inline(always)]
+    fn turn_about<const AXIS: usize>(&mut self, cos: R, sin: R) {
+        *self = self.turned_about::<AXIS>(cos, sin);
+    }
+    #[inline(always)]
     fn renormalise(&mut self) {
         *self = self.renormalised();
     }
@@ -78,5 +90,40 @@ impl<R: Real> Attitude for Quaternion<R> {
     }
     fn to_f64(&self) -> [f64; 4] {
         Quaternion::to_f64(*self)
+    }
+}
+
+impl<R: Real> Attitude for Heading<R> {
+    type Real = R;
+    type Turn = Self;
+
+    const NAME: &'static str = "heading";
+
+    #[inline(always)]
+    fn rotation(&self) -> Rotation<R> {
+        Quaternion::from(*self).rotation()
+    }
+    #[inline(always)]
+    fn quaternion(&self) -> Quaternion<R> {
+        Quaternion::from(*self)
+    }
+    #[inline(always)]
+    fn since_world(&self) -> Self {
+        *self
+    }
+    /// Of the turn only what is about z.
+    #[inline(always)]
+    fn turn(&mut self, turn: Quaternion<R>) {
+        *self = self.product(Heading::new(turn.w, turn.v.z));
+    }
+    #[inline(always)]
+    fn renormalise(&mut self) {
+        *self = self.renormalised();
+    }
+    fn from_f64(orientation: [f64; 4]) -> Self {
+        Turn::from_f64(orientation)
+    }
+    fn to_f64(&self) -> [f64; 4] {
+        Turn::to_f64(*self)
     }
 }

@@ -5,6 +5,8 @@
 
 use crate::attitude::Attitude as _;
 use crate::geometry::{F32, F64, Geometry};
+use crate::planar::{Planar32, Planar64};
+use crate::plane::{Axial, Heading, Plane, Vec2};
 use crate::real::Real;
 use crate::space::{Linear as _, Moment as _, Space};
 use crate::vector::{Quaternion, Vec3};
@@ -146,23 +148,37 @@ impl<P: Geometry> Words for BodyState<P> {
 
 /// What a constant is made with: a function for any precision is none that a constant may call.
 macro_rules! constants {
+    ($real:ident, $space:ty, $precision:ident) => {
+        constants!(@ $real, $space, $precision,
+            vector [x y _z] Vec2::new(x as $real, y as $real),
+            moment [_x _y z] Axial::new(z as $real),
+            turn [w _i _j k] Heading::new(w as $real, k as $real));
+    };
     ($real:ident, $precision:ident) => {
-        impl Body<$real> {
+        constants!(@ $real, $real, $precision,
+            vector [x y z] Vec3::new(x as $real, y as $real, z as $real),
+            moment [x y z] Vec3::new(x as $real, y as $real, z as $real),
+            turn [w i j k] Quaternion::new(w as $real, i as $real, j as $real, k as $real));
+    };
+    (@ $real:ident, $space:ty, $precision:ident,
+        vector [$($v:ident)*] $vector:expr,
+        moment [$($m:ident)*] $moment:expr,
+        turn [$($t:ident)*] $turn:expr) => {
+        impl Body<$space> {
             /// [`Self::from_f64`] in a constant, with the same bits.
             #[must_use]
             pub const fn new(mass: f64, inertia: [f64; 3]) -> Self {
+                const fn moment([$($m),*]: [f64; 3]) -> <$space as Space>::Moment {
+                    $moment
+                }
                 let [x, y, z] = inertia;
                 Self {
                     mass: mass as $real,
-                    inertia: Vec3::new(x as $real, y as $real, z as $real),
+                    inertia: moment(inertia),
                     inverse_mass: (1.0 / mass) as $real,
-                    inverse_inertia: Vec3::new(
-                        (1.0 / x) as $real,
-                        (1.0 / y) as $real,
-                        (1.0 / z) as $real,
-                    ),
-                    ratio: Vec3::new((z / y) as $real, (x / z) as $real, (y / x) as $real),
-                    inverse_ratio: Vec3::new((y / z) as $real, (z / x) as $real, (x / y) as $real),
+                    inverse_inertia: moment([1.0 / x, 1.0 / y, 1.0 / z]),
+                    ratio: moment([z / y, x / z, y / x]),
+                    inverse_ratio: moment([y / z, z / x, x / y]),
                 }
             }
         }
@@ -176,13 +192,20 @@ macro_rules! constants {
                 velocity: [f64; 3],
                 angular_velocity: [f64; 3],
             ) -> Self {
-                let ([x, y, z], [vx, vy, vz]) = (position, velocity);
-                let ([w, i, j, k], [wx, wy, wz]) = (orientation, angular_velocity);
+                const fn vector([$($v),*]: [f64; 3]) -> <$space as Space>::Vector {
+                    $vector
+                }
+                const fn moment([$($m),*]: [f64; 3]) -> <$space as Space>::Moment {
+                    $moment
+                }
+                const fn turn([$($t),*]: [f64; 4]) -> <$space as Space>::Turn {
+                    $turn
+                }
                 Self {
-                    position: Vec3::new(x as $real, y as $real, z as $real),
-                    orientation: Quaternion::new(w as $real, i as $real, j as $real, k as $real),
-                    velocity: Vec3::new(vx as $real, vy as $real, vz as $real),
-                    angular_velocity: Vec3::new(wx as $real, wy as $real, wz as $real),
+                    position: vector(position),
+                    orientation: turn(orientation),
+                    velocity: vector(velocity),
+                    angular_velocity: moment(angular_velocity),
                 }
             }
         }
@@ -191,6 +214,8 @@ macro_rules! constants {
 
 constants!(f64, F64);
 constants!(f32, F32);
+constants!(f64, Plane<f64>, Planar64);
+constants!(f32, Plane<f32>, Planar32);
 
 #[cfg(test)]
 mod tests {
@@ -198,9 +223,9 @@ mod tests {
 
     /// What one precision's constants are, and what the function for all makes of the same numbers.
     macro_rules! same_bits {
-        ($real:ident, $precision:ident) => {{
+        ($space:ty, $precision:ident) => {{
             const INERTIA: [f64; 3] = [0.08333, 0.00083, 0.1];
-            const BODY: Body<$real> = Body::<$real>::new(0.3, INERTIA);
+            const BODY: Body<$space> = Body::<$space>::new(0.3, INERTIA);
             const STATE: BodyState<$precision> = BodyState::<$precision>::new(
                 [0.1, -0.2, 1e-9],
                 [0.8, 0.0, 0.6, 0.0],
@@ -222,5 +247,7 @@ mod tests {
     fn constants_have_the_bits_of_what_is_made_at_run_time() {
         same_bits!(f64, F64);
         same_bits!(f32, F32);
+        same_bits!(Plane<f64>, Planar64);
+        same_bits!(Plane<f32>, Planar32);
     }
 }

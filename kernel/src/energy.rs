@@ -24,7 +24,7 @@ pub struct Energy<R> {
     pub gravity: R,
     /// \[J\] TSDAs.
     pub tsda: R,
-    /// \[J\] point bushings.
+    /// \[J\] bushings, those of joints too.
     pub bushing: R,
     /// \[J\] points on lines.
     pub line: R,
@@ -49,6 +49,16 @@ impl<R: Real> Energy<R> {
 /// The energies of a state, loads as they act at its time for steps of `step_size` \[s\]. A
 /// torsion spring whose twist is undefined counts 0.
 pub fn energy<M: ModelOwner>(model: &M, state: &State<M>, step_size: f64) -> Energy<RealOf<M>> {
+    energy_with_extensions(model, state, step_size, |_, _| {})
+}
+
+/// The same, and on the way what [`each_extension`] visits: each element is placed once for both.
+pub fn energy_with_extensions<M: ModelOwner>(
+    model: &M,
+    state: &State<M>,
+    step_size: f64,
+    mut visit: impl FnMut(usize, RealOf<M>),
+) -> Energy<RealOf<M>> {
     let view = model.view();
     let bodies = state.bodies.as_ref();
     let mut sum = Energy::default();
@@ -69,13 +79,16 @@ pub fn energy<M: ModelOwner>(model: &M, state: &State<M>, step_size: f64) -> Ene
     each_element(&view, places, |placed| {
         let Some(law) = view.element(placed.group.law, placed.index) else { return };
         let clearance = view.clearance(placed.group);
-        let energy = law.energy(placed.stretch.displacement, clearance);
+        let energy = law.energy(&placed.stretch, clearance);
         let kind = match law {
             Element::Tsda(_) => &mut sum.tsda,
-            Element::PointBushing(_) => &mut sum.bushing,
+            Element::PointBushing(_) | Element::Revolute(_) | Element::Universal(_) => {
+                &mut sum.bushing
+            }
             Element::PointOnLine(_) => &mut sum.line,
         };
         *kind = *kind + energy;
+        visit(placed.number, law.extension(&placed.stretch));
     });
     for (spring, &turns) in view.torsions.iter().zip(state.turns.as_ref()) {
         if let Some(twist) = twist_of::<M::Precision>(spring, bodies, turns) {
@@ -116,7 +129,7 @@ pub fn each_extension<M: ModelOwner>(
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
     each_element(&view, places, |placed| {
         if let Some(law) = view.element(placed.group.law, placed.index) {
-            visit(placed.number, law.extension(placed.stretch.displacement));
+            visit(placed.number, law.extension(&placed.stretch));
         }
     });
 }

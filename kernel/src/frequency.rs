@@ -12,167 +12,22 @@
 //! spring, adds `½·φ × τ` to the response to a turn φ in body axes (the commutator of turns), which
 //! is taken off again. Both speak for the pose, not for the future.
 
+mod bound;
+
+pub use bound::bound;
+pub(crate) use bound::square_of;
+
 use crate::body::{Body, BodyState, Increment};
 use crate::elements::input::InputKind;
 use crate::elements::load::LoadFrame;
-use crate::elements::point_law::taut;
 use crate::forces::{self, At, DampersLeft, Evaluation, Instant, Turns, Wrench};
 use crate::geometry::Geometry;
-use crate::index::BodyIndex;
-use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, SpaceOf, Terms};
-use crate::pose::{Places, place_bodies, placed, twist_of};
+use crate::model::{FrameOf, ModelOwner, RealOf, SpaceOf};
 use crate::real::Real;
 use crate::rotation;
 use crate::schedule::Signal;
-use crate::space::{Linear, Moment, Space, Vector as _};
+use crate::space::{Linear as _, Moment as _, Space};
 use crate::state::State;
-
-/// A symmetric 6×6 matrix over (linear, angular), in full.
-type Block<R> = [[R; 6]; 6];
-
-/// Squarings of the block: `λ_max ≤ trace(S^n)^(1/n)`, n = 2^8, exceeds it by 6^(1/256) at most.
-const SQUARINGS: usize = 8;
-
-/// What rounding may take from a bound, in either precision, is given back.
-const ROUNDING_MARGIN: f64 = 1.0 + 1e-6;
-
-/// An upper bound of the highest angular frequency \[rad/s\] at the pose of `state`; 0 for a model
-/// without springs. At most 0.4 % above the exact block bound.
-pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
-    let view = model.view();
-    let bodies = state.bodies.as_ref();
-    let mut frames = model.per_body(FrameOf::<M>::default());
-    place_bodies::<M::Precision>(bodies, frames.as_mut());
-    let frames = frames.as_ref();
-    let places = Places { frames, signals: state.signals.as_ref() };
-    let mut largest = RealOf::<M>::ZERO;
-    for row in 0..bodies.len() {
-        let eigenvalue = square_of(&view, places, bodies, state.turns.as_ref(), row);
-        if eigenvalue > largest {
-            largest = eigenvalue;
-        }
-    }
-    largest.sqrt()
-}
-
-/// The square of the bound of what is mounted to one body, 0 where there is none.
-pub(crate) fn square_of<P: Geometry, T: Terms>(
-    view: &ModelRef<'_, P, T>,
-    places: Places<'_, P>,
-    bodies: &[BodyState<P>],
-    turns: &[i32],
-    row: usize,
-) -> P::Real {
-    let zero = P::Real::ZERO;
-    let (Some(body), Some(frame)) = (view.bodies.get(row), places.frames.get(row)) else {
-        return zero;
-    };
-    let here = BodyIndex(row as u16);
-    let mut block = [[zero; 6]; 6];
-    let mut add = |stiffness: P::Real, other: BodyIndex, u: P::Vector, moment: P::Moment| {
-        let share = if other.is_world() { P::Real::ONE } else { P::Real::TWO };
-        let n = P::moment_to_body(frame, moment);
-        add_row(&mut block, share * stiffness, scaled(body, u, n));
-    };
-    let mut turning = zero;
-    for (number, group) in view.groups.iter().enumerate() {
-        let at_a = group.a == here;
-        if !(at_a || group.b == here) {
-            continue;
-        }
-        let other = if at_a { group.b } else { group.a };
-        for i in 0..group.elements() {
-            let Some(e) = placed(view, places, (number, group), i) else { continue };
-            let Some(law) = view.element(group.law, e.index) else { continue };
-            let arm = if at_a { e.arm_a } else { e.arm_b };
-            let mut add = |stiffness, u: P::Vector| add(stiffness, other, u, arm.cross(u));
-            turning = turning + law.tangent(&e.stretch, arm, &mut add);
-        }
-    }
-    for (input, signal) in view.inputs.iter().zip(places.signals) {
-        let InputKind::Actuator { group, element } = input.kind else { continue };
-        let row = group as usize;
-        let group = view.groups.get(row);
-        let element = group.and_then(|g| placed(view, places, (row, g), element as usize));
-        let Some(e) = element else { continue };
-        let ends = [(e.group.a, e.group.b, e.arm_a), (e.group.b, e.group.a, e.arm_b)];
-        for (_, other, arm) in ends.into_iter().filter(|(body, ..)| *body == here) {
-            let mut add = |stiffness, u: P::Vector| add(stiffness, other, u, arm.cross(u));
-            let tension = signal.value.abs();
-            turning = turning + taut(tension, e.stretch.displacement, arm, &mut add);
-        }
-    }
-    for (spring, &turns) in view.torsions.iter().zip(turns) {
-        let other = if spring.a == here {
-            spring.b
-        } else if spring.b == here {
-            spring.a
-        } else {
-            continue;
-        };
-        let Some(twist) = twist_of::<P>(spring, bodies, turns) else { continue };
-        let gradient = match places.frames.get(spring.a.row()) {
-            Some(frame) => P::moment_to_world(frame, twist.gradient),
-            None => twist.gradient,
-        };
-        add(spring.stiffness, other, P::Vector::ZERO, gradient);
-        turning = turning + spring.turning(twist.angle, gradient);
-    }
-    for axis in P::Moment::axes() {
-        add_row(&mut block, turning, scaled(body, P::Vector::ZERO, axis));
-    }
-    largest_eigenvalue(block)
-}
-
-/// `M^-1/2·(u, n)`.
-fn scaled<S: Space>(body: &Body<S>, u: S::Vector, n: S::Moment) -> [S::Real; 6] {
-    let m = body.inverse_mass.sqrt();
-    let i = body.inverse_inertia.in_space();
-    let (u, n) = (u.in_space(), n.in_space());
-    [u.x * m, u.y * m, u.z * m, n.x * i.x.sqrt(), n.y * i.y.sqrt(), n.z * i.z.sqrt()]
-}
-
-/// Adds `stiffness·j·jᵀ`.
-fn add_row<R: Real>(block: &mut Block<R>, stiffness: R, j: [R; 6]) {
-    for (row, a) in block.iter_mut().zip(j) {
-        for (entry, b) in row.iter_mut().zip(j) {
-            *entry = *entry + stiffness * a * b;
-        }
-    }
-}
-
-/// An upper bound of the largest eigenvalue of a positive semidefinite block.
-fn largest_eigenvalue<R: Real>(mut block: Block<R>) -> R {
-    let mut traces = [R::ZERO; SQUARINGS + 1];
-    for (k, slot) in traces.iter_mut().enumerate() {
-        let mut trace = R::ZERO;
-        for (i, row) in block.iter().enumerate() {
-            trace = trace + row[i];
-        }
-        *slot = trace;
-        if trace == R::ZERO || k == SQUARINGS {
-            break;
-        }
-        let inverse = R::ONE / trace;
-        for row in &mut block {
-            for entry in row {
-                *entry = *entry * inverse;
-            }
-        }
-        let s = block;
-        for (i, row) in block.iter_mut().enumerate() {
-            for (j, entry) in row.iter_mut().enumerate() {
-                *entry = s[i].iter().zip(&s).fold(R::ZERO, |sum, (a, b)| sum + *a * b[j]);
-            }
-        }
-    }
-    // S = t0·S1 with trace 1, S1² = t1·S2, …: λ ≤ t0·√(t1·√(t2·…)).
-    let mut eigenvalue = R::ONE;
-    for trace in traces.iter().rev() {
-        eigenvalue = *trace * eigenvalue.sqrt();
-    }
-    eigenvalue * R::from_f64(ROUNDING_MARGIN)
-}
 
 /// Largest displacement \[m\] and turn \[rad\] of the estimate's differences.
 const PROBE: f64 = 1e-6;
@@ -365,21 +220,5 @@ fn displace<M: ModelOwner>(
         M::Precision::translate(&mut moved.position, linear);
         let half = angular * RealOf::<M>::HALF;
         rotation::turn_by::<M::Precision>(&mut moved.orientation, half);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_eigenvalue_bound_is_tight_and_above() {
-        let mut block = [[0.0; 6]; 6];
-        add_row(&mut block, 3.0, [1.0, 2.0, 0.0, 0.0, 0.0, 1.0]);
-        add_row(&mut block, 1.0, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
-        let exact = 3.0 * 6.0;
-        let bound = largest_eigenvalue(block);
-        assert!(bound >= exact && bound < exact * 1.008, "{bound}");
-        assert_eq!(largest_eigenvalue([[0.0_f64; 6]; 6]), 0.0);
     }
 }

@@ -6,11 +6,12 @@
 //!
 //! The modules in the order of the road; each uses only those before it (a test holds it to that):
 //!
-//! - [`words`], `square_root`, [`real`], [`vector`], [`space`], [`arctangent`]: the arithmetic, and the
-//!   words in which it is stored.
+//! - [`words`], `square_root`, [`real`], [`vector`], [`space`], [`plane`], [`arctangent`]: the
+//!   arithmetic, and the words in which it is stored.
 //! - `compositions`, [`index`]: coefficients, and names of a model's parts.
-//! - [`attitude`], [`geometry`], [`euler`], [`loose`]: a precision is a type: [`F64`], [`F32`]; an
-//!   orientation is a quaternion or, as in the paper, angles.
+//! - [`attitude`], [`geometry`], [`planar`], [`euler`], [`loose`]: a precision is a type: [`F64`],
+//!   [`F32`], in the plane [`Planar64`], [`Planar32`]; an orientation is a quaternion or, as in the
+//!   paper, angles.
 //! - [`body`], [`rotation`]: one rigid body, and how it turns.
 //! - [`status`], [`elements`], [`schedule`]: what can fail; the laws, one per file; what happens when.
 //! - [`mod@model`], [`sketch`], [`state`]: read-only constants of bodies and elements, and how a person
@@ -82,6 +83,8 @@ pub mod index;
 #[cfg(feature = "micromath")]
 pub mod loose;
 pub mod model;
+pub mod planar;
+pub mod plane;
 pub mod plant;
 mod pose;
 pub mod readouts;
@@ -105,12 +108,15 @@ pub use body::{Body, BodyState};
 pub use elements::load::{Load, LoadFrame};
 pub use elements::point_bushing::PointBushing;
 pub use elements::point_on_line::PointOnLine;
+pub use elements::revolute::Revolute;
 pub use elements::torsion_spring::TorsionSpring;
 pub use elements::tsda::Tsda;
+pub use elements::universal::Universal;
 pub use energy::Energy;
 pub use geometry::{F32, F64, Geometry};
 pub use index::BodyIndex;
 pub use model::{Model, ModelOwner};
+pub use planar::{Planar32, Planar64};
 pub use plant::Plant;
 pub use real::Real;
 pub use schemes::{

@@ -7,7 +7,7 @@
 use core::ops::Deref;
 
 use crate::attitude::Attitude as _;
-use crate::damping::{Damping, Keep, Share, find, share, weigh};
+use crate::damping::{Damping, Held, Keep, Share, find, share, weigh};
 use crate::forces::Wrench;
 use crate::guards::first_fault;
 use crate::index::{BodyIndex, InputIndex};
@@ -90,9 +90,10 @@ where
             if S::DAMPING == Damping::JointWise {
                 find(&view, places, half, levers.as_mut());
             }
+            let (mut held, shares) = (owner.per_body(Held::default()), shares.as_mut());
             let others = (state.turns.as_ref(), levers.as_ref());
-            share(&view, places, bodies, others, shares.as_mut());
-            weigh(&view, shares.as_ref(), half, levers.as_mut());
+            share(&view, places, bodies, others, held.as_mut(), shares);
+            weigh(&view, shares, half, levers.as_mut());
         }
         let wrenches = owner.per_body(Wrench::default());
         let memory = owner.per_body(S::Memory::default());

@@ -9,11 +9,13 @@ use crate::elements::input::InputKind;
 use crate::elements::point_law::Stretch;
 use crate::elements::point_on_line::Projection;
 use crate::elements::torsion_spring::{TorsionSpring, Twist};
+use crate::elements::universal::{Lean, Universal};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelRef, Terms};
+use crate::real::Real as _;
 use crate::schedule::Signal;
-use crate::space::{Linear as _, Moment as _};
+use crate::space::{Linear as _, Moment as _, Vector};
 
 /// Computes the frames of all bodies.
 #[inline]
@@ -94,6 +96,24 @@ impl<'s, P: Geometry> End<'s, P> {
         }
     }
 
+    /// This end where it is a body's, known to be one.
+    #[inline(always)]
+    pub(crate) fn body(&self) -> Option<Self> {
+        self.frame.map(|frame| Self { frame: Some(frame), moved: None, ..*self })
+    }
+
+    /// This end of the ground, known to be one.
+    #[inline(always)]
+    pub(crate) fn ground(&self) -> Self {
+        Self { frame: None, ..*self }
+    }
+
+    /// The moment of a force at the end of an arm; the ground takes none.
+    #[inline(always)]
+    pub(crate) fn moment(&self, arm: P::Vector, force: P::Vector) -> P::Moment {
+        if self.frame.is_some() { arm.cross(force) } else { P::Moment::ZERO }
+    }
+
     /// Body axes to world axes.
     #[inline(always)]
     pub(crate) fn to_world(&self, v: P::Vector) -> P::Vector {
@@ -144,7 +164,7 @@ impl<'s, P: Geometry> End<'s, P> {
 }
 
 /// An element of a group at a pose.
-pub(crate) struct Placed<'m, V> {
+pub(crate) struct Placed<'m, V: Vector> {
     /// Its group.
     pub(crate) group: &'m Group,
     /// Its group's index.
@@ -153,7 +173,8 @@ pub(crate) struct Placed<'m, V> {
     pub(crate) index: usize,
     /// From its first point to its second, and its line.
     pub(crate) stretch: Stretch<V>,
-    /// The arm of the first point, world axes; 0 on the ground; on a line that of the foot.
+    /// The arm of the first point, world axes; 0 on the ground; on a line that of the foot, of
+    /// a revolute joint that of the second point.
     pub(crate) arm_a: V,
     /// The arm of the second point.
     pub(crate) arm_b: V,
@@ -167,10 +188,20 @@ pub(crate) fn placed<'m, P: Geometry, T: Terms>(
     (number, group): (usize, &'m Group),
     i: usize,
 ) -> Option<Placed<'m, P::Vector>> {
+    let ends = [group.a, group.b].map(|end| End::new(model, places, end, None));
+    placed_between(model, &ends, (number, group), i)
+}
+
+/// The same where the group's ends are at hand.
+#[inline(always)]
+fn placed_between<'m, P: Geometry, T: Terms>(
+    model: &ModelRef<'m, P, T>,
+    [end_a, end_b]: &[End<'_, P>; 2],
+    (number, group): (usize, &'m Group),
+    i: usize,
+) -> Option<Placed<'m, P::Vector>> {
     let arms = group.arms.max(1) as usize;
     let (star, arm) = (i / arms, i % arms);
-    let end_a = End::new(model, places, group.a, None);
-    let end_b = End::new(model, places, group.b, None);
     let (a, mut arm_a) = end_a.place(model.points.get(group.centre(star))?);
     let (b, arm_b) = end_b.place(model.points.get(group.tips(star) + arm)?);
     let mut displacement = P::displacement(&a, &b);
@@ -182,8 +213,58 @@ pub(crate) fn placed<'m, P: Geometry, T: Terms>(
         displacement = projection.deflection;
         arm_a = end_a.arm_at(arm_a, direction * projection.slide);
     }
-    let stretch = Stretch { displacement, direction };
+    let (mut ratio, mut leans) = (P::Real::ZERO, P::Real::ZERO);
+    if T::REVOLUTES && group.law == Law::Revolute {
+        let revolute = model.revolutes.get(index)?;
+        let [a, b] = [end_a.to_world(revolute.levers[0]), end_b.to_world(revolute.levers[1])];
+        (direction, ratio) = (unit(a), P::Real::ONE + revolute.along * a.dot(a));
+        leans = (b - a).dot(b - a).sqrt();
+        arm_a = end_a.arm_at(arm_a, displacement);
+    }
+    if T::UNIVERSALS && group.law == Law::Universal {
+        leans = lean(model.universals.get(index)?, [&end_a, &end_b]).by;
+    }
+    let stretch = Stretch { displacement, direction, ratio, lean: leans };
     Some(Placed { group, number, index, stretch, arm_a, arm_b })
+}
+
+/// How the axes of a universal joint between two ends lean.
+#[inline(always)]
+fn lean<P: Geometry>(universal: &Universal<P::Space>, [a, b]: [&End<'_, P>; 2]) -> Lean<P::Space> {
+    Lean::new(a.to_world(universal.lever), b.to_world(universal.axis))
+}
+
+fn unit<V: Vector>(v: V) -> V {
+    v * v.dot(v).sqrt().reciprocal_or_zero()
+}
+
+/// \[m\] Against which turns of the second body beside the first an element holds the axes of a joint, world,
+/// as long as its lever, and how many they are: of a universal joint one, of a revolute two.
+#[inline(always)]
+pub(crate) fn held_turns<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    group: &Group,
+    element: usize,
+) -> ([P::Moment; 2], usize) {
+    let ends = || [group.a, group.b].map(|end| End::new(model, places, end, None));
+    match group.law {
+        Law::Revolute if T::REVOLUTES => {
+            let Some(revolute) = model.revolutes.get(element) else {
+                return ([P::Moment::ZERO; 2], 0);
+            };
+            let lever = ends()[0].to_world(revolute.levers[0]);
+            (unit(lever).normals().map(|n| lever.cross(n)), 2)
+        }
+        Law::Universal if T::UNIVERSALS => {
+            let Some(universal) = model.universals.get(element) else {
+                return ([P::Moment::ZERO; 2], 0);
+            };
+            let [a, b] = ends();
+            ([lean(universal, [&a, &b]).gradient, P::Moment::ZERO], 1)
+        }
+        _ => ([P::Moment::ZERO; 2], 0),
+    }
 }
 
 /// The most points of the second body that one of the first is joined to.
@@ -192,23 +273,6 @@ pub(crate) const MOST_ARMS: usize = 3;
 /// Where a point lies, and its arm.
 pub(crate) type Spot<P> = (<P as Geometry>::Location, <P as Geometry>::Vector);
 
-/// The stars of a group in blocks: the first body's points, and the second's points that they share.
-/// Stars that share none are a block each.
-#[inline(always)]
-pub(crate) fn blocks<'m, L, const ARMS: usize>(
-    points: &'m [L],
-    group: &Group,
-) -> impl Iterator<Item = (&'m [L], &'m [L; ARMS])> {
-    let own = points.get(group.point as usize..).unwrap_or_default();
-    let (mut centres, tips) = own.split_at_checked(group.stars as usize).unwrap_or_default();
-    let stars = group.stars_per_block();
-    tips.as_chunks::<ARMS>().0.iter().map_while(move |tips| {
-        let (block, rest) = centres.split_at_checked(stars)?;
-        centres = rest;
-        Some((block, tips))
-    })
-}
-
 /// Visits every element of the groups in order; frames are those of the pose.
 pub(crate) fn each_element<'m, P: Geometry, T: Terms>(
     model: &ModelRef<'m, P, T>,
@@ -216,8 +280,9 @@ pub(crate) fn each_element<'m, P: Geometry, T: Terms>(
     mut visit: impl FnMut(Placed<'m, P::Vector>),
 ) {
     for (number, group) in model.groups.iter().enumerate() {
+        let ends = [group.a, group.b].map(|end| End::new(model, places, end, None));
         for i in 0..group.elements() {
-            if let Some(element) = placed(model, places, (number, group), i) {
+            if let Some(element) = placed_between(model, &ends, (number, group), i) {
                 visit(element);
             }
         }

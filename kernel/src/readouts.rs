@@ -189,7 +189,8 @@ pub fn read<M: ModelOwner>(
             let record: Record<SpaceOf<M>> =
                 forces::record::<M::Precision, M::Terms, ExplicitDampers>(
                     &view, places, bodies, group,
-                );
+                )
+                .unwrap_or(Record::ZERO);
             Some(Reading::Vector((-record.force).in_space()))
         }
         Readout::Imu { body, point } => {
@@ -281,7 +282,8 @@ pub fn each_force<M: ModelOwner>(
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
     for (row, group) in view.groups.iter().enumerate() {
         let record: Record<SpaceOf<M>> =
-            forces::record::<M::Precision, M::Terms, ExplicitDampers>(&view, places, bodies, group);
+            forces::record::<M::Precision, M::Terms, ExplicitDampers>(&view, places, bodies, group)
+                .unwrap_or(Record::ZERO);
         visit(row, (-record.force).in_space());
     }
 }

@@ -92,6 +92,27 @@ pub trait Real:
         if self == Self::ZERO { Self::ZERO } else { Self::ONE / self }
     }
 
+    /// [`Self::reciprocal_or_zero`] of each. Where their product is not 0 none of them is: one
+    /// question instead of one for each.
+    #[inline(always)]
+    fn reciprocals_or_zero<const N: usize>(values: [Self; N]) -> [Self; N] {
+        let mut product = Self::ONE;
+        for value in values {
+            product = product * value;
+        }
+        let mut inverses = values;
+        if product == Self::ZERO {
+            for inverse in &mut inverses {
+                *inverse = inverse.reciprocal_or_zero();
+            }
+        } else {
+            for inverse in &mut inverses {
+                *inverse = Self::ONE / *inverse;
+            }
+        }
+        inverses
+    }
+
     /// The absolute value.
     #[inline(always)]
     fn abs(self) -> Self {
@@ -101,11 +122,8 @@ pub trait Real:
     /// Horner's evaluation of `Σ coefficients[i]·xⁱ`, highest power first.
     #[inline(always)]
     fn polynomial(self, coefficients: &[Self]) -> Self {
-        let mut sum = Self::ZERO;
-        for &c in coefficients.iter().rev() {
-            sum = c + self * sum;
-        }
-        sum
+        let Some((&last, others)) = coefficients.split_last() else { return Self::ZERO };
+        others.iter().rev().fold(last, |sum, &c| c + self * sum)
     }
 }
 

@@ -56,6 +56,8 @@ pub enum StateError {
     NotFinite(BodyIndex),
     /// The orientation of this body is no unit quaternion within 1e-3.
     Orientation(BodyIndex),
+    /// This body leaves the plane that the model lies in.
+    OffPlane(BodyIndex),
     /// The signal of this input is infinite or not a number.
     Signal(InputIndex),
 }
@@ -71,6 +73,9 @@ impl core::fmt::Display for StateError {
             }
             StateError::Orientation(body) => {
                 write!(f, "the orientation of body {} is no unit quaternion", body.0)
+            }
+            StateError::OffPlane(body) => {
+                write!(f, "the state of body {} leaves the plane of the model", body.0)
             }
             StateError::Signal(input) => write!(f, "the signal of input {} is not finite", input.0),
         }

@@ -12,7 +12,7 @@ use crate::body::Body;
 use crate::compositions::PEFRL;
 use crate::geometry::Geometry;
 use crate::real::Real;
-use crate::space::{Linear as _, Moment};
+use crate::space::{Linear as _, Moment, Space as _};
 use crate::vector::{Quaternion, Vec3};
 
 /// Turns by the rotation vector `2·half` in body axes (exponential map).
@@ -37,12 +37,25 @@ pub fn free_rotor<P: Geometry>(
     rate: &mut P::Spin,
     time: P::Real,
 ) {
-    let half = P::Real::HALF * time;
-    about_x::<P>(body, orientation, rate, half);
-    about_y::<P>(body, orientation, rate, half);
-    about_z::<P>(body, orientation, rate, time);
-    about_y::<P>(body, orientation, rate, half);
-    about_x::<P>(body, orientation, rate, half);
+    if P::Space::PLANAR {
+        return turn_in_plane::<P>(orientation, rate, time);
+    }
+    let (zero, half) = (P::Real::ZERO, P::Real::HALF * time);
+    let w = P::spin(rate).in_space();
+    if w.x == zero && w.y == zero {
+        // What moves in a plane turns about z alone, and this is all that the five would do.
+        if w.z != zero {
+            let turn = Turn::by(time * w.z);
+            P::spin_up(rate, P::Moment::ZERO);
+            P::Orientation::turn_about::<2>(orientation, turn.half_cos, turn.half_sin);
+        }
+    } else {
+        about_x::<P>(body, orientation, rate, half);
+        about_y::<P>(body, orientation, rate, half);
+        about_z::<P>(body, orientation, rate, time);
+        about_y::<P>(body, orientation, rate, half);
+        about_x::<P>(body, orientation, rate, half);
+    }
     P::Orientation::renormalise(orientation);
 }
 
@@ -61,6 +74,9 @@ pub fn free_rotor_of_order_four<P: Geometry>(
     rate: &mut P::Spin,
     time: P::Real,
 ) {
+    if P::Space::PLANAR {
+        return turn_in_plane::<P>(orientation, rate, time);
+    }
     let zero = P::Real::ZERO;
     let w = P::spin(rate).in_space();
     match (w.x == zero, w.y == zero, w.z == zero) {
@@ -71,6 +87,12 @@ pub fn free_rotor_of_order_four<P: Geometry>(
         _ => tumble::<P>(body, orientation, rate, time),
     }
     P::Orientation::renormalise(orientation);
+}
+
+/// The free rotor of a plane: one turn, exact.
+#[inline(always)]
+fn turn_in_plane<P: Geometry>(orientation: &mut P::Orientation, rate: &P::Spin, time: P::Real) {
+    turn_by::<P>(orientation, P::spin(rate) * (P::Real::HALF * time));
 }
 
 /// [`free_rotor_of_order_four`] about more than one axis.
@@ -168,7 +190,7 @@ fn about_x<P: Geometry>(
     let y = t.sine * (body.ratio.in_space().x * w.z) - t.versine * w.y;
     let z = -(t.sine * (body.inverse_ratio.in_space().x * w.y)) - t.versine * w.z;
     P::spin_up(rate, P::Moment::of_space(Vec3::new(zero, y, z)));
-    P::Orientation::turn(orientation, Quaternion::new(t.half_cos, t.half_sin, zero, zero));
+    P::Orientation::turn_about::<0>(orientation, t.half_cos, t.half_sin);
 }
 
 #[inline(always)]
@@ -187,7 +209,7 @@ fn about_y<P: Geometry>(
     let z = t.sine * (body.ratio.in_space().y * w.x) - t.versine * w.z;
     let x = -(t.sine * (body.inverse_ratio.in_space().y * w.z)) - t.versine * w.x;
     P::spin_up(rate, P::Moment::of_space(Vec3::new(x, zero, z)));
-    P::Orientation::turn(orientation, Quaternion::new(t.half_cos, zero, t.half_sin, zero));
+    P::Orientation::turn_about::<1>(orientation, t.half_cos, t.half_sin);
 }
 
 #[inline(always)]
@@ -206,7 +228,7 @@ fn about_z<P: Geometry>(
     let x = t.sine * (body.ratio.in_space().z * w.y) - t.versine * w.x;
     let y = -(t.sine * (body.inverse_ratio.in_space().z * w.x)) - t.versine * w.y;
     P::spin_up(rate, P::Moment::of_space(Vec3::new(x, y, zero)));
-    P::Orientation::turn(orientation, Quaternion::new(t.half_cos, zero, zero, t.half_sin));
+    P::Orientation::turn_about::<2>(orientation, t.half_cos, t.half_sin);
 }
 
 #[cfg(test)]

@@ -4,14 +4,17 @@
 //! [`model!`](crate::model!) counts it, rounds it once to the precision and checks it. It has the
 //! bits of the run-time builder's model with the same elements in the same order.
 
+mod bushings;
 mod round;
 
 use crate::body::{Body, BodyState};
 use crate::elements::element::Law;
 use crate::elements::load::{Load, LoadFrame};
 use crate::elements::point_bushing::PointBushing;
+use crate::elements::revolute::Revolute;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
+use crate::elements::universal::Universal;
 use crate::geometry::F64;
 use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
 use crate::model::Group;
@@ -66,10 +69,12 @@ pub struct Sketch {
     groups: List<Group, GROUPS>,
     points: List<Vec3<f64>, POINTS>,
     tsdas: List<Tsda<f64>, POINTS>,
-    bushings: List<PointBushing<f64>, GROUPS>,
+    bushings: List<PointBushing<f64>, POINTS>,
     dampers: List<f64, POINTS>,
     torsions: List<TorsionSpring<f64>, GROUPS>,
     loads: List<Load<f64>, GROUPS>,
+    revolutes: List<Revolute<f64>, GROUPS>,
+    universals: List<Universal<f64>, GROUPS>,
 }
 
 /// The first `count` of `items`.
@@ -178,6 +183,8 @@ impl Sketch {
                 from: 0.0,
                 until: 0.0,
             }),
+            revolutes: List::of(Revolute { stiffness: 0.0, along: 0.0, levers: [NOWHERE; 2] }),
+            universals: List::of(Universal { stiffness: 0.0, lever: NOWHERE, axis: NOWHERE }),
         }
     }
 
@@ -238,11 +245,13 @@ impl Sketch {
     }
 
     /// The TSDAs of one joint: each of the `centres` \[m\] of the first body is joined to all `arms`
-    /// \[m\] of the second, 1 or 3. A spherical joint is one centre with three arms, a revolute
-    /// two with the same three.
+    /// \[m\] of the second, 1 to 3. A spherical joint is one centre with three arms, a revolute
+    /// two with the same three; in the plane a revolute is one centre with two arms. Without a free
+    /// length each centre has an arm of its own: a spherical joint is one such pair, a revolute two.
     ///
     /// # Panics
-    /// Where a number is out of range or a list is full; several elements need a free length.
+    /// Where a number is out of range or a list is full; without a free length there are as many arms
+    /// as centres.
     #[must_use]
     pub const fn stars(
         mut self,
@@ -254,11 +263,12 @@ impl Sketch {
         assert_not_negative(spring.stiffness);
         assert_not_negative(spring.damping);
         assert_not_negative(spring.free_length);
-        assert!(arms.len() == 1 || arms.len() == 3, "a star has one or three arms");
         assert!(!centres.is_empty() && centres.len() <= 255, "a joint has 1 to 255 centres");
-        let elements = centres.len() * arms.len();
         let bushing = spring.free_length == 0.0;
-        assert!(!bushing || elements == 1, "several TSDAs of a joint need a free length");
+        let known =
+            if bushing { arms.len() == centres.len() } else { arms.len() >= 1 && arms.len() <= 3 };
+        assert!(known, "a star has one to three arms, without a free length one of its own");
+        let elements = if bushing { centres.len() } else { centres.len() * arms.len() };
         let damper = if spring.damping > 0.0 {
             DamperIndex(self.dampers.count as u16)
         } else {
@@ -270,8 +280,8 @@ impl Sketch {
             a: between[0],
             b: between[1],
             stars: centres.len() as u8,
-            arms: arms.len() as u8,
-            shared: centres.len() > 1,
+            arms: if bushing { 1 } else { arms.len() as u8 },
+            shared: !bushing && centres.len() > 1,
             point: self.points.count as u16,
             element,
             damper,
@@ -368,9 +378,10 @@ impl Sketch {
     }
 
     /// Counts of bodies, groups, points, TSDAs, bushings, dampers, torsion springs, fields of
-    /// gravity and loads: the first sizes of [`Model`](crate::Model), which [`model!`](crate::model!) fills in.
+    /// gravity, loads, revolute and universal joints of bushings: sizes of [`Model`](crate::Model), which
+    /// [`model!`](crate::model!) fills in.
     #[must_use]
-    pub const fn counts(&self) -> [usize; 9] {
+    pub const fn counts(&self) -> [usize; 11] {
         [
             self.bodies.count,
             self.groups.count,
@@ -381,6 +392,8 @@ impl Sketch {
             self.torsions.count,
             self.gravity.count,
             self.loads.count,
+            self.revolutes.count,
+            self.universals.count,
         ]
     }
 }

@@ -13,8 +13,10 @@ use crate::elements::input::{Input, InputKind, Knot};
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_on_line::PointOnLine;
+use crate::elements::revolute::Revolute;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
+use crate::elements::universal::Universal;
 use crate::geometry::{F64, Geometry};
 use crate::model::{Group, ModelOwner, ModelRef};
 use crate::plant::Plant;
@@ -231,6 +233,8 @@ fn visit_model<P: Geometry, T>(model: &ModelRef<'_, P, T>, visitor: &mut impl Wo
         inputs,
         knots,
         clearances,
+        revolutes,
+        universals,
         terms: _,
     } = model;
     let counts = [
@@ -305,6 +309,17 @@ fn visit_model<P: Geometry, T>(model: &ModelRef<'_, P, T>, visitor: &mut impl Wo
         visitor.word(Word::F64(*time));
         visitor.word(value.word());
         visitor.word(slope.word());
+    }
+    // They came after the others: a model without them keeps its hash.
+    for Revolute { stiffness, along, levers } in *revolutes {
+        visitor.word(stiffness.word());
+        visitor.word(along.word());
+        levers.iter().for_each(|lever| lever.visit(visitor));
+    }
+    for Universal { stiffness, lever, axis } in *universals {
+        visitor.word(stiffness.word());
+        lever.visit(visitor);
+        axis.visit(visitor);
     }
 }
 

@@ -35,6 +35,8 @@ pub trait Linear:
 
     /// Its components of a vector of space, each rounded once from double precision.
     fn from_f64(v: [f64; 3]) -> Self;
+    /// Whether its components are all that a vector of space has: the others are zero.
+    fn holds(v: [f64; 3]) -> bool;
     /// As a vector of space in double precision, exact.
     fn to_f64(self) -> [f64; 3];
     /// Its components of a vector of space.
@@ -139,6 +141,10 @@ impl<R: Real> Linear for Vec3<R> {
     #[inline]
     fn from_f64(v: [f64; 3]) -> Self {
         Vec3::from_f64(v)
+    }
+    #[inline]
+    fn holds(_: [f64; 3]) -> bool {
+        true
     }
     #[inline]
     fn to_f64(self) -> [f64; 3] {

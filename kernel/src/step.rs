@@ -5,7 +5,7 @@
 //! D the diagonal of masses and principal inertias (Franco & Degani 2026, eq. 7–8).
 
 pub use crate::body::Diagonal;
-use crate::body::{BodyState, Increment};
+use crate::body::{Body, BodyState, Increment};
 use crate::damping::{self, HalfKick, Lever, NoKick, Share, Sweep};
 use crate::forces::{self, At, Dampers, Evaluation, Instant, Turns, Wrench};
 use crate::geometry::Geometry;
@@ -142,9 +142,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     pub fn kick(&mut self, scale: P::Real) {
         let rows = self.bodies.iter_mut().zip(self.wrenches.iter()).zip(self.diagonals);
         for ((state, wrench), diagonal) in rows {
-            let increment = diagonal.increment(wrench.force, wrench.torque, scale);
-            P::accelerate(&mut state.velocity, increment.linear);
-            P::spin_up(&mut state.angular_velocity, increment.angular);
+            kick_body(state, wrench, diagonal, scale);
         }
     }
 
@@ -154,13 +152,20 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
         self.ledger.fresh = false;
         self.ledger.ready = false;
         for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
-            P::translate(&mut state.position, P::velocity(&state.velocity) * time);
-            rotation::free_rotor::<P>(
-                body,
-                &mut state.orientation,
-                &mut state.angular_velocity,
-                time,
-            );
+            drift_body(state, body, time);
+        }
+    }
+
+    /// [`Self::kick`] and then [`Self::drift`], a body at a time: its velocities are at hand.
+    #[inline]
+    pub fn kick_and_drift(&mut self, scale: P::Real, time: P::Real) {
+        self.ledger.fresh = false;
+        self.ledger.ready = false;
+        let rows = self.bodies.iter_mut().zip(self.model.bodies);
+        let rows = rows.zip(self.wrenches.iter().zip(self.diagonals));
+        for ((state, body), (wrench, diagonal)) in rows {
+            kick_body(state, wrench, diagonal, scale);
+            drift_body(state, body, time);
         }
     }
 
@@ -183,7 +188,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     /// Brings the frames to the present pose where sweeps need them and no evaluation has.
     #[inline]
     pub fn place_for_sweep(&mut self) {
-        if T::DAMPERS {
+        if self.has_dampers() {
             place_bodies(self.bodies, self.frames);
         }
     }
@@ -207,7 +212,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     #[inline(always)]
     fn sweep_after_kick<const REVERSE: bool>(&mut self) {
         let (wrenches, diagonals) = (&*self.wrenches, self.diagonals);
-        if T::DAMPERS {
+        if self.has_dampers() {
             let sweep = Sweep {
                 h: P::Real::HALF * self.h,
                 places: Places { frames: self.frames, signals: self.signals },
@@ -253,7 +258,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
 
     #[inline(always)]
     fn sweep_alone<const REVERSE: bool>(&mut self) {
-        if T::DAMPERS {
+        if self.has_dampers() {
             let sweep = Sweep {
                 h: P::Real::HALF * self.h,
                 places: Places { frames: self.frames, signals: self.signals },
@@ -290,4 +295,24 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
             visit(memory, state, increment, h);
         }
     }
+}
+
+/// `scale·(h·D⁻¹)·Q` for the velocities of one body.
+#[inline(always)]
+fn kick_body<P: Geometry>(
+    state: &mut BodyState<P>,
+    wrench: &Wrench<P::Space>,
+    diagonal: &Diagonal<P::Space>,
+    scale: P::Real,
+) {
+    let increment = diagonal.increment(wrench.force, wrench.torque, scale);
+    P::accelerate(&mut state.velocity, increment.linear);
+    P::spin_up(&mut state.angular_velocity, increment.angular);
+}
+
+/// One body straight on, and as a free rotor of second order.
+#[inline(always)]
+fn drift_body<P: Geometry>(state: &mut BodyState<P>, body: &Body<P::Space>, time: P::Real) {
+    P::translate(&mut state.position, P::velocity(&state.velocity) * time);
+    rotation::free_rotor::<P>(body, &mut state.orientation, &mut state.angular_velocity, time);
 }

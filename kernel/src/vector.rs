@@ -234,6 +234,30 @@ impl<R: Real> Quaternion<R> {
         Self { w: self.w * other.w - a.dot(b), v: (b * self.w + a * other.w) + a.cross(b) }
     }
 
+    /// [`Self::product`] with a turn about one of the first factor's axes, `cos` and `sin` of half
+    /// the angle: without the products of zeros, but for the one that decides a zero's sign where
+    /// a body turns in a plane.
+    #[inline(always)]
+    pub(crate) fn turned_about<const AXIS: usize>(self, cos: R, sin: R) -> Self {
+        let (w, Vec3 { x, y, z }) = (self.w, self.v);
+        let zero = R::ZERO * w;
+        let kept = |along: R, across: R| (zero + along * cos) + across;
+        match AXIS {
+            0 => Self {
+                w: w * cos - x * sin,
+                v: Vec3::new(sin * w + x * cos, kept(y, z * sin), kept(z, -(y * sin))),
+            },
+            1 => Self {
+                w: w * cos - y * sin,
+                v: Vec3::new(kept(x, -(z * sin)), sin * w + y * cos, kept(z, x * sin)),
+            },
+            _ => Self {
+                w: w * cos - z * sin,
+                v: Vec3::new(kept(x, y * sin), kept(y, -(x * sin)), sin * w + z * cos),
+            },
+        }
+    }
+
     /// `self + s·(1 − |self|²)/2·self`: one Newton step towards unit length, no root, no division.
     #[inline(always)]
     pub fn renormalised(self) -> Self {

@@ -93,6 +93,7 @@ pub trait AnyPlant: Send {
     /// The method.
     fn method(&self) -> &Method;
 
-    /// The model that steps, its constants as rounded to the precision, widened exactly.
+    /// The model that steps, its constants as rounded to the precision, widened exactly; in the world's
+    /// axes, in which states are, also where the scene is planar.
     fn model(&self) -> &SceneModel<F64>;
 }

@@ -10,7 +10,7 @@
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::energy::each_extension;
 use dbd_kernel::model::{Group, Law};
-use dbd_kernel::{BodyIndex, Energy, F64, State, Vec3};
+use dbd_kernel::{BodyIndex, Energy, F64, Revolute, State, Vec3};
 use dbd_scene::SceneModel;
 
 /// Energy that came from nowhere is a divergence once it exceeds this many times the energies
@@ -251,6 +251,13 @@ impl Reach {
             Law::Tsda => model.tsdas[rows].iter().map(|tsda| tsda.stiffness).sum(),
             Law::PointOnLine => model.lines[rows].iter().map(|line| line.stiffness).sum(),
             Law::PointBushing => model.bushings[rows].iter().map(|on| on.stiffness).sum(),
+            Law::Revolute => {
+                let stiffest = |on: &Revolute<f64>| {
+                    on.stiffness * (1.0 + on.along.max(0.0) * on.levers[0].dot(on.levers[0]))
+                };
+                model.revolutes[rows].iter().map(stiffest).sum()
+            }
+            Law::Universal => model.universals[rows].iter().map(|on| on.stiffness).sum(),
         };
         let dampers = group.damper.row().map(|row| row..row + group.elements());
         let dampers = dampers.and_then(|rows| model.dampers.get(rows)).unwrap_or_default();
@@ -298,7 +305,7 @@ pub(crate) fn free_length(model: &SceneModel<F64>, group: &Group) -> f64 {
     match group.law {
         Law::Tsda => model.tsdas[rows].iter().map(|tsda| tsda.free_length).fold(0.0, f64::max),
         Law::PointOnLine => model.lines[rows].iter().map(|on| on.free_length).fold(0.0, f64::max),
-        Law::PointBushing => 0.0,
+        Law::PointBushing | Law::Revolute | Law::Universal => 0.0,
     }
 }
 

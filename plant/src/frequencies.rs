@@ -41,7 +41,9 @@ impl Frequencies {
     /// The frequencies of a scene.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
-        let state = State::initial(&scene.model);
+        // In the plane the bound knows of no turn that leads out of it.
+        let model = scene.stepped();
+        let state = State::initial(model);
         let (mut spin, mut fastest) = (0.0, 0);
         for (row, body) in state.bodies.iter().enumerate() {
             let rate = body.angular_velocity;
@@ -53,8 +55,8 @@ impl Frequencies {
         Self {
             spin,
             fastest,
-            bound: frequency::bound(&scene.model, &state),
-            estimate: frequency::estimate(&scene.model, &state, ITERATIONS),
+            bound: frequency::bound(model, &state),
+            estimate: frequency::estimate(model, &state, ITERATIONS),
         }
     }
 

@@ -5,7 +5,7 @@
 //! that diverges need not reach infinity before its end; it shows in energy that came from nowhere:
 //! neither the start nor gravity, loads and inputs can have given it, see `budget`.
 
-use dbd_kernel::energy::{each_extension, energy};
+use dbd_kernel::energy::{energy, energy_with_extensions};
 use dbd_kernel::model::{Group, Law};
 use dbd_kernel::status::Cause;
 use dbd_kernel::{BodyState, Energy, F64, State};
@@ -99,11 +99,9 @@ pub struct Verdict {
 /// The model that runs, its stored words taken as exact in double precision.
 pub struct Judge {
     model: SceneModel<F64>,
-    /// The joints' elements alone.
-    joints: SceneModel<F64>,
-    /// The joint of each of its groups.
+    /// The joint of each of the joints' groups, which come first.
     owners: Vec<usize>,
-    /// \[m\] the clearance of each of its groups.
+    /// \[m\] the clearance of each of these groups.
     clearances: Vec<f64>,
     /// \[m\] the largest extension of each joint in the state that was judged last.
     extensions: Vec<f64>,
@@ -123,16 +121,15 @@ impl Judge {
     pub fn new(scene: &Scene, plant: &dyn AnyPlant) -> Self {
         let model = plant.model();
         let step_size = plant.step_size();
-        let mut joints = model.clone();
-        joints.groups.truncate(scene.joints.last().map_or(0, |joint| joint.groups.end));
+        let joints = scene.joints.last().map_or(0, |joint| joint.groups.end);
+        let joints = &model.groups[..joints];
         let groups = scene.joints.iter().enumerate();
         let owners = groups.flat_map(|(row, joint)| joint.groups.clone().map(move |_| row));
         let owners: Vec<usize> = owners.collect();
         let clearance = |group: &Group| group.clearance.row().map(|row| model.clearances[row]);
-        let clearances =
-            joints.groups.iter().map(|group| clearance(group).unwrap_or(0.0)).collect();
+        let clearances = joints.iter().map(|group| clearance(group).unwrap_or(0.0)).collect();
         let mut lengths = vec![0.0_f64; scene.joints.len()];
-        for (group, joint) in joints.groups.iter().zip(&owners) {
+        for (group, joint) in joints.iter().zip(&owners) {
             lengths[*joint] = lengths[*joint].max(free_length(model, group));
         }
         let opening = |(joint, free_length): (usize, &f64)| Opening {
@@ -144,7 +141,7 @@ impl Judge {
         };
         let openings = lengths.iter().enumerate().map(opening).collect();
         // Guides have no say: how far their points lie from the lines is not how large they are.
-        let stars = joints.groups.iter().filter(|group| group.law == Law::Tsda);
+        let stars = joints.iter().filter(|group| group.law == Law::Tsda);
         let torn = TORN * stars.map(|group| free_length(model, group)).fold(0.0, f64::max);
         let start = State::initial(model);
         let budget = Budget::new(model, &start, &energy(model, &start, step_size), unit(plant));
@@ -152,7 +149,6 @@ impl Judge {
         let (model, turning) = (model.clone(), Turning::default());
         Self {
             model,
-            joints,
             owners,
             clearances,
             extensions,
@@ -189,7 +185,7 @@ impl Judge {
     /// # Errors
     /// A [`Trouble`] where the run cannot go on from it.
     pub fn judge(&mut self, state: &State<SceneModel<F64>>) -> Result<Verdict, Trouble> {
-        let energy = energy(&self.model, state, self.step_size);
+        let energy = self.measure(state);
         if !energy.total().is_finite() {
             return Err(Trouble::Energy { body: fastest(state) });
         }
@@ -226,17 +222,24 @@ impl Judge {
         }
     }
 
-    /// Takes note of every joint's extension; the joint with the largest, and that.
-    fn look(&mut self, state: &State<SceneModel<F64>>) -> (usize, f64) {
+    /// The energy, and every joint's extension, in one pass over the elements.
+    fn measure(&mut self, state: &State<SceneModel<F64>>) -> Energy<f64> {
         self.extensions.fill(0.0);
         self.beyond.fill(0.0);
         let Self { extensions, beyond, owners, clearances, .. } = self;
-        each_extension(&self.joints, state, |group, extension| {
+        energy_with_extensions(&self.model, state, self.step_size, |group, extension| {
+            let Some((&owner, clearance)) = owners.get(group).zip(clearances.get(group)) else {
+                return;
+            };
             let extension = extension.abs();
-            let [whole, open] = [&mut extensions[owners[group]], &mut beyond[owners[group]]];
+            let [whole, open] = [&mut extensions[owner], &mut beyond[owner]];
             *whole = whole.max(extension);
-            *open = open.max(extension - clearances[group]);
-        });
+            *open = open.max(extension - clearance);
+        })
+    }
+
+    /// Takes note of every joint's extension; the joint with the largest, and that.
+    fn look(&mut self, state: &State<SceneModel<F64>>) -> (usize, f64) {
         let time = state.step as f64 * self.step_size;
         for (opening, beyond) in self.openings.iter_mut().zip(&self.beyond) {
             if *beyond > opening.extension {

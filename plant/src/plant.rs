@@ -16,14 +16,16 @@ use dbd_kernel::plant::{InputError, Plant, StateError};
 use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::schedule::Signal;
 use dbd_kernel::snapshot::SnapshotError;
-use dbd_kernel::{BodyState, Energy, F32, F64, Geometry, Scheme, State, Status};
-use dbd_scene::{Scene, SceneModel, UnfitInput, widen};
+use dbd_kernel::{
+    BodyIndex, BodyState, Energy, F32, F64, Geometry, Planar32, Planar64, Scheme, State, Status,
+};
+use dbd_scene::{Planar, Scene, SceneModel, UnfitInput, widen};
 use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::any::AnyPlant;
 use crate::method::{Method, MethodError, SchemeChoice};
-use crate::names::{OrientationName, PrecisionName};
+use crate::names::{Named, OrientationName, PrecisionName};
 use crate::numerals::Numerals;
 use crate::readings::widened;
 use crate::time::display;
@@ -81,6 +83,29 @@ macro_rules! with_precision {
     };
 }
 
+/// `$body` with `$P` the kernel's type for a method's precision in the plane, where orientations are
+/// headings.
+macro_rules! with_planar_precision {
+    ($method:expr, $P:ident => $body:expr) => {
+        match ($method.precision(), $method.orientation()) {
+            (PrecisionName::F64, OrientationName::Quaternion) => {
+                type $P = Planar64;
+                $body
+            }
+            (PrecisionName::F32, OrientationName::Quaternion) => {
+                type $P = Planar32;
+                $body
+            }
+            (precision, orientation) => Err(PlantError::Planar {
+                what: match orientation {
+                    OrientationName::Quaternion => Named::name(precision),
+                    _ => Named::name(orientation),
+                },
+            }),
+        }
+    };
+}
+
 /// `$body` with `$scheme` a method's scheme in the kernel's type.
 macro_rules! with_scheme {
     ($method:expr, $scheme:ident => $body:expr) => {
@@ -114,6 +139,15 @@ pub enum PlantError {
         /// The precision's name.
         precision: &'static str,
     },
+    /// A planar scene has no such precision or way of storing orientations.
+    #[error("a planar scene does not run in {what}")]
+    #[diagnostic(help(
+        "--precision f64 or f32 with --orientation quaternion, or the scene without `planar`"
+    ))]
+    Planar {
+        /// The precision or the way of storing orientations.
+        what: &'static str,
+    },
     /// This build does not hold the method.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -124,14 +158,18 @@ pub enum PlantError {
     Input(#[from] UnfitInput),
 }
 
-/// A plant of a scene at t = 0, with the step `step` \[s\].
+/// A plant of a scene at t = 0, with the step `step` \[s\]; of a planar scene in its plane, which what
+/// goes in and comes out does not show.
 ///
 /// # Errors
 /// [`PlantError`] where the precision cannot hold the step or what an input is given, or this build
 /// does not hold the method.
 pub fn plant(scene: &Scene, method: &Method, step: f64) -> Result<Box<dyn AnyPlant>, PlantError> {
     check_inputs(scene, method)?;
-    plant_of_model(&scene.model, method, step)
+    let Some(planar) = &scene.planar else { return plant_of_model(&scene.model, method, step) };
+    check_step(method, step)?;
+    let new = New { model: &planar.model, plane: Some((planar, &scene.model)), method, step };
+    with_planar_precision!(method, P => with_scheme!(method, scheme => new.typed::<P, _>(scheme)))
 }
 
 /// A plant of an assembled model at t = 0, with the step `step` \[s\].
@@ -144,7 +182,7 @@ pub fn plant_of_model(
     step: f64,
 ) -> Result<Box<dyn AnyPlant>, PlantError> {
     check_step(method, step)?;
-    let new = New { model, method, step };
+    let new = New { model, plane: None, method, step };
     with_precision!(method, P => with_scheme!(method, scheme => new.typed::<P, _>(scheme)))
 }
 
@@ -172,7 +210,10 @@ fn refused(method: &Method, step: f64) -> PlantError {
 
 /// What a plant is made from.
 struct New<'n> {
+    /// What steps.
     model: &'n SceneModel<F64>,
+    /// Where that lies in the world, and the spatial model, of a planar scene.
+    plane: Option<(&'n Planar, &'n SceneModel<F64>)>,
     method: &'n Method,
     step: f64,
 }
@@ -186,18 +227,32 @@ impl New<'_> {
     {
         let model: SceneModel<P> = self.model.convert();
         let exact = model.convert();
+        let exact = match self.plane {
+            Some((planar, whole)) => planar.in_world(whole, &exact),
+            None => exact,
+        };
+        let planar = self.plane.map(|(planar, _)| planar.clone());
         let plant = Plant::new(Arc::new(model), scheme, self.step)
             .map_err(|_| refused(self.method, self.step))?;
-        Ok(Box::new(Typed { plant, exact, method: *self.method }))
+        Ok(Box::new(Typed { plant, planar, exact, method: *self.method }))
     }
 }
 
 /// A plant of one precision and one scheme.
 struct Typed<P: Geometry, S: Scheme> {
     plant: Plant<Arc<SceneModel<P>>, S>,
+    /// Where the plane of a planar scene lies.
+    planar: Option<Planar>,
+    /// In the world, of a planar scene too.
     exact: SceneModel<F64>,
     method: Method,
 }
+
+/// What a state may leave the plane by, beside the size of the scene and its own.
+const OFF_PLANE: f64 = 1e-6;
+
+/// What the square of an orientation's length may differ from 1 by, as the kernel takes it.
+const UNIT: f64 = 2e-3;
 
 impl<P: Geometry, S: Scheme> AnyPlant for Typed<P, S>
 where
@@ -216,11 +271,21 @@ where
     }
 
     fn read(&self, readout: &Readout<F64>) -> Option<Reading<f64>> {
-        self.plant.read(&readout.convert()).map(widened)
+        match &self.planar {
+            None => self.plant.read(&readout.convert()).map(widened),
+            Some(planar) => {
+                let reading = self.plant.read(&planar.readout(readout).convert()).map(widened);
+                reading.map(|reading| planar.reading(readout, reading))
+            }
+        }
     }
 
     fn state(&self) -> State<SceneModel<F64>> {
-        widen(self.plant.state())
+        let mut state = widen(self.plant.state());
+        if let Some(planar) = &self.planar {
+            planar.states_outward(&mut state.bodies);
+        }
+        state
     }
 
     fn energy(&self) -> Energy<f64> {
@@ -232,8 +297,26 @@ where
     }
 
     fn set_state(&mut self, state: &State<SceneModel<F64>>) -> Result<(), StateError> {
+        let bodies = match &self.planar {
+            None => state.bodies.iter().map(BodyState::convert).collect(),
+            Some(planar) => {
+                let mut bodies = Vec::with_capacity(state.bodies.len());
+                for (row, body) in state.bodies.iter().enumerate() {
+                    let turn = body.orientation.to_f64();
+                    let norm: f64 = turn.iter().map(|c| c * c).sum();
+                    if (norm - 1.0).abs() > UNIT {
+                        return Err(StateError::Orientation(BodyIndex(row as u16)));
+                    }
+                    if planar.plane.leaves(row, body, OFF_PLANE) {
+                        return Err(StateError::OffPlane(BodyIndex(row as u16)));
+                    }
+                    bodies.push(planar.plane.state_inward(row, body).convert());
+                }
+                bodies
+            }
+        };
         self.plant.set_state(State {
-            bodies: state.bodies.iter().map(BodyState::convert).collect(),
+            bodies,
             turns: state.turns.clone(),
             step: state.step,
             signals: state.signals.iter().map(Signal::convert).collect(),

@@ -204,6 +204,145 @@ impl Element for PointBushing {
     }
 }
 
+/// A revolute joint of bushings: a point, stiffer or softer along the axis than across it, and an axis of
+/// either body in line with the other's.
+pub struct Revolute {
+    /// Its points.
+    pub pair: Pair,
+    /// \[m\] axis of each body in its own axes, as long as its lever.
+    pub levers: [Vector3<f64>; 2],
+    /// \[N/m\] across the axis.
+    pub stiffness: f64,
+    /// \[N·s/m\] across the axis.
+    pub damping: f64,
+    /// How many times as much of both there is along it.
+    pub ratio: f64,
+}
+
+impl Revolute {
+    /// It acts on the first body where the second's point is.
+    fn at(&self, at: &Instant<'_>) -> Stretch {
+        let (a, b) = (at.place(&self.pair.a), at.place(&self.pair.b));
+        let displacement = b.position - a.position;
+        let a = at.material(a.end, b.position);
+        Stretch { rate: b.velocity - a.velocity, a, b, displacement, line: None }
+    }
+
+    fn levers(&self, at: &Instant<'_>) -> [Vector3<f64>; 2] {
+        let ends = self.pair.ends();
+        [0, 1].map(|end| at.to_world(ends[end], self.levers[end]))
+    }
+
+    /// Axis and normals in the world, each with its part of the constants.
+    fn directions(&self, at: &Instant<'_>) -> [(Vector3<f64>, f64); 3] {
+        let axis = self.levers(at)[0].normalize();
+        let normal = axis.cross(&Vector3::ith(axis.iamin(), 1.0)).normalize();
+        [(normal, 1.0), (axis.cross(&normal), 1.0), (axis, self.ratio)]
+    }
+}
+
+impl Element for Revolute {
+    fn act(&self, at: &Instant<'_>, wrenches: &mut [Wrench]) {
+        let stretch = self.at(at);
+        let pull = stretch.displacement * self.stiffness + stretch.rate * self.damping;
+        let along = |(n, part): (Vector3<f64>, f64)| n * (part * n.dot(&pull));
+        stretch.pull(self.directions(at).map(along).iter().sum(), wrenches);
+        let [a, b] = self.levers(at);
+        let ends = self.pair.ends();
+        let spin = at.spin(ends[1]) - at.spin(ends[0]);
+        let across = spin - a * (a.dot(&spin) / a.norm_squared());
+        let torque = a.cross(&b) * self.stiffness + across * (self.damping * a.norm_squared());
+        turn(wrenches, ends[0], torque);
+        turn(wrenches, ends[1], -torque);
+    }
+
+    fn between(&self) -> Option<[End; 2]> {
+        Some(self.pair.ends())
+    }
+
+    fn springs(&self, at: &Instant<'_>, visit: &mut dyn FnMut(Spring)) {
+        let stretch = self.at(at);
+        let directions = self.directions(at);
+        for (direction, part) in directions {
+            visit(stretch.spring(direction, part * self.stiffness, part * self.damping));
+        }
+        let ends = self.pair.ends();
+        let spin = at.spin(ends[1]) - at.spin(ends[0]);
+        let lever = self.levers(at)[0].norm();
+        for (normal, _) in &directions[..2] {
+            let about = normal * lever;
+            visit(Spring {
+                ends,
+                direction: Vector3::zeros(),
+                moments: [about; 2],
+                rate: about.dot(&spin),
+                stiffness: self.stiffness,
+                damping: self.damping,
+            });
+        }
+    }
+}
+
+/// A universal joint without a body of its own: a point bushing, and an axis of either body held
+/// perpendicular to the other's.
+pub struct Universal {
+    /// Its points.
+    pub pair: Pair,
+    /// \[m\] the first body's axis in its axes, as long as its lever.
+    pub lever: Vector3<f64>,
+    /// Unit axis of the second body in its axes.
+    pub axis: Vector3<f64>,
+    /// \[N/m\].
+    pub stiffness: f64,
+    /// \[N·s/m\].
+    pub damping: f64,
+}
+
+impl Universal {
+    /// \[m\] how far the axes lean from square, and what that gains for a turn of the second body.
+    fn lean(&self, at: &Instant<'_>) -> (f64, Vector3<f64>) {
+        let lever = at.to_world(self.pair.a.end, self.lever);
+        let axis = at.to_world(self.pair.b.end, self.axis);
+        (lever.dot(&axis), axis.cross(&lever))
+    }
+
+    fn lean_rate(&self, at: &Instant<'_>, gradient: &Vector3<f64>) -> f64 {
+        gradient.dot(&(at.spin(self.pair.b.end) - at.spin(self.pair.a.end)))
+    }
+}
+
+impl Element for Universal {
+    fn act(&self, at: &Instant<'_>, wrenches: &mut [Wrench]) {
+        let stretch = self.pair.at(at);
+        let force = stretch.displacement * self.stiffness + stretch.rate * self.damping;
+        stretch.pull(force, wrenches);
+        let (lean, gradient) = self.lean(at);
+        let size = self.stiffness * lean + self.damping * self.lean_rate(at, &gradient);
+        turn(wrenches, self.pair.a.end, gradient * size);
+        turn(wrenches, self.pair.b.end, -gradient * size);
+    }
+
+    fn between(&self) -> Option<[End; 2]> {
+        Some(self.pair.ends())
+    }
+
+    fn springs(&self, at: &Instant<'_>, visit: &mut dyn FnMut(Spring)) {
+        let stretch = self.pair.at(at);
+        for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
+            visit(stretch.spring(axis, self.stiffness, self.damping));
+        }
+        let (_, gradient) = self.lean(at);
+        visit(Spring {
+            ends: self.pair.ends(),
+            direction: Vector3::zeros(),
+            moments: [gradient; 2],
+            rate: self.lean_rate(at, &gradient),
+            stiffness: self.stiffness,
+            damping: self.damping,
+        });
+    }
+}
+
 /// A point of the second body held to a line of the first.
 pub struct PointOnLine {
     /// Its points and the line.

@@ -10,7 +10,9 @@ use dbd_scene::Scene;
 use nalgebra::Vector3;
 
 use crate::driven::{Input, InputKind, Load};
-use crate::elements::{Element, Law, Pair, PointBushing, PointOnLine, TorsionSpring, Tsda, unit};
+use crate::elements::{
+    Element, Law, Pair, PointBushing, PointOnLine, Revolute, TorsionSpring, Tsda, Universal, unit,
+};
 use crate::instant::{Body, End, Instant, Point, Wrench};
 use crate::signals::{Clock, Table};
 use crate::state::State;
@@ -195,6 +197,19 @@ fn element<T: Terms>(model: &ModelRef<'_, F64, T>, group: &Group, i: usize) -> B
         GroupLaw::PointBushing => {
             let stiffness = model.bushings[row].stiffness;
             Box::new(PointBushing { pair, stiffness, damping })
+        }
+        GroupLaw::Revolute => {
+            let revolute = &model.revolutes[row];
+            let levers = revolute.levers.map(|lever| Vector3::from(lever.to_f64()));
+            let ratio = 1.0 + revolute.along * levers[0].norm_squared();
+            let stiffness = revolute.stiffness;
+            Box::new(Revolute { pair, levers, stiffness, damping, ratio })
+        }
+        GroupLaw::Universal => {
+            let universal = &model.universals[row];
+            let [lever, axis] =
+                [universal.lever, universal.axis].map(|v| Vector3::from(v.to_f64()));
+            Box::new(Universal { pair, lever, axis, stiffness: universal.stiffness, damping })
         }
         GroupLaw::PointOnLine => {
             let line = &model.lines[row];

@@ -199,9 +199,9 @@ impl Build {
         let mut scene =
             text.and_then(|text| Scene::parse(&text, &called)).map_err(BuildError::Scene)?;
         if self.without_tables {
-            scene.model.release_all();
+            scene.release_all();
         }
-        let bound = frequency::bound(&scene.model, &State::initial(&scene.model));
+        let bound = frequency::bound(scene.stepped(), &State::initial(scene.stepped()));
         let Some(step) = asked.or(scene.step) else {
             let works = if bound > 0.0 { 1.0 / bound } else { scene.duration / 1000.0 };
             return Err(BuildError::NoStep(called, display(crate::time::rounded(works, 2))));

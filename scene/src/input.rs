@@ -145,8 +145,7 @@ fn actuator(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, 
         Target::Tsda(group) => group,
         _ => usize::MAX,
     };
-    let directed =
-        known.assembly.groups().get(group).is_some_and(|g| known.assembly.free_length(g) > 0.0);
+    let directed = known.assembly.size(group) > 0.0;
     if !directed {
         let problem = format!("names the tsda `{name}`, which has no free length and no direction");
         let help = "an actuator pulls along a tsda with `free_length` > 0";

@@ -32,6 +32,7 @@ mod origin;
 mod pair;
 pub mod parameters;
 mod parts;
+pub mod planar;
 mod point_on_line;
 mod points;
 mod precise;
@@ -61,11 +62,12 @@ pub use facts::{ElementDamping, ElementFrequency, Facts, Island, JointElement, J
 pub use geometry::GeometryInfo;
 pub use hinge::Hinge;
 pub use input::InputInfo;
-pub use joints::{Assembled, JointInfo, Moved, OpenJoint};
+pub use joints::{Assembled, JointInfo, Moved, OpenJoint, Realisation};
 pub use lint::{Severity, Warning};
 pub use lookup::{UnfitInput, UnknownName};
 pub use nearest::nearest;
 pub use origin::Setting;
+pub use planar::Planar;
 pub use readout::ReadoutInfo;
 pub use runtime::{SceneModel, widen};
 pub use shortened::shortened;
@@ -80,7 +82,7 @@ use crate::hinge::Known;
 use crate::origin::Origin;
 use crate::parameters::{Changed, Changes, Parameter};
 use crate::target::Elements;
-use crate::text::{Number, Numbers, Seconds, Table, Text};
+use crate::text::{Number, Numbers, Seconds, Switch, Table, Text};
 use crate::write::Writer;
 use crate::written::WrittenAngle;
 
@@ -92,6 +94,8 @@ const KEYS: &[&str] = &[
     "duration",
     "step",
     "every",
+    "planar",
+    "realisation",
     "points",
     "defaults",
     "parameters",
@@ -145,6 +149,8 @@ pub struct Scene {
     pub changed: Vec<Changed>,
     /// The assembled model in double precision; every other precision is a rounding of it.
     pub model: SceneModel<F64>,
+    /// The scene in its plane, where it says `planar = true`: what steps is this model then.
+    pub planar: Option<Planar>,
     file_lines: FileLines,
     origin: Origin,
     written_angles: Vec<WrittenAngle>,
@@ -231,6 +237,7 @@ impl Scene {
         let duration = root.required("duration", Seconds::positive())?;
         let step = root.optional("step", Seconds::positive())?;
         let every = root.optional("every", Seconds::positive())?;
+        let planar = root.optional("planar", Switch)?.unwrap_or_default();
         let gravity = root.optional("gravity", Numbers(Number::any("m/s²")))?;
 
         let mut assembly = Assembly::default();
@@ -250,7 +257,7 @@ impl Scene {
         let geometry = geometry::read_all(&root, &assembly)?;
         let resolved = assembly.resolved();
         let (model, body_names) = assembly.finish();
-        let scene = Self {
+        let mut scene = Self {
             name,
             description,
             duration,
@@ -264,6 +271,7 @@ impl Scene {
             readouts,
             geometry,
             model,
+            planar: None,
             file_lines: FileLines::of(&root)?,
             origin: Origin::of(source, &root),
             written_angles: written::angles(&root)?,
@@ -273,6 +281,10 @@ impl Scene {
             changed,
             raw_names,
         };
+        if planar {
+            let reduced = scene.reduced().map_err(|unplanar| unplanar.refuse(&scene, &root))?;
+            scene.planar = Some(reduced);
+        }
         let done = then(&scene, &root, &resolved)?;
         Ok((scene, done))
     }
@@ -282,6 +294,20 @@ impl Scene {
     #[must_use]
     pub fn refuse(&self, setting: Setting, message: &str, help: &str) -> Option<SceneError> {
         self.origin.refuse(setting, message, help)
+    }
+
+    /// The model that steps: of a planar scene the one in its plane, whose axes are not the world's.
+    #[must_use]
+    pub fn stepped(&self) -> &SceneModel<F64> {
+        self.planar.as_ref().map_or(&self.model, |planar| &planar.model)
+    }
+
+    /// Takes every input from its table, so that the caller drives it, as [`SceneModel::release_all`].
+    pub fn release_all(&mut self) {
+        self.model.release_all();
+        if let Some(planar) = &mut self.planar {
+            planar.model.release_all();
+        }
     }
 
     /// What messages call the raw TSDAs, then the points on lines, in the order of their groups:

@@ -20,6 +20,12 @@ pub(crate) struct Pair {
 }
 
 impl Pair {
+    /// The second body first.
+    pub(crate) fn reversed(&self) -> Self {
+        let [first, second] = self.names.clone();
+        Self { a: self.b, b: self.a, names: [second, first] }
+    }
+
     /// What messages call the element of a table: `tsda 1 (world–crank)`.
     pub(crate) fn label(&self, table: &Table<'_>) -> String {
         let [a, b] = &self.names;

@@ -207,8 +207,7 @@ fn tsda_force(table: &Table<'_>, known: &Known<'_>) -> Result<Readout<F64>, Scen
     let name = ElementName { elements: known.elements, kinds: Kinds::TSDA };
     let (name, target) = table.required("target", name)?;
     let group = group_of(target, known);
-    let directed =
-        known.assembly.groups().get(group).is_some_and(|g| known.assembly.free_length(g) > 0.0);
+    let directed = known.assembly.size(group) > 0.0;
     if !directed {
         let problem = format!("names the tsda `{name}`, which has no free length and no direction");
         let help = "a tsda with `free_length` > 0; `type = \"joint_force\"` shows the force of one \

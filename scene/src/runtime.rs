@@ -12,7 +12,8 @@ use dbd_kernel::schedule::LoadWindow;
 use dbd_kernel::schedule::{KnotStep, Signal};
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
-    BodyState, F64, Geometry, Load, PointBushing, PointOnLine, Real, State, TorsionSpring, Tsda,
+    BodyState, F64, Geometry, Load, PointBushing, PointOnLine, Real, Revolute, State,
+    TorsionSpring, Tsda, Universal,
 };
 
 /// A model on the heap, see [`dbd_kernel::Model`] for the fields.
@@ -46,6 +47,10 @@ pub struct SceneModel<P: Geometry> {
     pub knots: Vec<Knot<P::Real>>,
     /// \[m\] clearances of groups.
     pub clearances: Vec<P::Real>,
+    /// Revolute joints of bushings of the groups.
+    pub revolutes: Vec<Revolute<P::Space>>,
+    /// Universal joints of the groups.
+    pub universals: Vec<Universal<P::Space>>,
 }
 
 impl<P: Geometry> SceneModel<P> {
@@ -67,6 +72,8 @@ impl<P: Geometry> SceneModel<P> {
             inputs: self.inputs.iter().map(Input::convert).collect(),
             knots: self.knots.iter().map(Knot::convert).collect(),
             clearances: self.clearances.iter().map(|c| Q::Real::from_f64(c.to_f64())).collect(),
+            revolutes: self.revolutes.iter().map(Revolute::convert).collect(),
+            universals: self.universals.iter().map(Universal::convert).collect(),
         }
     }
 
@@ -97,7 +104,8 @@ impl<P: Geometry> SceneModel<P> {
     /// The number of elements that count as a TSDA (Franco & Degani 2026, Table 7b).
     #[must_use]
     pub fn tsda_count(&self) -> usize {
-        self.tsdas.len() + self.bushings.len() + self.lines.len()
+        let bushings = self.bushings.len() + self.revolutes.len() + self.universals.len();
+        self.tsdas.len() + bushings + self.lines.len()
     }
 }
 
@@ -137,6 +145,8 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
             inputs: &self.inputs,
             knots: &self.knots,
             clearances: &self.clearances,
+            revolutes: &self.revolutes,
+            universals: &self.universals,
             terms: PhantomData,
         }
     }

@@ -42,7 +42,7 @@ pub(crate) fn read_all(
         if free_length > 0.0 {
             assembly.add_tsdas(&pair, points, free_length, spring)
         } else {
-            assembly.add_bushing(&pair, points, spring)
+            assembly.add_bushings(&pair, points, 0.0, spring)
         }
         .map_err(|defect| defect.refuse(&table))?;
         labels.push(pair.label(&table));

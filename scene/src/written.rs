@@ -21,12 +21,13 @@ pub(crate) struct WrittenAngle {
 /// The angles of all bodies' orientations.
 pub(crate) fn angles(root: &Table<'_>) -> Result<Vec<WrittenAngle>, SceneError> {
     let mut angles = Vec::new();
+    let lines = root.line_starts();
     for table in root.list("body")? {
         let Some(value) = table.value("orientation") else { continue };
         let orientation = value.table("a table")?;
         let mut add = |key: &'static str, found: &[f64]| {
             let Some(value) = orientation.value(key) else { return };
-            let line = root.line_of(value.span().start);
+            let line = lines.partition_point(|start| *start <= value.span().start);
             let written = |angle: &f64| WrittenAngle {
                 owner: table.label().to_owned(),
                 key,

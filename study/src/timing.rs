@@ -41,6 +41,8 @@ pub const CALM: f64 = 0.2;
 /// \[s\] per measurement.
 const BATCH: f64 = 5e-4;
 
+pub use clock::elapsed;
+
 /// Takes so many steps of a way.
 type Take<'t> = Box<dyn FnMut(u64) + 't>;
 

@@ -17,6 +17,7 @@ const CRATES: &[&str] = &[
     "node",
     "plant",
     "reference",
+    "bench",
     "study",
     "sweep",
     "output",

@@ -5,6 +5,7 @@ mod collect;
 mod pictures;
 mod proof;
 mod real_time;
+mod speed;
 
 use dbd_tests::page::{block, figure, grouped, table};
 use dbd_tests::results::{Row, cost, rows};

@@ -5,12 +5,14 @@
 
 mod attended;
 mod audit;
+mod baseline;
 mod bits;
 mod boards;
 mod built;
 mod command;
 mod cost;
 mod fuzz;
+mod instructions;
 mod packages;
 mod prove;
 mod semver;
@@ -81,6 +83,13 @@ enum Command {
         #[arg(long, conflicts_with_all = ["compare", "scenes", "baseline"])]
         guards: bool,
     },
+    /// Counts the instructions of a step on this machine, by valgrind's callgrind: beside the flops of a
+    /// step, a plain loop's and the baseline of this compiler and target.
+    Instructions {
+        /// Writes the baseline of this compiler and target, docs/instructions-baseline.csv.
+        #[arg(long)]
+        baseline: bool,
+    },
     /// Gives random input to the reader of scenes, to snapshots, to steps and to the command line, on
     /// all cores; fails where anything fails.
     Fuzz(fuzz::Campaign),
@@ -133,6 +142,7 @@ fn main() -> ExitCode {
         Command::Cost { baseline: true, .. } => cost::baseline(),
         Command::Cost { guards: true, .. } => cost::guards::run(),
         Command::Cost { scenes, compare, .. } => cost::run(&scenes, compare),
+        Command::Instructions { baseline } => instructions::run(baseline),
         Command::Fuzz(campaign) => fuzz::run(&campaign),
         Command::Bits { names } => bits::machines::run(&names),
         Command::Prove { names } => prove::run(&names),

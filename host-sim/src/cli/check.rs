@@ -94,7 +94,7 @@ fn once(
 ) -> Result<bool, Error> {
     let Found { scene, file, text } = load(catalogue, &arguments.scene)?;
     if let Some(target) = &arguments.write {
-        let long = write::long_form(&scene, &text, &file.place, &arguments.scene.set)?;
+        let long = write::long_form(&scene, &text, &file.place, &arguments.scene.changes())?;
         if write::is_output(target) {
             return Ok(console.print_to_reader(&long)?);
         }

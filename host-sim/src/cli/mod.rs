@@ -23,6 +23,7 @@ use crate::cli::first_steps::first_steps;
 use crate::cli::named::load;
 use crate::cli::run::{RunArguments, run_scene};
 use crate::cli::trade::{TradeArguments, trade_scene};
+use crate::commands::bench::{BenchArguments, bench};
 use crate::commands::compare::CompareArguments;
 use crate::commands::completions::script;
 use crate::commands::export::{self, ExportArguments};
@@ -76,6 +77,9 @@ enum Command {
     /// where steps were counted, and trade-*.cache; prints what to choose
     #[command(after_help = examples::TRADE)]
     Trade(TradeArguments),
+    /// Measures what a step costs here: the kernel in turn with the std reference and a plain loop
+    #[command(after_help = examples::BENCH)]
+    Bench(BenchArguments),
     /// Runs a scene with many values: writes OUT/SPEC/sweep.{csv,html,json}, a row per case; finished cases
     /// never run again
     #[command(after_help = examples::SWEEP)]
@@ -127,6 +131,7 @@ where
         Command::Run(arguments) => run_scene(&catalogue, &arguments, console),
         Command::Check(arguments) => check_scene(&catalogue, &arguments, console),
         Command::Trade(arguments) => trade_scene(&catalogue, &arguments, console),
+        Command::Bench(arguments) => bench_systems(&catalogue, &arguments, console),
         Command::Sweep(arguments) => sweep_scene(&catalogue, &arguments, console),
         Command::Compare(arguments) => compare(&catalogue, &arguments, console),
         Command::Export(arguments) => export_scene(&catalogue, &arguments, console),
@@ -166,6 +171,26 @@ fn usage(error: &clap::Error, console: &mut Console<'_>) -> Exit {
 
 fn complete(catalogue: &Catalogue, shell: Shell, console: &mut Console<'_>) -> Result<Exit, Error> {
     console.print(&script(Cli::command(), &catalogue.names(), shell))?;
+    Ok(Exit::Done)
+}
+
+fn bench_systems(
+    catalogue: &Catalogue,
+    arguments: &BenchArguments,
+    console: &mut Console<'_>,
+) -> Result<Exit, Error> {
+    let mut silence = std::io::sink();
+    let lines = if arguments.quiet { &mut silence as &mut dyn Write } else { &mut *console.err };
+    let bars = console.terminal && !arguments.quiet;
+    let mut progress = Progress::of_many(bars, "rounds", lines);
+    let done = bench(catalogue, arguments, &mut |done, all| progress.update(done, all));
+    progress.finish();
+    let outcome = done?;
+    if arguments.json {
+        console.print(&json(&outcome))?;
+    } else if !arguments.quiet {
+        console.print(&outcome.text(console.look))?;
+    }
     Ok(Exit::Done)
 }
 

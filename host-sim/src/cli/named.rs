@@ -28,7 +28,7 @@ impl ResultsArguments {
 }
 
 pub(super) fn load(catalogue: &Catalogue, argument: &SceneArgument) -> Result<Found, Error> {
-    Ok(catalogue.load_with(&argument.scene, &argument.set)?)
+    Ok(catalogue.load_with(&argument.scene, &argument.changes())?)
 }
 
 pub(super) fn damped(method: Method, damping: Option<DampingName>) -> Result<Method, Error> {

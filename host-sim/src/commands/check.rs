@@ -15,8 +15,9 @@ use serde::Serialize;
 
 use crate::commands::assembled::AssembledCheck;
 use crate::commands::derived::{DerivedCheck, derived, lines as derived_lines};
+use crate::commands::planar::PlaneCheck;
 use crate::commands::stability::StabilityCheck;
-use crate::commands::warnings::{notes, of_scene, of_step};
+use crate::commands::warnings::{of_step, with_notes};
 use crate::terminal::Look;
 
 /// What is known of a scene before it runs.
@@ -50,6 +51,8 @@ pub struct Check {
     pub equations: usize,
     /// Equations of a solver with constraints (Franco & Degani 2026, Table 7a).
     pub constraint_equations: usize,
+    /// The plane in which the scene lies, or what leaves it.
+    pub plane: PlaneCheck,
     /// Groups of bodies that nothing connects with each other.
     pub islands: usize,
     /// \[m\] the largest assembly error of a joint.
@@ -195,6 +198,7 @@ pub fn check(scene: &Scene) -> Check {
         freedoms_by_rank: facts.freedoms_by_rank,
         equations: facts.equations,
         constraint_equations: facts.constraint_equations,
+        plane: PlaneCheck::of(scene),
         islands: facts.islands.len(),
         assembly_error: joints.iter().map(|joint| joint.assembly_error).fold(0.0, f64::max),
         joints,
@@ -212,8 +216,9 @@ pub fn check(scene: &Scene) -> Check {
         check.warnings = of_step(scene, &frequencies, &method, step, "the scene's step");
     }
     note_count(facts.planar_loops, &mut check);
-    check.warnings.extend(of_scene(scene));
-    check.notes.extend(notes(scene));
+    let [warnings, notes] = with_notes(scene, &facts);
+    check.warnings.extend(warnings);
+    check.notes.extend(notes);
     check
 }
 
@@ -267,6 +272,7 @@ impl Check {
                 "equations",
                 format!("{}; {} with constraints", self.equations, self.constraint_equations),
             ),
+            ("plane", self.plane.text()),
             ("islands", self.islands.to_string()),
             ("assembly error", format!("{} m", significant(self.assembly_error, 3))),
             (

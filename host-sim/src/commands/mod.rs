@@ -2,7 +2,7 @@
 //!
 //! - [`list`]: the scenes that ship.
 //! - [`warnings`]: what is probably not meant, in one place for all.
-//! - [`assembled`], [`stability`], [`derived`], [`check`]: what a scene is, without running it.
+//! - [`assembled`], [`stability`], [`derived`], [`planar`], [`check`]: what a scene is, without running it.
 //! - [`picture`]: the mechanism as an SVG. [`mod@write`]: a scene in its long form.
 //! - [`watch`]: a file is looked at again each time it has changed.
 //! - [`folder`]: where results go.
@@ -13,6 +13,7 @@
 //! - [`sweep`]: many values of a scene, a row per case.
 //! - [`compare`]: two recorded runs in one report.
 //! - [`trade`]: speed against accuracy.
+//! - [`mod@bench`]: what a step costs this machine.
 //! - [`export`]: Rust source of a scene's const model and its plant.
 //! - [`mod@import`]: another program's file becomes a scene.
 //! - [`schema`]: what a scene file may hold, for editors.
@@ -20,6 +21,7 @@
 //! - [`completions`]: a script for a shell.
 
 pub mod assembled;
+pub mod bench;
 pub mod check;
 pub mod compare;
 pub mod completions;
@@ -32,6 +34,7 @@ pub mod list;
 pub mod modes;
 pub mod new;
 pub mod picture;
+pub mod planar;
 pub mod run;
 pub mod schema;
 pub mod stability;

@@ -9,7 +9,7 @@ use dbd_plant::frequencies::LARGEST_TURN;
 use dbd_plant::judge::{OPENED, Opening, Turning};
 use dbd_plant::time::{display, rounded};
 use dbd_plant::{Frequencies, Method, OrientationName, PrecisionName};
-use dbd_scene::{ElementDamping, Scene, Severity};
+use dbd_scene::{ElementDamping, Facts, Scene, Severity};
 
 use crate::compliance::{Stretch, stretches};
 
@@ -37,9 +37,21 @@ const STRONGEST_COMPOSED: f64 = 0.3;
 /// What is probably not meant in the scene itself.
 #[must_use]
 pub fn of_scene(scene: &Scene) -> Vec<String> {
-    let mut warnings = said(scene, Severity::Warning);
-    warnings.extend(of_stiffness(scene));
+    let [warnings, _] = with_notes(scene, &scene.facts());
     warnings
+}
+
+/// What is probably not meant in the scene itself, and what is good to know of it, where its facts
+/// are at hand.
+#[must_use]
+pub fn with_notes(scene: &Scene, facts: &Facts) -> [Vec<String>; 2] {
+    let all = scene.warnings_with(facts);
+    let [mut warnings, notes] = [Severity::Warning, Severity::Note].map(|severity| {
+        let of_it = all.iter().filter(|warning| warning.severity == severity);
+        of_it.map(ToString::to_string).collect::<Vec<_>>()
+    });
+    warnings.extend(of_stiffness(scene));
+    [warnings, notes]
 }
 
 /// Joints that the forces at t = 0 alone open by more than [`OPENED`] of their free length.
@@ -72,17 +84,6 @@ fn named(names: impl ExactSizeIterator<Item = String>) -> Option<String> {
         names.push(format!("{more} more"));
     }
     (!names.is_empty()).then(|| names.join(", "))
-}
-
-/// What is good to know of the scene.
-#[must_use]
-pub fn notes(scene: &Scene) -> Vec<String> {
-    said(scene, Severity::Note)
-}
-
-fn said(scene: &Scene, severity: Severity) -> Vec<String> {
-    let all = scene.warnings().into_iter();
-    all.filter(|warning| warning.severity == severity).map(|warning| warning.to_string()).collect()
 }
 
 /// What is wrong with a step at t = 0: vibration beyond what the scheme bears, a spin beyond what a

@@ -10,6 +10,8 @@ macro_rules! examples {
     };
 }
 
+/// Of `bench`.
+pub const BENCH: &str = examples!("bench.txt");
 /// Of `check`.
 pub const CHECK: &str = examples!("check.txt");
 /// Of `compare`.

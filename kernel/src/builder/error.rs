@@ -42,6 +42,10 @@ pub enum Part {
     Inputs,
     /// Knots of tables.
     Knots,
+    /// Revolute joints of bushings.
+    Revolutes,
+    /// Universal joints.
+    Universals,
 }
 
 /// What can be out of range.

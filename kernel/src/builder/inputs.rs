@@ -20,6 +20,8 @@ impl<
     const LINES: usize,
     const INPUTS: usize,
     const KNOTS: usize,
+    const REVOLUTES: usize,
+    const UNIVERSALS: usize,
 >
     ModelBuilder<
         P,
@@ -34,6 +36,8 @@ impl<
         LINES,
         INPUTS,
         KNOTS,
+        REVOLUTES,
+        UNIVERSALS,
     >
 {
     /// Adds an input that the caller drives, at first with `value`.

@@ -4,10 +4,12 @@
 //! The builder is the model: lend it to a [`crate::Plant`] when it is complete. It steps through
 //! the same code and bits as a const model with the same elements in the same order.
 
+mod bushings;
 mod error;
 mod inputs;
 mod owner;
 
+pub use bushings::BushingLaw;
 pub use error::{BuildError, Part, Quantity};
 
 use heapless::Vec;
@@ -18,8 +20,10 @@ use crate::elements::input::{Input, Knot};
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_on_line::PointOnLine;
+use crate::elements::revolute::Revolute;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
+use crate::elements::universal::Universal;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
 use crate::model::{Group, Law};
@@ -35,13 +39,14 @@ pub struct Stars<'p> {
     pub between: [BodyIndex; 2],
     /// \[m\] one point of the first body per star, its body axes (world for the ground).
     pub centres: &'p [[f64; 3]],
-    /// \[m\] points of the second body: 1 or 3 shared by all stars, or as many for each star.
+    /// \[m\] points of the second body: 1 or 3 shared by all stars, or 1 to 3 for each star; of point
+    /// bushings one for each star.
     pub arms: &'p [[f64; 3]],
     /// \[N/m\] stiffness of each TSDA, ≥ 0.
     pub stiffness: f64,
     /// \[N·s/m\] damping of each TSDA, ≥ 0.
     pub damping: f64,
-    /// \[m\] free length of each TSDA, ≥ 0; 0 makes point bushings, of one star and one arm.
+    /// \[m\] free length of each TSDA, ≥ 0; 0 makes point bushings.
     pub free_length: f64,
     /// \[m\] clearance of each TSDA, ≥ 0; 0 for none. A point bushing has none.
     pub clearance: f64,
@@ -76,6 +81,8 @@ pub struct ModelBuilder<
     const LINES: usize = 0,
     const INPUTS: usize = 0,
     const KNOTS: usize = 0,
+    const REVOLUTES: usize = 0,
+    const UNIVERSALS: usize = 0,
 > {
     bodies: Vec<Body<P::Space>, BODIES>,
     initial: Vec<BodyState<P>, BODIES>,
@@ -92,6 +99,8 @@ pub struct ModelBuilder<
     knots: Vec<Knot<P::Real>, KNOTS>,
     // At most one per group.
     clearances: Vec<P::Real, GROUPS>,
+    revolutes: Vec<Revolute<P::Space>, REVOLUTES>,
+    universals: Vec<Universal<P::Space>, UNIVERSALS>,
 }
 
 impl<
@@ -107,6 +116,8 @@ impl<
     const LINES: usize,
     const INPUTS: usize,
     const KNOTS: usize,
+    const REVOLUTES: usize,
+    const UNIVERSALS: usize,
 >
     ModelBuilder<
         P,
@@ -121,6 +132,8 @@ impl<
         LINES,
         INPUTS,
         KNOTS,
+        REVOLUTES,
+        UNIVERSALS,
     >
 {
     /// An empty model.
@@ -141,6 +154,8 @@ impl<
             inputs: Vec::new(),
             knots: Vec::new(),
             clearances: Vec::new(),
+            revolutes: Vec::new(),
+            universals: Vec::new(),
         }
     }
 
@@ -149,7 +164,7 @@ impl<
     /// # Errors
     /// [`Quantity::Gravity`] where it is not finite.
     pub fn set_gravity(&mut self, gravity: [f64; 3]) -> Result<(), BuildError> {
-        check(finite(&gravity), Quantity::Gravity)?;
+        check(finite(&gravity) && P::Vector::holds(gravity), Quantity::Gravity)?;
         self.gravity.clear();
         // A capacity of 1 holds one field.
         let _ = self.gravity.push(P::Vector::from_f64(gravity));
@@ -224,19 +239,19 @@ impl<
         let bushing = stars.free_length == 0.0;
         check(not_negative(stars.clearance) && !(bushing && dead), Quantity::Clearance)?;
         let points = stars.centres.iter().chain(stars.arms);
-        check(points.clone().flatten().all(|c| c.is_finite()), Quantity::Point)?;
+        check(points.clone().all(|p| finite(p) && P::Vector::holds(*p)), Quantity::Point)?;
         let (count, arms) = (stars.centres.len(), stars.arms.len());
-        let shared = count > 1 && (arms == 1 || arms == 3);
+        let shared = !bushing && count > 1 && (arms == 1 || arms == 3);
         let per_star = if shared { arms } else { arms / count.max(1) };
         let whole = shared || per_star * count == arms;
-        check(count <= 255 && whole && (per_star == 1 || per_star == 3), Quantity::Arms)?;
+        check(count <= 255 && whole && (1..=3).contains(&per_star), Quantity::Arms)?;
         let elements = count * per_star;
-        check(!bushing || elements == 1, Quantity::Arms)?;
+        check(!bushing || per_star == 1, Quantity::Arms)?;
 
         room(&self.groups, 1, Part::Groups)?;
         room(&self.points, count + arms, Part::Points)?;
         if bushing {
-            room(&self.bushings, 1, Part::Bushings)?;
+            room(&self.bushings, elements, Part::Bushings)?;
         } else {
             room(&self.tsdas, elements, Part::Tsdas)?;
         }
@@ -286,13 +301,15 @@ impl<
     ) -> Result<(), BuildError> {
         self.check_pair(between)?;
         let norm = length(direction);
-        check(norm > 0.0 && norm.is_finite(), Quantity::Axis)?;
+        let held = P::Vector::holds(direction);
+        check(held && norm > 0.0 && norm.is_finite(), Quantity::Axis)?;
         let not_negative = |x: f64| x >= 0.0 && x.is_finite();
         check(not_negative(law.stiffness), Quantity::Stiffness)?;
         check(not_negative(law.damping), Quantity::Damping)?;
         check(not_negative(law.free_length), Quantity::FreeLength)?;
         check(not_negative(law.clearance), Quantity::Clearance)?;
-        check(finite(&line_point) && points.iter().all(|p| finite(p)), Quantity::Point)?;
+        let known = |p: &[f64; 3]| finite(p) && P::Vector::holds(*p);
+        check(known(&line_point) && points.iter().all(known), Quantity::Point)?;
         check(points.len() == 1 || points.len() == 2, Quantity::Arms)?;
         room(&self.groups, 1, Part::Groups)?;
         room(&self.points, 1 + points.len(), Part::Points)?;
@@ -336,7 +353,8 @@ impl<
     ) -> Result<(), BuildError> {
         self.check_pair(between)?;
         let norm = length(axis);
-        check(norm > 0.0 && norm.is_finite(), Quantity::Axis)?;
+        let held = P::Moment::holds(axis);
+        check(held && norm > 0.0 && norm.is_finite(), Quantity::Axis)?;
         check(stiffness >= 0.0 && stiffness.is_finite(), Quantity::Stiffness)?;
         check(damping >= 0.0 && damping.is_finite(), Quantity::Damping)?;
         check(preload.is_finite(), Quantity::Load)?;

@@ -23,6 +23,8 @@ impl<
     const LINES: usize,
     const INPUTS: usize,
     const KNOTS: usize,
+    const REVOLUTES: usize,
+    const UNIVERSALS: usize,
 > ModelOwner
     for ModelBuilder<
         P,
@@ -37,6 +39,8 @@ impl<
         LINES,
         INPUTS,
         KNOTS,
+        REVOLUTES,
+        UNIVERSALS,
     >
 {
     type Precision = P;
@@ -63,6 +67,8 @@ impl<
             inputs: &self.inputs,
             knots: &self.knots,
             clearances: &self.clearances,
+            revolutes: &self.revolutes,
+            universals: &self.universals,
             terms: PhantomData,
         }
     }

@@ -220,6 +220,9 @@ pub(super) fn rows(group: &Group) -> core::ops::Range<usize> {
     first..first + group.elements()
 }
 
+/// Joints that are further apart in the model share no levers: the search stays short.
+const NEAR: usize = 64;
+
 /// Finds the levers of all joints at a pose, for half a step `h` \[s\].
 pub(crate) fn find<P: Geometry, T: Terms>(
     model: &ModelRef<'_, P, T>,
@@ -240,7 +243,8 @@ pub(crate) fn find<P: Geometry, T: Terms>(
         let own = rows(group);
         let Some((before, here)) = levers.split_at_mut_checked(own.start) else { continue };
         let Some(here) = here.get_mut(..own.len()) else { continue };
-        let head = model.groups.iter().take(row).find(|other| fixed::<P, T>(other) == Some(ends));
+        let near = model.groups.get(row.saturating_sub(NEAR)..row).unwrap_or_default();
+        let head = near.iter().find(|other| fixed::<P, T>(other) == Some(ends));
         let shared = head.map(rows).and_then(|rows| before.get_mut(rows)).unwrap_or_default();
         for i in 0..group.elements() {
             let (Some(element), Some(&coefficient)) =

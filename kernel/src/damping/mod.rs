@@ -14,7 +14,9 @@
 //! rest under any forces it does nothing.
 //!
 //! A TSDA damps along its line, a torsion spring along its gradient, a point bushing along the
-//! world's axes, a point on a line along the line's two normals, one after the other.
+//! world's axes, a point on a line along the line's two normals, a revolute of bushings along its axis
+//! and the normals and about these, a universal joint as a bushing and about the normal of its axes, one
+//! after the other.
 //! Velocities are rounded once per pair, not once per damper. Linear momentum is always kept.
 //! Angular momentum is kept by dampers of TSDAs with a free length and of torsion springs; a damped
 //! bushing or point on a line has the law `c·v_rel`, whose torque vanishes only with its deflection.
@@ -22,6 +24,7 @@
 mod joints;
 mod levers;
 mod motion;
+mod near;
 mod pair;
 mod shares;
 mod strength;
@@ -30,6 +33,7 @@ pub use crate::elements::share::Share;
 pub(crate) use joints::{prepare, sweep_joints};
 pub use levers::{Keep, Lever, Levers, NoLevers};
 pub(crate) use levers::{find, weigh};
+pub(crate) use near::Held;
 pub(crate) use pair::{HalfKick, Kick, NoKick};
 pub(crate) use shares::share;
 pub use strength::{DampersOf, Strength, strengths};
@@ -41,7 +45,7 @@ use crate::elements::torsion_spring::TorsionSpring;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelRef, Terms};
-use crate::pose::{End, MOST_ARMS, Placed, Places, Spot, placed, twist_of};
+use crate::pose::{End, MOST_ARMS, Placed, Places, Spot, held_turns, placed, twist_of};
 use crate::real::Real;
 use crate::space::{Linear as _, Vector as _};
 
@@ -184,6 +188,9 @@ fn each_direction<P: Geometry, T: Terms, const REVERSE: bool>(
 ) {
     let group = element.group;
     let Some((mut directions, count)) = model.damped(group.law, &element.stretch) else { return };
+    if (T::REVOLUTES || T::UNIVERSALS) && REVERSE {
+        each_turn::<P, T, REVERSE>(model, places, element, &mut visit);
+    }
     if REVERSE && count > 1 {
         directions.swap(0, count - 1);
     }
@@ -194,6 +201,31 @@ fn each_direction<P: Geometry, T: Terms, const REVERSE: bool>(
         };
         let moments = [moment(group.a, element.arm_a), moment(group.b, element.arm_b)];
         visit(Direction { along, moments });
+    }
+    if (T::REVOLUTES || T::UNIVERSALS) && !REVERSE {
+        each_turn::<P, T, REVERSE>(model, places, element, &mut visit);
+    }
+}
+
+/// The directions of the dampers that hold the axes of a joint: moments alone.
+#[inline(always)]
+fn each_turn<P: Geometry, T: Terms, const REVERSE: bool>(
+    model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    element: &Placed<'_, P::Vector>,
+    visit: &mut impl FnMut(Direction<P::Space>),
+) {
+    let group = element.group;
+    let (mut turns, count) = held_turns(model, places, group, element.index);
+    if REVERSE && count > 1 {
+        turns.swap(0, 1);
+    }
+    for turn in turns.into_iter().take(count) {
+        let moments = [group.a, group.b].map(|body| match places.frames.get(body.row()) {
+            Some(frame) => P::moment_to_body(frame, turn),
+            None => P::Moment::ZERO,
+        });
+        visit(Direction { along: P::Vector::ZERO, moments });
     }
 }
 
@@ -271,7 +303,7 @@ fn engaged<P: Geometry, T: Terms>(
         return damping;
     }
     let Some(law) = model.element(element.group.law, element.index) else { return damping };
-    let extension = law.extension(element.stretch.displacement);
+    let extension = law.extension(&element.stretch);
     clearance::engaged(damping, extension, clearance)
 }
 

@@ -5,12 +5,13 @@
 
 use crate::body::{BodyState, Increment};
 use crate::damping::levers::{Lever, fixed, held};
+use crate::damping::near::{Held, hold, near};
 use crate::damping::pair::Direction;
 use crate::damping::{each_direction, torsion_direction};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{ModelRef, Terms};
-use crate::pose::{Places, placed};
+use crate::pose::{Places, held_turns, placed};
 use crate::real::Real as _;
 use crate::space::{Linear as _, Moment as _, Space};
 
@@ -31,6 +32,16 @@ pub(super) enum Mount {
     Torsion(usize),
 }
 
+impl Mount {
+    /// The one at a place.
+    fn at(place: usize, groups: usize) -> Self {
+        match place.checked_sub(groups) {
+            None => Self::Group(place),
+            Some(row) => Self::Torsion(row),
+        }
+    }
+}
+
 /// Whether two pairs have a body in common.
 pub(super) fn meet(a: [BodyIndex; 2], b: [BodyIndex; 2]) -> bool {
     a.iter().any(|body| !body.is_world() && b.contains(body))
@@ -49,8 +60,35 @@ pub(super) struct Pose<'s, 'm, P: Geometry, T> {
 
 impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
     pub(super) fn mounts(&self) -> impl Iterator<Item = Mount> + use<P, T> {
-        let (groups, torsions) = (self.model.groups.len(), self.model.torsions.len());
-        (0..groups).map(Mount::Group).chain((0..torsions).map(Mount::Torsion))
+        let groups = self.model.groups.len();
+        (0..self.count()).map(move |place| Mount::at(place, groups))
+    }
+
+    fn count(&self) -> usize {
+        self.model.groups.len() + self.model.torsions.len()
+    }
+
+    /// Takes note of which body holds which mount; `held` has an empty one per body.
+    pub(super) fn hold(&self, held: &mut [Held]) {
+        for (place, mount) in self.mounts().enumerate() {
+            if let Some(ends) = self.ends(mount) {
+                hold(held, ends, place);
+            }
+        }
+    }
+
+    /// The mounts with dampers that share a body with a pair, in order: place, mount, bodies.
+    pub(super) fn meeting<'h>(
+        &self,
+        held: &'h [Held],
+        ends: [BodyIndex; 2],
+    ) -> impl Iterator<Item = (usize, Mount, [BodyIndex; 2])> + use<'_, 'h, P, T> {
+        let groups = self.model.groups.len();
+        near(held, ends, self.count()).filter_map(move |place| {
+            let mount = Mount::at(place, groups);
+            let others = self.ends(mount).filter(|others| meet(ends, *others))?;
+            Some((place, mount, others))
+        })
     }
 
     /// The bodies of a mount that has dampers.
@@ -91,7 +129,8 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
                     let Some(&coefficient) = model.dampers.get(first + i) else { return };
                     let Some(element) = placed(model, places, (0, group), i) else { return };
                     let directions = model.damped(group.law, &element.stretch);
-                    let count = directions.map_or(1, |(_, count)| count);
+                    let (_, turns) = held_turns(model, places, group, element.index);
+                    let count = directions.map_or(1, |(_, count)| count + turns);
                     let part = one / P::Real::from_i32(count as i32);
                     each_direction::<P, T, false>(model, places, &element, |direction| {
                         visit(first + i, part, coefficient, &direction);

@@ -9,32 +9,32 @@
 
 use crate::body::BodyState;
 use crate::damping::levers::Lever;
-use crate::damping::motion::{Motion, Pose, meet};
+use crate::damping::motion::{Motion, Pose};
+use crate::damping::near::Held;
 use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::model::{ModelRef, Terms};
 use crate::pose::Places;
 use crate::real::Real;
 
-/// Writes the share of every damper; `shares` is as long as the dampers.
+/// Writes the share of every damper; `shares` is as long as the dampers, `held` has an empty one per
+/// body.
 pub(crate) fn share<P: Geometry, T: Terms>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     bodies: &[BodyState<P>],
     (turns, levers): (&[i32], &[Lever<P>]),
+    held: &mut [Held],
     shares: &mut [Share<P::Real>],
 ) {
     let zero = P::Real::ZERO;
     let pose = Pose { model, places, bodies, turns, levers };
+    pose.hold(held);
     shares.fill(Share { own: zero, later: zero });
     // First the powers of all dampers and of those that come later, over the damper's own.
     for (place, mount) in pose.mounts().enumerate() {
         let Some(ends) = pose.ends(mount) else { continue };
-        for (other_place, other) in pose.mounts().enumerate() {
-            let Some(others) = pose.ends(other) else { continue };
-            if !meet(ends, others) {
-                continue;
-            }
+        for (other_place, other, others) in pose.meeting(held, ends) {
             pose.each_damper(mount, |row, part, coefficient, direction| {
                 let Some(motion) = Motion::new(model, ends, coefficient, direction) else { return };
                 let [mut all, mut later] = [zero; 2];

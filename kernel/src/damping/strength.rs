@@ -3,7 +3,8 @@
 //! `(model, state) => c/μ per group and torsion spring` \[1/s\], the rate at which a damper alone
 //! would stop its two bodies. For those who choose a step: nothing of a step needs it.
 
-use crate::damping::motion::{Motion, Mount, Pose, meet};
+use crate::damping::motion::{Motion, Mount, Pose};
+use crate::damping::near::Held;
 use crate::model::{FrameOf, ModelOwner, RealOf};
 use crate::pose::{Places, place_bodies};
 use crate::real::Real;
@@ -45,13 +46,12 @@ pub fn strengths<M: ModelOwner>(model: &M, state: &State<M>, mut visit: impl FnM
     let pose = Pose { model: &view, places, bodies, turns: state.turns.as_ref(), levers: &[] };
     let one = RealOf::<M>::ONE;
     let crossing = RealOf::<M>::from_f64(0.25 * CROSSING);
+    let mut held = model.per_body(Held::default());
+    pose.hold(held.as_mut());
     for mount in pose.mounts() {
         let Some(ends) = pose.ends(mount) else { continue };
         let [mut strongest, mut crossed] = [RealOf::<M>::ZERO; 2];
-        for other in pose.mounts() {
-            let Some(others) = pose.ends(other).filter(|others| meet(ends, *others)) else {
-                continue;
-            };
+        for (_, other, others) in pose.meeting(held.as_ref(), ends) {
             pose.each_damper(mount, |_, _, coefficient, direction| {
                 let Some(motion) = Motion::new(&view, ends, coefficient, direction) else { return };
                 let rate = coefficient * motion.rate;

@@ -6,7 +6,9 @@
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_law::{PointLaw, Stretch};
 use crate::elements::point_on_line::PointOnLine;
+use crate::elements::revolute::Revolute;
 use crate::elements::tsda::Tsda;
+use crate::elements::universal::Universal;
 use crate::space::Space;
 
 /// The law that a group's elements follow.
@@ -15,11 +17,15 @@ use crate::space::Space;
 pub enum Law {
     /// Stars of TSDAs with free lengths.
     Tsda,
-    /// One point bushing.
+    /// Point bushings: every star has one point of the second body, its own.
     PointBushing,
     /// Stars on lines: each star's first point and its elements' direction define a line of the
     /// first body, on which the second body's points are projected.
     PointOnLine,
+    /// One revolute joint of bushings.
+    Revolute,
+    /// One universal joint without a spider.
+    Universal,
 }
 
 impl Law {
@@ -28,7 +34,7 @@ impl Law {
     pub const fn takes_arms(self, arms: u8) -> bool {
         match self {
             Law::Tsda => arms >= 1 && arms <= 3,
-            Law::PointBushing => arms == 1,
+            Law::PointBushing | Law::Revolute | Law::Universal => arms == 1,
             Law::PointOnLine => arms == 1 || arms == 2,
         }
     }
@@ -43,6 +49,10 @@ pub enum Element<'m, S: Space> {
     PointBushing(&'m PointBushing<S::Real>),
     /// A point held to a line.
     PointOnLine(&'m PointOnLine<S>),
+    /// A revolute joint of bushings.
+    Revolute(&'m Revolute<S>),
+    /// A universal joint without a spider.
+    Universal(&'m Universal<S>),
 }
 
 /// Calls a method of the law that an element follows.
@@ -52,6 +62,8 @@ macro_rules! of_law {
             Element::Tsda($law) => $call,
             Element::PointBushing($law) => $call,
             Element::PointOnLine($law) => $call,
+            Element::Revolute($law) => $call,
+            Element::Universal($law) => $call,
         }
     };
 }
@@ -59,14 +71,20 @@ macro_rules! of_law {
 impl<S: Space> Element<'_, S> {
     /// As [`PointLaw::extension`].
     #[inline(always)]
-    pub fn extension(&self, displacement: S::Vector) -> S::Real {
-        of_law!(self, law => PointLaw::extension(*law, displacement))
+    pub fn extension(&self, stretch: &Stretch<S::Vector>) -> S::Real {
+        of_law!(self, law => PointLaw::extension(*law, stretch))
+    }
+
+    /// \[N/m\] its stiffness; of a revolute joint that across its axis.
+    #[inline(always)]
+    pub fn stiffness(&self) -> S::Real {
+        of_law!(self, law => law.stiffness)
     }
 
     /// As [`PointLaw::energy`].
     #[inline(always)]
-    pub fn energy(&self, displacement: S::Vector, clearance: Option<S::Real>) -> S::Real {
-        of_law!(self, law => PointLaw::energy(*law, displacement, clearance))
+    pub fn energy(&self, stretch: &Stretch<S::Vector>, clearance: Option<S::Real>) -> S::Real {
+        of_law!(self, law => PointLaw::energy(*law, stretch, clearance))
     }
 
     /// As [`PointLaw::tangent`].

@@ -11,6 +11,8 @@ pub mod load;
 pub mod point_bushing;
 pub mod point_law;
 pub mod point_on_line;
+pub mod revolute;
 pub mod share;
 pub mod torsion_spring;
 pub mod tsda;
+pub mod universal;

@@ -44,13 +44,15 @@ impl<R: Real> PointBushing<R> {
 impl<V: Vector> PointLaw<V> for PointBushing<V::Real> {
     /// `|d|` \[m\].
     #[inline]
-    fn extension(&self, d: V) -> V::Real {
+    fn extension(&self, stretch: &Stretch<V>) -> V::Real {
+        let d = stretch.displacement;
         d.dot(d).sqrt()
     }
 
     /// A point bushing has no clearance.
     #[inline]
-    fn energy(&self, d: V, _: Option<V::Real>) -> V::Real {
+    fn energy(&self, stretch: &Stretch<V>, _: Option<V::Real>) -> V::Real {
+        let d = stretch.displacement;
         V::Real::HALF * self.stiffness * d.dot(d)
     }
 
@@ -82,6 +84,6 @@ mod tests {
         assert_eq!(bushing.force(d), Vec3::new(4.0, -8.0, 12.0));
         let f = bushing.damped_force(2.0, d, Vec3::new(1.0, 0.0, -1.0));
         assert_eq!(f, Vec3::new(6.0, -8.0, 10.0));
-        assert!((bushing.energy(d, None) - 0.5 * 40.0 * 0.14).abs() < 1e-15);
+        assert!((bushing.energy(&Stretch::of(d), None) - 0.5 * 40.0 * 0.14).abs() < 1e-15);
     }
 }

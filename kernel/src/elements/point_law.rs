@@ -9,20 +9,33 @@ use crate::space::Vector;
 
 /// An element at a pose, world axes.
 #[derive(Clone, Copy, Debug)]
-pub struct Stretch<V> {
+pub struct Stretch<V: Vector> {
     /// \[m\] from its first point to its second; on a line from the foot to the point.
     pub displacement: V,
-    /// \[1\] the direction of its line; 0 where the law knows no line.
+    /// \[1\] the direction of its line or axis; 0 where the law knows none.
     pub direction: V,
+    /// \[1\] how much stiffer it is along its axis than across; of revolute joints alone.
+    pub ratio: V::Real,
+    /// \[m\] how far the axes of a joint are from how it holds them, at their lever.
+    pub lean: V::Real,
+}
+
+impl<V: Vector> Stretch<V> {
+    /// Of a law that knows neither line nor axis.
+    #[inline(always)]
+    pub fn of(displacement: V) -> Self {
+        let zero = V::Real::ZERO;
+        Self { displacement, direction: V::ZERO, ratio: zero, lean: zero }
+    }
 }
 
 /// What energies, sweeps, read-outs and frequencies ask of a law.
 pub trait PointLaw<V: Vector> {
     /// \[m\] how far the element is from its free length.
-    fn extension(&self, displacement: V) -> V::Real;
+    fn extension(&self, stretch: &Stretch<V>) -> V::Real;
 
     /// \[J\] stored energy, beyond a clearance \[m\] if there is one.
-    fn energy(&self, displacement: V, clearance: Option<V::Real>) -> V::Real;
+    fn energy(&self, stretch: &Stretch<V>, clearance: Option<V::Real>) -> V::Real;
 
     /// The directions in which its damper acts, and how many of them there are.
     fn damped(stretch: &Stretch<V>) -> ([V; 3], usize);

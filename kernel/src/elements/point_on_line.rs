@@ -62,6 +62,11 @@ impl<S: Space> PointOnLine<S> {
         )
     }
 
+    #[inline(always)]
+    fn beyond_free(&self, e: S::Vector) -> S::Real {
+        e.dot(e).sqrt() - self.free_length
+    }
+
     /// Force on A \[N\] for the deflection `e` without damping, beyond a clearance \[m\] if there
     /// is one.
     #[inline(always)]
@@ -83,7 +88,7 @@ impl<S: Space> PointOnLine<S> {
         rate: S::Vector,
         clearance: Option<S::Real>,
     ) -> S::Vector {
-        let damping = engaged(damping, self.extension(e), clearance);
+        let damping = engaged(damping, self.beyond_free(e), clearance);
         self.force(e, clearance) + rate * damping
     }
 }
@@ -91,13 +96,13 @@ impl<S: Space> PointOnLine<S> {
 impl<S: Space> PointLaw<S::Vector> for PointOnLine<S> {
     /// `|e| − L0` \[m\].
     #[inline]
-    fn extension(&self, e: S::Vector) -> S::Real {
-        e.dot(e).sqrt() - self.free_length
+    fn extension(&self, stretch: &Stretch<S::Vector>) -> S::Real {
+        self.beyond_free(stretch.displacement)
     }
 
     #[inline]
-    fn energy(&self, e: S::Vector, clearance: Option<S::Real>) -> S::Real {
-        let extension = beyond(self.extension(e), clearance);
+    fn energy(&self, stretch: &Stretch<S::Vector>, clearance: Option<S::Real>) -> S::Real {
+        let extension = beyond(self.extension(stretch), clearance);
         S::Real::HALF * self.stiffness * extension * extension
     }
 
@@ -119,7 +124,7 @@ impl<S: Space> PointLaw<S::Vector> for PointOnLine<S> {
     ) -> S::Real {
         let (e, line) = (stretch.displacement, stretch.direction);
         let inverse = e.dot(e).sqrt().reciprocal_or_zero();
-        let force = (self.stiffness * self.extension(e)).abs();
+        let force = (self.stiffness * self.extension(stretch)).abs();
         let isotropic = self.free_length == S::Real::ZERO;
         let [n, m] =
             if isotropic { line.normals() } else { [e * inverse, line.across(e * inverse)] };
@@ -146,10 +151,10 @@ mod tests {
         let line = PointOnLine::<f64>::from_f64(n.to_f64(), 500.0, 0.0);
         let projection = Projection::new(n * 3.0, n);
         assert!((projection.slide - 3.0).abs() < 1e-15);
-        assert!(line.energy(projection.deflection, None) < 1e-27);
+        assert!(line.energy(&Stretch::of(projection.deflection), None) < 1e-27);
         let aside = Projection::new(n * 3.0 + Vec3::new(0.2, 0.0, 0.0), n);
         assert!((line.force(aside.deflection, None).x - 100.0).abs() < 1e-12);
-        assert!((line.energy(aside.deflection, None) - 10.0).abs() < 1e-12);
+        assert!((line.energy(&Stretch::of(aside.deflection), None) - 10.0).abs() < 1e-12);
     }
 
     #[test]
@@ -157,7 +162,7 @@ mod tests {
         let n = Vec3::new(1.0, 0.0, 0.0);
         let line = PointOnLine::<f64>::from_f64(n.to_f64(), 500.0, 0.01);
         let d = Vec3::new(0.7, 0.012, -0.005);
-        let at = |d: Vec3<f64>| line.energy(Projection::new(d, n).deflection, None);
+        let at = |d: Vec3<f64>| line.energy(&Stretch::of(Projection::new(d, n).deflection), None);
         let force = line.force(Projection::new(d, n).deflection, None).to_f64();
         for (axis, force) in force.into_iter().enumerate() {
             let mut step = [0.0; 3];

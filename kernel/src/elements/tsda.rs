@@ -40,6 +40,25 @@ impl<R: Real> Tsda<R> {
         d * (tension * inverse)
     }
 
+    /// [`Self::force`] of several without clearance: whether any has no length is asked once.
+    #[inline(always)]
+    pub(crate) fn forces<V: Linear<Real = R>, const N: usize>(
+        springs: &[Self; N],
+        d: &[V; N],
+    ) -> [V; N] {
+        let mut lengths = [R::ZERO; N];
+        for i in 0..N {
+            lengths[i] = d[i].dot(d[i]).sqrt();
+        }
+        let inverses = R::reciprocals_or_zero(lengths);
+        let mut forces = *d;
+        for i in 0..N {
+            let tension = springs[i].stiffness * (lengths[i] - springs[i].free_length);
+            forces[i] = d[i] * (tension * inverses[i]);
+        }
+        forces
+    }
+
     /// Force on A \[N\] with the damper's share, `damping` in N·s/m.
     #[inline(always)]
     pub fn damped_force<V: Linear<Real = R>>(
@@ -62,13 +81,14 @@ impl<R: Real> Tsda<R> {
 impl<V: Vector> PointLaw<V> for Tsda<V::Real> {
     /// `L − L0` \[m\].
     #[inline]
-    fn extension(&self, d: V) -> V::Real {
+    fn extension(&self, stretch: &Stretch<V>) -> V::Real {
+        let d = stretch.displacement;
         d.dot(d).sqrt() - self.free_length
     }
 
     #[inline]
-    fn energy(&self, d: V, clearance: Option<V::Real>) -> V::Real {
-        let extension = beyond(self.extension(d), clearance);
+    fn energy(&self, stretch: &Stretch<V>, clearance: Option<V::Real>) -> V::Real {
+        let extension = beyond(self.extension(stretch), clearance);
         V::Real::HALF * self.stiffness * extension * extension
     }
 
@@ -84,7 +104,7 @@ impl<V: Vector> PointLaw<V> for Tsda<V::Real> {
     fn tangent(&self, stretch: &Stretch<V>, arm: V, add: &mut impl FnMut(V::Real, V)) -> V::Real {
         let d = stretch.displacement;
         add(self.stiffness, d * d.dot(d).sqrt().reciprocal_or_zero());
-        let tension = (self.stiffness * self.extension(d)).abs();
+        let tension = (self.stiffness * self.extension(stretch)).abs();
         let zero = V::Real::ZERO;
         if tension > zero { taut(tension, d, arm, add) } else { zero }
     }
@@ -112,7 +132,7 @@ mod tests {
             let at = |s: f64| {
                 let mut p = d.to_f64();
                 p[axis] += s;
-                SPRING.energy(Vec3::from_f64(p), None)
+                SPRING.energy(&Stretch::of(Vec3::from_f64(p)), None)
             };
             // The force on A is +dU/dd, since d grows when A moves against it.
             let gradient = (at(1e-6) - at(-1e-6)) / 2e-6;
@@ -133,7 +153,8 @@ mod tests {
         let at = |length: f64| {
             let d = Vec3::new(0.0, length, 0.0);
             let clearance = Some(0.01);
-            (SPRING.damped_force(3.0, d, rate, clearance).y, SPRING.energy(d, clearance))
+            let energy = SPRING.energy(&Stretch::of(d), clearance);
+            (SPRING.damped_force(3.0, d, rate, clearance).y, energy)
         };
         assert_eq!(at(0.505), (0.0, 0.0));
         assert_eq!(at(0.495), (0.0, 0.0));

@@ -12,8 +12,10 @@ mod bushing;
 mod inputs;
 mod lines;
 mod record;
+mod revolute;
 mod stars;
 mod torsions;
+mod universal;
 
 use crate::body::BodyState;
 pub use record::{At, Dampers, DampersLeft, DampersOfJoints, ExplicitDampers, Wrench};
@@ -101,10 +103,11 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, D: Dampers>(
     if T::INPUTS {
         inputs::push(model, places, wrenches);
     }
-    if T::TSDAS || T::BUSHINGS || T::LINES {
+    if T::TSDAS || T::BUSHINGS || T::LINES || T::REVOLUTES || T::UNIVERSALS {
         for group in model.groups {
-            let record = record::<P, T, D>(model, places, bodies, group);
-            apply(wrenches, group.a.row(), group.b.row(), &record);
+            if let Some(record) = record::<P, T, D>(model, places, bodies, group) {
+                apply(wrenches, group.a.row(), group.b.row(), &record);
+            }
         }
     }
     if T::TORSIONS {
@@ -116,31 +119,31 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, D: Dampers>(
     Ok(())
 }
 
-/// The record of one group.
+/// The record of one group, `None` where the model lacks what it names.
 #[inline(always)]
 pub(crate) fn record<P: Geometry, T: Terms, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     bodies: &[BodyState<P>],
     group: &Group,
-) -> Record<P::Space> {
+) -> Option<Record<P::Space>> {
     let moving = D::ACT && T::DAMPERS && group.damper.row().is_some();
     let moving = if moving { Some(bodies) } else { None };
     let end_a = End::new(model, places, group.a, moving);
     let end_b = End::new(model, places, group.b, moving);
     match group.law {
-        Law::Tsda if T::TSDAS && group.arms == 3 => {
-            stars::stars::<P, T, D, 3>(model, group, &end_a, &end_b)
-        }
-        Law::Tsda if T::TSDAS && group.arms == 2 => {
-            stars::stars::<P, T, D, 2>(model, group, &end_a, &end_b)
-        }
-        Law::Tsda if T::TSDAS => stars::stars::<P, T, D, 1>(model, group, &end_a, &end_b),
+        Law::Tsda if T::TSDAS => stars::stars::<P, T, D>(model, group, &end_a, &end_b),
         Law::PointBushing if T::BUSHINGS => {
-            bushing::bushing::<P, T, D>(model, group, &end_a, &end_b)
+            bushing::bushings::<P, T, D>(model, group, &end_a, &end_b)
         }
-        Law::PointOnLine if T::LINES => lines::lines::<P, T, D>(model, group, &end_a, &end_b),
-        _ => Record::ZERO,
+        Law::PointOnLine if T::LINES => Some(lines::lines::<P, T, D>(model, group, &end_a, &end_b)),
+        Law::Revolute if T::REVOLUTES => {
+            Some(revolute::revolute::<P, T, D>(model, group, &end_a, &end_b))
+        }
+        Law::Universal if T::UNIVERSALS => {
+            Some(universal::universal::<P, T, D>(model, group, &end_a, &end_b))
+        }
+        _ => None,
     }
 }
 

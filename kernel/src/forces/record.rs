@@ -23,8 +23,18 @@ pub(crate) struct Record<S: Space> {
 }
 
 impl<S: Space> Record<S> {
-    pub(super) const ZERO: Self =
+    pub(crate) const ZERO: Self =
         Self { force: S::Vector::ZERO, torque_a: S::Moment::ZERO, torque_b: S::Moment::ZERO };
+
+    /// This and another.
+    #[inline(always)]
+    pub(super) fn with(&self, other: &Self) -> Self {
+        Self {
+            force: self.force + other.force,
+            torque_a: self.torque_a + other.torque_a,
+            torque_b: self.torque_b + other.torque_b,
+        }
+    }
 }
 
 /// Whether the dampers' forces are part of an evaluation.

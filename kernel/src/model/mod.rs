@@ -8,6 +8,7 @@
 //! Elements lie in groups, one per joint and one per raw element. A TSDA group is made of stars:
 //! a point of the first body joined to each of one to three points of the second. A revolute is
 //! two stars that share three points, a spherical joint one star of three, a raw TSDA one of one.
+//! As bushings either is one pair of points, a fixed joint three stars of a point each.
 
 mod owned;
 mod terms;
@@ -26,8 +27,10 @@ use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_law::{PointLaw as _, Stretch};
 use crate::elements::point_on_line::PointOnLine;
+use crate::elements::revolute::Revolute;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
+use crate::elements::universal::Universal;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
 use crate::schedule::{KnotStep, LoadWindow, Signal};
@@ -75,12 +78,6 @@ impl Group {
         self.stars as usize + blocks * self.arms as usize
     }
 
-    /// The number of stars that share the second body's points.
-    #[inline(always)]
-    pub(crate) const fn stars_per_block(&self) -> usize {
-        if self.shared { self.stars as usize } else { 1 }
-    }
-
     /// The row of a star's first point among the model's points.
     #[inline(always)]
     pub(crate) const fn centre(&self, star: usize) -> usize {
@@ -124,6 +121,10 @@ pub struct ModelRef<'m, P: Geometry, T> {
     pub knots: &'m [Knot<P::Real>],
     /// \[m\] clearances of groups.
     pub clearances: &'m [P::Real],
+    /// Revolute joints of bushings of the groups.
+    pub revolutes: &'m [Revolute<P::Space>],
+    /// Universal joints of the groups.
+    pub universals: &'m [Universal<P::Space>],
     /// The kinds of element that occur.
     pub terms: PhantomData<T>,
 }
@@ -136,6 +137,8 @@ impl<'m, P: Geometry, T: Terms> ModelRef<'m, P, T> {
             Law::Tsda if T::TSDAS => self.tsdas.get(row).map(Element::Tsda),
             Law::PointBushing if T::BUSHINGS => self.bushings.get(row).map(Element::PointBushing),
             Law::PointOnLine if T::LINES => self.lines.get(row).map(Element::PointOnLine),
+            Law::Revolute if T::REVOLUTES => self.revolutes.get(row).map(Element::Revolute),
+            Law::Universal if T::UNIVERSALS => self.universals.get(row).map(Element::Universal),
             _ => None,
         }
     }
@@ -152,6 +155,8 @@ impl<'m, P: Geometry, T: Terms> ModelRef<'m, P, T> {
             Law::Tsda if T::TSDAS => Some(Tsda::damped(stretch)),
             Law::PointBushing if T::BUSHINGS => Some(PointBushing::damped(stretch)),
             Law::PointOnLine if T::LINES => Some(PointOnLine::<P::Space>::damped(stretch)),
+            Law::Revolute if T::REVOLUTES => Some(Revolute::<P::Space>::damped(stretch)),
+            Law::Universal if T::UNIVERSALS => Some(Universal::<P::Space>::damped(stretch)),
             _ => None,
         }
     }

@@ -7,8 +7,10 @@ use crate::elements::input::{Input, InputKind, Knot};
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_on_line::PointOnLine;
+use crate::elements::revolute::Revolute;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
+use crate::elements::universal::Universal;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, DamperIndex};
 use crate::model::{CountedTerms, Group, Law, ModelOwner, ModelRef};
@@ -32,6 +34,8 @@ pub struct Model<
     const INPUTS: usize = 0,
     const KNOTS: usize = 0,
     const CLEARANCES: usize = 0,
+    const REVOLUTES: usize = 0,
+    const UNIVERSALS: usize = 0,
 > {
     /// Bodies in scene order.
     pub bodies: [Body<P::Space>; BODIES],
@@ -61,6 +65,10 @@ pub struct Model<
     pub knots: [Knot<P::Real>; KNOTS],
     /// \[m\] clearances of groups.
     pub clearances: [P::Real; CLEARANCES],
+    /// Revolute joints of bushings of the groups.
+    pub revolutes: [Revolute<P::Space>; REVOLUTES],
+    /// Universal joints of the groups.
+    pub universals: [Universal<P::Space>; UNIVERSALS],
 }
 
 impl<
@@ -78,6 +86,8 @@ impl<
     const INPUTS: usize,
     const KNOTS: usize,
     const CLEARANCES: usize,
+    const REVOLUTES: usize,
+    const UNIVERSALS: usize,
 >
     Model<
         P,
@@ -94,6 +104,8 @@ impl<
         INPUTS,
         KNOTS,
         CLEARANCES,
+        REVOLUTES,
+        UNIVERSALS,
     >
 {
     /// Checks every index of the model; in a `const` the compiler does so.
@@ -112,15 +124,22 @@ impl<
             check_pair(group.a, group.b, BODIES);
             assert!(group.stars >= 1, "a group has at least one star");
             assert!(group.law.takes_arms(group.arms), "a star has as many arms as its law knows");
+            let bushing = matches!(group.law, Law::PointBushing);
+            assert!(!(bushing && group.shared), "a star of bushings has a point of its own");
             let elements = group.elements();
             assert!(group.point as usize + group.points() <= POINTS, "a group's points are there");
             let count = match group.law {
                 Law::Tsda => TSDAS,
-                Law::PointBushing => {
-                    assert!(elements == 1, "a point bushing stands alone in its group");
-                    BUSHINGS
-                }
+                Law::PointBushing => BUSHINGS,
                 Law::PointOnLine => LINES,
+                Law::Revolute => {
+                    assert!(elements == 1, "a revolute joint stands alone in its group");
+                    REVOLUTES
+                }
+                Law::Universal => {
+                    assert!(elements == 1, "a universal joint stands alone in its group");
+                    UNIVERSALS
+                }
             };
             assert!(group.element as usize + elements <= count, "a group's elements are there");
             check_damper(group.damper, elements, DAMPERS);
@@ -207,6 +226,8 @@ impl<
     const INPUTS: usize,
     const KNOTS: usize,
     const CLEARANCES: usize,
+    const REVOLUTES: usize,
+    const UNIVERSALS: usize,
 > ModelOwner
     for Model<
         P,
@@ -223,11 +244,24 @@ impl<
         INPUTS,
         KNOTS,
         CLEARANCES,
+        REVOLUTES,
+        UNIVERSALS,
     >
 {
     type Precision = P;
-    type Terms =
-        CountedTerms<TSDAS, BUSHINGS, DAMPERS, TORSIONS, GRAVITY, LOADS, LINES, INPUTS, CLEARANCES>;
+    type Terms = CountedTerms<
+        TSDAS,
+        BUSHINGS,
+        DAMPERS,
+        TORSIONS,
+        GRAVITY,
+        LOADS,
+        LINES,
+        INPUTS,
+        CLEARANCES,
+        REVOLUTES,
+        UNIVERSALS,
+    >;
     type PerBody<T: Copy> = [T; BODIES];
     type PerTorsion = [i32; TORSIONS];
     type PerLoad = [LoadWindow; LOADS];
@@ -251,6 +285,8 @@ impl<
             inputs: &self.inputs,
             knots: &self.knots,
             clearances: &self.clearances,
+            revolutes: &self.revolutes,
+            universals: &self.universals,
             terms: PhantomData,
         }
     }

@@ -20,6 +20,10 @@ pub trait Terms: Copy + Default + 'static {
     const INPUTS: bool;
     /// Clearances.
     const CLEARANCES: bool;
+    /// Revolute joints of bushings.
+    const REVOLUTES: bool;
+    /// Universal joints without a spider.
+    const UNIVERSALS: bool;
 }
 
 /// Terms of a model whose sizes are known at run time only: any kind may occur.
@@ -36,6 +40,8 @@ impl Terms for AllTerms {
     const LINES: bool = true;
     const INPUTS: bool = true;
     const CLEARANCES: bool = true;
+    const REVOLUTES: bool = true;
+    const UNIVERSALS: bool = true;
 }
 
 /// Terms of a model whose counts are const generics: a kind occurs where its count is not 0.
@@ -50,6 +56,8 @@ pub struct CountedTerms<
     const LINES: usize,
     const INPUTS: usize,
     const CLEARANCES: usize,
+    const REVOLUTES: usize,
+    const UNIVERSALS: usize,
 >;
 
 impl<
@@ -62,8 +70,22 @@ impl<
     const LINES: usize,
     const INPUTS: usize,
     const CLEARANCES: usize,
+    const REVOLUTES: usize,
+    const UNIVERSALS: usize,
 > Terms
-    for CountedTerms<TSDAS, BUSHINGS, DAMPERS, TORSIONS, GRAVITY, LOADS, LINES, INPUTS, CLEARANCES>
+    for CountedTerms<
+        TSDAS,
+        BUSHINGS,
+        DAMPERS,
+        TORSIONS,
+        GRAVITY,
+        LOADS,
+        LINES,
+        INPUTS,
+        CLEARANCES,
+        REVOLUTES,
+        UNIVERSALS,
+    >
 {
     const GRAVITY: bool = GRAVITY > 0;
     const LOADS: bool = LOADS > 0;
@@ -74,4 +96,6 @@ impl<
     const LINES: bool = LINES > 0;
     const INPUTS: bool = INPUTS > 0;
     const CLEARANCES: bool = CLEARANCES > 0;
+    const REVOLUTES: bool = REVOLUTES > 0;
+    const UNIVERSALS: bool = UNIVERSALS > 0;
 }

@@ -57,12 +57,12 @@ impl Kicked for Leapfrog {
         if D::ACT || !stepper.is_fresh() {
             stepper.evaluate::<D>(At::Boundary)?;
         }
-        if D::ACT {
-            stepper.kick(P::Real::HALF);
+        if D::ACT || !stepper.has_dampers() {
+            stepper.kick_and_drift(P::Real::HALF, stepper.h);
         } else {
             stepper.damped_kick::<D, false>();
+            stepper.drift(stepper.h);
         }
-        stepper.drift(stepper.h);
         stepper.sample_inputs(P::Real::ONE);
         stepper.evaluate::<D>(At::Boundary)?;
         if D::ACT {

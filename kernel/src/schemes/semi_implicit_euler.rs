@@ -56,12 +56,12 @@ impl Kicked for SemiImplicitEuler {
     ) -> Result<(), Cause> {
         stepper.evaluate::<D>(At::Boundary)?;
         if D::ACT || !stepper.has_dampers() {
-            stepper.kick(P::Real::ONE);
+            stepper.kick_and_drift(P::Real::ONE, stepper.h);
         } else {
             stepper.damped_kick::<D, false>();
             stepper.damped_kick::<D, true>();
+            stepper.drift(stepper.h);
         }
-        stepper.drift(stepper.h);
         Ok(())
     }
 }

@@ -3,10 +3,14 @@
 use crate::body::{Body, BodyState};
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
+use crate::elements::revolute::Revolute;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
+use crate::elements::universal::Universal;
 use crate::geometry::{F32, F64};
 use crate::model::Model;
+use crate::planar::{Planar32, Planar64};
+use crate::plane::{Axial, Heading, Vec2};
 use crate::sketch::Sketch;
 use crate::vector::{Quaternion, Vec3};
 
@@ -27,9 +31,10 @@ macro_rules! rounded {
     }};
 }
 
-/// The model of a sketch in one floating-point precision.
-macro_rules! models {
-    ($($function:ident: $precision:ty, $real:ty, $vector:ident, $quaternion:ident;)*) => {
+/// Roundings of a precision's vectors, moments, inertias and turns.
+macro_rules! roundings {
+    ($($real:ident: $vector:ident, $quaternion:ident, $flat:ident, $axial:ident, $about:ident,
+        $heading:ident;)*) => {
         $(
             const fn $vector(v: &Vec3<f64>) -> Vec3<$real> {
                 Vec3::new(v.x as $real, v.y as $real, v.z as $real)
@@ -38,14 +43,45 @@ macro_rules! models {
             const fn $quaternion(q: &Quaternion<f64>) -> Quaternion<$real> {
                 Quaternion { w: q.w as $real, v: $vector(&q.v) }
             }
-        )*
 
+            const fn $flat(v: &Vec3<f64>) -> Vec2<$real> {
+                assert!(v.z == 0.0, "a point or a vector leaves the plane z = 0");
+                Vec2::new(v.x as $real, v.y as $real)
+            }
+
+            const fn $axial(m: &Vec3<f64>) -> Axial<$real> {
+                assert!(m.x == 0.0 && m.y == 0.0, "a turn or a torque of the plane is about z");
+                $about(m)
+            }
+
+            const fn $about(m: &Vec3<f64>) -> Axial<$real> {
+                Axial::new(m.z as $real)
+            }
+
+            const fn $heading(q: &Quaternion<f64>) -> Heading<$real> {
+                assert!(q.v.x == 0.0 && q.v.y == 0.0, "an orientation leaves the plane z = 0");
+                Heading::new(q.w as $real, q.v.z as $real)
+            }
+        )*
+    };
+}
+
+roundings! {
+    f64: vector_f64, quaternion_f64, flat_f64, axial_f64, about_f64, heading_f64;
+    f32: vector_f32, quaternion_f32, flat_f32, axial_f32, about_f32, heading_f32;
+}
+
+/// The model of a sketch in one floating-point precision.
+macro_rules! models {
+    ($($function:ident: $precision:ty, $real:ty, $vector:ident, $moment:ident, $inertia:ident,
+        $quaternion:ident;)*) => {
         impl Sketch {
             $(
                 /// The model in this precision; its sizes are [`Sketch::counts`].
                 ///
                 /// # Panics
-                /// Where an element names a body that is not there; see [`Model::checked`].
+                /// Where an element names a body that is not there; see [`Model::checked`]. In the
+                /// plane where something leaves it.
                 #[must_use]
                 pub const fn $function<
                     const BODIES: usize,
@@ -57,6 +93,8 @@ macro_rules! models {
                     const TORSIONS: usize,
                     const GRAVITY: usize,
                     const LOADS: usize,
+                    const REVOLUTES: usize,
+                    const UNIVERSALS: usize,
                 >(
                     &self,
                 ) -> Model<
@@ -70,21 +108,27 @@ macro_rules! models {
                     TORSIONS,
                     GRAVITY,
                     LOADS,
+                    0,
+                    0,
+                    0,
+                    0,
+                    REVOLUTES,
+                    UNIVERSALS,
                 > {
                     Model {
                         bodies: rounded!(self.bodies, BODIES, b => Body {
                             mass: b.mass as $real,
-                            inertia: $vector(&b.inertia),
+                            inertia: $inertia(&b.inertia),
                             inverse_mass: b.inverse_mass as $real,
-                            inverse_inertia: $vector(&b.inverse_inertia),
-                            ratio: $vector(&b.ratio),
-                            inverse_ratio: $vector(&b.inverse_ratio),
+                            inverse_inertia: $inertia(&b.inverse_inertia),
+                            ratio: $inertia(&b.ratio),
+                            inverse_ratio: $inertia(&b.inverse_ratio),
                         }),
                         initial: rounded!(self.initial, BODIES, s => BodyState {
                             position: $vector(&s.position),
                             orientation: $quaternion(&s.orientation),
                             velocity: $vector(&s.velocity),
-                            angular_velocity: $vector(&s.angular_velocity),
+                            angular_velocity: $moment(&s.angular_velocity),
                         }),
                         gravity: rounded!(self.gravity, GRAVITY, g => $vector(g)),
                         groups: rounded!(self.groups, GROUPS, g => *g),
@@ -100,7 +144,7 @@ macro_rules! models {
                         torsions: rounded!(self.torsions, TORSIONS, t => TorsionSpring {
                             a: t.a,
                             b: t.b,
-                            axis: $vector(&t.axis),
+                            axis: $moment(&t.axis),
                             reference: $quaternion(&t.reference),
                             stiffness: t.stiffness as $real,
                             preload: t.preload as $real,
@@ -110,7 +154,7 @@ macro_rules! models {
                             body: l.body,
                             frame: l.frame,
                             force: $vector(&l.force),
-                            torque: $vector(&l.torque),
+                            torque: $moment(&l.torque),
                             from: l.from,
                             until: l.until,
                         }),
@@ -118,6 +162,16 @@ macro_rules! models {
                         inputs: [],
                         knots: [],
                         clearances: [],
+                        revolutes: rounded!(self.revolutes, REVOLUTES, r => Revolute {
+                            stiffness: r.stiffness as $real,
+                            along: r.along as $real,
+                            levers: [$vector(&r.levers[0]), $vector(&r.levers[1])],
+                        }),
+                        universals: rounded!(self.universals, UNIVERSALS, u => Universal {
+                            stiffness: u.stiffness as $real,
+                            lever: $vector(&u.lever),
+                            axis: $vector(&u.axis),
+                        }),
                     }
                     .checked()
                 }
@@ -127,12 +181,15 @@ macro_rules! models {
 }
 
 models! {
-    model_f64: F64, f64, vector_f64, quaternion_f64;
-    model_f32: F32, f32, vector_f32, quaternion_f32;
+    model_f64: F64, f64, vector_f64, vector_f64, vector_f64, quaternion_f64;
+    model_f32: F32, f32, vector_f32, vector_f32, vector_f32, quaternion_f32;
+    model_planar64: Planar64, f64, flat_f64, axial_f64, about_f64, heading_f64;
+    model_planar32: Planar32, f32, flat_f32, axial_f32, about_f32, heading_f32;
 }
 
-/// A `static` model from a [`Sketch`] in a `const`, in precision `F64` or `F32`: the compiler counts its
-/// parts, rounds them once and checks every index.
+/// A `static` model from a [`Sketch`] in a `const`, in precision `F64` or `F32` or, where it lies in the
+/// plane z = 0, `Planar64` or `Planar32`: the compiler counts its parts, rounds them once and checks
+/// every index.
 ///
 /// ```
 /// use dbd_kernel::sketch::{Sketch, Spring, Start};
@@ -166,6 +223,15 @@ models! {
 /// );
 /// dbd_kernel::model!(static MODEL: F64 = WRONG);
 /// ```
+///
+/// As is what leaves the plane of a planar model:
+///
+/// ```compile_fail
+/// use dbd_kernel::sketch::{Sketch, Start};
+///
+/// const LIFTED: Sketch = Sketch::new().body(1.0, [0.1; 3], Start::at([0.0, 0.0, 0.5]));
+/// dbd_kernel::model!(static MODEL: Planar64 = LIFTED);
+/// ```
 #[macro_export]
 macro_rules! model {
     ($(#[$meta:meta])* $visible:vis static $name:ident: F64 = $sketch:path) => {
@@ -174,9 +240,15 @@ macro_rules! model {
     ($(#[$meta:meta])* $visible:vis static $name:ident: F32 = $sketch:path) => {
         $crate::model!(@ [$(#[$meta])* $visible] $name F32 model_f32 $sketch);
     };
+    ($(#[$meta:meta])* $visible:vis static $name:ident: Planar64 = $sketch:path) => {
+        $crate::model!(@ [$(#[$meta])* $visible] $name Planar64 model_planar64 $sketch);
+    };
+    ($(#[$meta:meta])* $visible:vis static $name:ident: Planar32 = $sketch:path) => {
+        $crate::model!(@ [$(#[$meta])* $visible] $name Planar32 model_planar32 $sketch);
+    };
     (@ [$($head:tt)*] $name:ident $precision:ident $function:ident $sketch:path) => {
         $($head)* static $name: $crate::model::Model<
-            $crate::geometry::$precision,
+            $crate::$precision,
             { $sketch.counts()[0] },
             { $sketch.counts()[1] },
             { $sketch.counts()[2] },
@@ -186,6 +258,12 @@ macro_rules! model {
             { $sketch.counts()[6] },
             { $sketch.counts()[7] },
             { $sketch.counts()[8] },
+            0,
+            0,
+            0,
+            0,
+            { $sketch.counts()[9] },
+            { $sketch.counts()[10] },
         > = $sketch.$function();
     };
 }

@@ -40,12 +40,14 @@ pub(super) fn raw(scene: &Scene, mechanism: &Mechanism) -> (Vec<SpringMark>, Vec
                 let foot = mechanism.local(ends[0].body, from + n * (point - from).dot(n));
                 guides.push(GuideMark { name, line: foot, direction, point: ends[1] });
             }
-            Law::Tsda | Law::PointBushing => springs.push(SpringMark {
-                name,
-                ends,
-                free_length: free_length(scene, group),
-                driven: driven.contains(&number),
-            }),
+            Law::Tsda | Law::PointBushing | Law::Revolute | Law::Universal => {
+                springs.push(SpringMark {
+                    name,
+                    ends,
+                    free_length: free_length(scene, group),
+                    driven: driven.contains(&number),
+                })
+            }
         }
     }
     (springs, guides)
@@ -57,7 +59,7 @@ fn free_length(scene: &Scene, group: &Group) -> f64 {
             let tsda = scene.model.tsdas.get(usize::from(group.element));
             tsda.map_or(0.0, |tsda| tsda.free_length)
         }
-        Law::PointBushing | Law::PointOnLine => 0.0,
+        Law::PointBushing | Law::PointOnLine | Law::Revolute | Law::Universal => 0.0,
     }
 }
 

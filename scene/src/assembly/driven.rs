@@ -53,11 +53,9 @@ impl Assembly {
     /// stiffness.
     pub(crate) fn carrier(&mut self, hinge: &Hinge) -> Result<u16, Defect> {
         let same = |axis: Vec3<f64>| 1.0 - axis.dot(hinge.axis) < SAME_AXIS;
-        let known = self
-            .model
-            .torsions
-            .iter()
-            .position(|spring| (spring.a, spring.b) == (hinge.a, hinge.b) && same(spring.axis));
+        let between = self.torsions_between.get(&[hinge.a.0, hinge.b.0]);
+        let mut rows = between.into_iter().flatten().copied();
+        let known = rows.find(|row| self.model.torsions.get(*row).is_some_and(|s| same(s.axis)));
         let row = known.unwrap_or(self.model.torsions.len());
         if known.is_none() {
             let pair = Pair { a: hinge.a, b: hinge.b, names: Default::default() };

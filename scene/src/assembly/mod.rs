@@ -3,6 +3,7 @@
 //! `checked elements => kernel model` in double precision. World points become points of their
 //! bodies by `Rᵀ·(P − x)` with the very rotation that the kernel places them back with.
 
+mod bushings;
 mod driven;
 mod moved;
 mod resolved;
@@ -19,8 +20,8 @@ use dbd_kernel::energy::each_extension;
 use dbd_kernel::index::{ClearanceIndex, DamperIndex};
 use dbd_kernel::model::{Group, Law};
 use dbd_kernel::{
-    Body, BodyIndex, BodyState, F64, Geometry, Load, PointBushing, PointOnLine, Quaternion, State,
-    TorsionSpring, Tsda, Vec3,
+    Body, BodyIndex, BodyState, F64, Geometry, Load, PointOnLine, Quaternion, State, TorsionSpring,
+    Tsda, Vec3,
 };
 
 use crate::error::SceneError;
@@ -45,8 +46,12 @@ pub(crate) struct Assembly {
     /// What values stand for that the long form gives otherwise, by where they begin in the text.
     resolved: RefCell<BTreeMap<usize, Resolved>>,
     points: BTreeMap<String, Vec3<f64>>,
+    /// \[m\] how large joints are whose elements have no length, by their groups.
+    sizes: BTreeMap<usize, f64>,
     /// Per body where it has points of its own, from its centre of mass, body axes.
     ends: Vec<Vec<(String, Vec3<f64>)>>,
+    /// Rows of the torsion springs between two bodies, ascending.
+    torsions_between: BTreeMap<[u16; 2], Vec<usize>>,
     /// Per body the turn from its principal axes to those that it is written in, where it is one.
     turns: Vec<Option<Quaternion<f64>>>,
 }
@@ -229,19 +234,6 @@ impl Assembly {
         Ok(())
     }
 
-    /// Adds a point bushing.
-    pub(crate) fn add_bushing(
-        &mut self,
-        pair: &Pair,
-        points: Points<'_>,
-        spring: Spring,
-    ) -> Result<(), Defect> {
-        let element = index(self.model.bushings.len(), 1, "point bushings")?;
-        self.add_group(Law::PointBushing, pair, points, element, spring)?;
-        self.model.bushings.push(PointBushing::from_f64(spring.stiffness));
-        Ok(())
-    }
-
     /// Adds a group of points on parallel lines: every centre is on the line of its tips.
     pub(crate) fn add_lines(
         &mut self,
@@ -327,6 +319,8 @@ impl Assembly {
         let relative = Quaternion::relative(orientation(pair.a), orientation(pair.b));
         let axis = self.vector_in(pair.a, axis_w);
         let damper = self.add_dampers(spring.damping, 1)?;
+        let between = self.torsions_between.entry([pair.a.0, pair.b.0]).or_default();
+        between.push(self.model.torsions.len());
         self.model.torsions.push(TorsionSpring {
             a: pair.a,
             b: pair.b,
@@ -349,12 +343,14 @@ impl Assembly {
         &self.model.groups
     }
 
-    /// The free length \[m\] that the elements of a group share.
-    pub(crate) fn free_length(&self, group: &Group) -> f64 {
+    /// \[m\] how large what a group holds is: the free length that its elements share, of bushings the
+    /// size of their joint.
+    pub(crate) fn size(&self, number: usize) -> f64 {
+        let Some(group) = self.model.groups.get(number) else { return 0.0 };
         let row = usize::from(group.element);
         let length = match group.law {
             Law::Tsda => self.model.tsdas.get(row).map(|tsda| tsda.free_length),
-            Law::PointBushing => None,
+            Law::PointBushing | Law::Revolute | Law::Universal => self.sizes.get(&number).copied(),
             Law::PointOnLine => self.model.lines.get(row).map(|line| line.free_length),
         };
         length.unwrap_or(0.0)

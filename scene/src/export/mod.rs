@@ -19,7 +19,10 @@ pub use number::SourceNumber;
 pub use preamble::preamble;
 pub use scheme::{ExportScheme, MOST_ITERATIONS, SchemeError};
 
+use dbd_kernel::Vec3;
+
 use crate::Scene;
+use crate::planar::Plane;
 use crate::time::display;
 
 /// Stands before what a program need not use.
@@ -82,7 +85,8 @@ pub fn source(scene: &Scene, export: &Export) -> String {
         precisions.join(" and "),
         display(export.step),
     );
-    let mut text = head + &preamble::shared(scene, export.step) + &preamble::names(scene);
+    let plane = scene.planar.as_ref().map(|planar| in_plane(&planar.plane)).unwrap_or_default();
+    let mut text = head + &plane + &preamble::shared(scene, export.step) + &preamble::names(scene);
     text += &plant::scheme(scene, &export.scheme);
     for precision in &export.precisions {
         match precision {
@@ -94,6 +98,17 @@ pub fn source(scene: &Scene, export: &Export) -> String {
         text += &plant::only(scene, only);
     }
     text
+}
+
+/// What the vectors of a planar scene are.
+fn in_plane(plane: &Plane) -> String {
+    let axes = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0)];
+    let [x, y] = axes.map(|axis| plane.outward(axis).to_f64());
+    format!(
+        "// It moves in the plane {}: three freedoms per body. Vectors are along {x:?} and {y:?} of the\n\
+         // world, from the point of the plane that is nearest to its origin; moments are about its normal.\n",
+        plane.name(),
+    )
 }
 
 /// What there is of a precision.

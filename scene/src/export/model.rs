@@ -4,16 +4,18 @@
 
 use std::fmt::{Display, Write};
 
+use dbd_kernel::F64;
 use dbd_kernel::geometry::Float;
 use dbd_kernel::model::ModelOwner;
+use dbd_kernel::planar::Planar;
 use dbd_kernel::readouts::Readout;
 
 use super::UNUSED;
 use super::names::{constant_name, constant_names, quoted, type_name};
-use super::number::SourceNumber;
+use super::number::{SourceGeometry, SourceNumber};
 use super::rows::{
-    body, bushing, group, input, knot, list, load, point_on_line, readout, state, torsion, tsda,
-    vector,
+    body, bushing, group, input, knot, list, load, point_on_line, readout, revolute, state,
+    torsion, tsda, universal,
 };
 use crate::{Scene, SceneModel};
 
@@ -21,9 +23,19 @@ use crate::{Scene, SceneModel};
 /// a static `FOUR_BAR_F32` and a constant for each read-out, `FOUR_BAR_READOUT_ANGLE_F32`.
 #[must_use]
 pub fn model<R: SourceNumber>(scene: &Scene) -> String {
-    let model: SceneModel<Float<R>> = scene.model.convert();
-    let ty = format!("{}{}", type_name(&scene.name), R::TYPE);
-    let name = format!("{}_{}", constant_name(&scene.name), R::TYPE);
+    match &scene.planar {
+        Some(planar) => of::<Planar<R>>(scene, &planar.model),
+        None => of::<Float<R>>(scene, &scene.model),
+    }
+}
+
+/// Source of what steps, in a precision of its space.
+fn of<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>) -> String {
+    let model: SceneModel<P> = exact.convert();
+    let precision = P::name();
+    let suffix = <P::Real as SourceNumber>::TYPE;
+    let ty = format!("{}{suffix}", type_name(&scene.name));
+    let name = format!("{}_{suffix}", constant_name(&scene.name));
     let counts = [
         model.bodies.len(),
         model.groups.len(),
@@ -38,6 +50,8 @@ pub fn model<R: SourceNumber>(scene: &Scene) -> String {
         model.inputs.len(),
         model.knots.len(),
         model.clearances.len(),
+        model.revolutes.len(),
+        model.universals.len(),
     ];
     let counts = counts.map(|n| n.to_string()).join(", ");
     let mut out = String::new();
@@ -46,34 +60,38 @@ pub fn model<R: SourceNumber>(scene: &Scene) -> String {
         let _ = writeln!(out, "{text}");
     };
     line(&format_args!("/// The shape of the scene {}.", quoted(&scene.name)));
-    line(&format_args!("{UNUSED}pub type {ty} = Model<{}, {counts}>;", R::TYPE));
+    line(&format_args!("{UNUSED}pub type {ty} = Model<{precision}, {counts}>;"));
     line(&format_args!("/// The scene {}.", quoted(&scene.name)));
     line(&format_args!("{UNUSED}pub static {name}: {ty} = Model {{"));
-    line(&format_args!("    bodies: {},", list(&model.bodies, body::<R>)));
-    line(&format_args!("    initial: {},", list(model.initial(), state::<R>)));
-    line(&format_args!("    gravity: {},", list(&model.gravity, vector::<R>)));
+    line(&format_args!("    bodies: {},", list(&model.bodies, body::<P>)));
+    line(&format_args!("    initial: {},", list(model.initial(), state::<P>)));
+    line(&format_args!("    gravity: {},", list(&model.gravity, P::vector)));
     line(&format_args!("    groups: {},", list(&model.groups, group)));
-    line(&format_args!("    points: {},", list(&model.points, vector::<R>)));
-    line(&format_args!("    tsdas: {},", list(&model.tsdas, tsda::<R>)));
-    line(&format_args!("    bushings: {},", list(&model.bushings, bushing::<R>)));
+    line(&format_args!("    points: {},", list(&model.points, P::local)));
+    line(&format_args!("    tsdas: {},", list(&model.tsdas, tsda)));
+    line(&format_args!("    bushings: {},", list(&model.bushings, bushing)));
     line(&format_args!("    dampers: {},", list(&model.dampers, |c| c.number())));
-    line(&format_args!("    torsions: {},", list(&model.torsions, torsion::<R>)));
-    line(&format_args!("    loads: {},", list(&model.loads, load::<R>)));
-    line(&format_args!("    lines: {},", list(&model.lines, point_on_line)));
-    line(&format_args!("    inputs: {},", list(&model.inputs, input)));
+    line(&format_args!("    torsions: {},", list(&model.torsions, torsion::<P>)));
+    line(&format_args!("    loads: {},", list(&model.loads, load::<P>)));
+    line(&format_args!("    lines: {},", list(&model.lines, point_on_line::<P>)));
+    line(&format_args!("    inputs: {},", list(&model.inputs, input::<P>)));
     line(&format_args!("    knots: {},", list(&model.knots, knot)));
     line(&format_args!("    clearances: {},", list(&model.clearances, |c| c.number())));
+    line(&format_args!("    revolutes: {},", list(&model.revolutes, revolute::<P>)));
+    line(&format_args!("    universals: {},", list(&model.universals, universal::<P>)));
     line(&"}");
     line(&".checked();");
     let names = constant_names(scene.readouts.iter().map(|readout| readout.name.as_str()));
     for (info, constant) in scene.readouts.iter().zip(names) {
-        let scene = constant_name(&scene.name);
+        let name = constant_name(&scene.name);
+        let read = match &scene.planar {
+            Some(planar) => planar.readout(&info.readout),
+            None => info.readout,
+        };
         line(&format_args!("/// The read-out {}.", quoted(&info.name)));
         line(&format_args!(
-            "{UNUSED}pub const {scene}_READOUT_{constant}_{}: Readout<{}> = {};",
-            R::TYPE,
-            R::TYPE,
-            readout(&info.readout.convert::<Float<R>>())
+            "{UNUSED}pub const {name}_READOUT_{constant}_{suffix}: Readout<{precision}> = {};",
+            readout(&read.convert::<P>())
         ));
     }
     out
@@ -84,12 +102,16 @@ pub(super) fn joint_forces<R: SourceNumber>(scene: &Scene) -> String {
     let names = constant_names(scene.joints.iter().map(|joint| joint.name.as_str()));
     let name = constant_name(&scene.name);
     let joints = scene.joints.iter().zip(names);
+    let (ty, axes) = match scene.planar {
+        Some(_) => (Planar::<R>::name(), "the plane's axes"),
+        None => (R::TYPE.to_owned(), "world"),
+    };
     let line = |(joint, constant): (&crate::JointInfo, String)| {
         let force =
             Readout::<Float<R>>::JointForce { group: joint.groups.end.checked_sub(1)? as u16 };
         Some(format!(
-            "/// \\[N\\] the force of the joint {} on its second body, world.\n\
-             {UNUSED}pub const {name}_JOINT_{constant}_FORCE_{precision}: Readout<{precision}> = {};\n",
+            "/// \\[N\\] the force of the joint {} on its second body, {axes}.\n\
+             {UNUSED}pub const {name}_JOINT_{constant}_FORCE_{precision}: Readout<{ty}> = {};\n",
             quoted(&joint.name),
             readout(&force),
             precision = R::TYPE,

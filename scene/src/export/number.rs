@@ -1,7 +1,12 @@
 //! Numbers as their bit patterns, so that the compiler reads the bits that the assembly computed.
+//!
+//! `number, vector, moment, turn => expression`; a space's are of its own types.
 
-use dbd_kernel::Real;
-use dbd_kernel::geometry::Named;
+use dbd_kernel::geometry::{Float, Named};
+use dbd_kernel::planar::Planar;
+use dbd_kernel::plane::{Axial, Heading, Vec2};
+use dbd_kernel::space::Space;
+use dbd_kernel::{Geometry, Quaternion, Real, Vec3};
 
 /// A number that can be written as source, and the precision made of it.
 pub trait SourceNumber: Real + Named {
@@ -22,6 +27,65 @@ impl SourceNumber for f32 {
     const TYPE: &'static str = "F32";
     fn number(self) -> String {
         format!("f32::from_bits({:#010x})", self.to_bits())
+    }
+}
+
+/// A precision in a space, whose constants can be written as source.
+pub(super) trait SourceGeometry: Geometry<Real: SourceNumber> {
+    /// Its type in the kernel.
+    fn name() -> String;
+    /// A vector's expression.
+    fn vector(v: &Self::Vector) -> String;
+    /// A moment's expression.
+    fn moment(m: &Self::Moment) -> String;
+    /// A turn's expression.
+    fn turn(turn: &<Self::Space as Space>::Turn) -> String;
+    /// An orientation's expression.
+    fn orientation(orientation: &Self::Orientation) -> String;
+    /// A point's expression.
+    fn local(point: &Self::Local) -> String;
+}
+
+impl<R: SourceNumber> SourceGeometry for Float<R> {
+    fn name() -> String {
+        R::TYPE.into()
+    }
+    fn vector(v: &Vec3<R>) -> String {
+        format!("Vec3::new({}, {}, {})", v.x.number(), v.y.number(), v.z.number())
+    }
+    fn moment(m: &Vec3<R>) -> String {
+        Self::vector(m)
+    }
+    fn turn(q: &Quaternion<R>) -> String {
+        let [w, x, y, z] = [q.w, q.v.x, q.v.y, q.v.z].map(R::number);
+        format!("Quaternion::new({w}, {x}, {y}, {z})")
+    }
+    fn orientation(q: &Quaternion<R>) -> String {
+        Self::turn(q)
+    }
+    fn local(point: &Vec3<R>) -> String {
+        Self::vector(point)
+    }
+}
+
+impl<R: SourceNumber> SourceGeometry for Planar<R> {
+    fn name() -> String {
+        R::TYPE.replace('F', "Planar")
+    }
+    fn vector(v: &Vec2<R>) -> String {
+        format!("Vec2::new({}, {})", v.x.number(), v.y.number())
+    }
+    fn moment(m: &Axial<R>) -> String {
+        format!("Axial::new({})", m.z.number())
+    }
+    fn turn(heading: &Heading<R>) -> String {
+        format!("Heading::new({}, {})", heading.w.number(), heading.z.number())
+    }
+    fn orientation(heading: &Heading<R>) -> String {
+        Self::turn(heading)
+    }
+    fn local(point: &Vec2<R>) -> String {
+        Self::vector(point)
     }
 }
 

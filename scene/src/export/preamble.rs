@@ -42,8 +42,7 @@ pub(super) fn shared(scene: &Scene, step: f64) -> String {
         "// Not every scene has every kind of element, and not every program uses all of its constants.\n\
          #[allow(unused_imports)]\n\
          use dbd_kernel::{{\n    \
-             Body, BodyIndex, BodyState, F32, F64, Load, LoadFrame, Model, PointBushing, PointOnLine,\n    \
-             Quaternion, TorsionSpring, Tsda, Vec3,\n    \
+             {types}\
              elements::input::{{Input, InputKind, Knot}},\n    \
              index::{{ClearanceIndex, DamperIndex, InputIndex}},\n    \
              model::{{Group, Law}},\n    \
@@ -52,9 +51,19 @@ pub(super) fn shared(scene: &Scene, step: f64) -> String {
          /// \\[s\\] the step of the scene {scene_name}.\n\
          {UNUSED}pub const {name}_STEP: f64 = {step};\n\
          {bodies}{inputs}",
+        types = if scene.planar.is_some() { PLANAR } else { SPATIAL },
         scene_name = quoted(&scene.name),
     )
 }
+
+/// The types of a model in space.
+const SPATIAL: &str = "Body, BodyIndex, BodyState, F32, F64, Load, LoadFrame, Model, PointBushing, \
+                       PointOnLine,\n    Quaternion, Revolute, TorsionSpring, Tsda, Universal, Vec3,\n    ";
+
+/// The types of one in its plane.
+const PLANAR: &str = "Body, BodyIndex, BodyState, Load, LoadFrame, Model, Planar32, Planar64, \
+                      PointBushing,\n    PointOnLine, TorsionSpring, Tsda,\n    plane::{Axial, \
+                      Heading, Vec2},\n    ";
 
 /// Names of joints, inputs and torsion springs by index, and what each body and joint is in the
 /// model.

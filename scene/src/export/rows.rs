@@ -4,15 +4,14 @@
 
 use dbd_kernel::body::Body;
 use dbd_kernel::elements::input::{Input, InputKind, Knot};
-use dbd_kernel::geometry::Float;
 use dbd_kernel::index::{BodyIndex, DamperIndex};
 use dbd_kernel::model::Group;
 use dbd_kernel::readouts::Readout;
 use dbd_kernel::{
-    BodyState, Load, LoadFrame, PointBushing, PointOnLine, Quaternion, TorsionSpring, Tsda, Vec3,
+    BodyState, Load, LoadFrame, PointBushing, PointOnLine, Revolute, TorsionSpring, Tsda, Universal,
 };
 
-use super::number::SourceNumber;
+use super::number::{SourceGeometry, SourceNumber};
 
 pub(super) fn list<T>(items: &[T], item: impl Fn(&T) -> String) -> String {
     if items.is_empty() {
@@ -20,15 +19,6 @@ pub(super) fn list<T>(items: &[T], item: impl Fn(&T) -> String) -> String {
     }
     let items: Vec<_> = items.iter().map(|i| format!("        {},\n", item(i))).collect();
     format!("[\n{}    ]", items.concat())
-}
-
-pub(super) fn vector<R: SourceNumber>(v: &Vec3<R>) -> String {
-    format!("Vec3::new({}, {}, {})", v.x.number(), v.y.number(), v.z.number())
-}
-
-pub(super) fn quaternion<R: SourceNumber>(q: &Quaternion<R>) -> String {
-    let [w, x, y, z] = [q.w, q.v.x, q.v.y, q.v.z].map(R::number);
-    format!("Quaternion::new({w}, {x}, {y}, {z})")
 }
 
 pub(super) fn index(body: BodyIndex) -> String {
@@ -46,26 +36,26 @@ pub(super) fn damper(damper: DamperIndex) -> String {
     }
 }
 
-pub(super) fn body<R: SourceNumber>(body: &Body<R>) -> String {
+pub(super) fn body<P: SourceGeometry>(body: &Body<P::Space>) -> String {
     format!(
         "Body {{ mass: {}, inertia: {}, inverse_mass: {}, inverse_inertia: {}, ratio: {}, \
          inverse_ratio: {} }}",
         body.mass.number(),
-        vector::<R>(&body.inertia),
+        P::moment(&body.inertia),
         body.inverse_mass.number(),
-        vector::<R>(&body.inverse_inertia),
-        vector::<R>(&body.ratio),
-        vector::<R>(&body.inverse_ratio),
+        P::moment(&body.inverse_inertia),
+        P::moment(&body.ratio),
+        P::moment(&body.inverse_ratio),
     )
 }
 
-pub(super) fn state<R: SourceNumber>(state: &BodyState<Float<R>>) -> String {
+pub(super) fn state<P: SourceGeometry>(state: &BodyState<P>) -> String {
     format!(
         "BodyState {{ position: {}, orientation: {}, velocity: {}, angular_velocity: {} }}",
-        vector::<R>(&state.position),
-        quaternion::<R>(&state.orientation),
-        vector::<R>(&state.velocity),
-        vector::<R>(&state.angular_velocity),
+        P::vector(&P::position(&state.position)),
+        P::orientation(&state.orientation),
+        P::vector(&P::velocity(&state.velocity)),
+        P::moment(&P::spin(&state.angular_velocity)),
     )
 }
 
@@ -94,45 +84,64 @@ pub(super) fn bushing<R: SourceNumber>(bushing: &PointBushing<R>) -> String {
     format!("PointBushing {{ stiffness: {} }}", bushing.stiffness.number())
 }
 
-pub(super) fn point_on_line<R: SourceNumber>(line: &PointOnLine<R>) -> String {
+pub(super) fn revolute<P: SourceGeometry>(revolute: &Revolute<P::Space>) -> String {
+    let (k, along) = (revolute.stiffness.number(), revolute.along.number());
+    let [a, b] = revolute.levers.each_ref().map(P::vector);
+    format!("Revolute {{ stiffness: {k}, along: {along}, levers: [{a}, {b}] }}")
+}
+
+pub(super) fn universal<P: SourceGeometry>(universal: &Universal<P::Space>) -> String {
+    let (lever, axis) = (P::vector(&universal.lever), P::vector(&universal.axis));
+    format!(
+        "Universal {{ stiffness: {}, lever: {lever}, axis: {axis} }}",
+        universal.stiffness.number()
+    )
+}
+
+pub(super) fn point_on_line<P: SourceGeometry>(line: &PointOnLine<P::Space>) -> String {
     let (k, l0) = (line.stiffness.number(), line.free_length.number());
-    let direction = vector(&line.direction);
+    let direction = P::vector(&line.direction);
     format!("PointOnLine {{ direction: {direction}, stiffness: {k}, free_length: {l0} }}")
 }
 
-pub(super) fn input<R: SourceNumber>(input: &Input<Float<R>>) -> String {
+pub(super) fn input<P: SourceGeometry>(input: &Input<P>) -> String {
     let axes = |frame: LoadFrame| format!("LoadFrame::{frame:?}");
     let kind = match &input.kind {
         InputKind::Force { body, point, direction, frame } => format!(
             "Force {{ body: {}, point: {}, direction: {}, frame: {} }}",
             index(*body),
-            vector(point),
-            vector(direction),
+            P::local(point),
+            P::vector(direction),
             axes(*frame),
         ),
         InputKind::Torque { body, axis, frame } => format!(
             "Torque {{ body: {}, axis: {}, frame: {} }}",
             index(*body),
-            vector(axis),
+            P::moment(axis),
             axes(*frame),
         ),
         InputKind::JointTorque { a, b, axis } => {
-            format!("JointTorque {{ a: {}, b: {}, axis: {} }}", index(*a), index(*b), vector(axis),)
+            format!(
+                "JointTorque {{ a: {}, b: {}, axis: {} }}",
+                index(*a),
+                index(*b),
+                P::moment(axis)
+            )
         }
         InputKind::Actuator { group, element } => {
             format!("Actuator {{ group: {group}, element: {element} }}")
         }
         InputKind::Anchor { direction } => {
-            format!("Anchor {{ direction: {} }}", vector(direction))
+            format!("Anchor {{ direction: {} }}", P::vector(direction))
         }
     };
     let (value, knot, knots) = (input.value.number(), input.knot, input.knots);
     format!("Input {{ kind: InputKind::{kind}, value: {value}, knot: {knot}, knots: {knots} }}")
 }
 
-pub(super) fn readout<R: SourceNumber>(readout: &Readout<Float<R>>) -> String {
-    let at = |kind: &str, body: BodyIndex, point: &Vec3<R>| {
-        format!("{kind} {{ body: {}, point: {} }}", index(body), vector(point))
+pub(super) fn readout<P: SourceGeometry>(readout: &Readout<P>) -> String {
+    let at = |kind: &str, body: BodyIndex, point: &P::Local| {
+        format!("{kind} {{ body: {}, point: {} }}", index(body), P::local(point))
     };
     let kind = match readout {
         Readout::JointAngle { spring } => format!("JointAngle {{ spring: {spring} }}"),
@@ -154,27 +163,27 @@ pub(super) fn knot<R: SourceNumber>(knot: &Knot<R>) -> String {
     format!("Knot {{ time: {time}, value: {value}, slope: {slope} }}")
 }
 
-pub(super) fn torsion<R: SourceNumber>(spring: &TorsionSpring<R>) -> String {
+pub(super) fn torsion<P: SourceGeometry>(spring: &TorsionSpring<P::Space>) -> String {
     format!(
         "TorsionSpring {{ a: {}, b: {}, axis: {}, reference: {}, stiffness: {}, preload: {}, \
          damper: {} }}",
         index(spring.a),
         index(spring.b),
-        vector::<R>(&spring.axis),
-        quaternion::<R>(&spring.reference),
+        P::moment(&spring.axis),
+        P::turn(&spring.reference),
         spring.stiffness.number(),
         spring.preload.number(),
         damper(spring.damper),
     )
 }
 
-pub(super) fn load<R: SourceNumber>(load: &Load<R>) -> String {
+pub(super) fn load<P: SourceGeometry>(load: &Load<P::Space>) -> String {
     format!(
         "Load {{ body: {}, frame: LoadFrame::{:?}, force: {}, torque: {}, from: {}, until: {} }}",
         index(load.body),
         load.frame,
-        vector::<R>(&load.force),
-        vector::<R>(&load.torque),
+        P::vector(&load.force),
+        P::moment(&load.torque),
         load.from.number(),
         load.until.number(),
     )

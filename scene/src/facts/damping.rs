@@ -23,12 +23,14 @@ pub struct ElementDamping {
 pub(super) fn dampings(scene: &Scene) -> Vec<ElementDamping> {
     let raw = scene.joints.last().map_or(0, |joint| joint.groups.end);
     let springs = scene.joints.len() + scene.raw_names.len();
+    let owners = scene.joints.iter().enumerate();
+    let owners = owners.flat_map(|(row, joint)| joint.groups.clone().map(move |_| row));
+    let owners: Vec<usize> = owners.collect();
     let mut found: Vec<ElementDamping> = Vec::new();
     strengths(&scene.model, &State::initial(&scene.model), |strength| {
         let (row, name) = match strength.of {
             DampersOf::Group(group) if group < raw => {
-                let owns = |joint: &crate::JointInfo| joint.groups.contains(&group);
-                let Some(row) = scene.joints.iter().position(owns) else { return };
+                let Some(&row) = owners.get(group) else { return };
                 (row, format!("joint `{}`", scene.joints[row].name))
             }
             DampersOf::Group(group) => {

@@ -68,6 +68,29 @@ pub(super) fn along(
     displacement - n * displacement.dot(n)
 }
 
+/// Whether the elements of a group hold every direction, at no length.
+pub(super) fn is_bushing(group: &Group) -> bool {
+    matches!(group.law, Law::PointBushing | Law::Revolute | Law::Universal)
+}
+
+/// \[m\] Against which turns of its second body a joint of bushings holds its axes, world, as long as its
+/// lever.
+pub(super) fn held_turns(scene: &Scene, group: &Group, a: &End<'_>, b: &End<'_>) -> Vec<Vec3<f64>> {
+    let row = usize::from(group.element);
+    match group.law {
+        Law::Revolute => {
+            let lever = a.to_world(scene.model.revolutes[row].levers[0]);
+            let axis = crate::direction::unit(lever);
+            axis.map_or(Vec::new(), |axis| axis.normals().map(|n| lever.cross(n)).to_vec())
+        }
+        Law::Universal => {
+            let universal = &scene.model.universals[row];
+            vec![b.to_world(universal.axis).cross(a.to_world(universal.lever))]
+        }
+        _ => Vec::new(),
+    }
+}
+
 fn facts_of(scene: &Scene, frames: &[<F64 as Geometry>::Frame], group: &Group) -> GroupFacts {
     let element = usize::from(group.element);
     let a = End { scene, frames, body: group.a };
@@ -83,7 +106,9 @@ fn facts_of(scene: &Scene, frames: &[<F64 as Geometry>::Frame], group: &Group) -
                 d,
                 b.velocity(tip) - a.velocity(centre),
             ),
-            Law::PointBushing => (0.0, d, b.velocity(tip) - a.velocity(centre)),
+            Law::PointBushing | Law::Revolute | Law::Universal => {
+                (0.0, d, b.velocity(tip) - a.velocity(centre))
+            }
             Law::PointOnLine => {
                 let line = &scene.model.lines[element + i];
                 let n = a.to_world(line.direction);
@@ -105,6 +130,10 @@ fn facts_of(scene: &Scene, frames: &[<F64 as Geometry>::Frame], group: &Group) -
             longest: length,
             stretching_rate: rate,
         });
+    }
+    for turn in held_turns(scene, group, &a, &b) {
+        let rate = turn.dot(b.spin() - a.spin()).abs();
+        all.stretching_rate = all.stretching_rate.max(rate);
     }
     all
 }
@@ -144,6 +173,12 @@ impl End<'_> {
             Some(frame) => F64::to_world(frame, vector),
             None => vector,
         }
+    }
+
+    /// \[rad/s\] world.
+    fn spin(&self) -> Vec3<f64> {
+        let state = self.scene.model.initial.get(self.body.row());
+        state.map_or(Vec3::ZERO, |state| self.to_world(state.angular_velocity))
     }
 
     /// `v + ω × r` at a world point.

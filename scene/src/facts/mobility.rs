@@ -10,7 +10,7 @@ use dbd_kernel::{BodyIndex, F64, Geometry, Vec3};
 
 use crate::Scene;
 use crate::facts::frames;
-use crate::facts::lengths::{End, along, points};
+use crate::facts::lengths::{End, along, held_turns, is_bushing, points};
 use crate::facts::stiffness::law;
 use crate::parts::Parts;
 
@@ -163,8 +163,14 @@ fn holds(scene: &Scene) -> Vec<Hold> {
         let count = spots.len() as f64;
         let place = spots.iter().fold(Vec3::ZERO, |sum, spot| sum + spot.0) * (1.0 / count);
         let offset = |(at, _): &(Vec3<f64>, Vec3<f64>)| length(*at - place);
-        let size = spots.iter().map(offset).fold(f64::MIN_POSITIVE, f64::max);
+        let [a, b] = [group.a, group.b].map(|body| End { scene, frames: &frames, body });
+        let turns = held_turns(scene, group, &a, &b);
+        let least = turns.iter().copied().map(length).fold(f64::MIN_POSITIVE, f64::max);
+        let size = spots.iter().map(offset).fold(least, f64::max);
         let mut wrenches = Rows::default();
+        for turn in turns {
+            wrenches.add([[0.0; 3], turn.to_f64()].as_flattened().to_vec());
+        }
         for (at, along) in &spots {
             let torque = (*at - place).cross(*along) * (1.0 / size);
             wrenches.add([along.to_f64(), torque.to_f64()].as_flattened().to_vec());
@@ -181,18 +187,21 @@ fn holds(scene: &Scene) -> Vec<Hold> {
     groups.map(hold).collect()
 }
 
-/// Per element of a group its point on the second body and its direction, world.
+/// Per element of a group its point on the second body and its directions, world.
 fn spots(
     scene: &Scene,
     frames: &[<F64 as Geometry>::Frame],
     group: &Group,
 ) -> Vec<(Vec3<f64>, Vec3<f64>)> {
     let [a, b] = [group.a, group.b].map(|body| End { scene, frames, body });
-    let elements = (0..group.elements()).filter_map(|i| {
+    let elements = (0..group.elements()).flat_map(|i| {
         let [centre, tip] = points(scene, group, i);
         let tip = b.place(tip);
+        if is_bushing(group) {
+            return Vec3::axes().map(|axis| (tip, axis)).to_vec();
+        }
         let along = along(scene, group, i, &a, tip - a.place(centre));
-        Some((tip, crate::direction::unit(along)?))
+        crate::direction::unit(along).map(|along| (tip, along)).into_iter().collect()
     });
     elements.collect()
 }

@@ -10,6 +10,7 @@ mod lengths;
 mod mobility;
 mod stiffness;
 
+use dbd_kernel::model::Law;
 use dbd_kernel::{F64, Geometry, Vec3};
 
 use crate::{JointInfo, Scene};
@@ -170,8 +171,10 @@ fn frames(scene: &Scene) -> Vec<<F64 as Geometry>::Frame> {
 pub(crate) fn axis_w(scene: &Scene, group: usize) -> Option<Vec3<f64>> {
     let model = &scene.model;
     let group = model.groups.get(group)?;
-    let axis = if group.law == dbd_kernel::model::Law::PointOnLine {
+    let axis = if group.law == Law::PointOnLine {
         model.lines.get(group.element as usize)?.direction
+    } else if group.law == Law::Revolute {
+        model.revolutes.get(group.element as usize)?.levers[0]
     } else if group.shared && group.stars == 2 {
         let first = group.point as usize;
         *model.points.get(first + 1)? - *model.points.get(first)?

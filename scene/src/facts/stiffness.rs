@@ -9,7 +9,7 @@ use dbd_kernel::model::{Group, Law};
 
 use crate::Scene;
 use crate::facts::frames;
-use crate::facts::lengths::{End, along, points};
+use crate::facts::lengths::{End, along, held_turns, is_bushing, points};
 
 /// How fast a joint, a raw element or a torsion spring alone would let its bodies vibrate.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,18 +22,16 @@ pub struct ElementFrequency {
     pub frequency: f64,
 }
 
-/// An element of a joint as it lies at the initial pose.
+/// An element of a joint as it lies at the initial pose; of a bushing one of its directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointElement {
     /// The row of its joint.
     pub joint: usize,
     /// Rows of its two bodies, `None` for the world.
     pub bodies: [Option<usize>; 2],
-    /// \[m\] from the bodies' centres of mass to its points, body axes.
-    pub points: [Vec3<f64>; 2],
-    /// \[1\] the direction along which it pulls, unit length, in the axes of either body.
-    pub directions: [Vec3<f64>; 2],
-    /// \[1\] the same in the world.
+    /// \[m\] its moment about the centre of mass of either body, body axes, per newton.
+    pub moments: [Vec3<f64>; 2],
+    /// \[1\] the direction along which it pulls, unit length, world; 0 where it only turns.
     pub direction_w: Vec3<f64>,
     /// \[N/m\].
     pub stiffness: f64,
@@ -55,23 +53,49 @@ pub(super) fn joint_elements(scene: &Scene) -> Vec<JointElement> {
             let [centre, tip] = points(scene, group, i);
             let tip_w = b.place(tip);
             let d = along(scene, group, i, &a, tip_w - a.place(centre));
-            let Some(n) = crate::direction::unit(d) else { continue };
+            let (stiffness, free_length) = law(scene, group, i);
+            let mut add = |stiffness: f64, moments: [Vec3<f64>; 2], direction_w| {
+                elements.push(JointElement {
+                    joint,
+                    bodies: [group.a, group.b]
+                        .map(|body| Some(body.row()).filter(|row| *row < scene.model.bodies.len())),
+                    moments,
+                    direction_w,
+                    stiffness,
+                    free_length,
+                });
+            };
             // On a line the force is at its foot.
             let foot = if group.law == Law::PointOnLine { a.to_local(tip_w - d) } else { centre };
-            let (stiffness, free_length) = law(scene, group, i);
-            elements.push(JointElement {
-                joint,
-                bodies: [group.a, group.b]
-                    .map(|body| Some(body.row()).filter(|row| *row < scene.model.bodies.len())),
-                points: [foot, tip],
-                directions: [a.to_body(n), b.to_body(n)],
-                direction_w: n,
-                stiffness,
-                free_length,
-            });
+            let at = |n: Vec3<f64>| [foot.cross(a.to_body(n)), tip.cross(b.to_body(n))];
+            if is_bushing(group) {
+                for (weight, n) in directions(scene, group, i, &a) {
+                    add(weight * stiffness, at(n), n);
+                }
+            } else if let Some(n) = crate::direction::unit(d) {
+                add(stiffness, at(n), n);
+            }
+            for turn in held_turns(scene, group, &a, &b) {
+                add(stiffness, [a.to_body(turn), b.to_body(turn)], Vec3::ZERO);
+            }
         }
     }
     elements
+}
+
+/// The directions of element `i` of a group of bushings, world, with the parts of its stiffness that it has
+/// there.
+fn directions(scene: &Scene, group: &Group, i: usize, a: &End<'_>) -> [(f64, Vec3<f64>); 3] {
+    let row = usize::from(group.element) + i;
+    match scene.model.revolutes.get(row).filter(|_| group.law == Law::Revolute) {
+        Some(revolute) => {
+            let lever = a.to_world(revolute.levers[0]);
+            let axis = lever * (1.0 / libm::sqrt(lever.dot(lever)));
+            let [n, m] = axis.normals();
+            [(1.0, n), (1.0, m), (1.0 + revolute.along * lever.dot(lever), axis)]
+        }
+        None => Vec3::axes().map(|axis| (1.0, axis)),
+    }
 }
 
 /// \[N/m\] stiffness and \[m\] free length of element `i` of a group.
@@ -82,7 +106,9 @@ pub(super) fn law(scene: &Scene, group: &Group, i: usize) -> (f64, f64) {
             let tsda = &scene.model.tsdas[element + i];
             (tsda.stiffness, tsda.free_length)
         }
-        Law::PointBushing => (scene.model.bushings[element].stiffness, 0.0),
+        Law::PointBushing => (scene.model.bushings[element + i].stiffness, 0.0),
+        Law::Revolute => (scene.model.revolutes[element + i].stiffness, 0.0),
+        Law::Universal => (scene.model.universals[element + i].stiffness, 0.0),
         Law::PointOnLine => {
             let line = &scene.model.lines[element + i];
             (line.stiffness, line.free_length)
@@ -128,14 +154,18 @@ fn of_element(scene: &Scene, group: &Group, i: usize, a: &End<'_>, b: &End<'_>) 
     let (centre, tip) = (a.place(centre), b.place(tip));
     let d = along(scene, group, i, a, tip - centre);
     let directions = match crate::direction::unit(d) {
-        Some(n) if group.law != Law::PointBushing => vec![n],
+        Some(n) if !is_bushing(group) => vec![(1.0, n)],
         // No length: every direction counts.
-        _ => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(Vec3::from_f64).to_vec(),
+        _ => directions(scene, group, i, a).to_vec(),
     };
     // On a line the force is at its foot.
     let foot = if group.law == Law::PointOnLine { tip - d } else { centre };
-    let square = |n: &Vec3<f64>| stiffness * (moving(a, foot, *n) + moving(b, tip, *n));
-    directions.iter().map(square).fold(0.0, f64::max)
+    let square = |(weight, n): &(f64, Vec3<f64>)| {
+        weight * stiffness * (moving(a, foot, *n) + moving(b, tip, *n))
+    };
+    let turns = held_turns(scene, group, a, b);
+    let turns = turns.into_iter().map(|turn| stiffness * (turning(a, turn) + turning(b, turn)));
+    directions.iter().map(square).chain(turns).fold(0.0, f64::max)
 }
 
 /// \[1/kg\] how easily a point of a body moves along a direction, world; 0 of the world.

@@ -16,6 +16,7 @@ use crate::text::{Number, Table};
 pub(super) const TYPE: JointType = JointType {
     name: "cylindrical",
     holds: 4,
+    brings: 0,
     keys: &["axis", "reference", "span", "offset"],
     asks: (Place::Line, Turn::Axis),
     expand,

@@ -2,12 +2,13 @@
 //!
 //! The centres lie on the first body, at −span/2 and +span/2 on the axis and at span/2 along the
 //! reference, three points that no axis joins. Each has three points of the second body at the
-//! distance `arm` along the reference, axis × reference and the axis.
+//! distance `arm` along the reference, axis × reference and the axis, or lies in a bushing with its like.
 
 use crate::assembly::{Assembly, Points};
 use crate::closure::{Place, Turn};
 use crate::error::SceneError;
 use crate::hinge::Hinge;
+use crate::joints::realisation::{self, Realisation};
 use crate::joints::triad::Triad;
 use crate::joints::{Joint, JointType};
 use crate::text::{Number, Table};
@@ -15,7 +16,8 @@ use crate::text::{Number, Table};
 pub(super) const TYPE: JointType = JointType {
     name: "fixed",
     holds: 6,
-    keys: &["axis", "reference", "span", "arm"],
+    brings: 0,
+    keys: &["axis", "reference", "span", "arm", "realisation"],
     asks: (Place::Point, Turn::All),
     expand,
 };
@@ -27,8 +29,15 @@ fn expand(
 ) -> Result<Vec<Hinge>, SceneError> {
     let Triad { e1, e2, axis } = joint.triad(table)?;
     let half = 0.5 * table.required("span", Number::positive("m"))?;
-    let arm = table.required("arm", Number::positive("m"))?;
     let places = [axis * -half, axis * half, e1 * half].map(|place| joint.at_w + place);
+    if joint.realisation == Realisation::Bushing {
+        let arm = table.optional("arm", Number::positive("m"))?.unwrap_or(2.0 * half);
+        let [centres, tips] = realisation::ends(joint, places, assembly);
+        let points = Points { centres: &centres, tips: &tips, shared: false };
+        let added = assembly.add_bushings(&joint.pair, points, arm, joint.spring);
+        return added.map(|()| Vec::new()).map_err(|defect| defect.refuse(table));
+    }
+    let arm = table.required("arm", Number::positive("m"))?;
     let centres = places.map(|place| assembly.point_in(joint.pair.a, place));
     let tips = places
         .map(|place| [e1, e2, axis].map(|e| assembly.point_in(joint.pair.b, place + e * arm)));

@@ -8,6 +8,7 @@ mod cylindrical;
 mod fixed;
 mod info;
 mod rates;
+mod realisation;
 mod revolute;
 mod site;
 mod spherical;
@@ -18,6 +19,7 @@ mod universal;
 pub(crate) use assemble::read as assemble;
 pub use assemble::{Assembled, Moved, OpenJoint};
 pub use info::JointInfo;
+pub use realisation::Realisation;
 
 use dbd_kernel::Vec3;
 
@@ -39,6 +41,8 @@ struct JointType {
     name: &'static str,
     /// Degrees of freedom that it holds, see [`JointInfo::holds`].
     holds: u32,
+    /// Freedoms among these of a body that it brings as TSDAs alone.
+    brings: u32,
     /// The keys it has besides those of every joint.
     keys: &'static [&'static str],
     /// What it asks of its points and triads.
@@ -58,6 +62,7 @@ struct Joint {
     /// World, where there is one.
     reference: Option<Vec3<f64>>,
     spring: Spring,
+    realisation: Realisation,
 }
 
 impl Joint {
@@ -127,22 +132,28 @@ pub(crate) fn read_all(
     elements: &mut Elements,
 ) -> Result<Vec<JointInfo>, SceneError> {
     let mut infos = Vec::new();
+    let of_all = realisation::of_all(root)?;
     let tables = root.list("joint")?;
     for table in &tables {
         let kind = kind(table)?;
         table.only(&[KEYS, kind.keys, spring::KEYS])?;
         let name = elements.read(table, "joint", Target::Joint(infos.len()))?;
         let (groups, bodies) = (assembly.groups().len(), assembly.body_names().len());
-        let (pair, hinges) = read(table, name.clone(), kind, assembly)?;
+        let (joint, hinges) = read(table, name.clone(), (kind, of_all), assembly)?;
+        let spider = assembly.body_names().get(bodies).cloned();
+        // Without a body of its own a universal joint holds what its two bodies lose.
+        let brought = if spider.is_some() { 0 } else { kind.brings };
         infos.push(JointInfo {
             name,
             kind: kind.name,
-            between: pair.names,
-            holds: kind.holds,
-            spider: assembly.body_names().get(bodies).cloned(),
+            between: joint.pair.names,
+            realisation: joint.realisation,
+            holds: kind.holds - brought,
+            spider,
             groups: groups..assembly.groups().len(),
             hinges,
             tsdas: 0,
+            size: 0.0,
             assembly_error: 0.0,
         });
     }
@@ -151,11 +162,13 @@ pub(crate) fn read_all(
     for (table, info) in tables.iter().zip(&mut infos) {
         for number in info.groups.clone() {
             let group = &assembly.groups()[number];
-            let (extension, reach) = (extensions[number], assembly.free_length(group));
-            if extension > REACH * reach {
+            let (extension, reach) = (extensions[number], assembly.size(number));
+            // A spherical joint of a bushing has no size where it needs none.
+            if reach > 0.0 && extension > REACH * reach {
                 return Err(out_of_reach(table, extension, reach));
             }
             info.tsdas += group.elements();
+            info.size = info.size.max(reach);
             info.assembly_error = info.assembly_error.max(extension);
         }
     }
@@ -186,8 +199,9 @@ fn kind(table: &Table<'_>) -> Result<&'static JointType, SceneError> {
         let expected = format!("{}; did you mean \"{meant}\"?", Choice(&names).expected());
         return Err(value.refuse(&format!("is \"{}\"", shortened(word)), &expected));
     }
-    let index = table.required("type", Choice(&names))?;
-    Ok(&TYPES[index])
+    let kind = &TYPES[table.required("type", Choice(&names))?];
+    realisation::check(table, kind)?;
+    Ok(kind)
 }
 
 /// Lets a table have the keys of its type: defaults of other types are not its.
@@ -207,14 +221,15 @@ fn meant_by(word: &str) -> Option<&'static str> {
 fn read(
     table: &Table<'_>,
     name: String,
-    kind: &JointType,
+    (kind, of_all): (&JointType, Realisation),
     assembly: &mut Assembly,
-) -> Result<(Pair, Vec<Hinge>), SceneError> {
+) -> Result<(Joint, Vec<Hinge>), SceneError> {
     let site = Site::read(table, kind, assembly)?;
     let spring = spring::read(table, spring::AXIAL)?;
-    let joint = site.joint(table, name, spring, assembly)?;
+    let realisation = realisation::read(table, kind, spring, of_all)?;
+    let joint = Joint { realisation, ..site.joint(table, name, spring, assembly)? };
     let hinges = (kind.expand)(table, &joint, assembly)?;
-    Ok((joint.pair, hinges))
+    Ok((joint, hinges))
 }
 
 #[cfg(test)]

@@ -3,26 +3,35 @@
 //! The axis points at ±span/2 on the first body, the ring points in the mid plane on the second,
 //! at azimuth 120°·j from the reference; each axis point is joined to each ring point, the one
 //! at −span/2 first. Free length √((span/2)² + ring²). With the default ring radius span/√2 the
-//! three lines of an end are orthogonal, its stiffness is k·I.
+//! three lines of an end are orthogonal, its stiffness is k·I. As a bushing its bodies share a
+//! point and an axis; with another ring that is stiffer or softer along the axis than across it.
 
 use core::f64::consts::SQRT_2;
+
+use dbd_kernel::Vec3;
 
 use crate::assembly::{Assembly, Defect, Points};
 use crate::closure::{Place, Turn};
 use crate::error::SceneError;
 use crate::hinge::Hinge;
+use crate::joints::realisation::Realisation;
 use crate::joints::triad::Triad;
 use crate::joints::{Joint, JointType};
 use crate::pair::Pair;
+use crate::spring::Spring;
 use crate::text::{Number, Table};
 
 pub(super) const TYPE: JointType = JointType {
     name: "revolute",
     holds: 5,
-    keys: &["axis", "reference", "span", "ring", "clearance"],
+    brings: 0,
+    keys: &["axis", "reference", "span", "ring", "clearance", "realisation"],
     asks: (Place::Point, Turn::Axis),
     expand,
 };
+
+/// An end that is as nearly alike in all directions has one stiffness.
+const ISOTROPIC: f64 = 1e-9;
 
 fn expand(
     table: &Table<'_>,
@@ -31,7 +40,11 @@ fn expand(
 ) -> Result<Vec<Hinge>, SceneError> {
     let triad = joint.triad(table)?;
     let size = Size::read(table)?;
-    add(&joint.pair, joint, triad, size, assembly).map_err(|defect| defect.refuse(table))?;
+    match joint.realisation {
+        Realisation::Tsda => add(&joint.pair, joint, triad, size, assembly),
+        Realisation::Bushing => add_bushings(joint, triad.axis, size, assembly),
+    }
+    .map_err(|defect| defect.refuse(table))?;
     Ok(vec![assembly.hinge(&joint.pair, triad.axis)])
 }
 
@@ -48,6 +61,28 @@ impl Size {
         let span = table.required("span", Number::positive("m"))?;
         let ring = table.optional("ring", Number::positive("m"))?.unwrap_or(span / SQRT_2);
         Ok(Self { span, ring })
+    }
+
+    /// \[m\] half the span.
+    pub(super) fn half(self) -> f64 {
+        0.5 * self.span
+    }
+
+    /// \[m\] the length of a TSDA.
+    pub(super) fn length(self) -> f64 {
+        let (half, ring) = (self.half(), self.ring);
+        libm::sqrt(half * half + ring * ring)
+    }
+
+    /// Whether an end is as stiff along the axis as across it, as with the default ring.
+    pub(super) fn is_isotropic(self) -> bool {
+        (self.ratio() - 1.0).abs() < ISOTROPIC
+    }
+
+    /// The stiffness of an end along the axis over that across it.
+    fn ratio(self) -> f64 {
+        let part = self.span / self.ring;
+        0.5 * part * part
     }
 }
 
@@ -68,6 +103,23 @@ pub(super) fn add(
     let free_length = libm::sqrt(half * half + ring * ring);
     let points = Points { centres: &centres, tips: &tips, shared: true };
     assembly.add_tsdas(pair, points, free_length, joint.spring)
+}
+
+/// Adds the revolute as a bushing: as stiff as the three TSDAs of each end, at the end.
+fn add_bushings(
+    joint: &Joint,
+    axis: Vec3<f64>,
+    size: Size,
+    assembly: &mut Assembly,
+) -> Result<(), Defect> {
+    // Of both ends k·Σu·u over their lines: across the axis 3r²/L², along it 3s²/(2L²).
+    let part = size.ring / size.length();
+    let (across, ratio) =
+        if size.is_isotropic() { (2.0, 1.0) } else { (3.0 * part * part, size.ratio()) };
+    let Spring { stiffness, damping, clearance } = joint.spring;
+    let spring = Spring { stiffness: across * stiffness, damping: across * damping, clearance };
+    let lever = axis * size.half();
+    assembly.add_revolute(&joint.pair, joint.at_w, (lever, ratio), size.length(), spring)
 }
 
 /// Cosine and sine of 0°, 120° and 240°.

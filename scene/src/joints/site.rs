@@ -9,6 +9,7 @@ use crate::assembly::{Assembly, Resolved};
 use crate::closure::{Closure, Opening, Place, Pose, Turn, length};
 use crate::direction::{least_aligned, normals};
 use crate::error::SceneError;
+use crate::joints::realisation::Realisation;
 use crate::joints::universal::Axes;
 use crate::joints::{Joint, JointType};
 use crate::orientation::of_axes;
@@ -110,7 +111,8 @@ impl Site {
             if self.asks.0 == Place::Line && p != q { p + axes[0] * axes[0].dot(q - p) } else { p };
         let reference = self.references.map(|[first, _]| assembly.carried_direction(a, first));
         self.resolve(table, assembly, at_w, axes, reference);
-        Ok(Joint { name, pair: self.pair, at_w, axes, reference, spring })
+        let realisation = Realisation::default();
+        Ok(Joint { name, pair: self.pair, at_w, axes, reference, spring, realisation })
     }
 
     /// What the long form has: one place and one direction each, where the bodies are now.

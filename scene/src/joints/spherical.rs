@@ -1,7 +1,8 @@
 //! Spherical joint: one orthogonal tripod.
 //!
 //! The centre `at` on the first body, three points of the second at the distance `arm` along the
-//! world's x, y and z at the initial pose. Its stiffness about the centre is k·I.
+//! world's x, y and z at the initial pose. Its stiffness about the centre is k·I, as that
+//! of one bushing there.
 
 use dbd_kernel::Vec3;
 
@@ -9,13 +10,15 @@ use crate::assembly::{Assembly, Points};
 use crate::closure::{Place, Turn};
 use crate::error::SceneError;
 use crate::hinge::Hinge;
+use crate::joints::realisation::{self, Realisation};
 use crate::joints::{Joint, JointType};
 use crate::text::{Number, Table};
 
 pub(super) const TYPE: JointType = JointType {
     name: "spherical",
     holds: 3,
-    keys: &["arm", "clearance"],
+    brings: 0,
+    keys: &["arm", "clearance", "realisation"],
     asks: (Place::Point, Turn::Free),
     expand,
 };
@@ -25,8 +28,15 @@ fn expand(
     joint: &Joint,
     assembly: &mut Assembly,
 ) -> Result<Vec<Hinge>, SceneError> {
-    let arm = table.required("arm", Number::positive("m"))?;
     let pair = &joint.pair;
+    if joint.realisation == Realisation::Bushing {
+        let arm = table.optional("arm", Number::positive("m"))?.unwrap_or(0.0);
+        let [centres, tips] = realisation::ends(joint, [joint.at_w], assembly);
+        let points = Points { centres: &centres, tips: &tips, shared: false };
+        let added = assembly.add_bushings(pair, points, arm, joint.spring);
+        return added.map(|()| Vec::new()).map_err(|defect| defect.refuse(table));
+    }
+    let arm = table.required("arm", Number::positive("m"))?;
     let centre = assembly.point_in(pair.a, joint.at_w);
     let axes = [Vec3::new(arm, 0.0, 0.0), Vec3::new(0.0, arm, 0.0), Vec3::new(0.0, 0.0, arm)];
     let tips = axes.map(|axis| assembly.point_in(pair.b, joint.at_w + axis));

@@ -18,6 +18,7 @@ use crate::text::{Choice, Number, Table};
 pub(super) const TYPE: JointType = JointType {
     name: "translational",
     holds: 5,
+    brings: 0,
     keys: &["axis", "reference", "span", "gauge", "offset", "offsets"],
     asks: (Place::Line, Turn::All),
     expand,

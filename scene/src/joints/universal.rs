@@ -2,7 +2,8 @@
 //!
 //! The spider is a body `JOINT.spider` at `at` with the axes (a1, a2, a1 × a2), moving with the
 //! first body or, where [assemble] sets velocities, with both. A revolute about a1 joins it to the first body, one about a2 to the second. a2 is
-//! made normal to a1 to the last bit.
+//! made normal to a1 to the last bit. As a bushing it has no spider: its two bodies share a point, and
+//! their axes are held perpendicular.
 
 use dbd_kernel::{BodyState, Vec3};
 
@@ -12,6 +13,7 @@ use crate::closure::{Place, Turn};
 use crate::direction::normals;
 use crate::error::SceneError;
 use crate::hinge::Hinge;
+use crate::joints::realisation::Realisation;
 use crate::joints::revolute::{self, Size};
 use crate::joints::triad;
 use crate::joints::{Joint, JointType};
@@ -23,7 +25,8 @@ use crate::text::{Kind, Number, Numbers, Table, Value};
 pub(super) const TYPE: JointType = JointType {
     name: "universal",
     holds: 10,
-    keys: &["axes", "spider", "reference", "span", "ring"],
+    brings: 6,
+    keys: &["axes", "spider", "reference", "span", "ring", "realisation"],
     asks: (Place::Point, Turn::Across),
     expand,
 };
@@ -41,6 +44,9 @@ fn expand(
     let triads =
         [triad::about(table, a1, joint.reference)?, triad::about(table, a2, joint.reference)?];
     let size = Size::read(table)?;
+    if joint.realisation == Realisation::Bushing {
+        return bushing(table, joint, axes, size, assembly);
+    }
     let (body, spin) = table.required("spider", Spider)?;
 
     let name = format!("{}.spider", joint.name);
@@ -75,6 +81,33 @@ fn expand(
     }
     let hinges = pairs.iter().zip(triads).map(|(pair, triad)| assembly.hinge(pair, triad.axis));
     Ok(hinges.collect())
+}
+
+/// Adds the joint without a spider: a point bushing half as stiff as a revolute, and the axes held
+/// perpendicular by it at half a span.
+fn bushing(
+    table: &Table<'_>,
+    joint: &Joint,
+    [a1, a2, _]: [Vec3<f64>; 3],
+    size: Size,
+    assembly: &mut Assembly,
+) -> Result<Vec<Hinge>, SceneError> {
+    // Read for what is wrong with it: a bushing has no use for it.
+    table.optional("spider", Spider)?;
+    if !size.is_isotropic() {
+        let problem = "makes a joint that no bushing between its two bodies is as stiff as";
+        let help = "without `ring` it is span/√2, and the joint as stiff in every direction; or \
+                    `realisation = \"tsda\"` for this joint";
+        return Err(table.refuse_value("ring", problem, help));
+    }
+    let Pair { a, b, .. } = joint.pair;
+    let lever = assembly.vector_in(a, a1) * size.half();
+    let axis = assembly.vector_in(b, a2);
+    assembly
+        .add_universal(&joint.pair, joint.at_w, [lever, axis], size.length(), joint.spring)
+        .map_err(|defect| defect.refuse(table))?;
+    // The second axis is of the second body: about it turns the first, the other way.
+    Ok(vec![assembly.hinge(&joint.pair, a1), assembly.hinge(&joint.pair.reversed(), -a2)])
 }
 
 /// Two orthogonal axes and the one normal to both.

@@ -70,6 +70,8 @@ fn stiffness(scene: &Scene, group: &Group) -> f64 {
     match group.law {
         Law::Tsda => scene.model.tsdas[element].stiffness,
         Law::PointBushing => scene.model.bushings[element].stiffness,
+        Law::Revolute => scene.model.revolutes[element].stiffness,
+        Law::Universal => scene.model.universals[element].stiffness,
         Law::PointOnLine => scene.model.lines[element].stiffness,
     }
 }

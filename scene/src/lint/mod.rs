@@ -15,7 +15,7 @@ mod torsion_springs;
 
 use std::fmt;
 
-use crate::Scene;
+use crate::{Facts, Scene};
 
 /// How much a warning weighs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -52,16 +52,21 @@ impl Scene {
     /// What is probably not meant.
     #[must_use]
     pub fn warnings(&self) -> Vec<Warning> {
-        let facts = self.facts();
+        self.warnings_with(&self.facts())
+    }
+
+    /// What is probably not meant, where the scene's [facts](Self::facts) are at hand.
+    #[must_use]
+    pub fn warnings_with(&self, facts: &Facts) -> Vec<Warning> {
         let mut warnings = Vec::new();
         parameters::judge(self, &mut warnings);
         angles::judge(self, &mut warnings);
-        bodies::judge(self, &facts, &mut warnings);
-        locked::judge(self, &facts, &mut warnings);
+        bodies::judge(self, facts, &mut warnings);
+        locked::judge(self, facts, &mut warnings);
         elements::judge(self, &mut warnings);
         reach::judge(self, &mut warnings);
         torsion_springs::judge(self, &mut warnings);
-        frequencies::judge(self, &facts, &mut warnings);
+        frequencies::judge(self, facts, &mut warnings);
         warnings
     }
 }

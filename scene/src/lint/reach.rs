@@ -41,11 +41,12 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
         placed[place.body] += usize::from((MIDDLE..=1.0).contains(&place.part));
     }
     for (number, joint) in scene.joints.iter().enumerate() {
-        let own = |place: &&Place| {
-            joint.groups.contains(&place.group)
-                && scene.body_names.get(place.body) != joint.spider.as_ref()
-        };
-        let beyond = places.iter().filter(own).filter(|p| p.part > 1.0 && placed[p.body] > 0);
+        // Places are in the order of their groups.
+        let [from, until] = [joint.groups.start, joint.groups.end]
+            .map(|group| places.partition_point(|place| place.group < group));
+        let own = |place: &&Place| scene.body_names.get(place.body) != joint.spider.as_ref();
+        let beyond = places[from..until].iter().filter(own);
+        let beyond = beyond.filter(|p| p.part > 1.0 && placed[p.body] > 0);
         // Of a joint that lies off both its bodies the one that is farther is named.
         let Some(worst) = beyond.max_by(|a, b| a.part.total_cmp(&b.part)) else { continue };
         let text = format!(
@@ -66,7 +67,7 @@ fn places(scene: &Scene, number: usize, group: &Group) -> Vec<Place> {
     let first = usize::from(group.point);
     let centres = first + usize::from(group.stars);
     let last = first + group.points();
-    let size = size(scene, group);
+    let size = size(scene, number, group);
     // A line has no end: its points are anywhere on it.
     let ends =
         [(group.a, first..centres, group.law != Law::PointOnLine), (group.b, centres..last, true)];
@@ -100,12 +101,15 @@ fn reach(mass: f64, inertia: Vec3<f64>) -> Vec3<f64> {
     Vec3::from_f64(widths)
 }
 
-/// \[m\] how large a joint is: the length of its elements.
-fn size(scene: &Scene, group: &Group) -> f64 {
+/// \[m\] how large a joint is: the length of its elements, or of those that its bushings stand for.
+fn size(scene: &Scene, number: usize, group: &Group) -> f64 {
     let element = usize::from(group.element);
     match group.law {
         Law::Tsda => scene.model.tsdas[element].free_length,
         Law::PointOnLine => scene.model.lines[element].free_length,
-        Law::PointBushing => 0.0,
+        Law::PointBushing | Law::Revolute | Law::Universal => {
+            let row = scene.joints.partition_point(|joint| joint.groups.end <= number);
+            scene.joints.get(row).map_or(0.0, |joint| joint.size)
+        }
     }
 }

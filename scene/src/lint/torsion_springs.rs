@@ -1,5 +1,7 @@
 //! Torsion springs that do nothing or whose twist is not that of a joint.
 
+use std::collections::HashMap;
+
 use dbd_kernel::{BodyIndex, TorsionSpring, Vec3};
 
 use crate::Scene;
@@ -11,6 +13,7 @@ const ASKEW: f64 = 1e-3;
 
 pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
     let springs = scene.model.torsions.iter().take(scene.torsion_springs());
+    let revolutes = Revolutes::of(scene);
     for (number, spring) in springs.enumerate() {
         let mut warn = |severity, text: String| {
             let name = scene.torsion_names.get(number).cloned().unwrap_or_default();
@@ -21,7 +24,7 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
             let text = "has neither stiffness nor damping nor preload: it does nothing";
             warn(Severity::Warning, text.into());
         }
-        let revolutes = revolutes(scene, spring.a, spring.b);
+        let revolutes = revolutes.between(spring.a, spring.b);
         let axis = axis_of(scene, spring);
         let sine = |joint_axis: Vec3<f64>| {
             let cross = joint_axis.cross(axis);
@@ -59,17 +62,32 @@ fn axis_of(scene: &Scene, spring: &TorsionSpring<f64>) -> Vec3<f64> {
     }
 }
 
-/// Names and axes of the revolutes between two bodies, those of a universal joint included.
-fn revolutes(scene: &Scene, a: BodyIndex, b: BodyIndex) -> Vec<(&str, Vec3<f64>)> {
-    let mut found = Vec::new();
-    for joint in scene.joints.iter().filter(|j| matches!(j.kind, "revolute" | "universal")) {
-        for number in joint.groups.clone() {
-            let group = &scene.model.groups[number];
-            let same = [group.a, group.b] == [a, b] || [group.a, group.b] == [b, a];
-            if let (true, Some(axis)) = (same, axis_w(scene, number)) {
-                found.push((joint.name.as_str(), axis));
+/// Names and axes of the revolutes, those of universal joints included, by the bodies between which
+/// they are.
+struct Revolutes<'s>(HashMap<[u16; 2], Vec<(&'s str, Vec3<f64>)>>);
+
+impl<'s> Revolutes<'s> {
+    fn of(scene: &'s Scene) -> Self {
+        let mut found: HashMap<_, Vec<_>> = HashMap::new();
+        for joint in scene.joints.iter().filter(|j| matches!(j.kind, "revolute" | "universal")) {
+            for number in joint.groups.clone() {
+                let group = &scene.model.groups[number];
+                if let Some(axis) = axis_w(scene, number) {
+                    let between = pair(group.a, group.b);
+                    found.entry(between).or_default().push((joint.name.as_str(), axis));
+                }
             }
         }
+        Self(found)
     }
-    found
+
+    /// Those between two bodies, in scene order.
+    fn between(&self, a: BodyIndex, b: BodyIndex) -> &[(&'s str, Vec3<f64>)] {
+        self.0.get(&pair(a, b)).map_or(&[], Vec::as_slice)
+    }
+}
+
+/// Two bodies, whichever is named first.
+fn pair(a: BodyIndex, b: BodyIndex) -> [u16; 2] {
+    [a.0.min(b.0), a.0.max(b.0)]
 }

@@ -107,6 +107,22 @@ pub(super) fn is_invisible(c: char) -> bool {
     c.is_control() || steers
 }
 
+/// `true` or `false`.
+#[derive(Clone, Copy)]
+pub(crate) struct Switch;
+
+impl Kind for Switch {
+    type Output = bool;
+
+    fn expected(&self) -> String {
+        "true or false, without quotes".into()
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<bool, SceneError> {
+        value.get().as_bool().ok_or_else(|| value.wrong_type(&self.expected()))
+    }
+}
+
 /// One of a few words, by its index.
 #[derive(Clone, Copy)]
 pub(crate) struct Choice<'c>(pub(crate) &'c [&'static str]);

@@ -8,7 +8,7 @@ mod number;
 mod table;
 mod value;
 
-pub(crate) use kinds::{Choice, Direction, Text};
+pub(crate) use kinds::{Choice, Direction, Switch, Text};
 pub(crate) use number::{Measure, Number, Numbers, Seconds};
 pub(crate) use table::{Table, root};
 pub(crate) use value::{Kind, Value};

@@ -191,6 +191,11 @@ impl<'t> Table<'t> {
         self.entry(key).is_some()
     }
 
+    /// Whether it gives a key of its own, not by default.
+    pub(crate) fn gives(&self, key: &str) -> bool {
+        self.entries.contains_key(key)
+    }
+
     /// The value of a key, where it is there.
     pub(crate) fn value(&self, key: &str) -> Option<Value<'t>> {
         self.entry(key).map(|(_, entry)| Value {
@@ -303,6 +308,12 @@ impl<'t> Table<'t> {
             lines.push(line);
         }
         Ok(lines)
+    }
+
+    /// Where the lines of the text begin, ascending: as many as begin up to a byte is its line.
+    pub(crate) fn line_starts(&self) -> Vec<usize> {
+        let breaks = self.source.text.match_indices('\n').map(|(byte, _)| byte + 1);
+        std::iter::once(0).chain(breaks).collect()
     }
 
     /// The line breaks between two bytes of the text.

@@ -50,6 +50,7 @@ const TEXTS: &[&str] = &[
     "about",
     "shape",
     "colour",
+    "realisation",
 ];
 
 /// What a body has in the long form, besides its name.

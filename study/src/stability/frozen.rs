@@ -73,6 +73,10 @@ impl Axes<'_> {
     fn to_world(&self, v: Vec3<f64>) -> Vec3<f64> {
         self.0.map_or(v, |s| s.orientation.rotation().to_world(v))
     }
+
+    fn to_axes(&self, v: Vec3<f64>) -> Vec3<f64> {
+        self.0.map_or(v, |s| s.orientation.rotation().to_body(v))
+    }
 }
 
 /// Gives element `i` of a group its present length; where it has no length, its second point is
@@ -89,6 +93,21 @@ fn relax(model: &mut SceneModel<F64>, row: usize, i: usize) {
     match group.law {
         Law::Tsda => model.tsdas[element].free_length = d.dot(d).sqrt(),
         Law::PointBushing => model.points[tip] = b.local(from),
+        Law::Revolute => {
+            model.points[tip] = b.local(from);
+            let [first, second] = &mut model.revolutes[element].levers;
+            *second = b.to_axes(a.to_world(*first));
+        }
+        Law::Universal => {
+            model.points[tip] = b.local(from);
+            let universal = &mut model.universals[element];
+            let (lever, axis) = (a.to_world(universal.lever), b.to_world(universal.axis));
+            let square = lever.dot(lever);
+            if square > 0.0 {
+                let normal = axis - lever * (lever.dot(axis) / square);
+                universal.axis = b.to_axes(normal * (1.0 / normal.dot(normal).sqrt()));
+            }
+        }
         Law::PointOnLine => {
             let line = &mut model.lines[element];
             let along = a.to_world(line.direction);

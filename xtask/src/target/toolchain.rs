@@ -105,6 +105,11 @@ impl Toolchain {
         Ok(format!("{version} ({name})"))
     }
 
+    /// The triple of its target.
+    pub fn target(&self) -> &str {
+        &self.target
+    }
+
     /// Where its images lie.
     pub fn target_dir(&self) -> PathBuf {
         match self.way {

@@ -17,7 +17,7 @@ use crate::built::{Program, build};
 use crate::command::{cargo, run as run_command, succeeds};
 use crate::steps::Steps;
 use crate::target::{Toolchain, firmware, project, setup, trajectory};
-use crate::{audit, boards, cost, packages};
+use crate::{audit, boards, cost, instructions, packages};
 
 use cases::{Case, Selection};
 
@@ -182,21 +182,27 @@ fn bare(steps: &mut Steps) {
 
 /// Golden bits as released; the programs whose bits the target is compared with.
 fn release(steps: &mut Steps, cases: &mut Vec<Case>) -> Option<Host> {
-    let (mut host, mut golden) = (None, None);
+    let (mut host, mut golden, mut counted) = (None, None, Vec::new());
     steps.step("the host's programs are built, optimised as released and not at all", || {
-        let built = build(cargo().args(["build", "--release"]).args([
-            "--package",
-            GOLDEN,
-            "--test",
-            "golden",
-            "--package",
-            "firmware",
-            "--bin",
-            firmware::SHARED,
-            "--bin",
-            firmware::PLANT,
-        ]))?;
+        let built = build(
+            cargo()
+                .args(["build", "--release"])
+                .args([
+                    "--package",
+                    GOLDEN,
+                    "--test",
+                    "golden",
+                    "--package",
+                    "firmware",
+                    "--bin",
+                    firmware::SHARED,
+                    "--bin",
+                    firmware::PLANT,
+                ])
+                .args(instructions::BUILD),
+        )?;
         golden = built.iter().find(|program| program.tests).cloned();
+        counted = built.clone();
         host = Some(Host::new(&built)?);
         Ok(())
     });
@@ -205,6 +211,7 @@ fn release(steps: &mut Steps, cases: &mut Vec<Case>) -> Option<Host> {
         golden.name += " in release";
         keep(cases::run(&[golden], Selection::All), cases)
     });
+    steps.step("instructions of a step on this machine", || instructions::check(&counted));
     host
 }
 

@@ -38,6 +38,11 @@ fn of_scene(key: &str) -> Option<Key> {
         "duration" => Key(number(Positive), "s, > 0: simulated time, as 0.5 or \"500 ms\"", ""),
         "step" => Key(number(Positive), "s, > 0: the step, as \"20us\"", "chosen by the run"),
         "every" => Key(number(Positive), "s, > 0: time between samples", "chosen by the run"),
+        "planar" => Key(
+            json!({ "type": "boolean" }),
+            "Whether it runs in its plane, with three freedoms per body; refused where anything leaves it",
+            "false",
+        ),
         _ => return None,
     })
 }

@@ -1,0 +1,17 @@
+//! What a step is made of, and what it is measured with.
+//!
+//! `model => floating-point operations; number of links => model; model => a plain loop`. The modules in the
+//! order in which they stand on each other:
+//!
+//! - [`counted`]: a number that counts what is done with it.
+//! - [`flops`]: the operations of a step.
+//! - [`chain`]: chains of any length.
+//! - [`vectors`], [`plain`](mod@plain): the same steps, written plainly.
+//!
+//! `examples/steps.rs` takes steps for `cargo xtask instructions`, which counts their instructions.
+
+pub mod chain;
+pub mod counted;
+pub mod flops;
+pub mod plain;
+pub mod vectors;

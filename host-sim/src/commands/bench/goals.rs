@@ -1,0 +1,123 @@
+//! What was aimed at, beside what is.
+//!
+//! `rows => goals, met or not`. A time that scatters more than the goal is narrow decides nothing.
+
+use serde::Serialize;
+
+use super::fit::exponent;
+use super::ways::Row;
+
+/// A figure and what it ought to be.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Goal {
+    /// What the figure is.
+    pub what: String,
+    /// The figure.
+    pub figure: f64,
+    /// How far it may be off by the scatter of the times.
+    pub scatter: f64,
+    /// The least that it ought to be, where there is one.
+    pub at_least: Option<f64>,
+    /// The most, likewise.
+    pub at_most: Option<f64>,
+    /// Whether it is met.
+    pub verdict: Verdict,
+}
+
+/// Whether a goal is met.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// It is.
+    Met,
+    /// It is not.
+    NotMet,
+    /// The times scatter too much to tell.
+    TooNoisy,
+}
+
+/// How far the exponent of growth may be from 1.
+const GROWTH: f64 = 0.03;
+
+impl Goal {
+    fn new(what: String, figure: f64, scatter: f64, [low, high]: [Option<f64>; 2]) -> Self {
+        let holds = |figure: f64| {
+            low.is_none_or(|low| figure >= low) && high.is_none_or(|high| figure <= high)
+        };
+        let verdict = match (holds(figure - scatter), holds(figure + scatter)) {
+            (true, true) => Verdict::Met,
+            (false, false) if !holds(figure) => Verdict::NotMet,
+            _ => Verdict::TooNoisy,
+        };
+        Self { what, figure, scatter, at_least: low, at_most: high, verdict }
+    }
+
+    /// As people read it, without its name.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let Self { figure, scatter, .. } = self;
+        let goal = match (self.at_least, self.at_most) {
+            (Some(low), Some(high)) => format!("{low} to {high}"),
+            (Some(low), None) => format!("at least {low}"),
+            (None, Some(high)) => format!("at most {high}"),
+            (None, None) => "none".to_owned(),
+        };
+        let verdict = match self.verdict {
+            Verdict::Met => "met",
+            Verdict::NotMet => "not met",
+            Verdict::TooNoisy => "times scatter too much to tell",
+        };
+        format!("{figure:.2} ± {scatter:.2}, goal {goal}: {verdict}")
+    }
+}
+
+/// The goals that the rows say something about.
+#[must_use]
+pub fn goals(rows: &[Row]) -> Vec<Goal> {
+    growth(rows).into_iter().collect()
+}
+
+/// How the time of a step grows with the bodies of a chain.
+fn growth(rows: &[Row]) -> Option<Goal> {
+    let points: Vec<(f64, f64, f64)> = rows
+        .iter()
+        .filter_map(|row| {
+            let time = row.f64_s?;
+            Some((row.size.links? as f64, time.least, time.spread))
+        })
+        .collect();
+    let of = |scale: [f64; 2]| {
+        let last = points.len().checked_sub(1)?;
+        let scaled = points.iter().enumerate().map(|(row, (links, time, spread))| {
+            let sign = scale[0] + (scale[1] - scale[0]) * row as f64 / last.max(1) as f64;
+            (*links, time * (1.0 + sign * spread))
+        });
+        exponent(&scaled.collect::<Vec<_>>())
+    };
+    let figure = of([0.0, 0.0])?;
+    // The spreads at their worst: the short chains too fast, the long ones too slow.
+    let scatter = (of([-1.0, 1.0])? - figure).abs();
+    let links = |pick: fn(f64, f64) -> f64| {
+        points.iter().map(|point| point.0).reduce(pick).unwrap_or_default()
+    };
+    let what = format!("time ∝ bodies^x, {} to {}", links(f64::min), links(f64::max));
+    Some(Goal::new(what, figure, scatter, [Some(1.0 - GROWTH), Some(1.0 + GROWTH)]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_goal_is_met_missed_or_lost_in_the_noise() {
+        let verdict = |figure: f64, scatter: f64| {
+            Goal::new(String::new(), figure, scatter, [Some(0.97), Some(1.03)]).verdict
+        };
+        assert_eq!(verdict(1.0, 0.01), Verdict::Met);
+        assert_eq!(verdict(1.2, 0.01), Verdict::NotMet);
+        assert_eq!(verdict(1.02, 0.05), Verdict::TooNoisy);
+        assert_eq!(verdict(1.04, 0.02), Verdict::TooNoisy);
+        let text = Goal::new(String::new(), 3.5, 0.1, [Some(3.2), None]).text();
+        assert_eq!(text, "3.50 ± 0.10, goal at least 3.2: met");
+    }
+}

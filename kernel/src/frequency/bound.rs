@@ -1,0 +1,262 @@
+//! The guaranteed bound, body by body.
+//!
+//! `(model, pose) => per body its block of the mass-scaled stiffness => λ_max`. Every mount is
+//! visited once and adds to the blocks of its two bodies, in the order of each body's sums.
+
+use crate::body::{Body, BodyState};
+use crate::elements::input::InputKind;
+use crate::elements::point_law::taut;
+use crate::geometry::Geometry;
+use crate::index::BodyIndex;
+use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, Terms};
+use crate::pose::{Places, held_turns, place_bodies, placed, twist_of};
+use crate::real::Real;
+use crate::space::{Linear as _, Space, Vector as _};
+use crate::state::State;
+
+/// A symmetric 6×6 matrix over (linear, angular), in full.
+type Block<R> = [[R; 6]; 6];
+
+/// Squarings of the block: `λ_max ≤ trace(S^n)^(1/n)`, n = 2^8, exceeds it by 6^(1/256) at most.
+const SQUARINGS: usize = 8;
+
+/// What rounding may take from a bound, in either precision, is given back.
+const ROUNDING_MARGIN: f64 = 1.0 + 1e-6;
+
+/// An upper bound of the highest angular frequency \[rad/s\] at the pose of `state`; 0 for a model
+/// without springs. At most 0.4 % above the exact block bound. Each element is placed once per body
+/// that it holds, and each body's block is kept until all are: 148 bytes per body of a spatial model in single precision.
+pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
+    let view = model.view();
+    let bodies = state.bodies.as_ref();
+    let mut frames = model.per_body(FrameOf::<M>::default());
+    place_bodies::<M::Precision>(bodies, frames.as_mut());
+    let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
+    let turns = state.turns.as_ref();
+    let pose = Pose { view: &view, places, bodies, turns };
+    let mut blocks = model.per_body(BodyBlock::default());
+    pose.each_mount(|mount, [a, b]| {
+        for here in [Some(a), (a != b).then_some(b)].into_iter().flatten() {
+            if let Some(block) = blocks.as_mut().get_mut(here.row()) {
+                pose.add(mount, here, block);
+            }
+        }
+    });
+    let mut largest = RealOf::<M>::ZERO;
+    for (row, block) in blocks.as_ref().iter().enumerate() {
+        let eigenvalue = pose.eigenvalue(row, *block);
+        if eigenvalue > largest {
+            largest = eigenvalue;
+        }
+    }
+    largest.sqrt()
+}
+
+/// The square of the bound of what is mounted to one body, 0 where there is none.
+pub(crate) fn square_of<P: Geometry, T: Terms>(
+    view: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    bodies: &[BodyState<P>],
+    turns: &[i32],
+    row: usize,
+) -> P::Real {
+    let pose = Pose { view, places, bodies, turns };
+    let here = BodyIndex(row as u16);
+    let mut block = BodyBlock::default();
+    pose.each_mount(|mount, [a, b]| {
+        if a == here || b == here {
+            pose.add(mount, here, &mut block);
+        }
+    });
+    pose.eigenvalue(row, block)
+}
+
+/// What mounts add for one of their bodies.
+#[derive(Clone, Copy)]
+struct BodyBlock<R> {
+    stiffness: Block<R>,
+    /// \[N·m/rad\] about any axis.
+    turning: R,
+}
+
+impl<R: Real> Default for BodyBlock<R> {
+    fn default() -> Self {
+        Self { stiffness: [[R::ZERO; 6]; 6], turning: R::ZERO }
+    }
+}
+
+/// What has a stiffness, by its row.
+#[derive(Clone, Copy)]
+enum Mount {
+    Group(usize),
+    Actuator(usize),
+    Torsion(usize),
+}
+
+/// A model at a pose.
+struct Pose<'s, 'm, P: Geometry, T> {
+    view: &'s ModelRef<'m, P, T>,
+    places: Places<'s, P>,
+    bodies: &'s [BodyState<P>],
+    turns: &'s [i32],
+}
+
+impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
+    /// Visits all that has a stiffness with its two ends, in the order of each body's sums.
+    #[inline(always)]
+    fn each_mount(&self, mut visit: impl FnMut(Mount, [BodyIndex; 2])) {
+        for (row, group) in self.view.groups.iter().enumerate() {
+            visit(Mount::Group(row), [group.a, group.b]);
+        }
+        for (row, input) in self.view.inputs.iter().enumerate() {
+            let InputKind::Actuator { group, .. } = input.kind else { continue };
+            if let Some(group) = self.view.groups.get(group as usize) {
+                visit(Mount::Actuator(row), [group.a, group.b]);
+            }
+        }
+        for (row, spring) in self.view.torsions.iter().enumerate() {
+            visit(Mount::Torsion(row), [spring.a, spring.b]);
+        }
+    }
+
+    /// Adds what a mount does to the body `here`, one of its ends.
+    fn add(&self, mount: Mount, here: BodyIndex, to: &mut BodyBlock<P::Real>) {
+        let Self { view, places, .. } = *self;
+        let row = here.row();
+        let (Some(body), Some(frame)) = (view.bodies.get(row), places.frames.get(row)) else {
+            return;
+        };
+        let BodyBlock { stiffness: block, turning } = to;
+        let mut add = |stiffness: P::Real, other: BodyIndex, u: P::Vector, moment: P::Moment| {
+            let share = if other.is_world() { P::Real::ONE } else { P::Real::TWO };
+            let n = P::moment_to_body(frame, moment);
+            add_row(block, share * stiffness, scaled(body, u, n));
+        };
+        match mount {
+            Mount::Group(number) => {
+                let Some(group) = view.groups.get(number) else { return };
+                let at_a = group.a == here;
+                let other = if at_a { group.b } else { group.a };
+                for i in 0..group.elements() {
+                    let Some(e) = placed(view, places, (number, group), i) else { continue };
+                    let Some(law) = view.element(group.law, e.index) else { continue };
+                    let arm = if at_a { e.arm_a } else { e.arm_b };
+                    let (turns, count) = held_turns(view, places, group, e.index);
+                    for turn in turns.into_iter().take(count) {
+                        add(law.stiffness(), other, P::Vector::ZERO, turn);
+                    }
+                    let mut add = |stiffness, u: P::Vector| add(stiffness, other, u, arm.cross(u));
+                    *turning = *turning + law.tangent(&e.stretch, arm, &mut add);
+                }
+            }
+            Mount::Actuator(input) => {
+                let Some((input, signal)) = view.inputs.iter().zip(places.signals).nth(input)
+                else {
+                    return;
+                };
+                let InputKind::Actuator { group, element } = input.kind else { return };
+                let row = group as usize;
+                let group = view.groups.get(row);
+                let element = group.and_then(|g| placed(view, places, (row, g), element as usize));
+                let Some(e) = element else { return };
+                let ends = [(e.group.a, e.group.b, e.arm_a), (e.group.b, e.group.a, e.arm_b)];
+                for (_, other, arm) in ends.into_iter().filter(|(body, ..)| *body == here) {
+                    let mut add = |stiffness, u: P::Vector| add(stiffness, other, u, arm.cross(u));
+                    let tension = signal.value.abs();
+                    let stretch = e.stretch.displacement;
+                    *turning = *turning + taut(tension, stretch, arm, &mut add);
+                }
+            }
+            Mount::Torsion(spring) => {
+                let Some((spring, &turns)) = view.torsions.iter().zip(self.turns).nth(spring)
+                else {
+                    return;
+                };
+                let other = if spring.a == here { spring.b } else { spring.a };
+                let Some(twist) = twist_of::<P>(spring, self.bodies, turns) else { return };
+                let gradient = match places.frames.get(spring.a.row()) {
+                    Some(frame) => P::moment_to_world(frame, twist.gradient),
+                    None => twist.gradient,
+                };
+                add(spring.stiffness, other, P::Vector::ZERO, gradient);
+                *turning = *turning + spring.turning(twist.angle, gradient);
+            }
+        }
+    }
+
+    /// The bound of the eigenvalues of a body's block once all mounts are in it.
+    fn eigenvalue(&self, row: usize, block: BodyBlock<P::Real>) -> P::Real {
+        let Some(body) = self.view.bodies.get(row) else { return P::Real::ZERO };
+        let BodyBlock { mut stiffness, turning } = block;
+        for axis in P::Moment::axes() {
+            add_row(&mut stiffness, turning, scaled(body, P::Vector::ZERO, axis));
+        }
+        largest_eigenvalue(stiffness)
+    }
+}
+
+/// `M^-1/2·(u, n)`.
+fn scaled<S: Space>(body: &Body<S>, u: S::Vector, n: S::Moment) -> [S::Real; 6] {
+    let m = body.inverse_mass.sqrt();
+    let i = body.inverse_inertia.in_space();
+    let (u, n) = (u.in_space(), n.in_space());
+    [u.x * m, u.y * m, u.z * m, n.x * i.x.sqrt(), n.y * i.y.sqrt(), n.z * i.z.sqrt()]
+}
+
+/// Adds `stiffness·j·jᵀ`.
+fn add_row<R: Real>(block: &mut Block<R>, stiffness: R, j: [R; 6]) {
+    for (row, a) in block.iter_mut().zip(j) {
+        for (entry, b) in row.iter_mut().zip(j) {
+            *entry = *entry + stiffness * a * b;
+        }
+    }
+}
+
+/// An upper bound of the largest eigenvalue of a positive semidefinite block.
+fn largest_eigenvalue<R: Real>(mut block: Block<R>) -> R {
+    let mut traces = [R::ZERO; SQUARINGS + 1];
+    for (k, slot) in traces.iter_mut().enumerate() {
+        let mut trace = R::ZERO;
+        for (i, row) in block.iter().enumerate() {
+            trace = trace + row[i];
+        }
+        *slot = trace;
+        if trace == R::ZERO || k == SQUARINGS {
+            break;
+        }
+        let inverse = R::ONE / trace;
+        for row in &mut block {
+            for entry in row {
+                *entry = *entry * inverse;
+            }
+        }
+        let s = block;
+        for (i, row) in block.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry = s[i].iter().zip(&s).fold(R::ZERO, |sum, (a, b)| sum + *a * b[j]);
+            }
+        }
+    }
+    // S = t0·S1 with trace 1, S1² = t1·S2, …: λ ≤ t0·√(t1·√(t2·…)).
+    let mut eigenvalue = R::ONE;
+    for trace in traces.iter().rev() {
+        eigenvalue = *trace * eigenvalue.sqrt();
+    }
+    eigenvalue * R::from_f64(ROUNDING_MARGIN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_eigenvalue_bound_is_tight_and_above() {
+        let mut block = [[0.0; 6]; 6];
+        add_row(&mut block, 3.0, [1.0, 2.0, 0.0, 0.0, 0.0, 1.0]);
+        add_row(&mut block, 1.0, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
+        let exact = 3.0 * 6.0;
+        let bound = largest_eigenvalue(block);
+        assert!(bound >= exact && bound < exact * 1.008, "{bound}");
+        assert_eq!(largest_eigenvalue([[0.0_f64; 6]; 6]), 0.0);
+    }
+}

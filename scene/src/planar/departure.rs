@@ -1,0 +1,124 @@
+//! What leaves a plane, and by how much.
+//!
+//! `part of a scene, how far off => words; the table that it stands in => refusal with its place`.
+
+use crate::Scene;
+use crate::error::SceneError;
+use crate::text::Table;
+use dbd_kernel::readouts::Readout;
+
+/// A part of a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The field of gravity.
+    Gravity,
+    /// A body by its row, spiders after those of the file.
+    Body(usize),
+    /// A joint by its row.
+    Joint(usize),
+    /// A raw element by its row: TSDAs, then points on lines.
+    Raw(usize),
+    /// A torsion spring by its row, those that only count turns after those of the file.
+    TorsionSpring(usize),
+    /// A load by its row.
+    Load(usize),
+    /// An input by its row.
+    Input(usize),
+}
+
+/// A part of a scene that leaves a plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Departure {
+    /// Which.
+    pub part: Part,
+    /// The key of its table that says so, where one does.
+    pub key: &'static str,
+    /// By how much, to be read after its name: "leaves the plane z = 0 by 0.02 m".
+    pub problem: String,
+}
+
+/// What leaves the plane that the least of a scene leaves, at least one thing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unplanar {
+    /// What messages call the plane: `z = 0`.
+    pub plane: String,
+    /// In the order of gravity, bodies, joints and raw elements, torsion springs, loads, inputs.
+    pub departures: Vec<Departure>,
+}
+
+impl Departure {
+    /// What messages call the part, and by how much it leaves the plane.
+    #[must_use]
+    pub fn text(&self, scene: &Scene) -> String {
+        let named = |kind: &str, name: Option<&String>| match name {
+            Some(name) => format!("{kind} `{name}`"),
+            None => kind.to_owned(),
+        };
+        let name = match self.part {
+            Part::Gravity => "gravity".into(),
+            Part::Body(row) => named("body", scene.body_names.get(row)),
+            Part::Joint(row) => named("joint", scene.joints.get(row).map(|joint| &joint.name)),
+            Part::Raw(row) => scene.raw_names.get(row).cloned().unwrap_or_default(),
+            Part::TorsionSpring(row) => scene.torsion_names.get(row).cloned().unwrap_or_default(),
+            Part::Load(row) => format!("load {}", row + 1),
+            Part::Input(row) => named("input", scene.inputs.get(row).map(|input| &input.name)),
+        };
+        format!("{name} {}", self.problem)
+    }
+}
+
+impl Unplanar {
+    /// Refuses the scene at the place of the first thing that leaves the plane.
+    pub(crate) fn refuse(&self, scene: &Scene, root: &Table<'_>) -> SceneError {
+        let plane = &self.plane;
+        let Some(first) = self.departures.first() else {
+            return root.refuse_value("planar", "is of no plane", "a scene that lies in a plane");
+        };
+        let more = match self.departures.len() - 1 {
+            0 => String::new(),
+            1 => format!(", as 1 other thing does that `host-sim check` names without `planar`"),
+            more => {
+                format!(", as {more} other things do that `host-sim check` counts without `planar`")
+            }
+        };
+        let help = format!(
+            "with `planar = true` all of a scene lies in one plane and moves along it, here {plane}; \
+             put it there, or leave out `planar`{more}"
+        );
+        let place = place(first.part, scene).and_then(|(kind, row)| {
+            let tables = root.list(kind).ok()?;
+            Some(tables.into_iter().nth(row)?.refuse_value(first.key, &first.problem, help.clone()))
+        });
+        place.unwrap_or_else(|| root.refuse_value(first.key, &first.problem, help))
+    }
+}
+
+/// The kind of table that a part stands in, and its row among those.
+fn place(part: Part, scene: &Scene) -> Option<(&'static str, usize)> {
+    let lines = &scene.file_lines;
+    match part {
+        Part::Gravity => None,
+        Part::Body(row) if row < lines.bodies.len() => Some(("body", row)),
+        Part::Body(row) => {
+            let name = scene.body_names.get(row);
+            let spider = scene.joints.iter().position(|joint| joint.spider.as_ref() == name);
+            spider.map(|row| ("joint", row))
+        }
+        Part::Joint(row) => Some(("joint", row)),
+        Part::Raw(row) if row < lines.tsdas.len() => Some(("tsda", row)),
+        Part::Raw(row) => Some(("point_on_line", row - lines.tsdas.len())),
+        Part::TorsionSpring(row) if row < lines.torsion_springs.len() => {
+            Some(("torsion_spring", row))
+        }
+        Part::TorsionSpring(row) => {
+            let counts = |readout: &Readout<dbd_kernel::F64>| {
+                matches!(readout, Readout::JointAngle { spring } | Readout::JointRate { spring }
+                    if usize::from(*spring) == row)
+            };
+            let readout = scene.readouts.iter().position(|info| counts(&info.readout));
+            readout.map(|row| ("readout", row))
+        }
+        Part::Load(row) => Some(("load", row)),
+        Part::Input(row) => Some(("input", row)),
+    }
+}

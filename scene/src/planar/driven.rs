@@ -1,0 +1,144 @@
+//! Torsion springs, loads and inputs in a plane.
+//!
+//! `scene, plane => the same in the plane, what leaves it`.
+
+use dbd_kernel::attitude::Attitude as _;
+use dbd_kernel::elements::input::{Input, InputKind};
+use dbd_kernel::index::DamperIndex;
+use dbd_kernel::{BodyIndex, F64, Load, LoadFrame, Quaternion, TorsionSpring, Vec3};
+
+use crate::Scene;
+use crate::planar::Leaves;
+use crate::planar::departure::Part;
+use crate::planar::plane::{ALIKE, Plane, short};
+use crate::runtime::SceneModel;
+
+/// Adds torsion springs, loads, inputs and their tables.
+pub(super) fn read(
+    scene: &Scene,
+    plane: &Plane,
+    near: f64,
+    model: &mut SceneModel<F64>,
+    leaves: &mut Leaves<'_>,
+) {
+    torsion_springs(scene, plane, model, leaves);
+    for (row, load) in scene.model.loads.iter().enumerate() {
+        let turn = |v: Vec3<f64>| within(plane, load.body, load.frame, v);
+        let (force, torque) = (turn(load.force), turn(load.torque));
+        let part = Part::Load(row);
+        if force.z.abs() > ALIKE * length(force) {
+            leaves(part, "force", &format!(": {} N along its normal", short(force.z)));
+        }
+        let beside = libm::hypot(torque.x, torque.y);
+        if beside > ALIKE * length(torque) {
+            let by = format!(": {} N·m about an axis that lies in it", short(beside));
+            leaves(part, "torque", &by);
+        }
+        let (force, torque) = (flat(force), Vec3::new(0.0, 0.0, torque.z));
+        model.loads.push(Load { force, torque, ..*load });
+    }
+    for (row, input) in scene.model.inputs.iter().enumerate() {
+        let kind = kind(plane, near, input.kind, &mut |key, by| {
+            leaves(Part::Input(row), key, by);
+        });
+        model.inputs.push(Input { kind, ..*input });
+    }
+    model.knots.clone_from(&scene.model.knots);
+}
+
+fn torsion_springs(
+    scene: &Scene,
+    plane: &Plane,
+    model: &mut SceneModel<F64>,
+    leaves: &mut Leaves<'_>,
+) {
+    for (row, spring) in scene.model.torsions.iter().enumerate() {
+        let axis = plane.of_body_inward(spring.a.row(), spring.axis);
+        if let Some(lean) = lean(axis) {
+            let by = format!(": its axis leans by {} degrees from the normal", short(lean));
+            leaves(Part::TorsionSpring(row), "axis", &by);
+        }
+        let orientation =
+            |body: BodyIndex| model.initial.get(body.row()).map(|state| &state.orientation);
+        let relative = Quaternion::relative(orientation(spring.a), orientation(spring.b));
+        let damping = spring.damper.row().and_then(|row| scene.model.dampers.get(row));
+        let damper = match damping {
+            Some(damping) => {
+                model.dampers.push(*damping);
+                DamperIndex((model.dampers.len() - 1) as u16)
+            }
+            None => spring.damper,
+        };
+        let axis = Vec3::new(0.0, 0.0, if axis.z < 0.0 { -1.0 } else { 1.0 });
+        let reference = relative.conjugate();
+        model.torsions.push(TorsionSpring { axis, reference, damper, ..*spring });
+    }
+}
+
+/// What an input does in the plane; `leaves` is told the key and by how much it leaves that.
+fn kind(
+    plane: &Plane,
+    near: f64,
+    kind: InputKind<F64>,
+    leaves: &mut dyn FnMut(&'static str, &str),
+) -> InputKind<F64> {
+    let mut in_plane = |direction: Vec3<f64>| {
+        if direction.z.abs() > ALIKE {
+            let lean = libm::asin(direction.z.abs().min(1.0)).to_degrees();
+            leaves("axis", &format!(": its axis leans by {} degrees", short(lean)));
+        }
+        flat(direction)
+    };
+    match kind {
+        InputKind::Force { body, point, direction, frame } => {
+            let direction = in_plane(within(plane, body, frame, direction));
+            let point = plane.point_inward(body.row(), point);
+            if point.z.abs() > near {
+                leaves("point", &format!(" by {} m", short(point.z)));
+            }
+            InputKind::Force { body, point: flat(point), direction, frame }
+        }
+        InputKind::Torque { body, axis, frame } => {
+            let axis = normal(within(plane, body, frame, axis), leaves);
+            InputKind::Torque { body, axis, frame }
+        }
+        InputKind::JointTorque { a, b, axis } => {
+            let axis = normal(plane.of_body_inward(a.row(), axis), leaves);
+            InputKind::JointTorque { a, b, axis }
+        }
+        InputKind::Actuator { .. } => kind,
+        InputKind::Anchor { direction } => {
+            InputKind::Anchor { direction: in_plane(plane.inward(direction)) }
+        }
+    }
+}
+
+/// An axis that should be the normal.
+fn normal(axis: Vec3<f64>, leaves: &mut dyn FnMut(&'static str, &str)) -> Vec3<f64> {
+    if let Some(lean) = lean(axis) {
+        leaves("axis", &format!(": its axis leans by {} degrees from the normal", short(lean)));
+    }
+    Vec3::new(0.0, 0.0, if axis.z < 0.0 { -1.0 } else { 1.0 })
+}
+
+/// \[degrees\] by how much an axis leans from the normal, where it does.
+fn lean(axis: Vec3<f64>) -> Option<f64> {
+    let beside = libm::hypot(axis.x, axis.y);
+    (beside > ALIKE).then(|| libm::atan2(beside, axis.z.abs()).to_degrees())
+}
+
+/// A vector of the world or of a body in the plane's axes.
+fn within(plane: &Plane, body: BodyIndex, frame: LoadFrame, v: Vec3<f64>) -> Vec3<f64> {
+    match frame {
+        LoadFrame::World => plane.inward(v),
+        LoadFrame::Body => plane.of_body_inward(body.row(), v),
+    }
+}
+
+fn flat(v: Vec3<f64>) -> Vec3<f64> {
+    Vec3::new(v.x, v.y, 0.0)
+}
+
+fn length(v: Vec3<f64>) -> f64 {
+    libm::sqrt(v.dot(v))
+}

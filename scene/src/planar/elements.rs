@@ -1,0 +1,171 @@
+//! The elements of a group as a plane sees them.
+//!
+//! `(model, plane, group) => elements in the plane's axes, directions in which they act; whether what
+//! happens in the plane stays there`. A group stays where its stiffness at rest does not couple the
+//! plane's three freedoms with the three that leave it: a force in the plane then moves nothing out of it.
+//! Dampers are judged alone where there are no springs: those of a guide act on points beside its lines,
+//! across what its springs hold.
+
+use dbd_kernel::model::{Group, Law};
+use dbd_kernel::{BodyIndex, BodyState, F64, Vec3};
+
+use crate::direction::unit;
+use crate::planar::plane::Plane;
+use crate::runtime::SceneModel;
+
+/// The bodies of a scene in a plane.
+pub(super) struct Placed<'p> {
+    pub(super) model: &'p SceneModel<F64>,
+    pub(super) plane: &'p Plane,
+    /// Their states in the plane.
+    pub(super) states: &'p [BodyState<F64>],
+}
+
+impl Placed<'_> {
+    /// Where a point of a body in the plane, in its axes there, lies.
+    pub(super) fn place(&self, body: BodyIndex, point: Vec3<f64>) -> Vec3<f64> {
+        match self.states.get(body.row()) {
+            Some(state) => state.position + state.orientation.rotation().to_world(point),
+            None => point,
+        }
+    }
+
+    /// The elements of a group.
+    pub(super) fn elements(&self, group: &Group) -> Vec<Element> {
+        (0..group.elements()).filter_map(|i| self.element(group, i)).collect()
+    }
+
+    fn element(&self, group: &Group, i: usize) -> Option<Element> {
+        let model = self.model;
+        let arms = usize::from(group.arms);
+        let tip = usize::from(group.stars) + if group.shared { i % arms } else { i };
+        let point = |offset| model.points.get(usize::from(group.point) + offset).copied();
+        let centre = self.plane.point_inward(group.a.row(), point(i / arms)?);
+        let tip = self.plane.point_inward(group.b.row(), point(tip)?);
+        let row = usize::from(group.element) + i;
+        let (stiffness, free_length, line) = match group.law {
+            Law::Tsda => model.tsdas.get(row).map(|e| (e.stiffness, e.free_length, None))?,
+            Law::PointBushing => model.bushings.get(row).map(|e| (e.stiffness, 0.0, None))?,
+            // In the plane each is its point alone.
+            Law::Revolute => model.revolutes.get(row).map(|e| (e.stiffness, 0.0, None))?,
+            Law::Universal => model.universals.get(row).map(|e| (e.stiffness, 0.0, None))?,
+            Law::PointOnLine => {
+                let line = model.lines.get(row)?;
+                let along = self.plane.of_body_inward(group.a.row(), line.direction);
+                let along = match self.states.get(group.a.row()) {
+                    Some(state) => state.orientation.rotation().to_world(along),
+                    None => along,
+                };
+                (line.stiffness, line.free_length, Some(along))
+            }
+        };
+        let damping = group.damper.row().and_then(|first| model.dampers.get(first + i));
+        Some(Element {
+            from: self.place(group.a, centre),
+            to: self.place(group.b, tip),
+            centre,
+            tip,
+            line,
+            stiffness,
+            damping: damping.copied().unwrap_or(0.0),
+            free_length,
+        })
+    }
+}
+
+/// An element at rest, in the plane's axes; z is off the plane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Element {
+    /// \[m\] its first point, or one of its line.
+    pub(super) from: Vec3<f64>,
+    /// \[m\] its second point.
+    pub(super) to: Vec3<f64>,
+    /// \[m\] the first point in the axes of its body in the plane.
+    pub(super) centre: Vec3<f64>,
+    /// \[m\] the second likewise.
+    pub(super) tip: Vec3<f64>,
+    /// The direction of its line, of a point on a line.
+    pub(super) line: Option<Vec3<f64>>,
+    /// \[N/m\].
+    pub(super) stiffness: f64,
+    /// \[N·s/m\].
+    pub(super) damping: f64,
+    /// \[m\].
+    pub(super) free_length: f64,
+}
+
+impl Element {
+    /// From its first point, or the foot on its line, to its second.
+    pub(super) fn stretch(&self) -> Vec3<f64> {
+        let d = self.to - self.from;
+        match self.line {
+            Some(line) => d - line * d.dot(line),
+            None => d,
+        }
+    }
+
+    /// Its direction; `None` where it has no free length, or no direction.
+    pub(super) fn direction(&self) -> Option<Vec3<f64>> {
+        if self.free_length == 0.0 { None } else { unit(self.stretch()) }
+    }
+
+    /// Whether it lies in the plane, `near` \[m\] or nearer.
+    pub(super) fn is_flat(&self, near: f64) -> bool {
+        self.from.z.abs() <= near && self.to.z.abs() <= near
+    }
+
+    /// What it does, as springs and dampers along unit directions: (direction, N/m, N·s/m).
+    fn acts(&self) -> Vec<(Vec3<f64>, f64, f64)> {
+        let (k, c) = (self.stiffness, self.damping);
+        match (self.line, self.direction()) {
+            (None, Some(along)) => vec![(along, k, c)],
+            (None, None) => Vec3::axes().map(|axis| (axis, k, c)).to_vec(),
+            (Some(line), Some(across)) => vec![(across, k, c), (line.cross(across), 0.0, c)],
+            (Some(line), None) => line.normals().map(|normal| (normal, k, c)).to_vec(),
+        }
+    }
+}
+
+/// How a group takes to a plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Coupling {
+    /// \[m\] how far off the plane its in-plane stiffness is centred.
+    pub(super) height: f64,
+    /// \[1\] the largest force or torque (over the size of the group) out of the plane beside that in it
+    /// which goes with it.
+    pub(super) share: f64,
+}
+
+/// How far what a group does in the plane and what it does out of it are one.
+pub(super) fn coupling(elements: &[Element]) -> Coupling {
+    let count = elements.len().max(1) as f64;
+    let middle = elements.iter().fold(Vec3::ZERO, |sum, e| sum + e.to) * (1.0 / count);
+    let middle = Vec3::new(middle.x, middle.y, 0.0);
+    let size = elements.iter().map(|e| e.to - middle).map(|r| libm::sqrt(r.dot(r)));
+    let size = size.fold(0.0, f64::max);
+    let size = if size > 0.0 { size } else { 1.0 };
+    let of = |strength: fn(&(Vec3<f64>, f64, f64)) -> f64| {
+        let mut block = [[0.0_f64; 3]; 3];
+        let (mut whole, mut moment) = (0.0, 0.0);
+        for element in elements {
+            let arm = (element.to - middle) * (1.0 / size);
+            for act in element.acts() {
+                let (u, strength) = (act.0, strength(&act));
+                let turn = arm.cross(u);
+                let (within, beyond) = ([u.x, u.y, turn.z], [u.z, turn.x, turn.y]);
+                let in_plane = strength * (u.x * u.x + u.y * u.y);
+                whole += in_plane;
+                moment += in_plane * element.to.z;
+                for (row, a) in block.iter_mut().zip(within) {
+                    for (entry, b) in row.iter_mut().zip(beyond) {
+                        *entry += strength * a * b;
+                    }
+                }
+            }
+        }
+        let most = block.as_flattened().iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        (whole > 0.0).then(|| Coupling { height: moment / whole, share: most / whole })
+    };
+    let none = Coupling { height: 0.0, share: 0.0 };
+    of(|act| act.1).or_else(|| of(|act| act.2)).unwrap_or(none)
+}

@@ -1,0 +1,161 @@
+//! The way back from the plane to the world: models, read-outs and what they show.
+//!
+//! `model of the plane => the same elements in the world's axes; read-out => read-out of the plane;
+//! reading of the plane => reading`. The model in the world is what states in the world go with:
+//! energies, tensions and forces of a planar run are those of its elements there.
+
+use dbd_kernel::elements::input::{Input, InputKind};
+use dbd_kernel::model::Law;
+use dbd_kernel::readouts::{Reading, Readout};
+use dbd_kernel::{
+    Body, BodyIndex, BodyState, F64, Load, LoadFrame, PointOnLine, TorsionSpring, Vec3,
+};
+
+use crate::planar::Planar;
+use crate::runtime::SceneModel;
+
+impl Planar {
+    /// A model of the plane, this one or a rounding of it, in the world's axes. `whole` is the spatial
+    /// model, of whose bodies the moments are that the plane does not know.
+    #[must_use]
+    pub fn in_world(&self, whole: &SceneModel<F64>, flat: &SceneModel<F64>) -> SceneModel<F64> {
+        let plane = &self.plane;
+        let bodies = flat.bodies.iter().zip(&whole.bodies).enumerate();
+        let states = flat.initial.iter().enumerate();
+        let load = |load: &Load<f64>| Load {
+            force: self.outward(load.body, load.frame, load.force),
+            torque: self.outward(load.body, load.frame, load.torque),
+            ..*load
+        };
+        let torsion = |spring: &TorsionSpring<f64>| TorsionSpring {
+            axis: plane.of_body_outward(spring.a.row(), spring.axis),
+            reference: plane.turn_outward(spring.a.row(), spring.b.row(), spring.reference),
+            ..*spring
+        };
+        let input = |input: &Input<F64>| Input { kind: self.kind_outward(input.kind), ..*input };
+        SceneModel {
+            bodies: bodies.map(|(row, (flat, whole))| self.body(row, flat, whole)).collect(),
+            initial: states.map(|(row, state)| plane.state_outward(row, state)).collect(),
+            gravity: flat.gravity.iter().map(|g| plane.outward(*g)).collect(),
+            points: self.points_outward(flat),
+            lines: self.lines_outward(flat),
+            torsions: flat.torsions.iter().map(torsion).collect(),
+            loads: flat.loads.iter().map(load).collect(),
+            inputs: flat.inputs.iter().map(input).collect(),
+            ..flat.clone()
+        }
+    }
+
+    /// A state in the plane as one in the world, bodies in their order.
+    pub fn states_outward(&self, states: &mut [BodyState<F64>]) {
+        for (row, state) in states.iter_mut().enumerate() {
+            *state = self.plane.state_outward(row, state);
+        }
+    }
+
+    /// A read-out of the scene as one of the model in the plane.
+    #[must_use]
+    pub fn readout(&self, readout: &Readout<F64>) -> Readout<F64> {
+        let flat = |body: BodyIndex, point| {
+            let point = self.plane.point_inward(body.row(), point);
+            Vec3::new(point.x, point.y, 0.0)
+        };
+        match *readout {
+            Readout::Point { body, point } => Readout::Point { body, point: flat(body, point) },
+            Readout::PointVelocity { body, point } => {
+                Readout::PointVelocity { body, point: flat(body, point) }
+            }
+            Readout::Imu { body, point } => Readout::Imu { body, point: flat(body, point) },
+            other => other,
+        }
+    }
+
+    /// What a read-out of the scene shows, from what that of the plane shows.
+    #[must_use]
+    pub fn reading(&self, readout: &Readout<F64>, reading: Reading<f64>) -> Reading<f64> {
+        let plane = &self.plane;
+        match (reading, *readout) {
+            (Reading::Vector(v), Readout::Point { body, point }) => {
+                let off = plane.point_inward(body.row(), point).z;
+                Reading::Vector(plane.place_outward(Vec3::new(v.x, v.y, off)))
+            }
+            (Reading::Vector(v), _) => Reading::Vector(plane.outward(v)),
+            (Reading::Imu { specific_force, rate }, Readout::Imu { body, .. }) => Reading::Imu {
+                specific_force: plane.of_body_outward(body.row(), specific_force),
+                rate: plane.of_body_outward(body.row(), rate),
+            },
+            (other, _) => other,
+        }
+    }
+
+    /// A body with the mass and the moment about the normal that the plane has.
+    fn body(&self, row: usize, flat: &Body<f64>, whole: &Body<f64>) -> Body<f64> {
+        let normal = self.plane.of_body_outward(row, Vec3::new(0.0, 0.0, 1.0));
+        let mut inertia = whole.inertia.to_f64();
+        for (moment, along) in inertia.iter_mut().zip(normal.to_f64()) {
+            if along.abs() == 1.0 {
+                *moment = flat.inertia.z;
+            }
+        }
+        Body::from_f64(flat.mass, inertia)
+    }
+
+    fn point_outward(&self, body: BodyIndex, point: Vec3<f64>) -> Vec3<f64> {
+        if body.is_world() {
+            self.plane.place_outward(point)
+        } else {
+            self.plane.of_body_outward(body.row(), point)
+        }
+    }
+
+    fn points_outward(&self, flat: &SceneModel<F64>) -> Vec<Vec3<f64>> {
+        let mut points = flat.points.clone();
+        for group in &flat.groups {
+            let first = usize::from(group.point);
+            let own = &mut points[first..first + group.points()];
+            let (centres, tips) = own.split_at_mut(usize::from(group.stars));
+            centres.iter_mut().for_each(|point| *point = self.point_outward(group.a, *point));
+            tips.iter_mut().for_each(|point| *point = self.point_outward(group.b, *point));
+        }
+        points
+    }
+
+    fn lines_outward(&self, flat: &SceneModel<F64>) -> Vec<PointOnLine<f64>> {
+        let mut lines = flat.lines.clone();
+        for group in flat.groups.iter().filter(|group| group.law == Law::PointOnLine) {
+            let first = usize::from(group.element);
+            for line in &mut lines[first..first + group.elements()] {
+                line.direction = self.plane.of_body_outward(group.a.row(), line.direction);
+            }
+        }
+        lines
+    }
+
+    fn outward(&self, body: BodyIndex, frame: LoadFrame, v: Vec3<f64>) -> Vec3<f64> {
+        match frame {
+            LoadFrame::World => self.plane.outward(v),
+            LoadFrame::Body => self.plane.of_body_outward(body.row(), v),
+        }
+    }
+
+    fn kind_outward(&self, kind: InputKind<F64>) -> InputKind<F64> {
+        match kind {
+            InputKind::Force { body, point, direction, frame } => InputKind::Force {
+                body,
+                point: self.point_outward(body, point),
+                direction: self.outward(body, frame, direction),
+                frame,
+            },
+            InputKind::Torque { body, axis, frame } => {
+                InputKind::Torque { body, axis: self.outward(body, frame, axis), frame }
+            }
+            InputKind::JointTorque { a, b, axis } => {
+                InputKind::JointTorque { a, b, axis: self.plane.of_body_outward(a.row(), axis) }
+            }
+            InputKind::Actuator { .. } => kind,
+            InputKind::Anchor { direction } => {
+                InputKind::Anchor { direction: self.plane.outward(direction) }
+            }
+        }
+    }
+}

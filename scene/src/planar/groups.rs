@@ -1,0 +1,195 @@
+//! Groups in a plane.
+//!
+//! `scene, bodies in the plane => groups with the same numbers, what leaves the plane`.
+
+use dbd_kernel::index::{ClearanceIndex, DamperIndex};
+use dbd_kernel::model::{Group, Law};
+use dbd_kernel::{BodyState, F64, PointBushing, PointOnLine, Tsda, Vec3};
+
+use crate::Scene;
+use crate::planar::Leaves;
+use crate::planar::departure::Part;
+use crate::planar::elements::{Element, Placed, coupling};
+use crate::planar::plane::{ALIKE, Plane, short};
+use crate::planar::reduced::{Arm, Reduced, reduced};
+use crate::runtime::SceneModel;
+
+/// What of a joint's strength may act across the plane.
+const ACROSS: f64 = 1e-8;
+
+/// Adds all groups; rows of those that are as stiff at rest only.
+pub(super) fn read(
+    scene: &Scene,
+    plane: &Plane,
+    near: f64,
+    model: &mut SceneModel<F64>,
+    leaves: &mut Leaves<'_>,
+) -> Vec<usize> {
+    let states = model.initial.clone();
+    let placed = Placed { model: &scene.model, plane, states: &states };
+    let raw = scene.joints.last().map_or(0, |joint| joint.groups.end);
+    let mut owners = scene
+        .joints
+        .iter()
+        .enumerate()
+        .flat_map(|(row, joint)| joint.groups.clone().map(move |_| row));
+    let mut at_rest = Vec::new();
+    for (row, group) in scene.model.groups.iter().enumerate() {
+        let elements = placed.elements(group);
+        let clearance = group.clearance.row().and_then(|row| scene.model.clearances.get(row));
+        let part = match owners.next() {
+            Some(joint) => {
+                let turns = turns(scene, plane, joint);
+                stays(Part::Joint(joint), &elements, turns, near, leaves);
+                Part::Joint(joint)
+            }
+            None => {
+                lies(Part::Raw(row - raw), &elements, near, leaves);
+                Part::Raw(row - raw)
+            }
+        };
+        let law = match group.law {
+            Law::Revolute | Law::Universal => Law::PointBushing,
+            law => law,
+        };
+        match reduced(law, &elements, clearance.copied().unwrap_or(0.0), near) {
+            Ok(found) => {
+                if !found.is_exact {
+                    at_rest.push(row);
+                }
+                add(model, &states, group, &found);
+            }
+            Err(obstacle) => leaves(part, "type", &format!(": it {obstacle}")),
+        }
+    }
+    at_rest
+}
+
+/// \[degrees\] by how much the axis of a revolute, the nearer one of a universal joint, leans from the
+/// normal; `None` where it does not, and of joints that need not turn to move in the plane.
+fn turns(scene: &Scene, plane: &Plane, joint: usize) -> Option<f64> {
+    let joint = scene.joints.get(joint)?;
+    if !["revolute", "universal"].contains(&joint.kind) {
+        return None;
+    }
+    let axes = joint.hinges.iter().map(|hinge| plane.of_body_inward(hinge.a.row(), hinge.axis));
+    let leans = axes.map(|axis| libm::atan2(libm::hypot(axis.x, axis.y), axis.z.abs()));
+    let least = leans.fold(f64::INFINITY, f64::min);
+    (least > ALIKE).then(|| least.to_degrees())
+}
+
+/// Tells of a joint that does not stay in the plane.
+fn stays(part: Part, elements: &[Element], turns: Option<f64>, near: f64, leaves: &mut Leaves<'_>) {
+    let found = coupling(elements);
+    if let Some(lean) = turns {
+        leaves(
+            part,
+            "axis",
+            &format!(": its axis leans by {} degrees from the normal", short(lean)),
+        );
+    } else if found.height.abs() > near {
+        leaves(part, "at", &format!(" by {} m", short(found.height)));
+    } else if found.share > ACROSS {
+        let by = format!(": of a force in it {} acts across it", short(found.share));
+        leaves(part, "axis", &by);
+    }
+}
+
+/// Tells of a raw element that does not lie in the plane.
+fn lies(part: Part, elements: &[Element], near: f64, leaves: &mut Leaves<'_>) {
+    for element in elements {
+        let off = |v: Vec3<f64>| if v.z.abs() > near { Some(v.z) } else { None };
+        // Of a line normal to the plane any point will do.
+        let from = if element.line.is_some_and(|line| line.z.abs() > 0.5) {
+            None
+        } else {
+            off(element.from)
+        };
+        let key = if element.line.is_some() { ["line_point", "point"] } else { ["points"; 2] };
+        for (z, key) in [from, off(element.to)].into_iter().zip(key) {
+            if let Some(z) = z {
+                leaves(part, key, &format!(" by {} m", short(z)));
+                return;
+            }
+        }
+    }
+}
+
+/// Adds a group between the bodies of another.
+fn add(model: &mut SceneModel<F64>, states: &[BodyState<F64>], of: &Group, reduced: &Reduced) {
+    let Reduced { law, line, stars, clearance, .. } = reduced;
+    let alike = stars.iter().all(|star| star.len() == stars[0].len());
+    let alone: Vec<Vec<Arm>>;
+    let stars = if alike && stars[0].len() <= 3 {
+        stars
+    } else {
+        alone = stars.iter().flatten().map(|arm| vec![*arm]).collect();
+        &alone
+    };
+    let arms: Vec<&Arm> = stars.iter().flatten().collect();
+    let placed = |body: usize, place: Vec3<f64>| match states.get(body) {
+        Some(state) => state.orientation.rotation().to_body(place - state.position),
+        None => place,
+    };
+    let flat = |v: Vec3<f64>| Vec3::new(v.x, v.y, 0.0);
+    let centre = |arm: &Arm| match arm.points {
+        Some([centre, _]) => centre,
+        None => flat(placed(of.a.row(), arm.from)),
+    };
+    let tip = |arm: &Arm| match arm.points {
+        Some([_, tip]) => tip,
+        None => flat(placed(of.b.row(), arm.to)),
+    };
+    let point = model.points.len() as u16;
+    model.points.extend(stars.iter().map(|star| centre(&star[0])));
+    model.points.extend(arms.iter().map(|arm| tip(arm)));
+    let damper = match arms.iter().any(|arm| arm.damping > 0.0) {
+        true => DamperIndex(model.dampers.len() as u16),
+        false => DamperIndex::NONE,
+    };
+    if damper != DamperIndex::NONE {
+        model.dampers.extend(arms.iter().map(|arm| arm.damping));
+    }
+    let own = match *clearance > 0.0 {
+        true => ClearanceIndex(model.clearances.len() as u16),
+        false => ClearanceIndex::NONE,
+    };
+    if own != ClearanceIndex::NONE {
+        model.clearances.push(*clearance);
+    }
+    let element = match law {
+        Law::Tsda => model.tsdas.len(),
+        Law::PointBushing | Law::Revolute | Law::Universal => model.bushings.len(),
+        Law::PointOnLine => model.lines.len(),
+    } as u16;
+    for arm in &arms {
+        let (stiffness, free_length) = (arm.stiffness, arm.free_length);
+        match law {
+            Law::Tsda => model.tsdas.push(Tsda::from_f64(stiffness, free_length)),
+            Law::PointBushing | Law::Revolute | Law::Universal => {
+                model.bushings.push(PointBushing::from_f64(stiffness));
+            }
+            Law::PointOnLine => {
+                let along = line.unwrap_or(Vec3::ZERO);
+                let along = match states.get(of.a.row()) {
+                    Some(state) => state.orientation.rotation().to_body(along),
+                    None => along,
+                };
+                let along = flat(along).to_f64();
+                model.lines.push(PointOnLine::from_f64(along, stiffness, free_length));
+            }
+        }
+    }
+    model.groups.push(Group {
+        law: *law,
+        a: of.a,
+        b: of.b,
+        stars: stars.len() as u8,
+        arms: stars[0].len() as u8,
+        shared: false,
+        point,
+        element,
+        damper,
+        clearance: own,
+    });
+}

@@ -1,0 +1,316 @@
+//! A group in a plane: fewer elements that are as stiff at rest.
+//!
+//! `elements => stars of TSDAs, point bushings or points on lines in the plane`. What lies in the plane is
+//! kept as it is. Else elements that are one in the plane add up; along the normal they hold nothing in
+//! it; what leans acts with the part of its direction that lies in it. A star of more than two arms
+//! becomes two along the principal directions of its stiffness `Σ k·u·uᵀ`; points of a line that are as far
+//! along it become one.
+
+use dbd_kernel::Vec3;
+use dbd_kernel::model::Law;
+
+use crate::planar::elements::Element;
+use crate::planar::plane::ALIKE;
+
+/// An element of the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Arm {
+    /// Where it begins, in the plane.
+    pub(super) from: Vec3<f64>,
+    /// Where it ends.
+    pub(super) to: Vec3<f64>,
+    /// The points in their bodies' axes, where these are those of an element.
+    pub(super) points: Option<[Vec3<f64>; 2]>,
+    /// \[N/m\].
+    pub(super) stiffness: f64,
+    /// \[N·s/m\].
+    pub(super) damping: f64,
+    /// \[m\].
+    pub(super) free_length: f64,
+    /// \[m\] what is told of it where it is one of many that two stand for: see [`condensed`].
+    reach: f64,
+}
+
+/// A group in the plane.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Reduced {
+    /// The law of its elements.
+    pub(super) law: Law,
+    /// The direction of its lines, where they are some.
+    pub(super) line: Option<Vec3<f64>>,
+    /// Per star its arms.
+    pub(super) stars: Vec<Vec<Arm>>,
+    /// \[m\] 0 without one.
+    pub(super) clearance: f64,
+    /// Whether it does in the plane exactly what it did there, at any stretch.
+    pub(super) is_exact: bool,
+}
+
+/// Why a group cannot be reduced, to be read after its name.
+pub(super) type Obstacle = String;
+
+/// A group in the plane; `near` \[m\] is one place.
+pub(super) fn reduced(
+    law: Law,
+    elements: &[Element],
+    clearance: f64,
+    near: f64,
+) -> Result<Reduced, Obstacle> {
+    let line = elements.iter().find_map(|element| element.line);
+    match (law, line) {
+        (Law::PointOnLine, Some(line)) if line.z.abs() <= ALIKE => {
+            lines(elements, line, clearance, near)
+        }
+        (Law::PointOnLine, Some(line)) if 1.0 - line.z.abs() > ALIKE => {
+            Err("has a line that leans against the plane".into())
+        }
+        (Law::PointBushing, _) => Ok(bushings(elements, near)),
+        (Law::PointOnLine, _) if elements.iter().all(|e| e.free_length == 0.0) => {
+            // Normal to the plane a line is a point of it.
+            Ok(bushings(elements, near))
+        }
+        _ => stars(elements, clearance, near),
+    }
+}
+
+fn flat(v: Vec3<f64>) -> Vec3<f64> {
+    Vec3::new(v.x, v.y, 0.0)
+}
+
+fn length(v: Vec3<f64>) -> f64 {
+    libm::sqrt(v.dot(v))
+}
+
+fn is_near(a: Vec3<f64>, b: Vec3<f64>, near: f64) -> bool {
+    length(a - b) <= near
+}
+
+fn bushings(elements: &[Element], near: f64) -> Reduced {
+    let mut arms: Vec<Arm> = Vec::new();
+    for element in elements {
+        let arm = arm(element, element.stiffness, element.damping, 0.0);
+        add(&mut arms, arm, near);
+    }
+    let stars = arms.into_iter().map(|arm| vec![arm]).collect();
+    Reduced { law: Law::PointBushing, line: None, stars, clearance: 0.0, is_exact: true }
+}
+
+fn arm(element: &Element, stiffness: f64, damping: f64, free_length: f64) -> Arm {
+    Arm {
+        from: flat(element.from),
+        to: flat(element.to),
+        points: Some([flat(element.centre), flat(element.tip)]),
+        stiffness,
+        damping,
+        free_length,
+        reach: free_length,
+    }
+}
+
+/// Adds an element, to one between the same points where there is one.
+fn add(arms: &mut Vec<Arm>, arm: Arm, near: f64) {
+    let same = |other: &&mut Arm| {
+        is_near(other.from, arm.from, near)
+            && is_near(other.to, arm.to, near)
+            && (other.free_length - arm.free_length).abs() <= near
+    };
+    match arms.iter_mut().find(same) {
+        Some(other) => {
+            other.stiffness += arm.stiffness;
+            other.damping += arm.damping;
+        }
+        None => arms.push(arm),
+    }
+}
+
+/// TSDAs, and points on lines normal to the plane.
+fn stars(elements: &[Element], clearance: f64, near: f64) -> Result<Reduced, Obstacle> {
+    let mut arms: Vec<Arm> = Vec::new();
+    // \[N·s/m\] what lines damp in every direction.
+    let mut around = 0.0;
+    let (mut lean, mut is_exact) = (1.0, true);
+    for element in elements {
+        let Some(along) = element.direction() else { continue };
+        let share = length(flat(along));
+        if share <= ALIKE {
+            is_exact = false;
+            continue;
+        }
+        let is_parallel = 1.0 - share <= ALIKE;
+        is_exact &= is_parallel;
+        lean = share;
+        let square = if is_parallel { 1.0 } else { share * share };
+        let free_length =
+            if is_parallel { element.free_length } else { element.free_length * share };
+        let of_line = element.line.is_some();
+        around += if of_line { element.damping } else { 0.0 };
+        let damping = if of_line { 0.0 } else { element.damping * square };
+        let own = arm(element, element.stiffness * square, damping, free_length);
+        add(&mut arms, Arm { reach: element.free_length / share, ..own }, near);
+    }
+    let mut stars: Vec<Vec<Arm>> = Vec::new();
+    for arm in arms {
+        match stars.iter_mut().find(|star| is_near(star[0].from, arm.from, near)) {
+            Some(star) => star.push(arm),
+            None => stars.push(vec![arm]),
+        }
+    }
+    if around > 0.0 {
+        let [star] = &mut stars[..] else { return Err(damps_across()) };
+        let directions: Vec<_> = star.iter().map(direction).collect();
+        match directions[..] {
+            [u, v] if u.dot(v).abs() <= ALIKE => {
+                star.iter_mut().for_each(|arm| arm.damping += around);
+            }
+            _ => return Err(damps_across()),
+        }
+    }
+    for star in &mut stars {
+        if star.len() > 2 && clearance == 0.0 {
+            if let Some(two) = condensed(star) {
+                *star = two;
+                is_exact = false;
+            }
+        }
+    }
+    if stars.is_empty() {
+        return Err("holds nothing in the plane".into());
+    }
+    let clearance = if clearance > 0.0 { clearance / lean } else { 0.0 };
+    Ok(Reduced { law: Law::Tsda, line: None, stars, clearance, is_exact })
+}
+
+fn damps_across() -> Obstacle {
+    "damps across its spring, which no element of the plane does".into()
+}
+
+/// The unit direction of an arm.
+fn direction(arm: &Arm) -> Vec3<f64> {
+    crate::direction::unit(arm.to - arm.from).unwrap_or(Vec3::new(1.0, 0.0, 0.0))
+}
+
+/// Two arms in place of many, or one where the star is stiff in one direction only; `None` where its
+/// dampers have other principal directions than its springs.
+///
+/// At rest they are as stiff and damp as much in every direction. Their length is free: the mean of
+/// `L0/cos` of the elements, which lean by that cosine. For a pin, K its stiffness, the energy of third
+/// order in a displacement δ is `¼·K·δ³·cos/L0·cos(3·φ)` before and `−½·K·x·y·(x + y)/L` after, whose mean squares over
+/// all directions φ are the same then.
+fn condensed(star: &[Arm]) -> Option<Vec<Arm>> {
+    let sum = |strength: fn(&Arm) -> f64| {
+        star.iter().fold([0.0; 3], |[xx, xy, yy], arm| {
+            let (u, k) = (direction(arm), strength(arm));
+            [xx + k * u.x * u.x, xy + k * u.x * u.y, yy + k * u.y * u.y]
+        })
+    };
+    let (stiff, damp) = (sum(|arm| arm.stiffness), sum(|arm| arm.damping));
+    let whole = |[xx, _, yy]: [f64; 3]| xx + yy;
+    let [xx, xy, yy] = if whole(stiff) > 0.0 { stiff } else { damp };
+    let (first, scale) = (direction(star.first()?), xx + yy);
+    let is_round = (xx - yy).abs() <= ALIKE * scale && xy.abs() <= ALIKE * scale;
+    let main = if is_round {
+        first
+    } else {
+        let angle = 0.5 * libm::atan2(2.0 * xy, xx - yy);
+        let main = Vec3::new(libm::cos(angle), libm::sin(angle), 0.0);
+        if main.dot(first) < 0.0 { -main } else { main }
+    };
+    let across = Vec3::new(-main.y, main.x, 0.0);
+    let along = |[xx, xy, yy]: [f64; 3], u: Vec3<f64>, v: Vec3<f64>| {
+        u.x * (xx * v.x + xy * v.y) + u.y * (xy * v.x + yy * v.y)
+    };
+    if along(damp, main, across).abs() > ALIKE * whole(damp) {
+        return None;
+    }
+    let free_length = star.iter().map(|arm| arm.reach).sum::<f64>() / star.len() as f64;
+    let from = star.first()?.from;
+    let arm = |u: Vec3<f64>| Arm {
+        from,
+        to: from + u * free_length,
+        points: None,
+        stiffness: along(stiff, u, u),
+        damping: along(damp, u, u),
+        free_length,
+        reach: free_length,
+    };
+    let acts =
+        |arm: &Arm| arm.stiffness > ALIKE * whole(stiff) || arm.damping > ALIKE * whole(damp);
+    Some([main, across].map(arm).into_iter().filter(acts).collect())
+}
+
+/// Points that are as far along their lines.
+struct Row {
+    /// \[m\] along the lines.
+    along: f64,
+    /// The one that is stretched most within the plane stands for all.
+    arm: Arm,
+    /// \[m\] from its line to its point, within the plane.
+    deflection: f64,
+    /// \[m\] where each line lies across.
+    feet: Vec<f64>,
+    is_flat: bool,
+}
+
+/// Points on lines that lie in the plane or beside it.
+fn lines(
+    elements: &[Element],
+    line: Vec3<f64>,
+    clearance: f64,
+    near: f64,
+) -> Result<Reduced, Obstacle> {
+    let line = crate::direction::unit(flat(line)).unwrap_or(line);
+    let across = Vec3::new(-line.y, line.x, 0.0);
+    let mut rows: Vec<Row> = Vec::new();
+    for element in elements {
+        let along = element.to.dot(line);
+        let deflection = element.stretch().dot(across);
+        let share = element.direction().map_or(1.0, |direction| direction.dot(across).abs());
+        let share = if 1.0 - share <= ALIKE {
+            1.0
+        } else if share <= ALIKE {
+            0.0
+        } else {
+            share
+        };
+        let damping = if clearance == 0.0 || share > 0.0 { element.damping } else { 0.0 };
+        let free_length = element.free_length * share;
+        let arm = arm(element, element.stiffness * share * share, damping, free_length);
+        let foot = element.to.dot(across) - deflection;
+        let is_flat = element.is_flat(near);
+        match rows.iter_mut().find(|row| (row.along - along).abs() <= near) {
+            None => rows.push(Row { along, arm, deflection, feet: vec![foot], is_flat }),
+            Some(row) => {
+                let (stiffness, damping) =
+                    (row.arm.stiffness + arm.stiffness, row.arm.damping + arm.damping);
+                if arm.free_length > row.arm.free_length {
+                    (row.arm, row.deflection) = (arm, deflection);
+                }
+                row.arm = Arm { stiffness, damping, ..row.arm };
+                row.feet.push(foot);
+            }
+        }
+    }
+    rows.retain(|row| row.arm.stiffness > 0.0 || row.arm.damping > 0.0 || row.is_flat);
+    if rows.is_empty() {
+        return Err("holds nothing in the plane".into());
+    }
+    let is_exact = rows.iter().all(Row::is_exact);
+    let stars = rows.into_iter().map(|row| vec![row.settled(line, across)]).collect();
+    Ok(Reduced { law: Law::PointOnLine, line: Some(line), stars, clearance, is_exact })
+}
+
+impl Row {
+    fn is_exact(&self) -> bool {
+        self.is_flat && self.feet.len() == 1
+    }
+
+    /// Its element, half way between the lines.
+    fn settled(self, line: Vec3<f64>, across: Vec3<f64>) -> Arm {
+        if self.is_exact() {
+            return self.arm;
+        }
+        let foot = self.feet.iter().sum::<f64>() / self.feet.len() as f64;
+        let from = line * self.along + across * foot;
+        Arm { from, to: from + across * self.deflection, points: None, ..self.arm }
+    }
+}

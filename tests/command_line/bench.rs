@@ -1,0 +1,94 @@
+//! `host-sim bench`: what it prints and what it refuses. No time is judged here.
+
+use std::collections::BTreeSet;
+
+use host_sim::terminal::Exit;
+use serde_json::Value;
+
+use crate::call;
+
+/// The fewest steps that can be measured.
+const SHORT: [&str; 4] = ["--rounds", "3", "--steps", "1"];
+
+fn bench(words: &[&str]) -> crate::Done {
+    call(&[&["bench"], words, &SHORT].concat())
+}
+
+fn measured(words: &[&str]) -> Value {
+    let done = bench(&[words, &["--json"]].concat());
+    assert_eq!(done.exit, Exit::Done, "{}", done.err);
+    serde_json::from_str(&done.out).unwrap()
+}
+
+/// All keys of objects within a value.
+fn keys(value: &Value, into: &mut BTreeSet<String>) {
+    match value {
+        Value::Object(object) => {
+            into.extend(object.keys().cloned());
+            object.values().for_each(|value| keys(value, into));
+        }
+        Value::Array(values) => values.iter().for_each(|value| keys(value, into)),
+        _ => {}
+    }
+}
+
+#[test]
+fn the_page_names_every_key() {
+    let outcome = measured(&[
+        "four-bar",
+        "cart-pendulum",
+        "hexagon",
+        "3ruu",
+        "hanging-chain",
+        "--chains",
+        "2,4",
+    ]);
+    let page = std::fs::read_to_string(dbd_tests::results::path("docs/command-line.md")).unwrap();
+    let section = page.split_once("\n## `bench`\n").unwrap().1.split("\n## ").next().unwrap();
+    let mut named = BTreeSet::new();
+    keys(&outcome, &mut named);
+    for key in named {
+        let found =
+            section.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == key);
+        assert!(found, "docs/command-line.md does not name `{key}`");
+    }
+    assert!(outcome["fit"]["parts"].as_array().unwrap().len() == 6, "{outcome}");
+    assert_eq!(outcome["goals"].as_array().unwrap().len(), 1);
+}
+
+#[test]
+fn what_the_plain_loop_lacks_is_said() {
+    let outcome = measured(&["cart-pendulum", "--chains", "3"]);
+    let [scene, chain] = &outcome["systems"].as_array().unwrap()[..] else { panic!("{outcome}") };
+    assert_eq!(scene["plain"]["why_not"], "the plain loop has no inputs");
+    assert!(scene["plain"]["time_s"].is_null() && scene["std"]["time_s"].is_object());
+    assert_eq!((&chain["name"], &chain["links"]), (&"chain-3".into(), &3.into()));
+    // Counted, not measured: exactly the same each time.
+    assert_eq!(measured(&["--chains", "3"])["systems"][0]["flops"], chain["flops"]);
+}
+
+#[test]
+fn scenes_and_chains_are_those_that_are_named() {
+    let outcome = measured(&["--chains", "2"]);
+    assert_eq!(outcome["systems"].as_array().unwrap().len(), 1);
+    let text = bench(&["hexagon", "--set", "joint.*.stiffness=1e6"]).out;
+    assert!(text.starts_with("system") && text.contains("hexagon"), "{text}");
+}
+
+#[test]
+fn bad_input_is_refused() {
+    for words in [
+        &["no-such-scene"][..],
+        &["--chains", "0"],
+        &["--chains", "10923"],
+        &["--chains", "ten"],
+        &["four-bar", "--rounds", "2"],
+        &["four-bar", "--steps", "0"],
+        &["--set", "step=1ms"],
+        &["four-bar", "--set", "no.such=1"],
+    ] {
+        let done = call(&[&["bench"], words].concat());
+        assert!(done.exit == Exit::Refused && !done.err.is_empty(), "{words:?}: {}", done.err);
+        assert!(done.out.is_empty(), "{words:?}");
+    }
+}
