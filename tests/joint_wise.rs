@@ -76,12 +76,8 @@ fn shaken<P: Geometry>(scene: &Scene, random: &mut Random) -> SceneModel<P> {
     }
     for state in &mut model.initial {
         let [v, w] = [(); 2].map(|()| random.vector());
-        *state = dbd_kernel::BodyState::from_f64(
-            state.position.to_f64(),
-            [1.0, 0.0, 0.0, 0.0],
-            v,
-            w,
-        );
+        *state =
+            dbd_kernel::BodyState::from_f64(state.position.to_f64(), [1.0, 0.0, 0.0, 0.0], v, w);
     }
     model.convert()
 }
@@ -95,9 +91,8 @@ fn a_step_never_adds_energy() {
         let exact: SceneModel<F64> = model.convert();
         let h = 10_f64.powf(-4.0 + 2.0 * random.unit());
         let mut plant = Plant::new(&model, scheme, h).unwrap();
-        let total = |plant: &Plant<&SceneModel<P>, S>| {
-            energy(&exact, &widen(plant.state()), h).total()
-        };
+        let total =
+            |plant: &Plant<&SceneModel<P>, S>| energy(&exact, &widen(plant.state()), h).total();
         let mut last = total(&plant);
         for step in 0..30 {
             assert!(plant.advance(1).is_running());

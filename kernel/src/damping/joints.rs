@@ -7,7 +7,8 @@
 //! damper.
 
 use crate::body::BodyState;
-use crate::damping::levers::{Kind, LARGEST, Lever};
+use crate::damping::lever::{Kind, Lever};
+use crate::damping::levers::LARGEST;
 use crate::damping::pair::Kick;
 use crate::damping::{Share, Sweep, sweep_group, torsion};
 use crate::geometry::Geometry;
@@ -125,8 +126,7 @@ fn between<P: Geometry, T: Terms, const REVERSE: bool>(
     let mut partner_turn = P::Moment::ZERO;
     for i in 0..levers.len() {
         let Some(lever) = levers.get(if REVERSE { levers.len() - 1 - i } else { i }) else { break };
-        let rate = lever.along.dot(velocity + push * inverse_mass)
-            + lever.moment.dot(spin + turn)
+        let rate = lever.along.dot(velocity + push * inverse_mass) + lever.moment.dot(spin + turn)
             - lever.other.dot(partner_spin - partner_turn);
         let impulse = lever.less[usize::from(REVERSE)] - lever.impulse * rate;
         push = push + lever.along * impulse;

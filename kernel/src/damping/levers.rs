@@ -9,146 +9,14 @@
 //! right angles for ever; between two bodies as far as the bodies' inertias do not turn.
 
 use crate::damping::each_direction;
-use crate::damping::pair::Direction;
+use crate::damping::lever::{Kind, Lever, Seat};
 use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::model::{Group, Law, ModelOwner, ModelRef, Terms};
+use crate::model::{Group, Law, ModelRef, Terms};
 use crate::pose::{Places, placed};
 use crate::real::Real;
 use crate::space::{Linear as _, Moment as _};
-
-/// One lever of a joint, and what it does in half a step at a pose.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Lever<P: Geometry> {
-    /// \[√(N·s/m)\] force on the body that sees it at rest, that body's axes.
-    pub(super) along: P::Vector,
-    /// Moment about that body's centre of mass, its axes.
-    pub(super) moment: P::Moment,
-    /// Moment of the same force and moment about the other body's centre of mass, that body's axes.
-    pub(super) other: P::Moment,
-    /// \[1/s\] rate per impulse, without the other body's turning.
-    pub(super) rate: P::Real,
-    /// \[s\] impulse per rate.
-    pub(super) impulse: P::Real,
-    /// \[s\] impulse less per rate that the kick gave: ascending, descending.
-    pub(super) told: [P::Real; 2],
-    /// The impulse less, for what the kick and moved ground gave: ascending, descending.
-    pub(super) less: [P::Real; 2],
-    /// What the levers from here on are, in the first of a group.
-    pub(super) seat: Seat,
-}
-
-/// Whose a group's levers are.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Seat {
-    /// The body that sees them at rest and the other one.
-    pub(super) ends: [u16; 2],
-    /// How many there are.
-    pub(super) count: u8,
-    /// What acts there.
-    pub(super) kind: Kind,
-}
-
-/// What acts in a group's place.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// The group's dampers, one by one.
-    #[default]
-    Dampers,
-    /// The levers of a joint.
-    Joint,
-    /// The lever of a raw spring.
-    Turning,
-}
-
-impl<P: Geometry> Lever<P> {
-    /// Its direction, seen from the ends of its joint: of the body that sees it and the other one.
-    pub(super) fn direction(
-        &self,
-        places: Places<'_, P>,
-        [own, _]: [BodyIndex; 2],
-        first: BodyIndex,
-    ) -> Direction<P::Space> {
-        let along = match places.frames.get(own.row()) {
-            Some(frame) => P::to_world(frame, self.along),
-            None => P::Vector::ZERO,
-        };
-        let moments =
-            if own == first { [self.moment, self.other] } else { [self.other, self.moment] };
-        Direction { along, moments }
-    }
-
-    /// What it does in half a step `h` \[s\], times its coefficient, with 1/μ = `rate`: of the rate it
-    /// takes `1 − 1/(1 + x + x²/2)`, `x = h·rate`, and is told of a kick as any damper
-    /// (`damping::pair::Damper`).
-    #[inline(always)]
-    pub(super) fn weigh(&mut self, share: &Share<P::Real>, h: P::Real, rate: P::Real) {
-        let (half, one) = (P::Real::HALF, P::Real::ONE);
-        let x = h * rate;
-        let y = one + half * x;
-        let part = h / (one + x * y);
-        let Share { own, later } = *share;
-        self.impulse = part * y;
-        let given = own * half * part;
-        self.told =
-            [given + later * self.impulse, given + (one - (own + later)) * self.impulse];
-    }
-
-    /// Tells it the rate that the kick gave.
-    #[inline(always)]
-    pub(super) fn tell(&mut self, kicked: P::Real) {
-        self.less = self.told.map(|told| told * kicked);
-    }
-
-    fn turned(&self, c: P::Real, other: &Self, s: P::Real) -> Self {
-        Self {
-            along: self.along * c + other.along * s,
-            moment: self.moment * c + other.moment * s,
-            other: self.other * c + other.other * s,
-            ..*self
-        }
-    }
-
-    fn scaled(&self, by: P::Real) -> Self {
-        self.turned(by, self, P::Real::ZERO)
-    }
-}
-
-/// Whether a scheme keeps levers in its plant.
-pub trait Keep {
-    /// Memory for a model's levers.
-    type Memory<M: ModelOwner>: AsRef<[Lever<M::Precision>]> + AsMut<[Lever<M::Precision>]>;
-
-    /// Memory without levers yet.
-    fn memory<M: ModelOwner>(model: &M) -> Self::Memory<M>;
-}
-
-/// No levers: no memory.
-#[derive(Clone, Copy, Debug)]
-pub struct NoLevers;
-
-impl Keep for NoLevers {
-    type Memory<M: ModelOwner> = [Lever<M::Precision>; 0];
-
-    #[inline]
-    fn memory<M: ModelOwner>(_: &M) -> Self::Memory<M> {
-        []
-    }
-}
-
-/// Levers: sixteen words per damper in space, eleven in the plane.
-#[derive(Clone, Copy, Debug)]
-pub struct Levers;
-
-impl Keep for Levers {
-    type Memory<M: ModelOwner> = M::PerDamper<Lever<M::Precision>>;
-
-    #[inline]
-    fn memory<M: ModelOwner>(model: &M) -> Self::Memory<M> {
-        model.per_damper(Lever::default())
-    }
-}
 
 /// The body that sees a group's points at rest and the other one, `None` where none does: raw
 /// elements turn and slide, what has a clearance is not always there, moved ground moves them.
@@ -283,7 +151,10 @@ impl<P: Geometry> Metric<P> {
     fn new<T: Terms>(model: &ModelRef<'_, P, T>, ends: [BodyIndex; 2]) -> Self {
         let none = (P::Real::ZERO, P::Moment::ZERO);
         let [own, other] = ends.map(|end| {
-            model.bodies.get(end.row()).map_or(none, |body| (body.inverse_mass, body.inverse_inertia))
+            model
+                .bodies
+                .get(end.row())
+                .map_or(none, |body| (body.inverse_mass, body.inverse_inertia))
         });
         Self { inverse_mass: own.0 + other.0, own: own.1, other: other.1 }
     }
@@ -312,25 +183,21 @@ impl<P: Geometry> Metric<P> {
         };
         let (first, second) = (a.turned(c, b, -s), b.turned(c, a, s));
         let [x, y] = [&first, &second].map(|lever| self.rate(lever, lever));
-        let (strong, weak, least) = if y > x {
-            (second, first, least * y)
-        } else {
-            (first, second, least * x)
-        };
+        let (strong, weak, least) =
+            if y > x { (second, first, least * y) } else { (first, second, least * x) };
         *a = strong;
         // What rounding leaves is none.
         let rest = self.rate(&weak, &weak);
-        *b = if rest > P::Real::from_f64(32.0) * epsilon::<P::Real>() * least { weak } else { Lever::default() };
+        *b = if rest > P::Real::from_f64(32.0) * epsilon::<P::Real>() * least {
+            weak
+        } else {
+            Lever::default()
+        };
         crossed
     }
 
     /// Brings one more lever in. With as many places as levers, or with six, there is always one.
-    fn insert(
-        &self,
-        shared: &mut [Lever<P>],
-        own: &mut [Lever<P>],
-        mut lever: Lever<P>,
-    ) {
+    fn insert(&self, shared: &mut [Lever<P>], own: &mut [Lever<P>], mut lever: Lever<P>) {
         let count = shared.len() + own.len();
         let mut crossed = true;
         for _ in 0..SWEEPS {

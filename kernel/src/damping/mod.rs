@@ -22,6 +22,7 @@
 //! bushing or point on a line has the law `c·v_rel`, whose torque vanishes only with its deflection.
 
 mod joints;
+mod lever;
 mod levers;
 mod motion;
 mod near;
@@ -31,7 +32,7 @@ mod strength;
 
 pub use crate::elements::share::Share;
 pub(crate) use joints::{prepare, sweep_joints};
-pub use levers::{Keep, Lever, Levers, NoLevers};
+pub use lever::{Keep, Lever, Levers, NoLevers};
 pub(crate) use levers::{find, weigh};
 pub(crate) use near::Held;
 pub(crate) use pair::{HalfKick, Kick, NoKick};
@@ -248,8 +249,8 @@ fn sweep_stars<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     let end_a = End::new(model, places, group.a, None);
     let end_b = End::new(model, places, group.b, None);
     let mut pair = new_pair(model, sweep, [group.a, group.b], bodies);
-    let per_block = group.stars_per_block();
-    let blocks = if group.shared { 1 } else { group.stars as usize };
+    let stars = group.stars as usize;
+    let (blocks, per_block) = if group.shared { (1, stars) } else { (stars, 1) };
     for i in 0..blocks {
         let block = per_block * if REVERSE { blocks - 1 - i } else { i };
         let first = group.tips(block);

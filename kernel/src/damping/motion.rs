@@ -4,7 +4,8 @@
 //! before a run or beside it; the sweeps of a step have a way of their own.
 
 use crate::body::{BodyState, Increment};
-use crate::damping::levers::{Lever, fixed, held};
+use crate::damping::lever::Lever;
+use crate::damping::levers::{fixed, held};
 use crate::damping::near::{Held, hold, near};
 use crate::damping::pair::Direction;
 use crate::damping::{each_direction, torsion_direction};

@@ -8,7 +8,7 @@
 //! divide a force, not how much they resist.
 
 use crate::body::BodyState;
-use crate::damping::levers::Lever;
+use crate::damping::lever::Lever;
 use crate::damping::motion::{Motion, Pose};
 use crate::damping::near::Held;
 use crate::elements::share::Share;

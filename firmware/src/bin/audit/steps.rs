@@ -4,8 +4,8 @@
 //! precisions; every other shipped model with leapfrog in single precision.
 
 use dbd_kernel::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, F32, F64, JointWise, Leapfrog, Model, Pefrl, Plant, Rk4,
-    SemiImplicitEuler, Status,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, F32, F64, JointWise, Leapfrog, Model, Pefrl, Plant,
+    Rk4, SemiImplicitEuler, Status,
 };
 use firmware::alone::Alone;
 use firmware::models::{self, four_bar::FourBarF32, four_bar::FourBarF64};
