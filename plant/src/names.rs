@@ -83,7 +83,7 @@ named! {
     DampingName {
         /// Pairwise impulses that know of the kick before them: no limit of the step.
         Sweeps = "sweeps",
-        /// As sweeps at a third to a half of their cost, a joint's dampers as they stand at its start.
+        /// As sweeps at about half their cost, a joint's dampers as they stand at the start.
         JointWise = "joint-wise",
         /// Forces at the velocities of each evaluation: limit the step.
         Explicit = "explicit",
