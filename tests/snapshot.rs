@@ -5,8 +5,8 @@ use dbd_kernel::euler::{EulerF32, SingleEulerF64};
 use dbd_kernel::snapshot::SnapshotError;
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
-    BlanesMoanS6, BodyIndex, Dbd, DbdP2, Explicit, F32, F64, Geometry, Leapfrog, Load, LoadFrame,
-    Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler,
+    BlanesMoanS6, BodyIndex, Dbd, DbdP2, Explicit, F32, F64, Geometry, JointWise, Leapfrog, Load,
+    LoadFrame, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler,
 };
 use dbd_tests::{Bench, at, hung_ring};
 
@@ -52,6 +52,8 @@ fn a_restored_plant_goes_on_with_the_same_bits() {
     resumes::<F32, _>(Dbd { newton: 1 });
     resumes::<F64, _>(DbdP2 { newton: 1 });
     resumes::<F64, _>(Explicit(Leapfrog));
+    resumes::<F64, _>(JointWise(Leapfrog));
+    resumes::<F32, _>(JointWise(SemiImplicitEuler));
     resumes::<F32, _>(SemiImplicitEuler);
     resumes::<F64, _>(Pefrl);
     resumes::<F32, _>(BlanesMoanS6);

@@ -6,12 +6,13 @@
 //! instance has failed, or that never had one, runs the twin of another.
 
 use dbd_kernel::geometry::Named;
-use dbd_kernel::{Plant, Real, Scheme, State};
+use dbd_kernel::{Plant, Real, State};
 
 #[cfg(test)]
 mod tests;
 
 use crate::gather::{self, LanesModel, ModelOf};
+use crate::in_lanes::InLanes;
 use crate::lanes::Lanes;
 use crate::register::{Register, Work};
 
@@ -27,7 +28,7 @@ type LanesPlant<V, S> = Plant<Box<LanesModel<V>>, S>;
 pub(crate) trait Batch<R, S>: Send
 where
     R: Real + Named,
-    S: Scheme,
+    S: InLanes,
 {
     /// `steps` steps of all instances that run.
     fn advance(&mut self, steps: u64);
@@ -49,7 +50,7 @@ enum Present {
 }
 
 /// Instances in the lanes of `V`.
-pub(crate) struct Members<V: Register, S: Scheme> {
+pub(crate) struct Members<V: Register, S: InLanes> {
     plants: Vec<PlantOf<V::Number, S>>,
     /// The member in each lane; the first lane of a member is its own.
     seats: Vec<usize>,
@@ -58,7 +59,7 @@ pub(crate) struct Members<V: Register, S: Scheme> {
     present: Present,
 }
 
-impl<V: Register, S: Scheme> Members<V, S> {
+impl<V: Register, S: InLanes> Members<V, S> {
     /// A batch of at most as many plants as the register has lanes, of one structure, scheme and step.
     pub(crate) fn new(plants: Vec<PlantOf<V::Number, S>>) -> Self {
         Self { plants, seats: Vec::new(), lanes: None, present: Present::Members }
@@ -145,7 +146,7 @@ fn near_an_end<V: Register>(state: &State<LanesModel<V>>, steps: u64) -> bool {
     state.turns.iter().any(|&turns| u64::from(turns.unsigned_abs()) > most)
 }
 
-impl<V: Register, S: Scheme + Send> Batch<V::Number, S> for Members<V, S> {
+impl<V: Register, S: InLanes + Send> Batch<V::Number, S> for Members<V, S> {
     fn advance(&mut self, steps: u64) {
         let mut left = steps;
         while left > 0 {
@@ -170,12 +171,12 @@ impl<V: Register, S: Scheme + Send> Batch<V::Number, S> for Members<V, S> {
 }
 
 /// Steps of lanes.
-struct Block<'b, V: Register, S: Scheme> {
+struct Block<'b, V: Register, S: InLanes> {
     lanes: &'b mut LanesPlant<V, S>,
     steps: u64,
 }
 
-impl<V: Register, S: Scheme> Work for Block<'_, V, S> {
+impl<V: Register, S: InLanes> Work for Block<'_, V, S> {
     /// The lanes that are in doubt.
     type Outcome = u32;
 

@@ -9,11 +9,12 @@ use std::thread;
 use dbd_kernel::geometry::Float;
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::plant::{InputError, PlantError, StateError};
-use dbd_kernel::{Plant, Scheme, State, Status};
+use dbd_kernel::{Plant, State, Status};
 use dbd_scene::SceneModel;
 
 use crate::alike::{Difference, difference};
 use crate::batch::{Batch, PlantOf};
+use crate::in_lanes::InLanes;
 use crate::instructions::InstructionSet;
 use crate::number::Number;
 
@@ -52,13 +53,13 @@ pub enum EnsembleError {
 ///
 /// Each instance has the bits of a [`Plant`] of its own, whatever the instruction set, the number of
 /// threads and its place among the others, up to and including a failure, which stops it alone.
-pub struct Ensemble<R: Number, S: Scheme> {
+pub struct Ensemble<R: Number, S: InLanes> {
     batches: Vec<Box<dyn Batch<R, S>>>,
     set: InstructionSet,
     count: usize,
 }
 
-impl<R: Number, S: Scheme + Send + 'static> Ensemble<R, S> {
+impl<R: Number, S: InLanes + Send + 'static> Ensemble<R, S> {
     /// An ensemble of an instance of each model at its initial state, on the best instruction set
     /// of this machine.
     ///

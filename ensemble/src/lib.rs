@@ -6,15 +6,16 @@
 //!
 //! - `register`, `lanes`: one register of an instruction set, and the number that the kernel takes.
 //! - `alike`, `gather`: models of one structure become the model of lanes, states likewise and back.
-//! - `batch`: as many instances as a register has lanes, stepped as one.
+//! - `in_lanes`, `batch`: which schemes lanes step; as many instances as a register has lanes, stepped as one.
 //! - `instructions`, `number`: what a machine has, and which batches a number has there.
-//! - `ensemble`, `pace`: many instances, and how fast they are.
+//! - `ensemble`, `pace`, `leapfrog`: many instances, how fast they are, and leapfrog compiled once.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod alike;
 mod batch;
 mod ensemble;
 mod gather;
+mod in_lanes;
 mod instructions;
 mod lanes;
 mod leapfrog;
@@ -25,6 +26,7 @@ mod register;
 pub use alike::Difference;
 pub use batch::PlantOf;
 pub use ensemble::{Ensemble, EnsembleError};
+pub use in_lanes::InLanes;
 pub use instructions::InstructionSet;
 pub use leapfrog::{pace_in_f32, pace_in_f64};
 pub use number::Number;

@@ -2,10 +2,11 @@
 //!
 //! `(instruction set, plants) => batch`.
 
+use dbd_kernel::Real;
 use dbd_kernel::geometry::Named;
-use dbd_kernel::{Real, Scheme};
 
 use crate::batch::{Batch, Members, PlantOf};
+use crate::in_lanes::InLanes;
 use crate::instructions::InstructionSet;
 use crate::register;
 
@@ -16,13 +17,13 @@ pub trait Number: Real + Named + sealed::Batches {
 }
 
 pub(crate) mod sealed {
-    use super::{Batch, InstructionSet, PlantOf, Scheme};
+    use super::{Batch, InLanes, InstructionSet, PlantOf};
 
     /// What only this crate does with a number.
     pub trait Batches: super::Real + super::Named {
         /// A batch of plants.
         #[allow(private_interfaces)]
-        fn batch<S: Scheme + Send + 'static>(
+        fn batch<S: InLanes + Send + 'static>(
             set: InstructionSet,
             plants: Vec<PlantOf<Self, S>>,
         ) -> Box<dyn Batch<Self, S>>;
@@ -48,7 +49,7 @@ macro_rules! number {
 
         impl sealed::Batches for $number {
             #[allow(private_interfaces)]
-            fn batch<S: Scheme + Send + 'static>(
+            fn batch<S: InLanes + Send + 'static>(
                 set: InstructionSet,
                 plants: Vec<PlantOf<Self, S>>,
             ) -> Box<dyn Batch<Self, S>> {

@@ -6,12 +6,13 @@
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
+use dbd_kernel::Plant;
 use dbd_kernel::geometry::Float;
-use dbd_kernel::{Plant, Scheme};
 use dbd_scene::SceneModel;
 
 use crate::batch::PlantOf;
 use crate::ensemble::{Ensemble, EnsembleError};
+use crate::in_lanes::InLanes;
 use crate::instructions::InstructionSet;
 use crate::number::Number;
 
@@ -65,7 +66,7 @@ impl Pace {
 ///
 /// # Errors
 /// [`EnsembleError`] where the machine lacks the instruction set, or the step is none.
-pub fn pace<R: Number, S: Scheme + Send + 'static>(
+pub fn pace<R: Number, S: InLanes + Send + 'static>(
     model: &SceneModel<Float<R>>,
     scheme: S,
     step_size: f64,

@@ -52,7 +52,7 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
     type PerTorsion = M::PerTorsion;
     type PerLoad = M::PerLoad;
     type PerInput = M::PerInput;
-    type PerDamper = M::PerDamper;
+    type PerDamper<T: Copy> = M::PerDamper<T>;
     type PerKnot = M::PerKnot;
 
     #[inline(always)]
@@ -103,8 +103,8 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
     }
 
     #[inline]
-    fn per_damper(&self) -> M::PerDamper {
-        self.model.per_damper()
+    fn per_damper<T: Copy>(&self, value: T) -> M::PerDamper<T> {
+        self.model.per_damper(value)
     }
 
     #[inline]

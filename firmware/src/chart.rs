@@ -6,7 +6,7 @@
 
 use dbd_kernel::model::{ModelOwner, Terms as _};
 use dbd_kernel::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, Leapfrog, Pefrl, Rk4, SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, JointWise, Leapfrog, Pefrl, Rk4, SemiImplicitEuler,
 };
 
 use crate::alone::Alone;
@@ -81,7 +81,14 @@ pub fn for_each_charted(visitor: &mut impl Visitor) {
             chart! { $($of)*,
                 Explicit(SemiImplicitEuler) => Explicit<SemiImplicitEuler>, "-explicit";
                 Explicit(Leapfrog) => Explicit<Leapfrog>, "-explicit";
+                JointWise(SemiImplicitEuler) => JointWise<SemiImplicitEuler>, "-joint-wise";
             }
+            joint_wise! { $($of)* }
+        };
+    }
+    macro_rules! joint_wise {
+        ($($of:tt)*) => {
+            chart! { $($of)*, JointWise(Leapfrog) => JointWise<Leapfrog>, "-joint-wise"; }
         };
     }
     // Other values of a scene; dampers both ways where they have any.
@@ -105,6 +112,9 @@ pub fn for_each_charted(visitor: &mut impl Visitor) {
     double_wishbone::DOUBLE_WISHBONE_F32: DoubleWishboneF32 DOUBLE_WISHBONE_STEP }
     damped! { "double-wishbone"
     double_wishbone::DOUBLE_WISHBONE_F64: DoubleWishboneF64 DOUBLE_WISHBONE_STEP }
+    joint_wise! { "cart-pendulum"
+    cart_pendulum::CART_PENDULUM_F32: CartPendulumF32 CART_PENDULUM_STEP }
+    joint_wise! { "gripper" gripper::GRIPPER_F32: GripperF32 GRIPPER_STEP }
 }
 
 #[cfg(test)]
@@ -166,6 +176,6 @@ mod tests {
             names.seen.iter().map(scheme).collect()
         };
         let missing: Vec<_> = schemes(&all).difference(&schemes(&sample)).cloned().collect();
-        assert_eq!(missing, ["semi-implicit-euler-explicit"]);
+        assert_eq!(missing, ["semi-implicit-euler-explicit", "semi-implicit-euler-joint-wise"]);
     }
 }

@@ -18,8 +18,8 @@ pub struct Shipped<M: 'static, S> {
     pub model: &'static M,
     /// The scheme.
     pub scheme: S,
-    /// What follows the scheme's name: nothing, `+1` for a Newton iteration or `-explicit` for
-    /// explicit dampers in place of sweeps.
+    /// What follows the scheme's name: nothing, `+1` for a Newton iteration, `-explicit` or
+    /// `-joint-wise` for another damping than the scheme's own.
     pub variant: &'static str,
     /// \[s\] the step of the shipped programs.
     pub step: f64,

@@ -5,7 +5,7 @@
 //! with its scheme: the counts do not depend on what else an image holds.
 
 use dbd_kernel::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, Leapfrog, Pefrl, Rk4, SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, JointWise, Leapfrog, Pefrl, Rk4, SemiImplicitEuler,
 };
 
 use crate::alone::Alone;
@@ -51,5 +51,11 @@ pub fn for_each_sampled(visitor: &mut impl Visitor) {
         "cart-pendulum" cart_pendulum::CART_PENDULUM_F32: CartPendulumF32 CART_PENDULUM_STEP,
             Leapfrog => Leapfrog, "";
         "gripper" gripper::GRIPPER_F32: GripperF32 GRIPPER_STEP, Leapfrog => Leapfrog, "";
+        "double-wishbone" double_wishbone::DOUBLE_WISHBONE_F32: DoubleWishboneF32
+            DOUBLE_WISHBONE_STEP, JointWise(Leapfrog) => JointWise<Leapfrog>, "-joint-wise";
+        "cart-pendulum" cart_pendulum::CART_PENDULUM_F32: CartPendulumF32 CART_PENDULUM_STEP,
+            JointWise(Leapfrog) => JointWise<Leapfrog>, "-joint-wise";
+        "gripper" gripper::GRIPPER_F32: GripperF32 GRIPPER_STEP,
+            JointWise(Leapfrog) => JointWise<Leapfrog>, "-joint-wise";
     }
 }

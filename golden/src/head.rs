@@ -18,7 +18,7 @@ pub(crate) const FIRST: &str = "# dbd golden ";
 pub struct SchemeTag<N> {
     /// Its name, e.g. `leapfrog`.
     pub name: N,
-    /// How its dampers act: `sweeps` or `explicit`.
+    /// How its dampers act: `sweeps`, `joint-wise` or `explicit`.
     pub damping: N,
     /// Force evaluations per step, which tell its Newton iterations.
     pub evaluations: u32,

@@ -1,6 +1,6 @@
 //! A scheme of one's own, half a drift, a kick, half a drift: `cargo run --example own_scheme`.
 
-use dbd_kernel::damping::Damping;
+use dbd_kernel::damping::{Damping, NoLevers};
 use dbd_kernel::forces::{At, ExplicitDampers};
 use dbd_kernel::model::Terms;
 use dbd_kernel::sketch::{Sketch, Spring, Start};
@@ -18,6 +18,7 @@ impl Scheme for PositionVerlet {
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
     type Memory<P: Geometry> = ();
+    type Levers = NoLevers;
 
     fn evaluations(&self) -> u32 {
         1

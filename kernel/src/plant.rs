@@ -7,7 +7,7 @@
 use core::ops::Deref;
 
 use crate::attitude::Attitude as _;
-use crate::damping::{Damping, Held, share};
+use crate::damping::{Damping, Held, Keep, Share, find, share, weigh};
 use crate::forces::Wrench;
 use crate::guards::first_fault;
 use crate::index::{BodyIndex, InputIndex};
@@ -34,7 +34,8 @@ where
     step_size: f64,
     h: RealOf<H::Target>,
     diagonals: PerBody<H, Diagonal<SpaceOf<H::Target>>>,
-    shares: <H::Target as ModelOwner>::PerDamper,
+    shares: <H::Target as ModelOwner>::PerDamper<Share<RealOf<H::Target>>>,
+    levers: <S::Levers as Keep>::Memory<H::Target>,
     windows: <H::Target as ModelOwner>::PerLoad,
     knots: <H::Target as ModelOwner>::PerKnot,
     state: State<H::Target>,
@@ -79,13 +80,20 @@ where
         }
         let state = State::initial(owner);
         let mut frames = owner.per_body(FrameOf::<H::Target>::default());
-        let mut shares = owner.per_damper();
-        if <H::Target as ModelOwner>::Terms::DAMPERS && S::DAMPING == Damping::Sweeps {
+        let mut shares = owner.per_damper(Share::ALONE);
+        let mut levers = S::Levers::memory(owner);
+        if <H::Target as ModelOwner>::Terms::DAMPERS && S::DAMPING != Damping::Explicit {
             let (bodies, signals) = (state.bodies.as_ref(), state.signals.as_ref());
             place_bodies(bodies, frames.as_mut());
             let places = Places { frames: frames.as_ref(), signals };
+            let half = RealOf::<H::Target>::HALF * h;
+            if S::DAMPING == Damping::JointWise {
+                find(&view, places, half, levers.as_mut());
+            }
             let (mut held, shares) = (owner.per_body(Held::default()), shares.as_mut());
-            share(&view, places, bodies, state.turns.as_ref(), held.as_mut(), shares);
+            let others = (state.turns.as_ref(), levers.as_ref());
+            share(&view, places, bodies, others, held.as_mut(), shares);
+            weigh(&view, shares, half, levers.as_mut());
         }
         let wrenches = owner.per_body(Wrench::default());
         let memory = owner.per_body(S::Memory::default());
@@ -96,6 +104,7 @@ where
             h,
             diagonals,
             shares,
+            levers,
             windows,
             knots,
             state,
@@ -168,6 +177,7 @@ where
             h: self.h,
             diagonals: self.diagonals.as_ref(),
             shares: self.shares.as_ref(),
+            levers: self.levers.as_mut(),
             windows: self.windows.as_ref(),
             knots: self.knots.as_ref(),
             signals: self.state.signals.as_mut(),
@@ -185,6 +195,7 @@ where
     #[cold]
     pub(crate) fn fail(&mut self, cause: Cause) -> Status {
         self.ledger.fresh = false;
+        self.ledger.ready = false;
         self.status = Status::Failed(Failure { cause, step: self.state.step });
         self.status
     }
@@ -353,6 +364,7 @@ where
     pub fn resume(&mut self, state: State<H::Target>) {
         self.state = state;
         self.ledger.fresh = false;
+        self.ledger.ready = false;
         self.status = Status::Running;
         self.sample();
     }

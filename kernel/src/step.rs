@@ -6,7 +6,7 @@
 
 pub use crate::body::Diagonal;
 use crate::body::{Body, BodyState, Increment};
-use crate::damping::{self, HalfKick, NoKick, Share, Sweep};
+use crate::damping::{self, HalfKick, Lever, NoKick, Share, Sweep};
 use crate::forces::{self, At, Dampers, Evaluation, Instant, Turns, Wrench};
 use crate::geometry::Geometry;
 use crate::lockstep;
@@ -28,6 +28,8 @@ pub(crate) struct Ledger {
     /// Whether frames and wrenches are those of the present pose, without dampers and with settled
     /// turn counts: a scheme that ends on an evaluation need not begin with one.
     pub(crate) fresh: bool,
+    /// Whether the joints' levers are those of the present pose.
+    pub(crate) ready: bool,
 }
 
 /// Model, state and scratch of one plant, lent for one step. `S` is the scheme's memory per body.
@@ -43,6 +45,8 @@ pub struct Stepper<'s, 'm, P: Geometry, T, S> {
     pub(crate) diagonals: &'s [Diagonal<P::Space>],
     /// The dampers' shares.
     pub(crate) shares: &'s [Share<P::Real>],
+    /// The joints' levers, none where dampers act otherwise.
+    pub(crate) levers: &'s mut [Lever<P>],
     /// The loads' windows.
     pub(crate) windows: &'s [LoadWindow],
     /// The tables' knots among the steps.
@@ -120,6 +124,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     fn evaluate_here<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
         self.ledger.evaluations += 1;
         self.ledger.fresh = false;
+        self.ledger.ready = false;
         forces::evaluate::<P, T, D>(
             &self.model,
             Instant {
@@ -168,6 +173,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     #[inline(always)]
     pub fn drift(&mut self, time: P::Real) {
         self.ledger.fresh = false;
+        self.ledger.ready = false;
         for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
             drift_body(state, body, time);
         }
@@ -177,6 +183,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     #[inline(always)]
     pub fn kick_and_drift(&mut self, scale: P::Real, time: P::Real) {
         self.ledger.fresh = false;
+        self.ledger.ready = false;
         let rows = self.bodies.iter_mut().zip(self.model.bodies);
         let rows = rows.zip(self.wrenches.iter().zip(self.diagonals));
         for ((state, body), (wrench, diagonal)) in rows {
@@ -189,6 +196,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     #[inline(always)]
     pub fn drift_of_order_four(&mut self, time: P::Real) {
         self.ledger.fresh = false;
+        self.ledger.ready = false;
         for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
             P::translate(&mut state.position, P::velocity(&state.velocity) * time);
             let (q, w) = (&mut state.orientation, &mut state.angular_velocity);
@@ -237,6 +245,24 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
             };
             damping::sweep::<P, T, _, REVERSE>(&self.model, &sweep, self.bodies);
         }
+    }
+
+    /// [`Self::damped_kick_forward`] or its reverse, with the dampers as `D` says.
+    #[inline(always)]
+    pub(crate) fn damped_kick<D: Dampers, const REVERSE: bool>(&mut self) {
+        self.kick(P::Real::HALF);
+        if !(D::JOINT_WISE && T::DAMPERS) {
+            return self.sweep_after_kick::<REVERSE>();
+        }
+        let h = P::Real::HALF * self.h;
+        let places = Places { frames: &*self.frames, signals: &*self.signals };
+        let kick = HalfKick { wrenches: &*self.wrenches, diagonals: self.diagonals };
+        let sweep = Sweep { h, places, turns: &*self.turns, shares: self.shares, kick };
+        if !self.ledger.ready {
+            damping::prepare::<P, T, _>(&self.model, &sweep, self.bodies, self.levers);
+            self.ledger.ready = true;
+        }
+        damping::sweep_joints::<P, T, _, REVERSE>(&self.model, &sweep, self.levers, self.bodies);
     }
 
     /// Half a step of the dampers by themselves in ascending order; frames are those of the

@@ -6,7 +6,8 @@
 
 use dbd_kernel::damping::Damping;
 use dbd_kernel::schemes::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, Leapfrog, Pefrl, Rk4, Scheme, SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, JointWise, Leapfrog, Pefrl, Rk4, Scheme,
+    SemiImplicitEuler,
 };
 use miette::Diagnostic;
 use thiserror::Error;
@@ -24,8 +25,10 @@ pub(crate) enum SchemeChoice {
     DbdP2(DbdP2),
     SemiImplicitEuler(SemiImplicitEuler),
     ExplicitSemiImplicitEuler(Explicit<SemiImplicitEuler>),
+    JointWiseSemiImplicitEuler(JointWise<SemiImplicitEuler>),
     Leapfrog(Leapfrog),
     ExplicitLeapfrog(Explicit<Leapfrog>),
+    JointWiseLeapfrog(JointWise<Leapfrog>),
     Pefrl(Pefrl),
     BlanesMoanS6(BlanesMoanS6),
     Rk4(Rk4),
@@ -59,15 +62,17 @@ pub enum MethodError {
         newton: u32,
     },
     /// A damping that the scheme has not.
-    #[error("the scheme {scheme} has no {asked} damping, only {}", other(asked))]
+    #[error("the scheme {scheme} has no {asked} damping, only {own}")]
     #[diagnostic(help(
-        "leapfrog and semi-implicit-euler have both; leave --damping out for {scheme}"
+        "leapfrog and semi-implicit-euler have all of them; leave --damping out for {scheme}"
     ))]
     Damping {
         /// The scheme's name.
         scheme: &'static str,
         /// What was asked for.
         asked: &'static str,
+        /// What it has.
+        own: &'static str,
     },
     /// A method for comparison, in a build without the feature `comparison`.
     #[error("{what} is there for comparison only, and not part of this build")]
@@ -88,14 +93,6 @@ pub enum MethodError {
         /// The precision's name.
         precision: &'static str,
     },
-}
-
-fn other(damping: &str) -> &'static str {
-    if damping == Damping::Sweeps.name() {
-        Damping::Explicit.name()
-    } else {
-        Damping::Sweeps.name()
-    }
 }
 
 impl Method {
@@ -136,17 +133,26 @@ impl Method {
     /// [`MethodError::Damping`] where the scheme has no such one.
     pub fn with_damping(self, damping: DampingName) -> Result<Self, MethodError> {
         let scheme = match (self.scheme, damping) {
-            (SchemeChoice::Leapfrog(_) | SchemeChoice::ExplicitLeapfrog(_), damping) => {
-                match damping {
-                    DampingName::Sweeps => SchemeChoice::Leapfrog(Leapfrog),
-                    DampingName::Explicit => SchemeChoice::ExplicitLeapfrog(Explicit(Leapfrog)),
-                }
-            }
             (
-                SchemeChoice::SemiImplicitEuler(_) | SchemeChoice::ExplicitSemiImplicitEuler(_),
+                SchemeChoice::Leapfrog(_)
+                | SchemeChoice::ExplicitLeapfrog(_)
+                | SchemeChoice::JointWiseLeapfrog(_),
+                damping,
+            ) => match damping {
+                DampingName::Sweeps => SchemeChoice::Leapfrog(Leapfrog),
+                DampingName::JointWise => SchemeChoice::JointWiseLeapfrog(JointWise(Leapfrog)),
+                DampingName::Explicit => SchemeChoice::ExplicitLeapfrog(Explicit(Leapfrog)),
+            },
+            (
+                SchemeChoice::SemiImplicitEuler(_)
+                | SchemeChoice::ExplicitSemiImplicitEuler(_)
+                | SchemeChoice::JointWiseSemiImplicitEuler(_),
                 damping,
             ) => match damping {
                 DampingName::Sweeps => SchemeChoice::SemiImplicitEuler(SemiImplicitEuler),
+                DampingName::JointWise => {
+                    SchemeChoice::JointWiseSemiImplicitEuler(JointWise(SemiImplicitEuler))
+                }
                 DampingName::Explicit => {
                     SchemeChoice::ExplicitSemiImplicitEuler(Explicit(SemiImplicitEuler))
                 }
@@ -156,12 +162,14 @@ impl Method {
         let method = Self { scheme, ..self };
         let asked = match damping {
             DampingName::Sweeps => Damping::Sweeps,
+            DampingName::JointWise => Damping::JointWise,
             DampingName::Explicit => Damping::Explicit,
         };
         if method.damping() == asked {
             Ok(method)
         } else {
-            Err(MethodError::Damping { scheme: method.scheme_name(), asked: asked.name() })
+            let (scheme, own) = (method.scheme_name(), method.damping().name());
+            Err(MethodError::Damping { scheme, asked: asked.name(), own })
         }
     }
 
@@ -231,8 +239,10 @@ impl Method {
             SchemeChoice::DbdP2(scheme) => Traits::of(scheme),
             SchemeChoice::SemiImplicitEuler(scheme) => Traits::of(scheme),
             SchemeChoice::ExplicitSemiImplicitEuler(scheme) => Traits::of(scheme),
+            SchemeChoice::JointWiseSemiImplicitEuler(scheme) => Traits::of(scheme),
             SchemeChoice::Leapfrog(scheme) => Traits::of(scheme),
             SchemeChoice::ExplicitLeapfrog(scheme) => Traits::of(scheme),
+            SchemeChoice::JointWiseLeapfrog(scheme) => Traits::of(scheme),
             SchemeChoice::Pefrl(scheme) => Traits::of(scheme),
             SchemeChoice::BlanesMoanS6(scheme) => Traits::of(scheme),
             SchemeChoice::Rk4(scheme) => Traits::of(scheme),
@@ -250,7 +260,10 @@ impl Method {
     pub fn foreign_damping(&self) -> Option<Damping> {
         let foreign = matches!(
             self.scheme,
-            SchemeChoice::ExplicitLeapfrog(_) | SchemeChoice::ExplicitSemiImplicitEuler(_)
+            SchemeChoice::ExplicitLeapfrog(_)
+                | SchemeChoice::ExplicitSemiImplicitEuler(_)
+                | SchemeChoice::JointWiseLeapfrog(_)
+                | SchemeChoice::JointWiseSemiImplicitEuler(_)
         );
         foreign.then(|| self.damping())
     }

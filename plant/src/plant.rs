@@ -117,6 +117,8 @@ macro_rules! with_scheme {
             SchemeChoice::ExplicitSemiImplicitEuler($scheme) => $body,
             SchemeChoice::Leapfrog($scheme) => $body,
             SchemeChoice::ExplicitLeapfrog($scheme) => $body,
+            SchemeChoice::JointWiseLeapfrog($scheme) => $body,
+            SchemeChoice::JointWiseSemiImplicitEuler($scheme) => $body,
             SchemeChoice::Pefrl($scheme) => $body,
             SchemeChoice::BlanesMoanS6($scheme) => $body,
             SchemeChoice::Rk4($scheme) => $body,

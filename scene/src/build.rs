@@ -117,7 +117,7 @@ impl Build {
         self
     }
 
-    /// `sweeps` or `explicit`, for schemes that have both. Without it the scheme's own.
+    /// `sweeps`, `joint-wise` or `explicit`, for schemes that have all. Without it the scheme's own.
     pub fn damping(mut self, name: &str) -> Self {
         self.damping = Some(name.to_owned());
         self

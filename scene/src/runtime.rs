@@ -5,7 +5,6 @@
 use std::marker::PhantomData;
 
 use dbd_kernel::body::Body;
-use dbd_kernel::damping::Share;
 use dbd_kernel::elements::input::{Input, Knot};
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::model::{AllTerms, Group, ModelOwner, ModelRef};
@@ -128,7 +127,7 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
     type PerTorsion = Vec<i32>;
     type PerLoad = Vec<LoadWindow>;
     type PerInput = Vec<Signal<P::Real>>;
-    type PerDamper = Vec<Share<P::Real>>;
+    type PerDamper<T: Copy> = Vec<T>;
     type PerKnot = Vec<KnotStep<P::Real>>;
 
     fn view(&self) -> ModelRef<'_, P, AllTerms> {
@@ -172,8 +171,8 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
         vec![Signal::default(); self.inputs.len()]
     }
 
-    fn per_damper(&self) -> Self::PerDamper {
-        vec![Share::ALONE; self.dampers.len()]
+    fn per_damper<T: Copy>(&self, value: T) -> Vec<T> {
+        vec![value; self.dampers.len()]
     }
 
     fn per_knot(&self) -> Self::PerKnot {

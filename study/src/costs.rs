@@ -25,7 +25,7 @@ pub struct Costs {
 #[derive(Deserialize)]
 struct Row {
     scene: String,
-    /// With `+1` for a Newton iteration, `-explicit` for explicit dampers in place of sweeps.
+    /// With `+1` for a Newton iteration, `-` and another damping than the scheme's own.
     scheme: String,
     precision: String,
     instructions_mean: f64,
@@ -58,15 +58,15 @@ impl Costs {
 
     /// Instructions per step, the mean of the counted steps; `None` for what was not counted.
     ///
-    /// `newton` is the number of Newton iterations, `damping_explicit` whether dampers are explicit
-    /// where the scheme's own way is another.
+    /// `newton` is the number of Newton iterations, `damping` how dampers act where the scheme's
+    /// own way is another.
     #[must_use]
     pub fn instructions_per_step(
         &self,
         scene: &str,
         scheme: &str,
         newton: Option<u32>,
-        damping_explicit: bool,
+        damping: Option<&str>,
         precision: &str,
         orientation: &str,
     ) -> Option<f64> {
@@ -77,8 +77,8 @@ impl Costs {
         if let Some(newton) = newton.filter(|newton| *newton > 0) {
             scheme += &format!("+{newton}");
         }
-        if damping_explicit {
-            scheme += "-explicit";
+        if let Some(damping) = damping {
+            scheme += &format!("-{damping}");
         }
         self.rows.get(&(scene.to_owned(), scheme, precision.to_owned())).copied()
     }
@@ -103,7 +103,7 @@ mod tests {
     ];
 
     fn plain(costs: &Costs, scene: &str, scheme: &str, precision: &str) -> Option<f64> {
-        costs.instructions_per_step(scene, scheme, None, false, precision, ORIENTATION)
+        costs.instructions_per_step(scene, scheme, None, None, precision, ORIENTATION)
     }
 
     #[test]
@@ -116,8 +116,9 @@ mod tests {
         let table = "scene,scheme,precision,step_s,instructions_mean,more\n\
                      a,dbd,f32,1e-4,300,\na,dbd+1,f32,1e-4,400,7\na,leapfrog-explicit,f64,1e-4,200,\n";
         let costs = Costs::read(table).unwrap();
-        let get = |scheme, newton, explicit, precision, orientation| {
-            costs.instructions_per_step("a", scheme, newton, explicit, precision, orientation)
+        let get = |scheme, newton, explicit: bool, precision, orientation| {
+            let damping = explicit.then_some("explicit");
+            costs.instructions_per_step("a", scheme, newton, damping, precision, orientation)
         };
         assert_eq!(get("dbd", None, false, "f32", "quaternion"), Some(300.0));
         assert_eq!(get("dbd", Some(0), false, "f32", "quaternion"), Some(300.0));
@@ -129,7 +130,7 @@ mod tests {
             get("dbd", None, false, "f64", "quaternion"),
             get("dbd", None, false, "f32", "euler-321"),
             get("leapfrog", None, false, "f64", "quaternion"),
-            costs.instructions_per_step("b", "dbd", None, false, "f32", "quaternion"),
+            costs.instructions_per_step("b", "dbd", None, None, "f32", "quaternion"),
         ] {
             assert_eq!(missing, None);
         }
@@ -149,7 +150,15 @@ mod tests {
             }
         }
         let explicit = |scheme| {
-            costs.instructions_per_step("double-wishbone", scheme, None, true, "f32", ORIENTATION)
+            let damping = Some("explicit");
+            costs.instructions_per_step(
+                "double-wishbone",
+                scheme,
+                None,
+                damping,
+                "f32",
+                ORIENTATION,
+            )
         };
         assert!(explicit("leapfrog").is_some() && explicit("semi-implicit-euler").is_some());
     }

@@ -12,7 +12,7 @@ pub struct Stepper {
     pub scheme: String,
     /// Newton iterations, for the schemes that have them.
     pub newton: Option<u32>,
-    /// How dampers act where that is not the scheme's own way: `explicit`.
+    /// How dampers act where that is not the scheme's own way: `explicit`, `joint-wise`.
     pub damping: Option<String>,
     /// `f64`, `f32` ….
     pub precision: String,

@@ -353,6 +353,6 @@ fn instructions(scene: &Scene, costs: &Costs, way: &Way) -> Option<f64> {
     if !kernel {
         return None;
     }
-    let explicit = damping.is_some();
-    costs.instructions_per_step(&scene.name, scheme, *newton, explicit, precision, orientation)
+    let damping = damping.as_deref();
+    costs.instructions_per_step(&scene.name, scheme, *newton, damping, precision, orientation)
 }

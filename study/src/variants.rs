@@ -88,7 +88,7 @@ fn of(scene: &Scene, name: &str, difference: Option<f64>, counted: &Costs, chip:
     let way = [Way::Kernel(Method::default())];
     let cost = costs(scene, &way, step, &mut |_, _| ());
     let target_instructions =
-        counted.instructions_per_step(chip, "leapfrog", None, false, "f32", "quaternion");
+        counted.instructions_per_step(chip, "leapfrog", None, None, "f32", "quaternion");
     Compared {
         name: name.into(),
         bodies: scene.model.bodies.len(),

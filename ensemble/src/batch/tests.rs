@@ -61,7 +61,7 @@ fn instances(model: &SceneModel<F64>, count: usize) -> Vec<SceneModel<F64>> {
     (0..count).map(instance).collect()
 }
 
-fn plants<R: Real + Named, S: Scheme>(
+fn plants<R: Real + Named, S: InLanes>(
     models: &[SceneModel<F64>],
     scheme: S,
     step: f64,
@@ -71,7 +71,7 @@ fn plants<R: Real + Named, S: Scheme>(
 }
 
 /// Steps instances in lanes and by themselves, in parts that are no blocks, and compares all bits.
-fn compare<V: Register, S: Scheme + Send>(
+fn compare<V: Register, S: InLanes + Send>(
     name: &str,
     models: &[SceneModel<F64>],
     scheme: S,
@@ -104,7 +104,7 @@ const SCENES: [&str; 8] = [
     "gyroscope",
 ];
 
-fn every_scene<V: Register, S: Scheme + Send>(scheme: S, scenes: &[&str]) {
+fn every_scene<V: Register, S: InLanes + Send>(scheme: S, scenes: &[&str]) {
     for name in scenes {
         let (model, step) = shipped(name);
         // One lane runs a twin.

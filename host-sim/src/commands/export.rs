@@ -168,7 +168,8 @@ mod tests {
     fn a_plant_has_the_schemes_that_run_on_the_pc() {
         for scheme in SchemeName::ALL {
             for newton in [None, Some(0), Some(8), Some(9)] {
-                for damping in [None, Some(DampingName::Sweeps), Some(DampingName::Explicit)] {
+                let ways = DampingName::ALL.iter().copied().map(Some);
+                for damping in [None].into_iter().chain(ways) {
                     let method = Method::new(*scheme, newton, PrecisionName::F64)
                         .and_then(|method| damping.map_or(Ok(method), |d| method.with_damping(d)));
                     let damping = damping.map(DampingName::name);

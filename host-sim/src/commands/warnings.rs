@@ -125,7 +125,7 @@ pub fn of_step(
 /// Dampers so strong that what they slow down moves too fast: of all for a composition, whose sweeps
 /// lie around the step, of those that cross for the others.
 fn of_damping(scene: &Scene, method: &Method, step: f64, whose: &str) -> Option<String> {
-    if method.damping() != Damping::Sweeps {
+    if method.damping() == Damping::Explicit {
         return None;
     }
     let composed = COMPOSED.contains(&method.scheme_name());

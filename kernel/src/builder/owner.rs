@@ -6,7 +6,6 @@ use heapless::Vec;
 
 use crate::body::BodyState;
 use crate::builder::ModelBuilder;
-use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::model::{AllTerms, ModelOwner, ModelRef};
 use crate::schedule::{KnotStep, LoadWindow, Signal};
@@ -50,7 +49,7 @@ impl<
     type PerTorsion = Vec<i32, TORSIONS>;
     type PerLoad = Vec<LoadWindow, LOADS>;
     type PerInput = Vec<Signal<P::Real>, INPUTS>;
-    type PerDamper = Vec<Share<P::Real>, DAMPERS>;
+    type PerDamper<T: Copy> = Vec<T, DAMPERS>;
     type PerKnot = Vec<KnotStep<P::Real>, KNOTS>;
 
     fn view(&self) -> ModelRef<'_, P, AllTerms> {
@@ -94,8 +93,8 @@ impl<
         self.inputs.iter().map(|_| Signal::default()).collect()
     }
 
-    fn per_damper(&self) -> Self::PerDamper {
-        self.dampers.iter().map(|_| Share::ALONE).collect()
+    fn per_damper<T: Copy>(&self, value: T) -> Vec<T, DAMPERS> {
+        self.dampers.iter().map(|_| value).collect()
     }
 
     fn per_knot(&self) -> Self::PerKnot {

@@ -21,6 +21,9 @@
 //! Angular momentum is kept by dampers of TSDAs with a free length and of torsion springs; a damped
 //! bushing or point on a line has the law `c·v_rel`, whose torque vanishes only with its deflection.
 
+mod joints;
+mod lever;
+mod levers;
 mod motion;
 mod near;
 mod pair;
@@ -28,6 +31,9 @@ mod shares;
 mod strength;
 
 pub use crate::elements::share::Share;
+pub(crate) use joints::{prepare, sweep_joints};
+pub use lever::{Keep, Lever, Levers, NoLevers};
+pub(crate) use levers::{find, weigh};
 pub(crate) use near::Held;
 pub(crate) use pair::{HalfKick, Kick, NoKick};
 pub(crate) use shares::share;
@@ -50,16 +56,19 @@ use crate::space::{Linear as _, Vector as _};
 pub enum Damping {
     /// A sweep of half a step after each half kick, or around a composition: of this module.
     Sweeps,
+    /// As sweeps, with a joint's dampers at once, as they stand at the start seen from its body.
+    JointWise,
     /// Forces at the velocities of each evaluation: limits the step to about 2·m/c.
     Explicit,
 }
 
 impl Damping {
-    /// The name users give: `sweeps`, `explicit`.
+    /// The name users give: `sweeps`, `joint-wise`, `explicit`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Damping::Sweeps => "sweeps",
+            Damping::JointWise => "joint-wise",
             Damping::Explicit => "explicit",
         }
     }
@@ -248,45 +257,48 @@ fn sweep_stars<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     let end_a = End::new(model, places, group.a, None);
     let end_b = End::new(model, places, group.b, None);
     let mut pair = new_pair(model, sweep, [group.a, group.b], bodies);
-    let mut tips = [(P::Location::default(), P::Vector::ZERO); MOST_ARMS];
     let stars = group.stars as usize;
-    for i in 0..stars {
-        let star = if REVERSE { stars - 1 - i } else { i };
-        let (first, damper) = (group.tips(star), damper + star * arms);
-        let (Some(centre), Some(points), Some(dampers), Some(shares)) = (
-            model.points.get(group.centre(star)),
-            model.points.get(first..first + arms),
-            model.dampers.get(damper..damper + arms),
-            sweep.shares.get(damper..damper + arms),
-        ) else {
-            break;
-        };
-        if i == 0 || !group.shared {
-            for (tip, point) in tips.iter_mut().zip(points) {
-                *tip = end_b.place(point);
-            }
+    let (blocks, per_block) = if group.shared { (1, stars) } else { (stars, 1) };
+    for i in 0..blocks {
+        let block = per_block * if REVERSE { blocks - 1 - i } else { i };
+        let first = group.tips(block);
+        let Some(points @ [first, ..]) = model.points.get(first..first + arms) else { break };
+        let mut tips = [end_b.place(first); MOST_ARMS];
+        for (tip, point) in tips.iter_mut().zip(points).skip(1) {
+            *tip = end_b.place(point);
         }
-        let (centre, arm_a) = end_a.place(centre);
-        let mut element = |((tip, arm_b), (&coefficient, share)): Damped<'_, P, P::Real>| {
-            let d = P::displacement(&centre, tip);
-            let u = d * d.dot(d).sqrt().reciprocal_or_zero();
-            let mut moments = [P::Moment::ZERO; 2];
-            if pair.has(0) {
-                moments[0] = end_a.moment_to_axes(arm_a.cross(u));
+        for i in 0..per_block {
+            let star = block + if REVERSE { per_block - 1 - i } else { i };
+            let damper = damper + star * arms;
+            let (Some(centre), Some(dampers), Some(shares)) = (
+                model.points.get(group.centre(star)),
+                model.dampers.get(damper..damper + arms),
+                sweep.shares.get(damper..damper + arms),
+            ) else {
+                break;
+            };
+            let (centre, arm_a) = end_a.place(centre);
+            let mut element = |((tip, arm_b), (&coefficient, share)): Damped<'_, P, P::Real>| {
+                let d = P::displacement(&centre, tip);
+                let u = d * d.dot(d).sqrt().reciprocal_or_zero();
+                let mut moments = [P::Moment::ZERO; 2];
+                if pair.has(0) {
+                    moments[0] = end_a.moment_to_axes(arm_a.cross(u));
+                }
+                if pair.has(1) {
+                    moments[1] = end_b.moment_to_axes(arm_b.cross(u));
+                }
+                let damper = sweep.damper::<REVERSE>(coefficient, share);
+                let idle = P::Real::truth(false);
+                pair.damp::<P, K>(&Direction { along: u, moments }, damper, idle);
+            };
+            let dampers = dampers.iter().zip(shares);
+            let elements = tips.get(..arms).unwrap_or_default().iter().zip(dampers);
+            if REVERSE {
+                elements.rev().for_each(&mut element);
+            } else {
+                elements.for_each(&mut element);
             }
-            if pair.has(1) {
-                moments[1] = end_b.moment_to_axes(arm_b.cross(u));
-            }
-            let damper = sweep.damper::<REVERSE>(coefficient, share);
-            let idle = P::Real::truth(false);
-            pair.damp::<P, K>(&Direction { along: u, moments }, damper, idle);
-        };
-        let dampers = dampers.iter().zip(shares);
-        let elements = tips.get(..arms).unwrap_or_default().iter().zip(dampers);
-        if REVERSE {
-            elements.rev().for_each(&mut element);
-        } else {
-            elements.for_each(&mut element);
         }
     }
     pair.store::<P>(bodies);

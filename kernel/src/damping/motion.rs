@@ -4,6 +4,8 @@
 //! before a run or beside it; the sweeps of a step have a way of their own.
 
 use crate::body::{BodyState, Increment};
+use crate::damping::lever::Lever;
+use crate::damping::levers::{fixed, held};
 use crate::damping::near::{Held, hold, near};
 use crate::damping::pair::Direction;
 use crate::damping::{each_direction, torsion_direction};
@@ -55,6 +57,8 @@ pub(super) struct Pose<'s, 'm, P: Geometry, T> {
     pub(super) places: Places<'s, P>,
     pub(super) bodies: &'s [BodyState<P>],
     pub(super) turns: &'s [i32],
+    /// The joints' levers, which stand for their dampers; none where dampers act one by one.
+    pub(super) levers: &'s [Lever<P>],
 }
 
 impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
@@ -112,12 +116,18 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
         mount: Mount,
         mut visit: impl FnMut(usize, P::Real, P::Real, &Direction<P::Space>),
     ) {
-        let Self { model, places, bodies, turns } = *self;
+        let Self { model, places, bodies, turns, levers } = *self;
         let one = P::Real::ONE;
         match mount {
             Mount::Group(group) => {
                 let Some(group) = model.groups.get(group) else { return };
                 let Some(first) = group.damper.row() else { return };
+                if let Some(ends) = fixed::<P, T>(group).filter(|_| !levers.is_empty()) {
+                    for (i, lever) in held(group, levers).iter().enumerate() {
+                        visit(first + i, one, one, &lever.direction(places, ends, group.a));
+                    }
+                    return;
+                }
                 for i in 0..group.elements() {
                     let Some(&coefficient) = model.dampers.get(first + i) else { return };
                     let Some(element) = placed(model, places, (0, group), i) else { return };

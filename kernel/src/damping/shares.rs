@@ -8,6 +8,7 @@
 //! divide a force, not how much they resist.
 
 use crate::body::BodyState;
+use crate::damping::lever::Lever;
 use crate::damping::motion::{Motion, Pose};
 use crate::damping::near::Held;
 use crate::elements::share::Share;
@@ -22,12 +23,12 @@ pub(crate) fn share<P: Geometry, T: Terms>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     bodies: &[BodyState<P>],
-    turns: &[i32],
+    (turns, levers): (&[i32], &[Lever<P>]),
     held: &mut [Held],
     shares: &mut [Share<P::Real>],
 ) {
     let zero = P::Real::ZERO;
-    let pose = Pose { model, places, bodies, turns };
+    let pose = Pose { model, places, bodies, turns, levers };
     pose.hold(held);
     shares.fill(Share { own: zero, later: zero });
     // First the powers of all dampers and of those that come later, over the damper's own.

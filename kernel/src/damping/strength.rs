@@ -43,7 +43,7 @@ pub fn strengths<M: ModelOwner>(model: &M, state: &State<M>, mut visit: impl FnM
     let mut frames = model.per_body(FrameOf::<M>::default());
     place_bodies::<M::Precision>(bodies, frames.as_mut());
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
-    let pose = Pose { model: &view, places, bodies, turns: state.turns.as_ref() };
+    let pose = Pose { model: &view, places, bodies, turns: state.turns.as_ref(), levers: &[] };
     let one = RealOf::<M>::ONE;
     let crossing = RealOf::<M>::from_f64(0.25 * CROSSING);
     let mut held = model.per_body(Held::default());

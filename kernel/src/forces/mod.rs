@@ -18,7 +18,7 @@ mod torsions;
 mod universal;
 
 use crate::body::BodyState;
-pub use record::{At, Dampers, DampersLeft, ExplicitDampers, Wrench};
+pub use record::{At, Dampers, DampersLeft, DampersOfJoints, ExplicitDampers, Wrench};
 pub(crate) use record::{Record, Turns, apply};
 
 use crate::elements::gravity;

@@ -41,6 +41,8 @@ impl<S: Space> Record<S> {
 pub trait Dampers {
     /// Whether they act.
     const ACT: bool;
+    /// Whether what is left of them acts joint by joint.
+    const JOINT_WISE: bool = false;
 }
 
 /// Dampers act as forces at the velocities of the evaluation.
@@ -57,6 +59,15 @@ pub struct DampersLeft;
 
 impl Dampers for DampersLeft {
     const ACT: bool = false;
+}
+
+/// Dampers are left to the joints' levers of [`crate::damping`].
+#[derive(Clone, Copy, Debug)]
+pub struct DampersOfJoints;
+
+impl Dampers for DampersOfJoints {
+    const ACT: bool = false;
+    const JOINT_WISE: bool = true;
 }
 
 /// Where in a step an evaluation stands.

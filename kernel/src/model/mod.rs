@@ -28,7 +28,6 @@ use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_law::{PointLaw as _, Stretch};
 use crate::elements::point_on_line::PointOnLine;
 use crate::elements::revolute::Revolute;
-use crate::elements::share::Share;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::elements::universal::Universal;
@@ -186,8 +185,8 @@ pub trait ModelOwner {
     type PerLoad: Clone + AsRef<[LoadWindow]> + AsMut<[LoadWindow]>;
     /// Memory of one signal per input.
     type PerInput: Clone + AsRef<[Signal<RealOf<Self>>]> + AsMut<[Signal<RealOf<Self>>]>;
-    /// Memory of one share per damper.
-    type PerDamper: Clone + AsRef<[Share<RealOf<Self>>]> + AsMut<[Share<RealOf<Self>>]>;
+    /// Memory of one `T` per damper.
+    type PerDamper<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one knot in steps per knot.
     type PerKnot: Clone + AsRef<[KnotStep<RealOf<Self>>]> + AsMut<[KnotStep<RealOf<Self>>]>;
 
@@ -203,8 +202,8 @@ pub trait ModelOwner {
     fn per_load(&self) -> Self::PerLoad;
     /// One zero signal per input.
     fn per_input(&self) -> Self::PerInput;
-    /// One share per damper.
-    fn per_damper(&self) -> Self::PerDamper;
+    /// One `value` per damper.
+    fn per_damper<T: Copy>(&self, value: T) -> Self::PerDamper<T>;
     /// One knot in steps per knot.
     fn per_knot(&self) -> Self::PerKnot;
 }

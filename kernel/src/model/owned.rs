@@ -8,7 +8,6 @@ use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_on_line::PointOnLine;
 use crate::elements::revolute::Revolute;
-use crate::elements::share::Share;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::elements::universal::Universal;
@@ -267,7 +266,7 @@ impl<
     type PerTorsion = [i32; TORSIONS];
     type PerLoad = [LoadWindow; LOADS];
     type PerInput = [Signal<P::Real>; INPUTS];
-    type PerDamper = [Share<P::Real>; DAMPERS];
+    type PerDamper<T: Copy> = [T; DAMPERS];
     type PerKnot = [KnotStep<P::Real>; KNOTS];
 
     #[inline(always)]
@@ -317,8 +316,8 @@ impl<
     }
 
     #[inline]
-    fn per_damper(&self) -> [Share<P::Real>; DAMPERS] {
-        [Share::ALONE; DAMPERS]
+    fn per_damper<T: Copy>(&self, value: T) -> [T; DAMPERS] {
+        [value; DAMPERS]
     }
 
     #[inline]

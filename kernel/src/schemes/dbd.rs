@@ -9,7 +9,7 @@
 //! Keeps linear momentum to rounding, angular momentum to first order.
 
 use crate::body::{BodyState, Increment};
-use crate::damping::Damping;
+use crate::damping::{Damping, NoLevers};
 use crate::forces::{At, ExplicitDampers};
 use crate::geometry::Geometry;
 use crate::model::Terms;
@@ -83,6 +83,7 @@ impl Scheme for Dbd {
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
     type Memory<P: Geometry> = DbdMemory<P>;
+    type Levers = NoLevers;
 
     fn evaluations(&self) -> u32 {
         3 + self.newton

@@ -7,7 +7,7 @@
 //! less with two iterations or more. Keeps linear momentum to rounding.
 //! For the record: the energies that the paper reports exclude it.
 
-use crate::damping::Damping;
+use crate::damping::{Damping, NoLevers};
 use crate::forces::{At, ExplicitDampers};
 use crate::geometry::Geometry;
 use crate::model::Terms;
@@ -34,6 +34,7 @@ impl Scheme for DbdP1 {
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
     type Memory<P: Geometry> = DbdMemory<P>;
+    type Levers = NoLevers;
 
     fn evaluations(&self) -> u32 {
         2 + self.newton

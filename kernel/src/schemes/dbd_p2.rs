@@ -7,7 +7,7 @@
 //! `ω_max·h < 1`. Keeps linear momentum to rounding.
 //! For the record: the energies that the paper reports exclude it.
 
-use crate::damping::Damping;
+use crate::damping::{Damping, NoLevers};
 use crate::forces::{At, ExplicitDampers};
 use crate::geometry::Geometry;
 use crate::model::Terms;
@@ -32,6 +32,7 @@ impl Scheme for DbdP2 {
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
     type Memory<P: Geometry> = DbdMemory<P>;
+    type Levers = NoLevers;
 
     fn evaluations(&self) -> u32 {
         3 + self.newton

@@ -8,7 +8,7 @@
 //! Stable for `ω_max·h < 2`. Dampers are pairwise sweeps of half a step, each told of the half kick
 //! before it (see [`crate::damping`]); they cost no stability and keep second order.
 
-use crate::damping::Damping;
+use crate::damping::{Damping, NoLevers};
 use crate::forces::{At, Dampers, DampersLeft};
 use crate::geometry::Geometry;
 use crate::model::Terms;
@@ -28,6 +28,7 @@ impl Scheme for Leapfrog {
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Sweeps;
     type Memory<P: Geometry> = ();
+    type Levers = NoLevers;
 
     fn evaluations(&self) -> u32 {
         1
@@ -59,7 +60,7 @@ impl Kicked for Leapfrog {
         if D::ACT || !stepper.has_dampers() {
             stepper.kick_and_drift(P::Real::HALF, stepper.h);
         } else {
-            stepper.damped_kick_forward();
+            stepper.damped_kick::<D, false>();
             stepper.drift(stepper.h);
         }
         stepper.sample_inputs(P::Real::ONE);
@@ -67,7 +68,7 @@ impl Kicked for Leapfrog {
         if D::ACT {
             stepper.kick(P::Real::HALF);
         } else {
-            stepper.damped_kick_reverse();
+            stepper.damped_kick::<D, true>();
         }
         Ok(())
     }

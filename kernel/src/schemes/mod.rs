@@ -6,6 +6,7 @@ mod dbd;
 mod dbd_p1;
 mod dbd_p2;
 mod explicit;
+mod joint_wise;
 mod leapfrog;
 mod pefrl;
 mod rk4;
@@ -16,12 +17,13 @@ pub use dbd::{Dbd, DbdMemory};
 pub use dbd_p1::DbdP1;
 pub use dbd_p2::DbdP2;
 pub use explicit::{Explicit, Kicked};
+pub use joint_wise::JointWise;
 pub use leapfrog::Leapfrog;
 pub use pefrl::Pefrl;
 pub use rk4::{Rk4, Rk4Memory};
 pub use semi_implicit_euler::SemiImplicitEuler;
 
-use crate::damping::Damping;
+use crate::damping::{Damping, Keep};
 use crate::geometry::Geometry;
 use crate::model::Terms;
 use crate::status::Cause;
@@ -39,6 +41,9 @@ pub trait Scheme: Copy {
     const DAMPING: Damping;
     /// Memory per body that the scheme needs within a step.
     type Memory<P: Geometry>: Copy + Default + Send;
+    /// Whether its plants keep the joints' levers: [`NoLevers`](crate::damping::NoLevers), or
+    /// [`Levers`](crate::damping::Levers) for damping joint by joint.
+    type Levers: Keep;
 
     /// Force evaluations per step, when nothing changes between steps.
     fn evaluations(&self) -> u32;

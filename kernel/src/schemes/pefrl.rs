@@ -9,7 +9,7 @@
 //! within a step, some of whose parts go backwards: second order then.
 
 use crate::compositions::PEFRL;
-use crate::damping::Damping;
+use crate::damping::{Damping, NoLevers};
 use crate::geometry::Geometry;
 use crate::model::Terms;
 use crate::schemes::Scheme;
@@ -28,6 +28,7 @@ impl Scheme for Pefrl {
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Sweeps;
     type Memory<P: Geometry> = ();
+    type Levers = NoLevers;
 
     fn evaluations(&self) -> u32 {
         PEFRL.kicks.len() as u32

@@ -8,7 +8,7 @@
 //! and energy to fourth order only: they drift.
 
 use crate::body::{BodyState, Increment};
-use crate::damping::Damping;
+use crate::damping::{Damping, NoLevers};
 use crate::forces::{At, ExplicitDampers};
 use crate::geometry::Geometry;
 use crate::model::Terms;
@@ -44,6 +44,7 @@ impl Scheme for Rk4 {
     const ORDER_DAMPED: u32 = 4;
     const DAMPING: Damping = Damping::Explicit;
     type Memory<P: Geometry> = Rk4Memory<P>;
+    type Levers = NoLevers;
 
     fn evaluations(&self) -> u32 {
         4

@@ -8,7 +8,7 @@
 //! kick comes in two halves, each followed by a pairwise sweep that is told of it (see
 //! [`crate::damping`]); around the drift, too, sweeps would lower the limit towards √2.
 
-use crate::damping::Damping;
+use crate::damping::{Damping, NoLevers};
 use crate::forces::{At, Dampers, DampersLeft};
 use crate::geometry::Geometry;
 use crate::model::Terms;
@@ -28,6 +28,7 @@ impl Scheme for SemiImplicitEuler {
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Sweeps;
     type Memory<P: Geometry> = ();
+    type Levers = NoLevers;
 
     fn evaluations(&self) -> u32 {
         1
@@ -57,8 +58,8 @@ impl Kicked for SemiImplicitEuler {
         if D::ACT || !stepper.has_dampers() {
             stepper.kick_and_drift(P::Real::ONE, stepper.h);
         } else {
-            stepper.damped_kick_forward();
-            stepper.damped_kick_reverse();
+            stepper.damped_kick::<D, false>();
+            stepper.damped_kick::<D, true>();
             stepper.drift(stepper.h);
         }
         Ok(())

@@ -4,7 +4,8 @@
 
 use dbd_kernel::damping::Damping;
 use dbd_kernel::schemes::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, Leapfrog, Pefrl, Rk4, Scheme, SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, JointWise, Kicked, Leapfrog, Pefrl, Rk4, Scheme,
+    SemiImplicitEuler,
 };
 
 use crate::nearest::nearest;
@@ -54,7 +55,7 @@ impl SchemeError {
 
 impl ExportScheme {
     /// A scheme by its name, with Newton iterations for those that have them, and with another
-    /// damping than its own, `sweeps` or `explicit`, for those that have both.
+    /// damping than its own, `sweeps`, `joint-wise` or `explicit`, for those that have all.
     ///
     /// # Errors
     /// Where there is no such scheme, or it has no such parameter.
@@ -64,12 +65,10 @@ impl ExportScheme {
         damping: Option<&str>,
     ) -> Result<Self, SchemeError> {
         let refuse = |message: String, help: String| Err(SchemeError { message, help });
-        let swept = |word: &str| word == Damping::Sweeps.name();
-        if let Some(word) = damping
-            && !swept(word)
-            && word != Damping::Explicit.name()
-        {
-            let help = format!("{} or {}", Damping::Sweeps.name(), Damping::Explicit.name());
+        let ways = [Damping::Sweeps, Damping::JointWise, Damping::Explicit];
+        let way = damping.and_then(|word| ways.into_iter().find(|way| way.name() == word));
+        if let (Some(word), None) = (damping, way) {
+            let help = format!("{}, {} or {}", ways[0].name(), ways[1].name(), ways[2].name());
             return refuse(format!("there is no damping \"{word}\""), help);
         }
         let iterations = newton.unwrap_or(0);
@@ -77,18 +76,24 @@ impl ExportScheme {
             let message = format!("{iterations} Newton iterations are more than {MOST_ITERATIONS}");
             return refuse(message, format!("at most {MOST_ITERATIONS}; more of them buy nothing"));
         }
-        let explicit = damping.is_some_and(|word| !swept(word));
+        let wrapper = match way {
+            Some(Damping::Explicit) => Some("Explicit"),
+            Some(Damping::JointWise) => Some("JointWise"),
+            Some(Damping::Sweeps) | None => None,
+        };
         let with_newton = |name: &str| format!("{name} {{ newton: {iterations} }}");
         let scheme = match name {
             Dbd::NAME => Self::of(Dbd { newton: iterations }, "Dbd", &with_newton("Dbd")),
             DbdP1::NAME => Self::of(DbdP1 { newton: iterations }, "DbdP1", &with_newton("DbdP1")),
             DbdP2::NAME => Self::of(DbdP2 { newton: iterations }, "DbdP2", &with_newton("DbdP2")),
-            SemiImplicitEuler::NAME if explicit => {
-                Self::explicit(SemiImplicitEuler, "SemiImplicitEuler")
-            }
-            SemiImplicitEuler::NAME => Self::plain(SemiImplicitEuler, "SemiImplicitEuler"),
-            Leapfrog::NAME if explicit => Self::explicit(Leapfrog, "Leapfrog"),
-            Leapfrog::NAME => Self::plain(Leapfrog, "Leapfrog"),
+            SemiImplicitEuler::NAME => match wrapper {
+                Some(wrapper) => Self::wrapped(SemiImplicitEuler, "SemiImplicitEuler", wrapper),
+                None => Self::plain(SemiImplicitEuler, "SemiImplicitEuler"),
+            },
+            Leapfrog::NAME => match wrapper {
+                Some(wrapper) => Self::wrapped(Leapfrog, "Leapfrog", wrapper),
+                None => Self::plain(Leapfrog, "Leapfrog"),
+            },
             Pefrl::NAME => Self::plain(Pefrl, "Pefrl"),
             BlanesMoanS6::NAME => Self::plain(BlanesMoanS6, "BlanesMoanS6"),
             Rk4::NAME => Self::plain(Rk4, "Rk4"),
@@ -106,7 +111,7 @@ impl ExportScheme {
         match damping {
             Some(word) if word != scheme.damping.name() => refuse(
                 format!("the scheme {name} has no {word} damping, only {}", scheme.damping.name()),
-                format!("leapfrog and semi-implicit-euler have both; none for {name}"),
+                format!("leapfrog and semi-implicit-euler have all of them; none for {name}"),
             ),
             _ => Ok(scheme),
         }
@@ -116,10 +121,16 @@ impl ExportScheme {
         Self::of(scheme, name, name)
     }
 
-    fn explicit<S: dbd_kernel::schemes::Kicked>(scheme: S, name: &str) -> Self {
+    /// A scheme in one of the kernel's wrappers that change its damping.
+    fn wrapped<S: Kicked>(scheme: S, name: &str, wrapper: &str) -> Self {
         let path = "dbd_kernel::schemes::";
-        let (ty, value) = (format!("Explicit<{path}{name}>"), format!("Explicit({path}{name})"));
-        Self::of(Explicit(scheme), &ty, &value)
+        let ty = format!("{wrapper}<{path}{name}>");
+        let value = format!("{wrapper}({path}{name})");
+        if wrapper == "Explicit" {
+            Self::of(Explicit(scheme), &ty, &value)
+        } else {
+            Self::of(JointWise(scheme), &ty, &value)
+        }
     }
 
     fn of<S: Scheme>(scheme: S, path: &str, value: &str) -> Self {
@@ -180,6 +191,13 @@ mod tests {
                 "dbd_kernel::schemes::Explicit(dbd_kernel::schemes::Leapfrog)"
             )
         );
+        assert_eq!(
+            value("semi-implicit-euler", None, Some("joint-wise")),
+            of(
+                "dbd_kernel::schemes::JointWise<dbd_kernel::schemes::SemiImplicitEuler>",
+                "dbd_kernel::schemes::JointWise(dbd_kernel::schemes::SemiImplicitEuler)"
+            )
+        );
         for name in NAMES {
             assert_eq!(ExportScheme::named(name, None, None).unwrap().name(), name);
         }
@@ -193,6 +211,7 @@ mod tests {
         assert!(refused("rk4", Some(0), None).contains("no Newton iterations"));
         assert!(refused("dbd", Some(9), None).contains("at most 8"));
         assert!(refused("dbd", None, Some("sweeps")).contains("no sweeps damping"));
-        assert!(refused("dbd", None, Some("none")).contains("sweeps or explicit"));
+        let none = refused("dbd", None, Some("none"));
+        assert!(none.contains("sweeps, joint-wise or explicit"), "{none}");
     }
 }

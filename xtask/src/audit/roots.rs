@@ -1,7 +1,7 @@
 //! The names of roots, `audit.WHAT.MODEL.SCHEME.PRECISION`, and which of them there must be.
 
 /// Every scheme that a step is compiled with.
-pub const SCHEMES: [&str; 10] = [
+pub const SCHEMES: [&str; 12] = [
     "dbd",
     "dbd-p1",
     "dbd-p2",
@@ -12,6 +12,8 @@ pub const SCHEMES: [&str; 10] = [
     "rk4",
     "semi-implicit-euler-explicit",
     "leapfrog-explicit",
+    "semi-implicit-euler-joint-wise",
+    "leapfrog-joint-wise",
 ];
 /// Models that are stepped with all of them.
 pub const MODELS: [&str; 2] = ["four-bar", "every-kind"];
@@ -57,7 +59,7 @@ pub struct Root {
     pub what: String,
     /// The model's name.
     pub model: String,
-    /// The scheme's name, with `-explicit` for explicit dampers.
+    /// The scheme's name, with `-` and another damping than its own.
     pub scheme: String,
     /// `f32` or `f64`.
     pub precision: String,

@@ -4,8 +4,8 @@
 //! precisions; every other shipped model with leapfrog in single precision.
 
 use dbd_kernel::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Leapfrog, Model, Pefrl, Plant, Rk4,
-    SemiImplicitEuler, Status,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, F32, F64, JointWise, Leapfrog, Model, Pefrl, Plant,
+    Rk4, SemiImplicitEuler, Status,
 };
 use firmware::alone::Alone;
 use firmware::models::{self, four_bar::FourBarF32, four_bar::FourBarF64};
@@ -76,6 +76,8 @@ pub fn keep(keep: Keep) {
         "rk4" Rk4;
         "semi-implicit-euler-explicit" Explicit<SemiImplicitEuler>;
         "leapfrog-explicit" Explicit<Leapfrog>;
+        "semi-implicit-euler-joint-wise" JointWise<SemiImplicitEuler>;
+        "leapfrog-joint-wise" JointWise<Leapfrog>;
     }
     every_kind! {
         "dbd" Dbd;
@@ -88,5 +90,7 @@ pub fn keep(keep: Keep) {
         "rk4" Rk4;
         "semi-implicit-euler-explicit" Explicit<SemiImplicitEuler>;
         "leapfrog-explicit" Explicit<Leapfrog>;
+        "semi-implicit-euler-joint-wise" JointWise<SemiImplicitEuler>;
+        "leapfrog-joint-wise" JointWise<Leapfrog>;
     }
 }

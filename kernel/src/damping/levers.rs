@@ -1,0 +1,274 @@
+//! Levers: the dampers of a joint as at most six that do not act on one another.
+//!
+//! `(model, initial pose, step) => levers`. Seen from the joint's second body (from its first, where
+//! the second is the ground) the points of a joint stay where they are but for its deflection, and
+//! with them the 6×6 tensor `C = Σ c·n·nᵀ` of its dampers, n a damper's wrench. A lever is a wrench
+//! of unit coefficient; levers have the same C and are at right angles in the inverse of the pair's
+//! mass: an impulse along one gives no rate along another (one-sided Jacobi rotations, Hestenes
+//! 1958). Joints between the same two bodies share theirs. Between a body and the ground they stay at
+//! right angles for ever; between two bodies as far as the bodies' inertias do not turn.
+
+use crate::damping::each_direction;
+use crate::damping::lever::{Kind, Lever, Seat};
+use crate::elements::share::Share;
+use crate::geometry::Geometry;
+use crate::index::BodyIndex;
+use crate::model::{Group, Law, ModelRef, Terms};
+use crate::pose::{Places, placed};
+use crate::real::Real;
+use crate::space::{Linear as _, Moment as _};
+
+/// The body that sees a group's points at rest and the other one, `None` where none does: raw
+/// elements turn and slide, what has a clearance is not always there, moved ground moves them.
+#[inline(always)]
+pub(super) fn fixed<P: Geometry, T: Terms>(group: &Group) -> Option<[BodyIndex; 2]> {
+    let Group { law, a, b, arms, .. } = *group;
+    let moved = |end: BodyIndex| T::INPUTS && end.anchor_row().is_some();
+    if !whole::<T>(group) || moved(a) || moved(b) {
+        return None;
+    }
+    // As many levers as a wrench has components always have room.
+    let room = P::Vector::DIMENSION + P::Moment::DIMENSION;
+    match law {
+        Law::Tsda if T::TSDAS && arms > 1 => Some(seen(a, b)),
+        // On a line that turns it is no wrench of both bodies.
+        Law::PointOnLine if T::LINES && a.is_world() && group.elements() >= room => Some([b, a]),
+        _ => None,
+    }
+}
+
+/// The ends of a raw spring, whose one lever turns: a body first.
+#[inline(always)]
+pub(super) fn turning<T: Terms>(group: &Group) -> Option<[BodyIndex; 2]> {
+    let raw = T::TSDAS && group.law == Law::Tsda && group.elements() == 1;
+    (raw && whole::<T>(group)).then(|| seen(group.a, group.b))
+}
+
+/// Whether all of a group's dampers act always.
+#[inline(always)]
+fn whole<T: Terms>(group: &Group) -> bool {
+    group.damper.row().is_some() && !(T::CLEARANCES && group.clearance.row().is_some())
+}
+
+/// The second body first, unless it is the ground.
+#[inline(always)]
+fn seen(a: BodyIndex, b: BodyIndex) -> [BodyIndex; 2] {
+    if b.is_world() { [a, b] } else { [b, a] }
+}
+
+/// The levers of a joint.
+pub(super) fn held<'l, P: Geometry>(group: &Group, levers: &'l [Lever<P>]) -> &'l [Lever<P>] {
+    let levers = levers.get(rows(group)).unwrap_or_default();
+    let count = levers.first().map_or(0, |first| first.seat.count.into());
+    levers.get(..count).unwrap_or_default()
+}
+
+/// Weighs the levers of joints to the ground, whose 1/μ no pose changes.
+pub(crate) fn weigh<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    shares: &[Share<P::Real>],
+    h: P::Real,
+    levers: &mut [Lever<P>],
+) {
+    for group in model.groups {
+        if let (Some(levers), Some(shares)) = (levers.get_mut(rows(group)), shares.get(rows(group)))
+            && fixed::<P, T>(group).is_some()
+        {
+            for (lever, share) in levers.iter_mut().zip(shares) {
+                lever.weigh(share, h, lever.rate);
+            }
+        }
+    }
+}
+
+/// The rows of a group's levers.
+#[inline(always)]
+pub(super) fn rows(group: &Group) -> core::ops::Range<usize> {
+    let first = group.damper.row().unwrap_or(0);
+    first..first + group.elements()
+}
+
+/// Joints that are further apart in the model share no levers: the search stays short.
+const NEAR: usize = 64;
+
+/// Finds the levers of all joints at a pose, for half a step `h` \[s\].
+pub(crate) fn find<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    h: P::Real,
+    levers: &mut [Lever<P>],
+) {
+    for (row, group) in model.groups.iter().enumerate() {
+        let Some(ends) = fixed::<P, T>(group) else {
+            if let Some(ends) = turning::<T>(group)
+                && let Some(lever) = levers.get_mut(rows(group).start)
+            {
+                lever.seat = Seat { ends: ends.map(|end| end.0), count: 1, kind: Kind::Turning };
+            }
+            continue;
+        };
+        let metric = Metric::new(model, ends);
+        let own = rows(group);
+        let Some((before, here)) = levers.split_at_mut_checked(own.start) else { continue };
+        let Some(here) = here.get_mut(..own.len()) else { continue };
+        let near = model.groups.get(row.saturating_sub(NEAR)..row).unwrap_or_default();
+        let head = near.iter().find(|other| fixed::<P, T>(other) == Some(ends));
+        let shared = head.map(rows).and_then(|rows| before.get_mut(rows)).unwrap_or_default();
+        for i in 0..group.elements() {
+            let (Some(element), Some(&coefficient)) =
+                (placed(model, places, (0, group), i), model.dampers.get(own.start + i))
+            else {
+                continue;
+            };
+            let root = coefficient.sqrt();
+            each_direction::<P, T, false>(model, places, &element, |direction| {
+                let [a, b] = direction.moments;
+                let (moment, other) = if ends[0] == group.b { (b, a) } else { (a, b) };
+                let along = match places.frames.get(ends[0].row()) {
+                    Some(frame) => P::to_body(frame, direction.along),
+                    None => P::Vector::ZERO,
+                };
+                let lever = Lever { along, moment, other, ..Lever::default() };
+                metric.insert(shared, here, lever.scaled(root));
+            });
+        }
+        metric.finish(shared, ends, h);
+        metric.finish(here, ends, h);
+    }
+}
+
+/// What the masses of a pair make of levers.
+struct Metric<P: Geometry> {
+    inverse_mass: P::Real,
+    own: P::Moment,
+    other: P::Moment,
+}
+
+/// Turns of a pair of levers towards right angles, at most: they converge in a few.
+const SWEEPS: u32 = 40;
+
+impl<P: Geometry> Metric<P> {
+    fn new<T: Terms>(model: &ModelRef<'_, P, T>, ends: [BodyIndex; 2]) -> Self {
+        let none = (P::Real::ZERO, P::Moment::ZERO);
+        let [own, other] = ends.map(|end| {
+            model
+                .bodies
+                .get(end.row())
+                .map_or(none, |body| (body.inverse_mass, body.inverse_inertia))
+        });
+        Self { inverse_mass: own.0 + other.0, own: own.1, other: other.1 }
+    }
+
+    /// \[1/s\] the rate along one per impulse along the other.
+    fn rate(&self, a: &Lever<P>, b: &Lever<P>) -> P::Real {
+        a.along.dot(b.along) * self.inverse_mass
+            + a.moment.dot(b.moment.scale(self.own))
+            + a.other.dot(b.other.scale(self.other))
+    }
+
+    /// Turns two levers until they are at right angles, the stronger one first; whether they were
+    /// not.
+    fn turn(&self, a: &mut Lever<P>, b: &mut Lever<P>) -> bool {
+        let (x, y, xy) = (self.rate(a, a), self.rate(b, b), self.rate(a, b));
+        let least = P::Real::from_f64(8.0) * epsilon::<P::Real>();
+        let crossed = xy.abs() > least * (x * y).sqrt();
+        let (c, s) = if crossed {
+            let slope = (y - x) / (xy + xy);
+            let root = (P::Real::ONE + slope * slope).sqrt();
+            let t = P::Real::ONE / if slope < P::Real::ZERO { slope - root } else { slope + root };
+            let c = P::Real::ONE / (P::Real::ONE + t * t).sqrt();
+            (c, t * c)
+        } else {
+            (P::Real::ONE, P::Real::ZERO)
+        };
+        let (first, second) = (a.turned(c, b, -s), b.turned(c, a, s));
+        let [x, y] = [&first, &second].map(|lever| self.rate(lever, lever));
+        let (strong, weak, least) =
+            if y > x { (second, first, least * y) } else { (first, second, least * x) };
+        *a = strong;
+        // What rounding leaves is none.
+        let rest = self.rate(&weak, &weak);
+        *b = if rest > P::Real::from_f64(32.0) * epsilon::<P::Real>() * least {
+            weak
+        } else {
+            Lever::default()
+        };
+        crossed
+    }
+
+    /// Brings one more lever in. With as many places as levers, or with six, there is always one.
+    fn insert(&self, shared: &mut [Lever<P>], own: &mut [Lever<P>], mut lever: Lever<P>) {
+        let count = shared.len() + own.len();
+        let mut crossed = true;
+        for _ in 0..SWEEPS {
+            if !crossed {
+                break;
+            }
+            crossed = false;
+            for i in 0..count {
+                for j in i + 1..count {
+                    if let Some([a, b]) = two(shared, own, i, j) {
+                        crossed |= self.turn(a, b);
+                    }
+                }
+                if let Some(a) = one(shared, own, i) {
+                    crossed |= self.turn(a, &mut lever);
+                }
+            }
+        }
+    }
+
+    /// Brings levers to the front, and takes the part of 1/μ that no pose changes. Beyond `LARGEST`
+    /// of h/μ nothing changes any more.
+    fn finish(&self, levers: &mut [Lever<P>], ends: [BodyIndex; 2], h: P::Real) {
+        let largest = P::Real::from_f64(LARGEST);
+        let mut count = 0;
+        for lever in levers.iter_mut() {
+            let x = h * self.rate(lever, lever);
+            if x > largest {
+                *lever = lever.scaled((largest / x).sqrt());
+            }
+            let still = Lever { other: P::Moment::ZERO, ..*lever };
+            lever.rate = self.rate(&still, &still);
+            count += u8::from(lever.rate > P::Real::ZERO);
+        }
+        if let Some(first) = levers.first_mut() {
+            first.seat = Seat { ends: ends.map(|end| end.0), count, kind: Kind::Joint };
+        }
+    }
+}
+
+/// The largest h/μ of a lever: its square is a number in single precision.
+pub(super) const LARGEST: f64 = 1e12;
+
+/// The spacing of numbers beside 1.
+fn epsilon<R: Real>() -> R {
+    let mut spacing = R::ONE;
+    while R::ONE + R::HALF * spacing > R::ONE {
+        spacing = R::HALF * spacing;
+    }
+    spacing
+}
+
+/// Element `i` of two slices after one another.
+fn one<'s, L>(first: &'s mut [L], second: &'s mut [L], i: usize) -> Option<&'s mut L> {
+    let before = first.len();
+    if i < before { first.get_mut(i) } else { second.get_mut(i - before) }
+}
+
+/// Elements `i < j` of two slices after one another.
+fn two<'s, L>(
+    first: &'s mut [L],
+    second: &'s mut [L],
+    i: usize,
+    j: usize,
+) -> Option<[&'s mut L; 2]> {
+    let before = first.len();
+    if j < before {
+        return first.get_disjoint_mut([i, j]).ok();
+    }
+    if i < before {
+        return Some([first.get_mut(i)?, second.get_mut(j - before)?]);
+    }
+    second.get_disjoint_mut([i - before, j - before]).ok()
+}

@@ -1,0 +1,45 @@
+//! Dampers joint by joint in a scheme of kicks and drifts.
+//!
+//! `JointWise(Leapfrog)` takes a joint's three to nine dampers as at most six levers, which do not act
+//! on one another (see [`crate::damping`]): fewer, and those of a joint to the ground constant. They
+//! stand as the dampers do at the start, seen from the joint's second body: the law of damping differs
+//! from that of the single dampers by what the joint's deflection turns them. Order, limits and what is
+//! kept are those of sweeps. Without dampers the bits are those of the scheme itself.
+
+use crate::damping::{Damping, Levers};
+use crate::forces::DampersOfJoints;
+use crate::geometry::Geometry;
+use crate::model::Terms;
+use crate::schemes::{Kicked, Scheme};
+use crate::status::Cause;
+use crate::step::Stepper;
+
+/// A scheme whose dampers act joint by joint in place of its sweeps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct JointWise<S>(pub S);
+
+impl<S: Kicked> Scheme for JointWise<S> {
+    const NAME: &'static str = S::NAME;
+    const ORDER: u32 = S::ORDER;
+    const ORDER_DAMPED: u32 = S::ORDER_DAMPED;
+    const DAMPING: Damping = Damping::JointWise;
+    type Memory<P: Geometry> = S::Memory<P>;
+    type Levers = Levers;
+
+    fn evaluations(&self) -> u32 {
+        self.0.evaluations()
+    }
+
+    fn stability_limit(&self) -> f64 {
+        self.0.stability_limit()
+    }
+
+    #[inline]
+    fn step<P: Geometry, T: Terms>(
+        &self,
+        stepper: &mut Stepper<'_, '_, P, T, S::Memory<P>>,
+    ) -> Result<(), Cause> {
+        S::step_with::<P, T, DampersOfJoints>(stepper)
+    }
+}
