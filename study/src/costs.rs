@@ -185,7 +185,7 @@ mod tests {
             }
             let dbd = plain(&costs, scene, "dbd", "f32").unwrap();
             let iterated =
-                costs.instructions_per_step(scene, "dbd", Some(1), false, "f32", ORIENTATION);
+                costs.instructions_per_step(scene, "dbd", Some(1), None, "f32", ORIENTATION);
             let ratio = iterated.unwrap() / dbd;
             assert!((1.25..1.5).contains(&ratio), "{scene}: {ratio}");
         }
