@@ -36,7 +36,7 @@ const JOINTS: [&str; 5] = [
     "type = \"fixed\"\naxis = [0, 1, 0]\nreference = [1, 0, 0]\nspan = 0.1\narm = 0.05",
     "type = \"translational\"\naxis = [1, 0, 0]\nreference = [0, 1, 0]\nspan = 0.1\ngauge = 0.06\n\
      offset = 0.01",
-    "type = \"cylindrical\"\naxis = [1, 0, 0]\nspan = 0.1",
+    "type = \"cylindrical\"\naxis = [1, 0, 0]\nspan = 0.1\noffset = 0.01",
 ];
 
 /// Two bodies of equal inertias about all axes in no field, joined to each other and, by `grounded`,
