@@ -25,6 +25,7 @@ pages! {
     command_line "docs/command-line.md"
     compare "docs/compare.md"
     development "docs/development.md"
+    ensembles "docs/ensembles.md"
     examples "docs/examples.md"
     extremes "docs/extremes.md"
     golden "docs/golden.md"

@@ -1,7 +1,6 @@
-//! Times ensembles against their instances by themselves and writes `docs/results/ensembles.csv`, from which
-//! the table of `docs/ensembles.md` is rendered: `cargo run --release -p dbd-ensemble --example measure`.
+//! Times ensembles against their instances one after the other on one thread, both in one process in turn, and
+//! prints the ratios of steps per second as CSV: `cargo run --release -p dbd-ensemble --example measure`.
 
-use std::fmt::Write as _;
 use std::num::NonZeroUsize;
 use std::path::Path;
 
@@ -10,11 +9,11 @@ use dbd_kernel::{F64, Leapfrog};
 use dbd_scene::{Scene, SceneModel};
 
 const SCENES: [&str; 4] = ["hexagon", "six-bar", "3ruu", "double-wishbone"];
-const ROUNDS: usize = 15;
+const ROUNDS: usize = 101;
 /// Steps of an instance in a round times its bodies.
-const WORK: u64 = 24_000;
+const WORK: u64 = 1_536;
 
-fn rows<R: Number>(name: &str, model: &SceneModel<F64>, step: f64, table: &mut String) {
+fn rows<R: Number>(name: &str, model: &SceneModel<F64>, step: f64) {
     let model = model.convert();
     let steps = WORK / model.bodies.len() as u64;
     for set in InstructionSet::ALL.into_iter().filter(|set| set.is_there()) {
@@ -23,34 +22,20 @@ fn rows<R: Number>(name: &str, model: &SceneModel<F64>, step: f64, table: &mut S
             let course = Course { set, threads, steps, rounds };
             let pace = pace::<R, _>(&model, Leapfrog, step, course).unwrap();
             let lanes = pace.instances / threads;
-            let (ratio, best) = (pace.ratio(), pace.best_ratio());
-            let row = format!(
-                "{name},leapfrog,{},{},{lanes},{threads},{ratio:.2},{best:.2}",
-                R::NAME,
-                set.name()
-            );
-            println!("{row}");
-            let _ = writeln!(table, "{row}");
+            let (ratio, best, set) = (pace.ratio(), pace.best_ratio(), set.name());
+            println!("{name},leapfrog,{},{set},{lanes},{threads},{ratio:.2},{best:.2}", R::NAME);
         }
     }
 }
 
 fn main() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let mut table = String::from(
-        "# Steps per second of an ensemble over those of its instances one after the other on one thread, \
-         both in one\n# process in turn: the median of 15 rounds' ratios, and the ratio of the fastest \
-         rounds. The table of docs/ensembles.md\n# is rendered from here; written by `cargo run --release \
-         -p dbd-ensemble --example measure` on two cores that did other\n# work beside, which two threads \
-         feel most.\nscene,scheme,precision,instructions,lanes,threads,ratio,best_ratio\n",
-    );
+    println!("scene,scheme,precision,instructions,lanes,threads,median_ratio,best_ratio");
     for name in SCENES {
-        let path = root.join("scenes").join(name).with_extension("toml");
-        let text = std::fs::read_to_string(&path).unwrap();
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name);
+        let text = std::fs::read_to_string(path.with_extension("toml")).unwrap();
         let scene = Scene::parse(&text, name).unwrap();
         let step = scene.step.unwrap();
-        rows::<f32>(name, &scene.model, step, &mut table);
-        rows::<f64>(name, &scene.model, step, &mut table);
+        rows::<f32>(name, &scene.model, step);
+        rows::<f64>(name, &scene.model, step);
     }
-    std::fs::write(root.join("docs/results/ensembles.csv"), table).unwrap();
 }

@@ -87,6 +87,9 @@ pub fn pace<R: Number, S: Scheme + Send + 'static>(
     for round in 0..=rounds.get() {
         (0..instances).for_each(|instance| ensemble.plant_mut(instance).reset());
         plants.iter_mut().for_each(Plant::reset);
+        // Lanes are filled before their first step.
+        ensemble.advance(1);
+        plants.iter_mut().for_each(|plant| _ = plant.step());
         let start = Instant::now();
         ensemble.advance_on(threads, steps);
         let together = done / start.elapsed().as_secs_f64();

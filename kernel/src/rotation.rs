@@ -43,20 +43,21 @@ pub fn free_rotor<P: Geometry>(
     let (zero, half) = (P::Real::ZERO, P::Real::HALF * time);
     let none = P::Real::truth(false);
     let w = P::spin(rate).in_space();
-    if P::Real::LANES == 1 && w.x == zero && w.y == zero {
+    if P::Real::LANES > 1 || w.x != zero {
+        about_x::<P>(body, orientation, rate, half, none);
+    } else if w.y == zero {
         // What moves in a plane turns about z alone, and this is all that the five would do.
         if w.z != zero {
             let turn = Turn::by(time * w.z);
             P::spin_up(rate, P::Moment::ZERO);
             P::Orientation::turn_about::<2>(orientation, turn.half_cos, turn.half_sin);
         }
-    } else {
-        about_x::<P>(body, orientation, rate, half, none);
-        about_y::<P>(body, orientation, rate, half, none);
-        about_z::<P>(body, orientation, rate, time, none);
-        about_y::<P>(body, orientation, rate, half, none);
-        about_x::<P>(body, orientation, rate, half, none);
+        return P::Orientation::renormalise(orientation);
     }
+    about_y::<P>(body, orientation, rate, half, none);
+    about_z::<P>(body, orientation, rate, time, none);
+    about_y::<P>(body, orientation, rate, half, none);
+    about_x::<P>(body, orientation, rate, half, none);
     P::Orientation::renormalise(orientation);
 }
 
@@ -301,6 +302,30 @@ mod tests {
                 assert!((q.w - cos).abs() < 1e-13 && (q.v.to_f64()[axis] - sin).abs() < 1e-13);
             }
             assert_eq!(rate.to_f64(), w);
+        }
+    }
+
+    #[test]
+    fn a_turn_about_an_axis_is_the_turn_of_its_quaternion() {
+        let mut about @ [start, ..] = [Quaternion::new(0.8, -0.2, 0.4, 0.4); 3];
+        about[0].turn_about::<0>(0.995, 0.0998);
+        about[1].turn_about::<1>(0.995, 0.0998);
+        about[2].turn_about::<2>(0.995, 0.0998);
+        for (q, axis) in about.into_iter().zip(Vec3::<f64>::axes()) {
+            assert_eq!(q, start.product(Quaternion { w: 0.995, v: axis * 0.0998 }));
+        }
+    }
+
+    #[test]
+    fn a_body_that_turns_about_z_alone_is_turned_as_by_all_five() {
+        let body = Body::<f64>::from_f64(1.0, [0.5, 0.7, 1.1]);
+        for [x, y, z] in [[0.0, 0.0, 1.3], [-0.0, 0.0, -1.3], [0.0, -0.0, 1.3], [-0.0; 3]] {
+            let (mut q, mut rate) = (Quaternion::new(0.8, -0.0, 0.0, -0.6), Vec3::new(x, y, z));
+            let (mut all, mut all_rate) = (q, rate);
+            free_rotor::<F64>(&body, &mut q, &mut rate, 0.1);
+            about_z::<F64>(&body, &mut all, &mut all_rate, 0.1, false);
+            all.renormalise();
+            assert_eq!(std::format!("{q:?} {rate:?}"), std::format!("{all:?} {all_rate:?}"));
         }
     }
 

@@ -174,7 +174,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     }
 
     /// [`Self::kick`] and then [`Self::drift`], a body at a time: its velocities are at hand.
-    #[inline]
+    #[inline(always)]
     pub fn kick_and_drift(&mut self, scale: P::Real, time: P::Real) {
         self.ledger.fresh = false;
         let rows = self.bodies.iter_mut().zip(self.model.bodies);

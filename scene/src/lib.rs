@@ -290,6 +290,17 @@ impl Scene {
         Ok((scene, done))
     }
 
+    /// The scene with one more change of its file's values, `PATH=VALUE`.
+    ///
+    /// # Errors
+    /// Where the changed scene is refused.
+    pub fn with(&self, change: &str) -> Result<Self, SceneError> {
+        let mut changes = self.changes.clone();
+        changes.push(change.to_owned());
+        let (file, text) = self.origin.file();
+        Self::parse_with(text, file, &changes)
+    }
+
     /// The refusal of a setting of the scene file at its place there: what was asked for elsewhere,
     /// a duration, a step, does not go with it. `None` where the file does not give it.
     #[must_use]

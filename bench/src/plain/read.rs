@@ -23,9 +23,6 @@ pub enum Lacks {
     /// It has no clearances.
     #[error("the plain loop has no clearances")]
     Clearances,
-    /// A point may lie on a line, but not at a distance from it.
-    #[error("the plain loop has no free distances from lines")]
-    Distances,
     /// A joint is springs between points, not one law for point and axes.
     #[error("the plain loop has no revolute or universal joints of bushings")]
     Axes,
@@ -43,17 +40,14 @@ impl Plain {
         if !model.clearances.is_empty() {
             return Err(Lacks::Clearances);
         }
-        if model.lines.iter().any(|line| line.free_length != 0.0) {
-            return Err(Lacks::Distances);
-        }
         let springs = model.groups.iter();
         let springs =
             springs.flat_map(|group| (0..group.elements()).map(|i| spring(model, group, i)));
-        let springs: Result<_, _> = springs.collect();
+        let springs = springs.collect::<Result<_, _>>()?;
         Ok(Self {
             bodies: bodies(model),
             gravity: model.gravity.first().map_or([0.0; 3], |gravity| gravity.to_f64()),
-            springs: springs?,
+            springs,
             torsions: torsions(model),
             loads: loads(model),
             step,
@@ -98,7 +92,7 @@ fn spring(model: &SceneModel<F64>, group: &Group, i: usize) -> Result<Spring, La
         Law::PointBushing => (Stretch::Anywhere, model.bushings[row].stiffness),
         Law::PointOnLine => {
             let line = &model.lines[row];
-            (Stretch::Across(line.direction.to_f64()), line.stiffness)
+            (Stretch::Across(line.direction.to_f64(), line.free_length), line.stiffness)
         }
         Law::Revolute | Law::Universal => return Err(Lacks::Axes),
     };

@@ -4,8 +4,9 @@ use dbd_kernel::Real;
 use dbd_kernel::geometry::Named;
 use dbd_kernel::real::Truth;
 
-/// A register of numbers. Its operations need its instruction set: a register is only used within
-/// [`Register::enter`].
+/// A register of numbers. Its operations need its instruction set: a machine that lacks it never comes to
+/// them, for [`crate::InstructionSet::is_there`] is asked first. Within [`Register::enter`] each is an
+/// instruction, elsewhere a call.
 pub(crate) trait Register: Copy + Send + Sync + 'static {
     /// The number in each lane.
     type Number: Real<Truth = bool, Count = i32> + Named;

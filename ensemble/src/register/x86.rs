@@ -10,9 +10,9 @@ use dbd_kernel::real::Truth;
 
 use crate::register::interface::{Register, Work, constants};
 
-// SAFETY of all below: a register is used within `enter` alone, which its caller reaches only where
-// `InstructionSet` has found the instructions on this machine. Arrays and registers of one size are
-// plain bits to each other.
+// SAFETY of all below: an ensemble of these registers is only made where `InstructionSet::is_there` has
+// found the instructions on this machine, and nothing else uses them. Arrays and registers of one size
+// are plain bits to each other.
 
 macro_rules! register {
     (
