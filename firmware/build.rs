@@ -50,7 +50,8 @@ const CHARTED: &[&str] = &[
 ];
 /// Scenes whose steps are counted with other values, too, in single precision: the scene, what its name
 /// gets behind it, the changes.
-const VARIED: &[(&str, &str, &[&str])] = &[("hexagon", "damped", &["joint.*.damping=30"])];
+const VARIED: &[(&str, &str, &[&str])] =
+    &[("hexagon", "damped", &["joint.*.damping=30"]), ("hexagon", "planar", &["planar=true"])];
 /// Linked from its own entry without start-up code: see its head.
 const AUDIT: &str = "audit";
 

@@ -76,10 +76,8 @@ impl Unplanar {
         };
         let more = match self.departures.len() - 1 {
             0 => String::new(),
-            1 => ", as 1 other thing does that `host-sim check` names without `planar`".into(),
-            more => {
-                format!(", as {more} other things do that `host-sim check` counts without `planar`")
-            }
+            1 => "; 1 other thing leaves it, too".into(),
+            more => format!("; {more} other things leave it, too"),
         };
         let help = format!(
             "with `planar = true` all of a scene lies in one plane and moves along it, here {plane}; \
