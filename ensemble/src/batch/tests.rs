@@ -1,12 +1,13 @@
 //! Every lane has the bits of its instance stepped by itself.
 
+use crate::InLanes;
 use dbd_kernel::geometry::Named;
 use dbd_kernel::index::{ClearanceIndex, DamperIndex, InputIndex};
 use dbd_kernel::model::{Group, Law};
 use dbd_kernel::status::Cause;
 use dbd_kernel::{
     BlanesMoanS6, Body, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F64, Leapfrog, Pefrl,
-    Plant, Quaternion, Real, Rk4, Scheme, SemiImplicitEuler, Status, TorsionSpring, Tsda, Vec3,
+    Plant, Quaternion, Real, Rk4, SemiImplicitEuler, Status, TorsionSpring, Tsda, Vec3,
 };
 use dbd_scene::{Scene, SceneModel};
 
