@@ -1,7 +1,7 @@
 //! Const models of the shipped scenes, and link arguments of the target's programs.
 //!
-//! `scenes/*.toml => SCENE.rs`, and `models.rs`: one module per scene and the macros `shipped`, `shipped_f32` and
-//! `charted` that list them.
+//! `scenes/*.toml => SCENE.rs`, and `models.rs`: one module per scene and the macros `shipped`, `shipped_f32`,
+//! `charted` and `varied` that list them.
 //! Link arguments stand here and not in a configuration, so that RUSTFLAGS in the environment
 //! cannot lose them; a host build gets none.
 
@@ -48,6 +48,9 @@ const CHARTED: &[&str] = &[
     "hexagon",
     "six-bar",
 ];
+/// Scenes whose steps are counted with other values, too, in single precision: the scene, what its name
+/// gets behind it, the changes.
+const VARIED: &[(&str, &str, &[&str])] = &[("hexagon", "damped", &["joint.*.damping=30"])];
 /// Linked from its own entry without start-up code: see its head.
 const AUDIT: &str = "audit";
 
@@ -85,6 +88,21 @@ fn models() {
         }
         modules += &format!("/// The scene `{name}`.\npub mod {module} {{\n{source}}}\n");
     }
+    let mut varied = String::new();
+    for (scene, variant, changes) in VARIED {
+        let name = format!("{scene}-{variant}");
+        let file = format!("../scenes/{scene}.toml");
+        let build = changes.iter().fold(Build::scene(file), |build, change| build.set(change));
+        let source = source(&build.precision("f32"));
+        let module = export::constant_name(&name).to_lowercase();
+        let (constant, model) = (export::constant_name(scene), export::type_name(scene));
+        varied += &format!(
+            "            {module} \"{name}\" {constant}_STEP, {constant}_F32: {model}F32;\n"
+        );
+        modules += &format!(
+            "/// The scene `{scene}` with other values.\npub mod {module} {{\n{source}}}\n"
+        );
+    }
     for name in CONTROLLED {
         let build = Build::scene(format!("../scenes/{name}.toml")).without_tables();
         let (module, source) = (export::constant_name(name).to_lowercase(), source(&build));
@@ -106,7 +124,8 @@ fn models() {
     let source = modules
         + &list("shipped", "shipped in both precisions", &both)
         + &list("shipped_f32", "shipped in single precision", &f32)
-        + &list("charted", "of those that are counted in both", &charted);
+        + &list("charted", "of those that are counted in both", &charted)
+        + &list("varied", "of scenes with other values", &varied);
     write("models.rs", &source);
 }
 

@@ -235,6 +235,8 @@ fn hung_from(row: u16) -> Model<F64, 1, 1, 2, 1, 0, 0, 0, 0, 0, 0, 1> {
         inputs: [Input { kind, value: 0.0, knot: 0, knots: 0 }],
         knots: [],
         clearances: [],
+        revolutes: [],
+        universals: [],
     }
 }
 

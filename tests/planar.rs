@@ -257,6 +257,11 @@ fn the_highest_frequency_is_that_of_the_inertias_and_springs() {
     for found in highest(&model) {
         assert!((found / 20.0 - 1.0).abs() < 5e-3, "{found}");
     }
+    // A torque that rests on a wheel counts by half: ω² = τ/2I.
+    let mut wound = Bench::<Planar64>::new();
+    let wheel = wound.add_body(2.0, [0.05, 0.05, 0.1], still(2.0)).unwrap();
+    wound.add_torsion_spring([WORLD, wheel], Z, 0.0, 0.0, 20.0).unwrap();
+    assert!((highest(&wound)[0] / 10.0 - 1.0).abs() < 5e-3);
     let wheel = model.add_body(2.0, [0.05, 0.05, 0.1], still(2.0)).unwrap();
     model.add_torsion_spring([WORLD, wheel], Z, 250.0, 0.0, 0.0).unwrap();
     for found in highest(&model) {

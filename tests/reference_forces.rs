@@ -164,14 +164,15 @@ fn the_naive_steps_are_the_kernels_steps() {
 /// The plain loop that times are compared with takes the reference's steps, of every scene that it does not refuse.
 #[test]
 fn a_plain_loop_takes_the_same_steps() {
-    let mut refused = Vec::new();
+    let mut compared = 0;
     for name in scene_names() {
         let scene = scene(&name);
         let h = scene.step.unwrap();
-        let Ok(mut plain) = Plain::of_model(&scene.model, h) else {
-            refused.push(name);
-            continue;
-        };
+        let plain = Plain::of_model(&scene.model, h);
+        let lacks = !scene.model.inputs.is_empty() || !scene.model.clearances.is_empty();
+        assert_eq!(plain.is_err(), lacks, "{name}");
+        let Ok(mut plain) = plain else { continue };
+        compared += 1;
         let (mechanism, start) = Mechanism::of(&scene);
         let mut naive = Naive::new(&mechanism, start, h);
         (0..200).for_each(|_| naive.leapfrog());
@@ -184,6 +185,5 @@ fn a_plain_loop_takes_the_same_steps() {
             assert!(position < 1e-10 && rate < 1e-7, "{name}: {position:e} {rate:e}");
         }
     }
-    println!("{refused:?}");
-    assert_eq!(refused, [""; 0]);
+    assert!(compared > 15, "{compared} scenes were compared");
 }

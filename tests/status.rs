@@ -146,16 +146,16 @@ fn a_builder_refuses_and_stays_as_it_was() {
     assert_eq!(tsda([WORLD, body], ends, 1.0, 0.0, -1.0), out(Quantity::FreeLength));
     let nowhere = [[f64::INFINITY, 0.0, 0.0], [0.0; 3]];
     assert_eq!(tsda([WORLD, body], nowhere, 1.0, 0.0, 1.0), out(Quantity::Point));
-    let two_arms = Stars {
+    let four_arms = Stars {
         between: [WORLD, body],
         centres: &[[0.0; 3]],
-        arms: &[[0.0; 3]; 2],
+        arms: &[[0.0; 3]; 4],
         stiffness: 1.0,
         damping: 0.0,
         free_length: 1.0,
         clearance: 0.0,
     };
-    assert_eq!(model.add_stars(two_arms), out(Quantity::Arms));
+    assert_eq!(model.add_stars(four_arms), out(Quantity::Arms));
     let law = LineLaw { stiffness: 1.0, damping: 0.0, free_length: 0.0, clearance: 0.0 };
     let refused = model.add_points_on_line([WORLD, body], [0.0; 3], [0.0; 3], &[[0.0; 3]], law);
     assert_eq!(refused, out(Quantity::Axis));

@@ -122,6 +122,8 @@ macro_rules! coefficients {
 macro_rules! real {
     ($R:ty) => {
         impl Real for Counted<$R> {
+            dbd_kernel::one_lane!();
+
             const ZERO: Self = Self(<$R as Real>::ZERO);
             const ONE: Self = Self(<$R as Real>::ONE);
             const HALF: Self = Self(<$R as Real>::HALF);

@@ -4,6 +4,7 @@
 //! paper's mechanisms and a damped one, in both precisions. Each model is one [`Alone`] with its
 //! scheme.
 
+use dbd_kernel::model::{ModelOwner, Terms as _};
 use dbd_kernel::{
     BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, JointWise, Leapfrog, Pefrl, Rk4, SemiImplicitEuler,
 };
@@ -90,8 +91,23 @@ pub fn for_each_charted(visitor: &mut impl Visitor) {
             chart! { $($of)*, JointWise(Leapfrog) => JointWise<Leapfrog>, "-joint-wise"; }
         };
     }
+    // Other values of a scene; dampers both ways where they have any.
+    macro_rules! with_other_values {
+        ($($module:ident $scene:literal $step:ident, $f32:ident: $model32:ident;)*) => {
+            $(
+                chart! { $scene $module::$f32: $model32 $step,
+                    Leapfrog => Leapfrog, "";
+                    SemiImplicitEuler => SemiImplicitEuler, "";
+                }
+                if <models::$module::$model32 as ModelOwner>::Terms::DAMPERS {
+                    damped! { $scene $module::$f32: $model32 $step }
+                }
+            )*
+        };
+    }
     shipped!(shipped_in_both);
     charted!(shipped_in_single);
+    varied!(with_other_values);
     damped! { "double-wishbone"
     double_wishbone::DOUBLE_WISHBONE_F32: DoubleWishboneF32 DOUBLE_WISHBONE_STEP }
     damped! { "double-wishbone"
@@ -105,7 +121,6 @@ pub fn for_each_charted(visitor: &mut impl Visitor) {
 mod tests {
     use std::collections::BTreeSet;
 
-    use dbd_kernel::model::ModelOwner;
     use dbd_kernel::{Geometry, Plant, Scheme};
 
     use super::*;

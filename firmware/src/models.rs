@@ -1,7 +1,8 @@
 //! The shipped models: const, in flash, stepped alike on the target and on a host.
 //!
 //! The build script makes them from the scene files that it lists, and the macros
-//! [`shipped`](crate::shipped) and [`shipped_f32`](crate::shipped_f32) from the same lists.
+//! [`shipped`](crate::shipped), [`shipped_f32`](crate::shipped_f32), [`charted`](crate::charted) and
+//! [`varied`](crate::varied) from the same lists.
 //! [`for_each`] shows pairs of model and scheme to a visitor, which is generic as the step is.
 
 use dbd_kernel::model::ModelOwner;

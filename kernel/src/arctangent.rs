@@ -4,31 +4,39 @@
 //! to |t| ≤ tan(π/8) by `atan t = π/4 + atan((t − 1)/(t + 1))`, then a polynomial in t²
 //! ([`Real::ATAN`]). Error below 2 ulp of π in either precision (tested against libm).
 
-use crate::real::Real;
+use crate::real::{Real, choose};
 
 /// The angle of the point (x, y), rad; 0 at the origin.
-#[inline]
+#[inline(always)]
 pub fn atan2<R: Real>(y: R, x: R) -> R {
+    if R::LANES == 1 { atan2_apart(y, x) } else { atan2_here(y, x) }
+}
+
+#[inline]
+fn atan2_apart<R: Real>(y: R, x: R) -> R {
+    atan2_here(y, x)
+}
+
+#[inline(always)]
+fn atan2_here<R: Real>(y: R, x: R) -> R {
     let (ay, ax) = (y.abs(), x.abs());
-    let steep = ay > ax;
-    let (small, large) = if steep { (ax, ay) } else { (ay, ax) };
-    if large == R::ZERO {
-        return R::ZERO;
-    }
-    let t = small / large;
-    let mut angle = if t > R::TAN_PI_8 {
-        let u = (t - R::ONE) / (t + R::ONE);
-        R::FRAC_PI_4 + u * (u * u).polynomial(R::ATAN)
-    } else {
-        t * (t * t).polynomial(R::ATAN)
-    };
-    if steep {
-        angle = R::FRAC_PI_2 - angle;
-    }
-    if x < R::ZERO {
-        angle = R::PI - angle;
-    }
-    if y < R::ZERO { -angle } else { angle }
+    let steep = ax.less_than(ay);
+    let (small, large) = choose!(R, steep, (ax, ay), (ay, ax));
+    choose!(R, large.equals(R::ZERO), R::ZERO, {
+        let t = small / large;
+        let angle = choose!(
+            R,
+            R::TAN_PI_8.less_than(t),
+            {
+                let u = (t - R::ONE) / (t + R::ONE);
+                R::FRAC_PI_4 + u * (u * u).polynomial(R::ATAN)
+            },
+            t * (t * t).polynomial(R::ATAN)
+        );
+        let angle = choose!(R, steep, R::FRAC_PI_2 - angle, angle);
+        let angle = choose!(R, x.less_than(R::ZERO), R::PI - angle, angle);
+        choose!(R, y.less_than(R::ZERO), -angle, angle)
+    })
 }
 
 #[cfg(test)]

@@ -6,13 +6,13 @@
 use core::fmt::Debug;
 
 use crate::plane::Heading;
-use crate::real::Real;
+use crate::real::{Lanewise as _, Real};
 use crate::space::Turn;
 use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::Words;
 
 /// The stored orientation of a body, body → world.
-pub trait Attitude: Copy + Debug + Default + PartialEq + Words + 'static {
+pub trait Attitude: Copy + Debug + Default + PartialEq + Send + Words + 'static {
     /// The number in which rotations are computed.
     type Real: Real;
     /// How one orientation stands to another.
@@ -36,6 +36,10 @@ pub trait Attitude: Copy + Debug + Default + PartialEq + Words + 'static {
         v[AXIS] = sin;
         self.turn(Quaternion { w: cos, v: Vec3::new(v[0], v[1], v[2]) });
     }
+    /// Takes `start` back in lanes where `resting` holds. For one lane its caller makes sure that it
+    /// does not hold.
+    #[inline(always)]
+    fn keep(&mut self, _resting: <Self::Real as Real>::Truth, _start: &Self) {}
     /// Restores unit length, or the range of angles, after the turns of a step.
     fn renormalise(&mut self);
     /// Rounds a unit quaternion once, scalar first.
@@ -80,6 +84,10 @@ impl<R: Real> Attitude for Quaternion<R> {
     #[inline(always)]
     fn turn_about<const AXIS: usize>(&mut self, cos: R, sin: R) {
         *self = self.turned_about::<AXIS>(cos, sin);
+    }
+    #[inline(always)]
+    fn keep(&mut self, resting: R::Truth, start: &Self) {
+        *self = Quaternion::select(resting, *start, *self);
     }
     #[inline(always)]
     fn renormalise(&mut self) {

@@ -90,7 +90,8 @@ pub fn energy_with_extensions<M: ModelOwner>(
         *kind = *kind + energy;
         visit(placed.number, law.extension(&placed.stretch));
     });
-    for (spring, &turns) in view.torsions.iter().zip(state.turns.as_ref()) {
+    let turns = RealOf::<M>::counts(state.turns.as_ref());
+    for (spring, &turns) in view.torsions.iter().zip(turns) {
         if let Some(twist) = twist_of::<M::Precision>(spring, bodies, turns) {
             sum.torsion = sum.torsion + spring.energy(twist.angle);
         }

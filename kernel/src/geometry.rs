@@ -16,7 +16,7 @@ use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::Words;
 
 /// How a precision stores and combines positions and velocities, and which attitude goes with them.
-pub trait Geometry: Copy + Debug + Default + PartialEq + 'static {
+pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     /// The number in which forces and rates are computed.
     type Real: Real;
     /// Displacements, arms, velocities and forces.
@@ -26,19 +26,19 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + 'static {
     /// The space that these are of.
     type Space: Space<Real = Self::Real, Vector = Self::Vector, Moment = Self::Moment>;
     /// The stored position of a body's centre of mass, world.
-    type Position: Copy + Debug + Default + PartialEq + Words;
+    type Position: Copy + Debug + Default + PartialEq + Send + Words;
     /// The stored orientation of a body.
     type Orientation: Attitude<Real = Self::Real, Turn = <Self::Space as Space>::Turn>;
     /// A stored velocity, with its compensation where the precision has one.
-    type Velocity: Copy + Debug + Default + PartialEq + Words;
+    type Velocity: Copy + Debug + Default + PartialEq + Send + Words;
     /// A stored angular velocity, likewise.
-    type Spin: Copy + Debug + Default + PartialEq + Words;
+    type Spin: Copy + Debug + Default + PartialEq + Send + Words;
     /// A point in body axes from the centre of mass; a point in the world for the ground.
-    type Local: Copy + Debug + Default + PartialEq + Words;
+    type Local: Copy + Debug + Default + PartialEq + Send + Words;
     /// A point in the world.
     type Location: Copy + Default;
     /// A body's pose, prepared for placing many points.
-    type Frame: Copy + Debug + Default;
+    type Frame: Copy + Debug + Default + Send;
 
     /// The name users give: `f64`, `f32`.
     const NAME: &'static str;

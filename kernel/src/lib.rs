@@ -12,7 +12,7 @@
 //! - [`attitude`], [`geometry`], [`planar`], [`euler`], [`loose`]: a precision is a type: [`F64`],
 //!   [`F32`], in the plane [`Planar64`], [`Planar32`]; an orientation is a quaternion or, as in the
 //!   paper, angles.
-//! - [`body`], [`rotation`]: one rigid body, and how it turns.
+//! - [`body`], [`rotation`], `lockstep`: one rigid body, and how it turns, alone or in lanes.
 //! - [`status`], [`elements`], [`schedule`]: what can fail; the laws, one per file; what happens when.
 //! - [`mod@model`], [`sketch`], [`state`]: read-only constants of bodies and elements, and how a person
 //!   writes them; plain data and its hash.
@@ -80,6 +80,7 @@ pub mod frequency;
 pub mod geometry;
 mod guards;
 pub mod index;
+mod lockstep;
 #[cfg(feature = "micromath")]
 pub mod loose;
 pub mod model;

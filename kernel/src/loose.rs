@@ -10,6 +10,7 @@ use micromath::F32Ext;
 
 use crate::euler::{EulerAngles, Trigonometric};
 use crate::geometry::{Float, Named};
+use crate::one_lane;
 use crate::real::{Constant, Real};
 use crate::words::{Word, WordSource};
 
@@ -69,6 +70,8 @@ const fn loose<const N: usize>(coefficients: &[f32]) -> [Loose; N] {
 }
 
 impl Real for Loose {
+    one_lane!();
+
     const ZERO: Self = Self(0.0);
     const ONE: Self = Self(1.0);
     const HALF: Self = Self(0.5);

@@ -6,7 +6,7 @@
 
 use core::ops::{Add, Mul, Neg, Sub};
 
-use crate::real::Real;
+use crate::real::{Lanewise, Real};
 use crate::space::{Linear, Moment, Space, Turn, Vector};
 use crate::vector::{Quaternion, Vec3};
 use crate::words::{WordSource, WordVisitor, Words};
@@ -58,9 +58,15 @@ impl<R> Axial<R> {
     }
 }
 
-/// Sums, differences and multiples, component by component.
+/// Choices by lanes, sums, differences and multiples, component by component.
 macro_rules! linear {
     ($name:ident, $($component:ident),+) => {
+        impl<R: Real> Lanewise<R> for $name<R> {
+            #[inline(always)]
+            fn select(truth: R::Truth, then: Self, otherwise: Self) -> Self {
+                Self::new($(R::pick(truth, then.$component, otherwise.$component)),+)
+            }
+        }
         impl<R: Real> Add for $name<R> {
             type Output = Self;
             #[inline(always)]

@@ -119,7 +119,7 @@ where
     }
 
     /// Brings the signals of tables to the present step: the one that comes next.
-    #[inline]
+    #[inline(always)]
     fn sample(&mut self) {
         if <H::Target as ModelOwner>::Terms::INPUTS {
             let view = self.model.view();
@@ -144,8 +144,35 @@ where
         if step == u64::MAX {
             return self.fail(Cause::Steps);
         }
+        let cause = match self.attempt() {
+            Ok(()) => self.fault(),
+            Err(cause) => Some(cause),
+        };
+        self.state.step = step + 1;
+        if let Some(cause) = cause {
+            return self.fail(cause);
+        }
+        self.sample();
+        self.status
+    }
+
+    /// One step without the guards and whatever the status, which it leaves: for those who guard
+    /// otherwise, as who steps lanes must. A step counter at its end begins anew.
+    ///
+    /// # Errors
+    /// What the scheme could not do.
+    #[inline(always)]
+    pub fn step_unguarded(&mut self) -> Result<(), Cause> {
+        let done = self.attempt();
+        self.state.step = self.state.step.wrapping_add(1);
+        self.sample();
+        done
+    }
+
+    #[inline(always)]
+    fn attempt(&mut self) -> Result<(), Cause> {
         let model = self.model.view();
-        let mut stepper = Stepper {
+        self.scheme.step(&mut Stepper {
             model,
             h: self.h,
             diagonals: self.diagonals.as_ref(),
@@ -156,26 +183,12 @@ where
             signals: self.state.signals.as_mut(),
             bodies: self.state.bodies.as_mut(),
             turns: self.state.turns.as_mut(),
-            step,
+            step: self.state.step,
             frames: self.frames.as_mut(),
             wrenches: self.wrenches.as_mut(),
             memory: self.memory.as_mut(),
             ledger: &mut self.ledger,
-        };
-        let cause = match self.scheme.step(&mut stepper) {
-            Ok(()) => first_fault::<_, <H::Target as ModelOwner>::Terms>(
-                stepper.bodies,
-                stepper.turns,
-                stepper.h,
-            ),
-            Err(cause) => Some(cause),
-        };
-        self.state.step = step + 1;
-        if let Some(cause) = cause {
-            return self.fail(cause);
-        }
-        self.sample();
-        self.status
+        })
     }
 
     /// Latches a failure.
@@ -346,8 +359,9 @@ where
         self.ledger.evaluations
     }
 
-    /// Goes on from a state: what was cached of the old one is dropped, a failure forgotten.
-    pub(crate) fn resume(&mut self, state: State<H::Target>) {
+    /// Goes on from a state of this model as it is, a failure forgotten: [`Self::set_state`] for a
+    /// state that a plant of it was in, which needs no look.
+    pub fn resume(&mut self, state: State<H::Target>) {
         self.state = state;
         self.ledger.fresh = false;
         self.ledger.ready = false;

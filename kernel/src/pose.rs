@@ -13,13 +13,23 @@ use crate::elements::universal::{Lean, Universal};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelRef, Terms};
-use crate::real::Real as _;
+use crate::real::Real;
 use crate::schedule::Signal;
 use crate::space::{Linear as _, Moment as _, Vector};
 
 /// Computes the frames of all bodies.
-#[inline]
+#[inline(always)]
 pub(crate) fn place_bodies<P: Geometry>(bodies: &[BodyState<P>], frames: &mut [P::Frame]) {
+    if P::Real::LANES == 1 { place_apart(bodies, frames) } else { place_here(bodies, frames) }
+}
+
+#[inline]
+fn place_apart<P: Geometry>(bodies: &[BodyState<P>], frames: &mut [P::Frame]) {
+    place_here(bodies, frames);
+}
+
+#[inline(always)]
+fn place_here<P: Geometry>(bodies: &[BodyState<P>], frames: &mut [P::Frame]) {
     for (state, frame) in bodies.iter().zip(frames) {
         *frame = P::frame(&state.position, &state.orientation);
     }
@@ -188,22 +198,23 @@ pub(crate) fn placed<'m, P: Geometry, T: Terms>(
     (number, group): (usize, &'m Group),
     i: usize,
 ) -> Option<Placed<'m, P::Vector>> {
-    let ends = [group.a, group.b].map(|end| End::new(model, places, end, None));
-    placed_between(model, &ends, (number, group), i)
+    let arms = group.arms.max(1) as usize;
+    let (star, arm) = (i / arms, i % arms);
+    let [end_a, end_b] = [group.a, group.b].map(|end| End::new(model, places, end, None));
+    let a = end_a.place(model.points.get(group.centre(star))?);
+    let b = end_b.place(model.points.get(group.tips(star) + arm)?);
+    between(model, [&end_a, &end_b], [a, b], (number, group), i)
 }
 
-/// The same where the group's ends are at hand.
+/// Element `i` of a group between its two points.
 #[inline(always)]
-fn placed_between<'m, P: Geometry, T: Terms>(
+fn between<'m, P: Geometry, T: Terms>(
     model: &ModelRef<'m, P, T>,
-    [end_a, end_b]: &[End<'_, P>; 2],
+    [end_a, end_b]: [&End<'_, P>; 2],
+    [(a, mut arm_a), (b, arm_b)]: [Spot<P>; 2],
     (number, group): (usize, &'m Group),
     i: usize,
 ) -> Option<Placed<'m, P::Vector>> {
-    let arms = group.arms.max(1) as usize;
-    let (star, arm) = (i / arms, i % arms);
-    let (a, mut arm_a) = end_a.place(model.points.get(group.centre(star))?);
-    let (b, arm_b) = end_b.place(model.points.get(group.tips(star) + arm)?);
     let mut displacement = P::displacement(&a, &b);
     let mut direction = P::Vector::ZERO;
     let index = group.element as usize + i;
@@ -222,7 +233,7 @@ fn placed_between<'m, P: Geometry, T: Terms>(
         arm_a = end_a.arm_at(arm_a, displacement);
     }
     if T::UNIVERSALS && group.law == Law::Universal {
-        leans = lean(model.universals.get(index)?, [&end_a, &end_b]).by;
+        leans = lean(model.universals.get(index)?, [end_a, end_b]).by;
     }
     let stretch = Stretch { displacement, direction, ratio, lean: leans };
     Some(Placed { group, number, index, stretch, arm_a, arm_b })
@@ -273,27 +284,65 @@ pub(crate) const MOST_ARMS: usize = 3;
 /// Where a point lies, and its arm.
 pub(crate) type Spot<P> = (<P as Geometry>::Location, <P as Geometry>::Vector);
 
-/// Visits every element of the groups in order; frames are those of the pose.
+/// Visits every element of the groups in order; frames are those of the pose. Each point is placed once.
 pub(crate) fn each_element<'m, P: Geometry, T: Terms>(
     model: &ModelRef<'m, P, T>,
     places: Places<'_, P>,
     mut visit: impl FnMut(Placed<'m, P::Vector>),
 ) {
     for (number, group) in model.groups.iter().enumerate() {
-        let ends = [group.a, group.b].map(|end| End::new(model, places, end, None));
-        for i in 0..group.elements() {
-            if let Some(element) = placed_between(model, &ends, (number, group), i) {
-                visit(element);
+        let [end_a, end_b] = [group.a, group.b].map(|end| End::new(model, places, end, None));
+        let (stars, arms) = (group.stars as usize, group.arms as usize);
+        let mut tips = [None; MOST_ARMS];
+        for star in 0..stars {
+            let Some(centre) = model.points.get(group.centre(star)) else { break };
+            let a = end_a.place(centre);
+            let is_new = star == 0 || !group.shared;
+            for (arm, tip) in tips.iter_mut().enumerate().take(arms) {
+                if is_new {
+                    *tip = model.points.get(group.tips(star) + arm).map(|tip| end_b.place(tip));
+                }
+                let i = star * arms + arm;
+                let element =
+                    tip.and_then(|b| between(model, [&end_a, &end_b], [a, b], (number, group), i));
+                if let Some(element) = element {
+                    visit(element);
+                }
             }
         }
     }
 }
 
+/// The turn count of a geometry's number.
+pub(crate) type CountOf<P> = <<P as Geometry>::Real as Real>::Count;
+
 /// The twist of a torsion spring, `None` where it is undefined.
+#[inline(always)]
 pub(crate) fn twist_of<P: Geometry>(
     spring: &TorsionSpring<P::Space>,
     bodies: &[BodyState<P>],
-    turns: i32,
+    turns: CountOf<P>,
+) -> Option<Twist<P::Space>> {
+    if P::Real::LANES == 1 {
+        twist_apart(spring, bodies, turns)
+    } else {
+        twist_here(spring, bodies, turns)
+    }
+}
+
+fn twist_apart<P: Geometry>(
+    spring: &TorsionSpring<P::Space>,
+    bodies: &[BodyState<P>],
+    turns: CountOf<P>,
+) -> Option<Twist<P::Space>> {
+    twist_here(spring, bodies, turns)
+}
+
+#[inline(always)]
+fn twist_here<P: Geometry>(
+    spring: &TorsionSpring<P::Space>,
+    bodies: &[BodyState<P>],
+    turns: CountOf<P>,
 ) -> Option<Twist<P::Space>> {
     let orientation = |row: usize| bodies.get(row).map(|s| &s.orientation);
     let relative =

@@ -159,13 +159,15 @@ pub fn read<M: ModelOwner>(
     let there = |body: BodyIndex| bodies.get(body.row());
     match *readout {
         Readout::JointAngle { spring } => {
-            let turns = *state.turns.as_ref().get(spring as usize)?;
+            let turns = *RealOf::<M>::counts(state.turns.as_ref()).get(spring as usize)?;
             let spring = view.torsions.get(spring as usize)?;
             twist_of::<M::Precision>(spring, bodies, turns).map(|t| Reading::Scalar(t.angle))
         }
         Readout::JointRate { spring } => {
+            // The rate is the same at any count.
+            let turns = *RealOf::<M>::counts(state.turns.as_ref()).get(spring as usize)?;
             let spring = view.torsions.get(spring as usize)?;
-            let twist = twist_of::<M::Precision>(spring, bodies, 0)?;
+            let twist = twist_of::<M::Precision>(spring, bodies, turns)?;
             let (a, b) = (end(spring.a), end(spring.b));
             Some(Reading::Scalar(a.moment_to_axes(b.spin - a.spin).dot(twist.gradient)))
         }

@@ -4,9 +4,12 @@
 //! operations, the square root, comparison and the polynomial coefficients of its precision.
 //! Each is correctly rounded or exact, so a written order of operations gives the same bits on
 //! every target. It offers no fused operation and no function of the standard library.
+//!
+//! A number may be several, one per lane. What a step decides by a number is therefore said with
+//! `choose!` and its like: a branch for one number, both ways and a selection for lanes.
 
 use core::fmt::Debug;
-use core::ops::{Add, Div, Mul, Neg, Sub};
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use crate::words::{Word, WordSource};
 
@@ -28,6 +31,45 @@ impl Constant {
     }
 }
 
+/// What a comparison tells: one truth, or one per lane.
+pub trait Truth: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
+    /// Whether it holds in any lane.
+    fn any(self) -> bool;
+    /// Whether it holds in every lane.
+    fn all(self) -> bool;
+}
+
+impl Truth for bool {
+    #[inline(always)]
+    fn any(self) -> bool {
+        self
+    }
+    #[inline(always)]
+    fn all(self) -> bool {
+        self
+    }
+}
+
+/// What can be taken lane by lane from one or another.
+pub trait Lanewise<R: Real>: Copy {
+    /// In each lane `then` where `truth` holds, else `otherwise`.
+    fn select(truth: R::Truth, then: Self, otherwise: Self) -> Self;
+}
+
+impl<R: Real> Lanewise<R> for R {
+    #[inline(always)]
+    fn select(truth: R::Truth, then: R, otherwise: R) -> R {
+        R::pick(truth, then, otherwise)
+    }
+}
+
+impl<R: Real, A: Lanewise<R>, B: Lanewise<R>> Lanewise<R> for (A, B) {
+    #[inline(always)]
+    fn select(truth: R::Truth, then: Self, otherwise: Self) -> Self {
+        (A::select(truth, then.0, otherwise.0), B::select(truth, then.1, otherwise.1))
+    }
+}
+
 /// A number in which forces are computed.
 pub trait Real:
     Copy
@@ -40,8 +82,16 @@ pub trait Real:
     + Mul<Output = Self>
     + Div<Output = Self>
     + Neg<Output = Self>
+    + Send
     + 'static
 {
+    /// How many numbers it is: 1, or one per lane.
+    const LANES: usize;
+    /// What its comparisons tell.
+    type Truth: Truth;
+    /// A turn count, one per lane.
+    type Count: Copy;
+
     /// 0.
     const ZERO: Self;
     /// 1.
@@ -86,6 +136,33 @@ pub trait Real:
     /// The number of the next word.
     fn from_words(source: &mut impl WordSource) -> Self;
 
+    /// A truth of every lane.
+    fn truth(holds: bool) -> Self::Truth;
+    /// Whether the numbers are equal.
+    fn equals(self, other: Self) -> Self::Truth;
+    /// Whether this number is the smaller.
+    fn less_than(self, other: Self) -> Self::Truth;
+    /// Whether this number is not the larger, nor one of them no number.
+    fn at_most(self, other: Self) -> Self::Truth;
+    /// In each lane `then` where `truth` holds, else `otherwise`.
+    fn pick(truth: Self::Truth, then: Self, otherwise: Self) -> Self;
+    /// The number, where `truth` holds. A lane where it does not is left with no number, and makes
+    /// whatever it meets no number, either: who steps lanes looks for that.
+    fn only_where(self, truth: Self::Truth) -> Option<Self>;
+
+    /// Turn counts as they are stored, lane beside lane.
+    fn counts(stored: &[i32]) -> &[Self::Count];
+    /// [`Self::counts`], to be written.
+    fn counts_mut(stored: &mut [i32]) -> &mut [Self::Count];
+    /// The number nearest to a turn count.
+    fn from_count(count: Self::Count) -> Self;
+    /// Whether a turn count is odd.
+    fn is_odd(count: Self::Count) -> Self::Truth;
+    /// Whether a turn count is 0.
+    fn is_nil(count: Self::Count) -> Self::Truth;
+    /// A turn count changed where `truth` holds: by 1 more where `up` holds, too, else by 1 less.
+    fn recount(count: Self::Count, truth: Self::Truth, up: Self::Truth) -> Self::Count;
+
     /// `1/self`, or 0 where `self` is 0: the zero-force guard of coincident points.
     #[inline(always)]
     fn reciprocal_or_zero(self) -> Self {
@@ -127,7 +204,90 @@ pub trait Real:
     }
 }
 
+/// `choose!(R, truth, then, otherwise)`: what `then` gives where `truth` holds, else what `otherwise`
+/// gives. One number takes a branch; lanes compute both and take of each what is theirs. No closures:
+/// the compiler need not inline them, which lanes need, see [`crate::step`].
+macro_rules! choose {
+    ($real:ty, $truth:expr, $then:expr, $otherwise:expr) => {{
+        let truth = $truth;
+        if <$real as $crate::real::Real>::LANES == 1 {
+            if $crate::real::Truth::any(truth) { $then } else { $otherwise }
+        } else {
+            let (then, otherwise) = ($then, $otherwise);
+            $crate::real::Lanewise::<$real>::select(truth, then, otherwise)
+        }
+    }};
+}
+pub(crate) use choose;
+
+/// What a [`Real`] of one number decides by, within its implementation.
+#[macro_export]
+macro_rules! one_lane {
+    () => {
+        const LANES: usize = 1;
+        type Truth = bool;
+        type Count = i32;
+
+        #[inline(always)]
+        fn truth(holds: bool) -> bool {
+            holds
+        }
+        #[inline(always)]
+        fn equals(self, other: Self) -> bool {
+            self == other
+        }
+        #[inline(always)]
+        fn less_than(self, other: Self) -> bool {
+            self < other
+        }
+        #[inline(always)]
+        fn at_most(self, other: Self) -> bool {
+            self <= other
+        }
+        #[inline(always)]
+        fn pick(truth: bool, then: Self, otherwise: Self) -> Self {
+            if truth { then } else { otherwise }
+        }
+        #[inline(always)]
+        fn only_where(self, truth: bool) -> Option<Self> {
+            if truth { Some(self) } else { None }
+        }
+        #[inline(always)]
+        fn counts(stored: &[i32]) -> &[i32] {
+            stored
+        }
+        #[inline(always)]
+        fn counts_mut(stored: &mut [i32]) -> &mut [i32] {
+            stored
+        }
+        #[inline(always)]
+        fn from_count(count: i32) -> Self {
+            Self::from_i32(count)
+        }
+        #[inline(always)]
+        fn is_odd(count: i32) -> bool {
+            count & 1 != 0
+        }
+        #[inline(always)]
+        fn is_nil(count: i32) -> bool {
+            count == 0
+        }
+        #[inline(always)]
+        fn recount(count: i32, truth: bool, up: bool) -> i32 {
+            if !truth {
+                count
+            } else if up {
+                count.wrapping_add(1)
+            } else {
+                count.wrapping_sub(1)
+            }
+        }
+    };
+}
+
 impl Real for f64 {
+    one_lane!();
+
     const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
     const HALF: Self = 0.5;
@@ -191,6 +351,8 @@ impl Real for f64 {
 }
 
 impl Real for f32 {
+    one_lane!();
+
     const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
     const HALF: Self = 0.5;

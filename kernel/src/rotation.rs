@@ -11,7 +11,7 @@ use crate::attitude::Attitude as _;
 use crate::body::Body;
 use crate::compositions::PEFRL;
 use crate::geometry::Geometry;
-use crate::real::Real;
+use crate::real::{Real, Truth as _};
 use crate::space::{Linear as _, Moment, Space as _};
 use crate::vector::{Quaternion, Vec3};
 
@@ -41,21 +41,23 @@ pub fn free_rotor<P: Geometry>(
         return turn_in_plane::<P>(orientation, rate, time);
     }
     let (zero, half) = (P::Real::ZERO, P::Real::HALF * time);
+    let none = P::Real::truth(false);
     let w = P::spin(rate).in_space();
-    if w.x == zero && w.y == zero {
+    if P::Real::LANES > 1 || w.x != zero {
+        about_x::<P>(body, orientation, rate, half, none);
+    } else if w.y == zero {
         // What moves in a plane turns about z alone, and this is all that the five would do.
         if w.z != zero {
             let turn = Turn::by(time * w.z);
             P::spin_up(rate, P::Moment::ZERO);
             P::Orientation::turn_about::<2>(orientation, turn.half_cos, turn.half_sin);
         }
-    } else {
-        about_x::<P>(body, orientation, rate, half);
-        about_y::<P>(body, orientation, rate, half);
-        about_z::<P>(body, orientation, rate, time);
-        about_y::<P>(body, orientation, rate, half);
-        about_x::<P>(body, orientation, rate, half);
+        return P::Orientation::renormalise(orientation);
     }
+    about_y::<P>(body, orientation, rate, half, none);
+    about_z::<P>(body, orientation, rate, time, none);
+    about_y::<P>(body, orientation, rate, half, none);
+    about_x::<P>(body, orientation, rate, half, none);
     P::Orientation::renormalise(orientation);
 }
 
@@ -66,8 +68,8 @@ pub fn free_rotor<P: Geometry>(
 /// `L²/2I₂ + ½(1/I₁ − 1/I₂)·L₁² + ½(1/I₃ − 1/I₂)·L₃²`, I₂ the middle inertia, is split (Touma &
 /// Wisdom 1994; Fassò 2003): the first term turns about L, exactly, and commutes with the others;
 /// those two turn about their axes, composed with the coefficients of [`crate::schemes::Pefrl`]. A body of
-/// two equal inertias takes one of them only: its flow is exact, too.
-#[inline]
+/// two equal inertias takes one of them only: its flow is exact, too. For one lane.
+#[inline(always)]
 pub fn free_rotor_of_order_four<P: Geometry>(
     body: &Body<P::Space>,
     orientation: &mut P::Orientation,
@@ -77,12 +79,12 @@ pub fn free_rotor_of_order_four<P: Geometry>(
     if P::Space::PLANAR {
         return turn_in_plane::<P>(orientation, rate, time);
     }
-    let zero = P::Real::ZERO;
+    let (zero, none) = (P::Real::ZERO, P::Real::truth(false));
     let w = P::spin(rate).in_space();
     match (w.x == zero, w.y == zero, w.z == zero) {
-        (false, true, true) => about_x::<P>(body, orientation, rate, time),
-        (true, false, true) => about_y::<P>(body, orientation, rate, time),
-        (true, true, false) => about_z::<P>(body, orientation, rate, time),
+        (false, true, true) => about_x::<P>(body, orientation, rate, time, none),
+        (true, false, true) => about_y::<P>(body, orientation, rate, time, none),
+        (true, true, false) => about_z::<P>(body, orientation, rate, time, none),
         (true, true, true) => return,
         _ => tumble::<P>(body, orientation, rate, time),
     }
@@ -103,7 +105,7 @@ fn tumble<P: Geometry>(
     rate: &mut P::Spin,
     time: P::Real,
 ) {
-    let (zero, one) = (P::Real::ZERO, P::Real::ONE);
+    let (zero, one, none) = (P::Real::ZERO, P::Real::ONE, P::Real::truth(false));
     let Vec3 { x, y, z } = body.inertia.in_space();
     let (ratio, inverse_ratio) = (body.ratio.in_space(), body.inverse_ratio.in_space());
     let lies_between =
@@ -119,9 +121,9 @@ fn tumble<P: Geometry>(
     let momentum = body.inertia.scale(P::spin(rate));
     P::Orientation::turn(orientation, half_turn(momentum * (P::Real::HALF * time / middle)));
     let mut turn = |axis: Axis, time: P::Real| match axis {
-        Axis::X => about_x::<P>(body, orientation, rate, time),
-        Axis::Y => about_y::<P>(body, orientation, rate, time),
-        Axis::Z => about_z::<P>(body, orientation, rate, time),
+        Axis::X => about_x::<P>(body, orientation, rate, time, none),
+        Axis::Y => about_y::<P>(body, orientation, rate, time, none),
+        Axis::Z => about_z::<P>(body, orientation, rate, time, none),
     };
     if share == zero {
         turn(second, other * time);
@@ -139,7 +141,7 @@ fn tumble<P: Geometry>(
 
 /// A principal axis.
 #[derive(Clone, Copy)]
-enum Axis {
+pub(crate) enum Axis {
     X,
     Y,
     Z,
@@ -147,7 +149,7 @@ enum Axis {
 
 /// The quaternion of a turn by the rotation vector `2·half`.
 #[inline(always)]
-fn half_turn<M: Moment>(half: M) -> Quaternion<M::Real> {
+pub(crate) fn half_turn<M: Moment>(half: M) -> Quaternion<M::Real> {
     let x2 = half.dot(half);
     let w = x2.polynomial(M::Real::COS);
     let s = x2.polynomial(M::Real::SINC);
@@ -174,61 +176,95 @@ impl<R: Real> Turn<R> {
     }
 }
 
+/// The truth of a geometry's number.
+pub(crate) type TruthOf<P> = <<P as Geometry>::Real as Real>::Truth;
+
+/// Turns all but the resting lanes.
 #[inline(always)]
-fn about_x<P: Geometry>(
+pub(crate) fn turn_unless<P: Geometry>(
+    orientation: &mut P::Orientation,
+    turn: Quaternion<P::Real>,
+    resting: TruthOf<P>,
+) {
+    let start = *orientation;
+    P::Orientation::turn(orientation, turn);
+    P::Orientation::keep(orientation, resting, &start);
+}
+
+/// Turns about an axis, by cosine and sine of half the angle, all but the resting lanes.
+#[inline(always)]
+fn turn_about<P: Geometry, const AXIS: usize>(
+    orientation: &mut P::Orientation,
+    (cos, sin): (P::Real, P::Real),
+    resting: TruthOf<P>,
+) {
+    let start = *orientation;
+    P::Orientation::turn_about::<AXIS>(orientation, cos, sin);
+    P::Orientation::keep(orientation, resting, &start);
+}
+
+// In lanes `without` an axis turns nothing.
+#[inline(always)]
+pub(crate) fn about_x<P: Geometry>(
     body: &Body<P::Space>,
     orientation: &mut P::Orientation,
     rate: &mut P::Spin,
     time: P::Real,
+    without: TruthOf<P>,
 ) {
     let zero = P::Real::ZERO;
     let w = P::spin(rate).in_space();
-    if w.x == zero {
+    let resting = w.x.equals(zero) | without;
+    if resting.all() {
         return;
     }
     let t = Turn::by(time * w.x);
     let y = t.sine * (body.ratio.in_space().x * w.z) - t.versine * w.y;
     let z = -(t.sine * (body.inverse_ratio.in_space().x * w.y)) - t.versine * w.z;
-    P::spin_up(rate, P::Moment::of_space(Vec3::new(zero, y, z)));
-    P::Orientation::turn_about::<0>(orientation, t.half_cos, t.half_sin);
+    P::spin_up(rate, P::Moment::of_space(Vec3::new(zero, y, z)).unless(resting));
+    turn_about::<P, 0>(orientation, (t.half_cos, t.half_sin), resting);
 }
 
 #[inline(always)]
-fn about_y<P: Geometry>(
+pub(crate) fn about_y<P: Geometry>(
     body: &Body<P::Space>,
     orientation: &mut P::Orientation,
     rate: &mut P::Spin,
     time: P::Real,
+    without: TruthOf<P>,
 ) {
     let zero = P::Real::ZERO;
     let w = P::spin(rate).in_space();
-    if w.y == zero {
+    let resting = w.y.equals(zero) | without;
+    if resting.all() {
         return;
     }
     let t = Turn::by(time * w.y);
     let z = t.sine * (body.ratio.in_space().y * w.x) - t.versine * w.z;
     let x = -(t.sine * (body.inverse_ratio.in_space().y * w.z)) - t.versine * w.x;
-    P::spin_up(rate, P::Moment::of_space(Vec3::new(x, zero, z)));
-    P::Orientation::turn_about::<1>(orientation, t.half_cos, t.half_sin);
+    P::spin_up(rate, P::Moment::of_space(Vec3::new(x, zero, z)).unless(resting));
+    turn_about::<P, 1>(orientation, (t.half_cos, t.half_sin), resting);
 }
 
 #[inline(always)]
-fn about_z<P: Geometry>(
+pub(crate) fn about_z<P: Geometry>(
     body: &Body<P::Space>,
     orientation: &mut P::Orientation,
     rate: &mut P::Spin,
     time: P::Real,
+    without: TruthOf<P>,
 ) {
     let zero = P::Real::ZERO;
     let w = P::spin(rate).in_space();
-    if w.z == zero {
+    let resting = w.z.equals(zero) | without;
+    if resting.all() {
         return;
     }
     let t = Turn::by(time * w.z);
     let x = t.sine * (body.ratio.in_space().z * w.y) - t.versine * w.x;
     let y = -(t.sine * (body.inverse_ratio.in_space().z * w.x)) - t.versine * w.y;
-    P::spin_up(rate, P::Moment::of_space(Vec3::new(x, y, zero)));
-    P::Orientation::turn_about::<2>(orientation, t.half_cos, t.half_sin);
+    P::spin_up(rate, P::Moment::of_space(Vec3::new(x, y, zero)).unless(resting));
+    turn_about::<P, 2>(orientation, (t.half_cos, t.half_sin), resting);
 }
 
 #[cfg(test)]
@@ -266,6 +302,30 @@ mod tests {
                 assert!((q.w - cos).abs() < 1e-13 && (q.v.to_f64()[axis] - sin).abs() < 1e-13);
             }
             assert_eq!(rate.to_f64(), w);
+        }
+    }
+
+    #[test]
+    fn a_turn_about_an_axis_is_the_turn_of_its_quaternion() {
+        let mut about @ [start, ..] = [Quaternion::new(0.8, -0.2, 0.4, 0.4); 3];
+        about[0].turn_about::<0>(0.995, 0.0998);
+        about[1].turn_about::<1>(0.995, 0.0998);
+        about[2].turn_about::<2>(0.995, 0.0998);
+        for (q, axis) in about.into_iter().zip(Vec3::<f64>::axes()) {
+            assert_eq!(q, start.product(Quaternion { w: 0.995, v: axis * 0.0998 }));
+        }
+    }
+
+    #[test]
+    fn a_body_that_turns_about_z_alone_is_turned_as_by_all_five() {
+        let body = Body::<f64>::from_f64(1.0, [0.5, 0.7, 1.1]);
+        for [x, y, z] in [[0.0, 0.0, 1.3], [-0.0, 0.0, -1.3], [0.0, -0.0, 1.3], [-0.0; 3]] {
+            let (mut q, mut rate) = (Quaternion::new(0.8, -0.0, 0.0, -0.6), Vec3::new(x, y, z));
+            let (mut all, mut all_rate) = (q, rate);
+            free_rotor::<F64>(&body, &mut q, &mut rate, 0.1);
+            about_z::<F64>(&body, &mut all, &mut all_rate, 0.1, false);
+            all.renormalise();
+            assert_eq!(std::format!("{q:?} {rate:?}"), std::format!("{all:?} {all_rate:?}"));
         }
     }
 

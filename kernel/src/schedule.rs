@@ -10,7 +10,7 @@
 
 use crate::elements::input::{Input, Knot};
 use crate::geometry::Geometry;
-use crate::real::{Constant, Real};
+use crate::real::{Constant, Real, choose};
 use crate::words::{WordSource, WordVisitor, Words};
 
 /// The steps during which a load acts: `first ≤ n < end`.
@@ -122,10 +122,36 @@ pub(crate) struct StageTime<R> {
     pub(crate) h: R,
 }
 
-/// Brings the signals of tables to a stage; whether any changed. Kept apart: a step calls it more
-/// than once.
-#[inline(never)]
+/// Brings the signals of tables to a stage; whether any changed. Kept apart, but for lanes: a step
+/// calls it more than once.
+#[inline(always)]
 pub(crate) fn sample<P: Geometry>(
+    inputs: &[Input<P>],
+    knots: &[Knot<P::Real>],
+    steps: &[KnotStep<P::Real>],
+    at: StageTime<P::Real>,
+    signals: &mut [Signal<P::Real>],
+) -> bool {
+    if P::Real::LANES == 1 {
+        sample_apart(inputs, knots, steps, at, signals)
+    } else {
+        sample_here(inputs, knots, steps, at, signals)
+    }
+}
+
+#[inline(never)]
+fn sample_apart<P: Geometry>(
+    inputs: &[Input<P>],
+    knots: &[Knot<P::Real>],
+    steps: &[KnotStep<P::Real>],
+    at: StageTime<P::Real>,
+    signals: &mut [Signal<P::Real>],
+) -> bool {
+    sample_here(inputs, knots, steps, at, signals)
+}
+
+#[inline(always)]
+fn sample_here<P: Geometry>(
     inputs: &[Input<P>],
     knots: &[Knot<P::Real>],
     steps: &[KnotStep<P::Real>],
@@ -150,16 +176,16 @@ pub(crate) fn sample<P: Geometry>(
 const ON_THE_END: Constant = Constant::new(0.01);
 
 /// The value of a table at a stage: that of its first knot before it, `None` without knots.
-#[inline]
+#[inline(always)]
 fn table<R: Real>(knots: &[Knot<R>], steps: &[KnotStep<R>], at: StageTime<R>) -> Option<Signal<R>> {
     let StageTime { step: n, part, h } = at;
     // Since a knot that lies within the step, negative before it.
     let within = |knot: &KnotStep<R>| (part - R::ONE) * h + knot.offset;
     let mut begun = steps.partition_point(|knot| knot.first <= n);
-    while part != R::ZERO
-        && steps.get(begun).is_some_and(|knot| {
-            knot.first == n.wrapping_add(1) && within(knot) > R::constant(ON_THE_END) * h
-        })
+    while let Some(knot) = steps.get(begun)
+        && part != R::ZERO
+        && knot.first == n.wrapping_add(1)
+        && within(knot) > R::constant(ON_THE_END) * h
     {
         begun += 1;
     }
@@ -172,7 +198,7 @@ fn table<R: Real>(knots: &[Knot<R>], steps: &[KnotStep<R>], at: StageTime<R>) ->
         None => within(step),
     };
     // What is held stays so for ever, also where the time since is beyond what the number can hold.
-    let rise = if knot.slope == R::ZERO { R::ZERO } else { knot.slope * since };
+    let rise = choose!(R, knot.slope.equals(R::ZERO), R::ZERO, knot.slope * since);
     Some(Signal { value: knot.value + rise, rate: knot.slope })
 }
 

@@ -266,7 +266,7 @@ impl Sketch {
         assert!(!centres.is_empty() && centres.len() <= 255, "a joint has 1 to 255 centres");
         let bushing = spring.free_length == 0.0;
         let known =
-            if bushing { arms.len() == centres.len() } else { arms.len() >= 1 && arms.len() <= 3 };
+            if bushing { arms.len() == centres.len() } else { !arms.is_empty() && arms.len() <= 3 };
         assert!(known, "a star has one to three arms, without a free length one of its own");
         let elements = if bushing { centres.len() } else { centres.len() * arms.len() };
         let damper = if spring.damping > 0.0 {

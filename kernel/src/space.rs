@@ -8,7 +8,7 @@
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
 
-use crate::real::Real;
+use crate::real::{Lanewise, Real};
 use crate::vector::{Quaternion, Vec3};
 use crate::words::Words;
 
@@ -23,6 +23,8 @@ pub trait Linear:
     + Sub<Output = Self>
     + Neg<Output = Self>
     + Mul<<Self as Linear>::Real, Output = Self>
+    + Lanewise<<Self as Linear>::Real>
+    + Send
     + 'static
 {
     /// The number of its components.
@@ -49,6 +51,12 @@ pub trait Linear:
     fn axes() -> [Self; 3];
     /// Whether every component is finite.
     fn is_finite(self) -> bool;
+
+    /// Itself, or where `truth` holds what changes nothing when it is added: zeros of negative sign.
+    #[inline(always)]
+    fn unless(self, truth: <Self::Real as Real>::Truth) -> Self {
+        Self::select(truth, -Self::ZERO, self)
+    }
 }
 
 /// A difference of positions \[m\], a velocity \[m/s\] or a force \[N\].
@@ -84,7 +92,7 @@ pub trait Moment: Linear {
 }
 
 /// How one orientation stands to another, as half angles: what torsion springs measure.
-pub trait Turn: Copy + Debug + Default + PartialEq + Words + 'static {
+pub trait Turn: Copy + Debug + Default + PartialEq + Send + Words + 'static {
     /// The number of its components.
     type Real: Real;
     /// An axis.
@@ -179,7 +187,7 @@ impl<R: Real> Vector for Vec3<R> {
     fn cross(self, force: Self) -> Self {
         Vec3::cross(self, force)
     }
-    #[inline]
+    #[inline(always)]
     fn normals(self) -> [Self; 2] {
         Vec3::normals(self)
     }

@@ -9,6 +9,7 @@ use crate::body::{Body, BodyState, Increment};
 use crate::damping::{self, HalfKick, Lever, NoKick, Share, Sweep};
 use crate::forces::{self, At, Dampers, Evaluation, Instant, Turns, Wrench};
 use crate::geometry::Geometry;
+use crate::lockstep;
 use crate::model::{ModelRef, Terms};
 use crate::pose::{Places, place_bodies};
 use crate::real::Real;
@@ -108,7 +109,19 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     ///
     /// # Errors
     /// [`Cause::UndefinedTwist`] names the torsion spring whose twist is undefined.
+    #[inline(always)]
     pub fn evaluate<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
+        if P::Real::LANES == 1 { self.evaluate_apart::<D>(at) } else { self.evaluate_here::<D>(at) }
+    }
+
+    // One body of it for all of a scheme's evaluations.
+    fn evaluate_apart<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
+        self.evaluate_here::<D>(at)
+    }
+
+    // Lanes are stepped by a function that may use more instructions than its callees: it has none.
+    #[inline(always)]
+    fn evaluate_here<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
         self.ledger.evaluations += 1;
         self.ledger.fresh = false;
         self.ledger.ready = false;
@@ -138,8 +151,18 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     }
 
     /// Adds `scale·(h·D⁻¹)·Q` to the velocities, without the gyroscopic term.
-    #[inline]
+    #[inline(always)]
     pub fn kick(&mut self, scale: P::Real) {
+        if P::Real::LANES == 1 { self.kick_apart(scale) } else { self.kick_here(scale) }
+    }
+
+    #[inline]
+    fn kick_apart(&mut self, scale: P::Real) {
+        self.kick_here(scale);
+    }
+
+    #[inline(always)]
+    fn kick_here(&mut self, scale: P::Real) {
         let rows = self.bodies.iter_mut().zip(self.wrenches.iter()).zip(self.diagonals);
         for ((state, wrench), diagonal) in rows {
             kick_body(state, wrench, diagonal, scale);
@@ -147,7 +170,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     }
 
     /// Moves every body freely for `time` \[s\]: straight on, and as a free rotor (second order).
-    #[inline]
+    #[inline(always)]
     pub fn drift(&mut self, time: P::Real) {
         self.ledger.fresh = false;
         self.ledger.ready = false;
@@ -157,7 +180,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     }
 
     /// [`Self::kick`] and then [`Self::drift`], a body at a time: its velocities are at hand.
-    #[inline]
+    #[inline(always)]
     pub fn kick_and_drift(&mut self, scale: P::Real, time: P::Real) {
         self.ledger.fresh = false;
         self.ledger.ready = false;
@@ -170,23 +193,23 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     }
 
     /// [`Self::drift`] with a free rotor of fourth order; `time` may be negative.
-    #[inline]
+    #[inline(always)]
     pub fn drift_of_order_four(&mut self, time: P::Real) {
         self.ledger.fresh = false;
         self.ledger.ready = false;
         for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
             P::translate(&mut state.position, P::velocity(&state.velocity) * time);
-            rotation::free_rotor_of_order_four::<P>(
-                body,
-                &mut state.orientation,
-                &mut state.angular_velocity,
-                time,
-            );
+            let (q, w) = (&mut state.orientation, &mut state.angular_velocity);
+            if P::Real::LANES == 1 {
+                rotation::free_rotor_of_order_four::<P>(body, q, w, time);
+            } else {
+                lockstep::free_rotor_of_order_four::<P>(body, q, w, time);
+            }
         }
     }
 
     /// Brings the frames to the present pose where sweeps need them and no evaluation has.
-    #[inline]
+    #[inline(always)]
     pub fn place_for_sweep(&mut self) {
         if self.has_dampers() {
             place_bodies(self.bodies, self.frames);
@@ -196,14 +219,14 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     /// Kick and dampers of half a step as one: a kick by half, then the dampers in ascending
     /// order, which know of it. A strong damper leaves the rate at which it bears the force.
     /// Frames and wrenches are those of the present pose, without dampers.
-    #[inline]
+    #[inline(always)]
     pub fn damped_kick_forward(&mut self) {
         self.kick(P::Real::HALF);
         self.sweep_after_kick::<false>();
     }
 
     /// [`Self::damped_kick_forward`] with the dampers in descending order.
-    #[inline]
+    #[inline(always)]
     pub fn damped_kick_reverse(&mut self) {
         self.kick(P::Real::HALF);
         self.sweep_after_kick::<true>();
@@ -245,13 +268,13 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     /// Half a step of the dampers by themselves in ascending order; frames are those of the
     /// present pose. Where forces act within the same step, [`Self::damped_kick_forward`] follows
     /// a strong damper truly; this stops its motion and lets the forces start it anew.
-    #[inline]
+    #[inline(always)]
     pub fn sweep_forward(&mut self) {
         self.sweep_alone::<false>();
     }
 
     /// [`Self::sweep_forward`] in descending order.
-    #[inline]
+    #[inline(always)]
     pub fn sweep_reverse(&mut self) {
         self.sweep_alone::<true>();
     }

@@ -5,7 +5,7 @@
 
 use core::ops::{Add, Mul, Neg, Sub};
 
-use crate::real::Real;
+use crate::real::{Lanewise, Real, choose};
 use crate::words::{WordSource, WordVisitor, Words};
 
 /// A vector in space.
@@ -68,16 +68,22 @@ impl<R: Real> Vec3<R> {
 
     /// Two unit vectors normal to this unit vector and to each other: the first from the axis
     /// least aligned with it (ties: x, y, z).
-    #[inline]
+    #[inline(always)]
     pub fn normals(self) -> [Self; 2] {
+        if R::LANES == 1 { self.normals_apart() } else { self.normals_here() }
+    }
+
+    #[inline]
+    fn normals_apart(self) -> [Self; 2] {
+        self.normals_here()
+    }
+
+    #[inline(always)]
+    fn normals_here(self) -> [Self; 2] {
         let [x, y, z] = Self::axes();
-        let axis = if self.x.abs() <= self.y.abs() && self.x.abs() <= self.z.abs() {
-            x
-        } else if self.y.abs() <= self.z.abs() {
-            y
-        } else {
-            z
-        };
+        let (least, less) = (self.x.abs(), self.y.abs());
+        let of_x = least.at_most(less) & least.at_most(self.z.abs());
+        let axis = choose!(R, of_x, x, choose!(R, less.at_most(self.z.abs()), y, z));
         let n = self.cross(axis);
         let n = n * n.dot(n).sqrt().reciprocal_or_zero();
         [n, self.cross(n)]
@@ -95,6 +101,17 @@ impl<R: Real> Vec3<R> {
     #[inline(always)]
     pub fn is_finite(self) -> bool {
         (self.x - self.x) + (self.y - self.y) + (self.z - self.z) == R::ZERO
+    }
+}
+
+impl<R: Real> Lanewise<R> for Vec3<R> {
+    #[inline(always)]
+    fn select(truth: R::Truth, then: Self, otherwise: Self) -> Self {
+        Self::new(
+            R::pick(truth, then.x, otherwise.x),
+            R::pick(truth, then.y, otherwise.y),
+            R::pick(truth, then.z, otherwise.z),
+        )
     }
 }
 
@@ -279,6 +296,13 @@ impl<R: Real> Quaternion<R> {
             y: Vec3::new(xy + wz, R::ONE - (xx + zz), yz - wx),
             z: Vec3::new(xz - wy, yz + wx, R::ONE - (xx + yy)),
         }
+    }
+}
+
+impl<R: Real> Lanewise<R> for Quaternion<R> {
+    #[inline(always)]
+    fn select(truth: R::Truth, then: Self, otherwise: Self) -> Self {
+        Self { w: R::pick(truth, then.w, otherwise.w), v: Vec3::select(truth, then.v, otherwise.v) }
     }
 }
 

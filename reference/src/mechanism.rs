@@ -44,7 +44,7 @@ impl Mechanism {
     /// The mechanism of a scene and its state at t = 0.
     #[must_use]
     pub fn of(scene: &Scene) -> (Self, State) {
-        Self::of_model(&scene.model)
+        Self::of_model(&*scene.in_world())
     }
 
     /// The mechanism of a model and its state at t = 0.

@@ -47,6 +47,7 @@ pub struct Build {
     damping: Option<String>,
     step: Option<String>,
     without_tables: bool,
+    changes: Vec<String>,
 }
 
 /// What a build script makes of a scene.
@@ -87,7 +88,15 @@ impl Build {
             damping: None,
             step: None,
             without_tables: false,
+            changes: Vec::new(),
         }
+    }
+
+    /// A value that is another than in the file, `PATH=VALUE` as of `host-sim run --set`; called twice,
+    /// both.
+    pub fn set(mut self, change: &str) -> Self {
+        self.changes.push(change.to_owned());
+        self
     }
 
     /// `f32` or `f64`; called twice, both. Without it `f32`.
@@ -196,8 +205,9 @@ impl Build {
         let called = self.scene.display().to_string();
         let text = std::fs::read_to_string(self.path())
             .map_err(|reason| SceneError::Unreadable { file: called.clone(), reason });
-        let mut scene =
-            text.and_then(|text| Scene::parse(&text, &called)).map_err(BuildError::Scene)?;
+        let mut scene = text
+            .and_then(|text| Scene::parse_with(&text, &called, &self.changes))
+            .map_err(BuildError::Scene)?;
         if self.without_tables {
             scene.release_all();
         }

@@ -51,6 +51,7 @@ pub mod vocabulary;
 mod write;
 mod written;
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -289,6 +290,17 @@ impl Scene {
         Ok((scene, done))
     }
 
+    /// The scene with one more change of its file's values, `PATH=VALUE`.
+    ///
+    /// # Errors
+    /// Where the changed scene is refused.
+    pub fn with(&self, change: &str) -> Result<Self, SceneError> {
+        let mut changes = self.changes.clone();
+        changes.push(change.to_owned());
+        let (file, text) = self.origin.file();
+        Self::parse_with(text, file, &changes)
+    }
+
     /// The refusal of a setting of the scene file at its place there: what was asked for elsewhere,
     /// a duration, a step, does not go with it. `None` where the file does not give it.
     #[must_use]
@@ -300,6 +312,15 @@ impl Scene {
     #[must_use]
     pub fn stepped(&self) -> &SceneModel<F64> {
         self.planar.as_ref().map_or(&self.model, |planar| &planar.model)
+    }
+
+    /// The elements that step, in the world's axes: those of [`Self::stepped`] where the scene is planar.
+    #[must_use]
+    pub fn in_world(&self) -> Cow<'_, SceneModel<F64>> {
+        match &self.planar {
+            Some(planar) => Cow::Owned(planar.in_world(&self.model, &planar.model)),
+            None => Cow::Borrowed(&self.model),
+        }
     }
 
     /// Takes every input from its table, so that the caller drives it, as [`SceneModel::release_all`].

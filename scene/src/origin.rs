@@ -48,6 +48,11 @@ impl Origin {
         Self { file: source.file.to_owned(), text: source.text.into(), own: source.own, places }
     }
 
+    /// The file's name and its own text, without changes.
+    pub(crate) fn file(&self) -> (&str, &str) {
+        (&self.file, self.text.get(..self.own).unwrap_or_default())
+    }
+
     pub(crate) fn refuse(&self, setting: Setting, message: &str, help: &str) -> Option<SceneError> {
         let place = self.places[setting as usize].clone()?;
         let source = Source { own: self.own, ..Source::of(&self.file, &self.text) };

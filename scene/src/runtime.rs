@@ -160,7 +160,7 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
     }
 
     fn per_torsion(&self) -> Vec<i32> {
-        vec![0; self.torsions.len()]
+        vec![0; self.torsions.len() * P::Real::LANES]
     }
 
     fn per_load(&self) -> Vec<LoadWindow> {

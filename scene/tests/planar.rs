@@ -320,6 +320,30 @@ fn planar_is_true_or_false_and_can_be_asked_for_from_outside() {
     assert!(asked.planar.is_some());
 }
 
+/// What has no length is the same in the plane: one bushing per pin, at any stretch.
+#[test]
+fn a_pin_of_bushings_is_one_of_the_plane() {
+    let scene = Scene::parse_with(
+        &text_of("hexagon"),
+        "hexagon.toml",
+        &["realisation=bushing", "planar=true"],
+    )
+    .unwrap_or_else(|error| panic!("{error}"));
+    let planar = scene.planar.unwrap();
+    let model = &planar.model;
+    assert_eq!((model.tsdas.len(), model.bushings.len()), (0, 6));
+    assert!(planar.at_rest.is_empty());
+    let springs = shipped("hexagon").reduced().unwrap();
+    // As stiff as the springs in the same plane.
+    let stiffness = springs.model.tsdas[0].stiffness;
+    assert!((model.bushings[0].stiffness - stiffness).abs() < 1e-6 * stiffness);
+}
+
+fn text_of(name: &str) -> String {
+    let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(path).unwrap()
+}
+
 #[test]
 fn a_pin_becomes_two_springs_of_its_stiffness_and_what_lies_in_the_plane_stays() {
     let text = pinned(PLACE, &format!("{AT}\ndamping = 7"), "")

@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::grid::Grid;
 use crate::timing::Cost;
+use crate::variants::Compared;
 
 /// The window of a survey.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -71,6 +72,8 @@ pub enum Entry {
         /// \[s\] the largest stable step.
         step: f64,
     },
+    /// The scene beside its variants.
+    Variants(Vec<Compared>),
     /// What a step of a way takes.
     Cost {
         /// Its label.
@@ -91,6 +94,8 @@ pub struct Cache {
     pub limits: BTreeMap<String, f64>,
     /// Costs by label.
     pub costs: BTreeMap<String, Cost>,
+    /// The scene beside its variants, once known.
+    pub variants: Option<Vec<Compared>>,
     /// Its file and key.
     file: Option<(File, u64)>,
 }
@@ -163,6 +168,7 @@ impl Cache {
             Entry::Limit { way, step } => {
                 self.limits.insert(way.clone(), *step);
             }
+            Entry::Variants(all) => self.variants = Some(all.clone()),
             Entry::Cost { way, cost } => {
                 self.costs.insert(way.clone(), *cost);
             }

@@ -22,6 +22,8 @@ use crate::point::{Machine, Point, front};
 use crate::stability::MARGIN;
 use crate::survey::Trade;
 use crate::timing::{CALM, ROUNDS};
+use crate::variants::Compared;
+use crate::variants_table::text as variants_text;
 use crate::words::{capital, percent};
 
 /// Columns of `trade.csv`.
@@ -81,6 +83,8 @@ pub struct Json<'r> {
     /// What to choose on this machine.
     advice: Vec<Advised>,
     points: &'r [Point],
+    /// The scene and what it can be made into.
+    variants: &'r [Compared],
 }
 
 /// What to choose for an accuracy, and the command line that runs it.
@@ -122,6 +126,7 @@ impl<'r> Report<'r> {
             command: Command::new(scene, called),
             real_time_instructions: REAL_TIME,
             conditions: &conditions,
+            variants: &trade.variants,
         };
         files.write("trade.svg", &svg(&chart, Machine::Host))?;
         if trade.points.iter().any(|point| point.target_instructions.is_some()) {
@@ -160,7 +165,7 @@ impl<'r> Report<'r> {
                 }
             }
         }
-        text
+        text + &variants_text(&trade.variants)
     }
 
     /// What programs read.
@@ -175,7 +180,8 @@ impl<'r> Report<'r> {
             Advised { sentence: capital(&advice.sentence), command }
         };
         let advice = advice(points, Machine::Host, uncertainty).into_iter().map(advised).collect();
-        Json { scene, window, samples, period, growth, uncertainty, advice, points }
+        let variants = self.trade.variants.as_slice();
+        Json { scene, window, samples, period, growth, uncertainty, advice, points, variants }
     }
 }
 

@@ -13,12 +13,14 @@
 //! - [`limits`]: how long a step of each may be.
 //! - [`measure`]: how far off a way is at a step.
 //! - [`timing`]: what a step costs a host.
+//! - [`variants`](mod@variants): the scene with joints of another make, and how its motion differs.
 //! - [`cache`]: results, kept as they come.
 //! - [`order`]: how errors fall with the step, and what keeps them from it.
 //! - [`survey`](mod@survey): all points, in parallel.
 //! - [`need`]: what the paper's scheme costs at an accuracy.
 //! - [`words`]: steps, costs and steppers as people read them.
 //! - [`advice`]: what to choose, in sentences.
+//! - [`variants_table`]: the scene beside its variants, as a table.
 //! - [`front_table`]: what nothing beats, as a table.
 //! - [`command`]: how to run it.
 //! - [`chart`], [`page`]: what people look at.
@@ -43,6 +45,8 @@ pub mod point;
 pub mod stability;
 pub mod survey;
 pub mod timing;
+pub mod variants;
+pub mod variants_table;
 pub mod ways;
 pub mod words;
 

@@ -60,8 +60,8 @@ impl Limits {
     /// The limits of a scene.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
-        let state = State::initial(&scene.model);
-        let vibration = Vibration::about(&scene.model, &state);
+        let model = &*scene.in_world();
+        let vibration = Vibration::about(model, &State::initial(model));
         let damped = !scene.model.dampers.is_empty();
         Self { frequencies: Frequencies::of(scene), vibration, damped }
     }

@@ -13,6 +13,7 @@ use crate::chart::{Chart, narrow_svg, steppers, svg};
 use crate::front_table::{headings, rows};
 use crate::point::{Machine, Point};
 use crate::stability::MARGIN;
+use crate::variants_table;
 use crate::words::{capital, percent, shown};
 
 const STYLE: &str = include_str!("trade.css");
@@ -36,6 +37,7 @@ pub fn html(chart: &Chart<'_>) -> String {
     if chart.points.iter().any(counted) {
         machine(&mut page, chart, Machine::Target, "On a Cortex-M4F");
     }
+    variants(&mut page, chart);
     reading(&mut page, chart);
     all(&mut page, chart);
     if !chart.conditions.is_empty() {
@@ -100,6 +102,27 @@ fn machine(page: &mut String, chart: &Chart<'_>, machine: Machine, title: &str) 
          last two and at most two decades of error far; ≤ at its largest step, which is more accurate \
          still.</p>\n",
     );
+}
+
+/// The scene beside its variants, where it has some.
+fn variants(page: &mut String, chart: &Chart<'_>) {
+    if chart.variants.is_empty() {
+        return;
+    }
+    page.push_str("<h2>Joints of another make</h2>\n<div class=\"wide\"><table>\n<thead><tr>");
+    for (column, (name, unit)) in variants_table::HEADINGS.into_iter().enumerate() {
+        let _ = write!(page, "<th{}>{name}<small>{unit}</small></th>", number(column > 0));
+    }
+    page.push_str("</tr></thead>\n<tbody>\n");
+    for row in variants_table::rows(chart.variants) {
+        page.push_str("<tr>");
+        for (column, cell) in row.iter().enumerate() {
+            let _ = write!(page, "<td{}>{}</td>", number(column > 0), escape(cell));
+        }
+        page.push_str("</tr>\n");
+    }
+    let meaning = escape(&capital(variants_table::MEANING));
+    let _ = writeln!(page, "</tbody></table></div>\n<p>{meaning}.</p>");
 }
 
 fn reading(page: &mut String, chart: &Chart<'_>) {

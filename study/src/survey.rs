@@ -27,6 +27,7 @@ use crate::measure::{Comparison, UNSTABLE};
 use crate::order::{Influences, describe};
 use crate::point::{Fall, Point, Stepper};
 use crate::timing::{Cost, costs};
+use crate::variants::{Compared, compare};
 use crate::ways::{Way, in_space, ways};
 
 /// A step's time is measured at this share of the explicit schemes' limit.
@@ -44,6 +45,8 @@ pub struct Trade {
     pub period: Option<f64>,
     /// All points, way by way, steps descending.
     pub points: Vec<Point>,
+    /// The scene and what it can be made into, where there is such a thing.
+    pub variants: Vec<Compared>,
 }
 
 /// What a survey is at.
@@ -61,6 +64,8 @@ pub enum Phase {
     Runs(u64, u64),
     /// Measuring times: rounds done and all that are foreseen.
     Times(u64, u64),
+    /// The same mechanism with joints of another make.
+    Variants,
 }
 
 /// Why a survey could not be made.
@@ -161,7 +166,16 @@ pub fn survey(
     let (mut points, methods): (Vec<Point>, Vec<_>) = jobs.iter().filter_map(with_point).unzip();
     let influences = Influences::of(scene, grid.window());
     describe(&mut points, &methods, influences, head.uncertainty);
-    Ok(Trade { head, period: options.period, points })
+    let variants = match cache.variants.take() {
+        Some(variants) => variants,
+        None => {
+            progress(Phase::Variants);
+            let variants = compare(scene, &grid, &costs);
+            cache.add(Entry::Variants(variants.clone())).map_err(SurveyError::Write)?;
+            variants
+        }
+    };
+    Ok(Trade { head, period: options.period, points, variants })
 }
 
 /// Finds window and truth.

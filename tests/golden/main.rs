@@ -1,6 +1,7 @@
 //! Golden bits: the state's hash per scene, scheme, precision, step and number of steps.
 //!
-//! The table `hashes.csv` is part of the interface, `orientations.csv` holds those of Euler angles.
+//! The table `hashes.csv` is part of the interface, `orientations.csv` holds those of Euler angles,
+//! `planar.csv` those of scenes in their plane.
 //! `DBD_BLESS=bits cargo test -p dbd-bits` writes the present hashes; a changed one needs its
 //! reason in the commit.
 
@@ -10,7 +11,8 @@ use std::path::PathBuf;
 use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
 use dbd_kernel::geometry::{F32, F64, Geometry};
 use dbd_kernel::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Leapfrog, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Leapfrog, Pefrl, Planar32, Planar64, Plant, Rk4, Scheme,
+    SemiImplicitEuler,
 };
 use dbd_scene::{Scene, SceneModel};
 use dbd_tests::{scene, scene_names};
@@ -43,7 +45,17 @@ fn row<P: Geometry, S: Scheme>(scene: &Scene, scheme: S, steps: u64) -> String {
 }
 
 fn row_of<P: Geometry, S: Scheme>(scene: &Scene, called: &str, scheme: S, steps: u64) -> String {
-    let model: SceneModel<P> = scene.model.convert();
+    row_of_model::<P, S>(scene, &scene.model, called, scheme, steps)
+}
+
+fn row_of_model<P: Geometry, S: Scheme>(
+    scene: &Scene,
+    model: &SceneModel<F64>,
+    called: &str,
+    scheme: S,
+    steps: u64,
+) -> String {
+    let model: SceneModel<P> = model.convert();
     let step = scene.step.expect("a golden scene states its step");
     let mut plant = Plant::new(&model, scheme, step).unwrap();
     for _ in 0..steps {
@@ -92,6 +104,32 @@ fn states_have_their_golden_hashes() {
         );
     }
     compare("hashes.csv", &present);
+}
+
+/// Of scenes in their plane: pins, a spherical and a universal joint with a guide, dampers.
+#[test]
+fn states_in_the_plane_have_their_golden_hashes() {
+    let mut present = format!("{HEADER}\n");
+    for name in ["hexagon", "four-bar", "3rrr", "crank-slider", "cart-pendulum"] {
+        let scene = scene(name);
+        let planar = scene.reduced().unwrap_or_else(|found| panic!("{name}: {found:?}"));
+        macro_rules! rows {
+            ($($scheme:expr),*) => {$(
+                for row in [
+                    planar_row::<Planar64, _>(&scene, &planar.model, $scheme),
+                    planar_row::<Planar32, _>(&scene, &planar.model, $scheme),
+                ] {
+                    writeln!(present, "{row}").unwrap();
+                }
+            )*};
+        }
+        rows!(Dbd::default(), Leapfrog, Rk4);
+    }
+    compare("planar.csv", &present);
+}
+
+fn planar_row<P: Geometry, S: Scheme>(scene: &Scene, model: &SceneModel<F64>, scheme: S) -> String {
+    row_of_model::<P, S>(scene, model, S::NAME, scheme, STEPS)
 }
 
 #[test]

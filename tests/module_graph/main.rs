@@ -20,6 +20,7 @@ const CRATES: &[&str] = &[
     "bench",
     "study",
     "sweep",
+    "ensemble",
     "output",
     "picture",
     "report",

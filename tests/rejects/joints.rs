@@ -114,6 +114,13 @@ const CASES: &[Case] = &[
     case("axis = [4, 0, 0]", "axis = [4, 0, 0]\nreference = «[1, 0, 0]", "`reference` of joint `piston` is parallel to the axis", "normal to it"),
     case("[[joint]] # fourth\nname = \"piston\"\ntype = \"cylindrical\"\nbetween = [\"arm\", \"hand\"]\nat = [1.2, 0, 0]", "«[[joint]]\nname = \"piston\"\ntype = \"cylindrical\"\nbetween = [\"arm\", \"hand\"]\nat = [0, 0, 1e15]", "joint `piston` does not assemble: its points are", "nearer to the origin"),
 
+    // Realisations.
+    case("offset = 0.011", "offset = 0.011\nrealisation = «\"bushing\"", "`realisation` of joint `piston` is of a cylindrical joint, which has but one", "leave it out"),
+    case("gauge = 0.04", "gauge = 0.04\nrealisation = «\"tsda\"", "`realisation` of joint `guide` is of a translational joint, which has but one", "leave it out"),
+    case("arm = 0.035", "arm = 0.035\nrealisation = «\"rubber\"", "`realisation` of joint `weld` is \"rubber\"", "\"bushing\""),
+    case("duration = 1\n", "duration = 1\nrealisation = «\"rigid\"\n", "`realisation` of the scene is \"rigid\"", "\"tsda\""),
+    case("span = 0.06\nring = 0.05", "span = 0.06\nrealisation = \"bushing\"\nring = «0.05", "`ring` of joint `knee` makes a joint that no bushing between its two bodies is as stiff as", "without `ring`"),
+
     // Points on lines.
     case("line_direction", "«line_axis", "point_on_line 1 has no key `line_axis`", "`line_direction`"),
     lacks("[[point_on_line]]", "between = [\"hand\", \"world\"]\n", "point_on_line 1 has no `between`", "two different bodies"),

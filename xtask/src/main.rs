@@ -9,9 +9,11 @@ mod baseline;
 mod bits;
 mod boards;
 mod built;
+mod callgrind;
 mod command;
 mod cost;
 mod fuzz;
+mod growth;
 mod instructions;
 mod packages;
 mod prove;
@@ -90,6 +92,9 @@ enum Command {
         #[arg(long)]
         baseline: bool,
     },
+    /// Counts how the work of reading and looking at a scene grows with its bodies, by valgrind's
+    /// callgrind; writes docs/results/growth.csv, fails where it grows faster than the bodies.
+    Growth,
     /// Gives random input to the reader of scenes, to snapshots, to steps and to the command line, on
     /// all cores; fails where anything fails.
     Fuzz(fuzz::Campaign),
@@ -143,6 +148,7 @@ fn main() -> ExitCode {
         Command::Cost { guards: true, .. } => cost::guards::run(),
         Command::Cost { scenes, compare, .. } => cost::run(&scenes, compare),
         Command::Instructions { baseline } => instructions::run(baseline),
+        Command::Growth => growth::run(),
         Command::Fuzz(campaign) => fuzz::run(&campaign),
         Command::Bits { names } => bits::machines::run(&names),
         Command::Prove { names } => prove::run(&names),

@@ -20,8 +20,8 @@ pub enum Stretch {
     Length(f64),
     /// In every direction.
     Anywhere,
-    /// Across a line of the first body with this unit direction, its axes.
-    Across(Vector),
+    /// Across a line of the first body with this unit direction, its axes, beyond a free distance \[m\].
+    Across(Vector, f64),
 }
 
 /// A spring and damper between two points.
@@ -75,7 +75,7 @@ impl Spring {
         let (to, arm_b) = place(bodies, b, self.points[1]);
         let mut away = difference(to, from);
         let mut line = None;
-        if let Stretch::Across(direction) = self.stretch {
+        if let Stretch::Across(direction, _) = self.stretch {
             let direction = a.map_or(direction, |row| turned(&bodies[row].rotation, direction));
             let slide = scaled(direction, dot(away, direction));
             away = difference(away, slide);
@@ -101,7 +101,15 @@ impl Spring {
                 let tension = self.stiffness * (length - free) + self.damping * dot(along, rate);
                 scaled(along, tension)
             }
-            Stretch::Anywhere | Stretch::Across(_) => {
+            Stretch::Across(_, free) if free != 0.0 => {
+                let length = dot(away, away).sqrt();
+                if length == 0.0 {
+                    return;
+                }
+                let pull = scaled(away, self.stiffness * (length - free) / length);
+                sum(pull, scaled(rate, self.damping))
+            }
+            Stretch::Anywhere | Stretch::Across(..) => {
                 sum(scaled(away, self.stiffness), scaled(rate, self.damping))
             }
         };

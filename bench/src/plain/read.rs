@@ -23,9 +23,9 @@ pub enum Lacks {
     /// It has no clearances.
     #[error("the plain loop has no clearances")]
     Clearances,
-    /// A point may lie on a line, but not at a distance from it.
-    #[error("the plain loop has no free distances from lines")]
-    Distances,
+    /// A joint is springs between points, not one law for point and axes.
+    #[error("the plain loop has no revolute or universal joints of bushings")]
+    Axes,
 }
 
 impl Plain {
@@ -40,16 +40,14 @@ impl Plain {
         if !model.clearances.is_empty() {
             return Err(Lacks::Clearances);
         }
-        if model.lines.iter().any(|line| line.free_length != 0.0) {
-            return Err(Lacks::Distances);
-        }
         let springs = model.groups.iter();
         let springs =
             springs.flat_map(|group| (0..group.elements()).map(|i| spring(model, group, i)));
+        let springs = springs.collect::<Result<_, _>>()?;
         Ok(Self {
             bodies: bodies(model),
             gravity: model.gravity.first().map_or([0.0; 3], |gravity| gravity.to_f64()),
-            springs: springs.collect(),
+            springs,
             torsions: torsions(model),
             loads: loads(model),
             step,
@@ -81,7 +79,7 @@ fn bodies(model: &SceneModel<F64>) -> Vec<Body> {
 }
 
 /// Element `i` of a group: star by star, arm by arm.
-fn spring(model: &SceneModel<F64>, group: &Group, i: usize) -> Spring {
+fn spring(model: &SceneModel<F64>, group: &Group, i: usize) -> Result<Spring, Lacks> {
     let (stars, arms) = (usize::from(group.stars), usize::from(group.arms));
     let tip = if group.shared { i % arms } else { i };
     let point = |row: usize| -> Vector { model.points[usize::from(group.point) + row].to_f64() };
@@ -94,16 +92,17 @@ fn spring(model: &SceneModel<F64>, group: &Group, i: usize) -> Spring {
         Law::PointBushing => (Stretch::Anywhere, model.bushings[row].stiffness),
         Law::PointOnLine => {
             let line = &model.lines[row];
-            (Stretch::Across(line.direction.to_f64()), line.stiffness)
+            (Stretch::Across(line.direction.to_f64(), line.free_length), line.stiffness)
         }
+        Law::Revolute | Law::Universal => return Err(Lacks::Axes),
     };
-    Spring {
+    Ok(Spring {
         ends: [end(group.a), end(group.b)],
         points: [point(i / arms), point(stars + tip)],
         stretch,
         stiffness,
         damping: group.damper.row().map_or(0.0, |first| model.dampers[first + i]),
-    }
+    })
 }
 
 fn torsions(model: &SceneModel<F64>) -> Vec<Torsion> {

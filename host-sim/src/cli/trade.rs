@@ -63,6 +63,7 @@ pub(super) fn trade_scene(
         Phase::Runs(done, all) => progress.update(done, all),
         Phase::Times(0, _) => progress.begin("measuring times"),
         Phase::Times(..) => {}
+        Phase::Variants => progress.begin("joints of another make"),
     });
     progress.finish();
     let (trade, folder) = done?;

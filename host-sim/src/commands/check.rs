@@ -10,7 +10,7 @@ use dbd_plant::time::display;
 use std::f64::consts::TAU;
 
 use dbd_plant::{Frequencies, Method};
-use dbd_scene::{InputInfo, JointFacts, JointInfo, ReadoutInfo, Scene};
+use dbd_scene::{InputInfo, JointFacts, JointInfo, ReadoutInfo, Realisation, Scene};
 use serde::Serialize;
 
 use crate::commands::assembled::AssembledCheck;
@@ -98,6 +98,9 @@ pub struct JointCheck {
     /// Its type.
     #[serde(rename = "type")]
     pub kind: &'static str,
+    /// What it is made of, where that is not TSDAs: `bushing`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub realisation: Option<&'static str>,
     /// Its bodies.
     pub between: [String; 2],
     /// Degrees of freedom that it holds.
@@ -167,9 +170,14 @@ pub fn check(scene: &Scene) -> Check {
     let model = &scene.model;
     let frequencies = Frequencies::of(scene);
     let facts = scene.facts();
+    let made_of = |joint: &JointInfo| match joint.realisation {
+        Realisation::Tsda => None,
+        other => Some(other.name()),
+    };
     let joint = |(joint, facts): (&JointInfo, &JointFacts)| JointCheck {
         name: joint.name.clone(),
         kind: joint.kind,
+        realisation: made_of(joint),
         between: joint.between.clone(),
         holds: joint.holds,
         tsdas: joint.tsdas,
@@ -322,7 +330,10 @@ impl Check {
         let line = |joint: &JointCheck| {
             [
                 joint.name.clone(),
-                joint.kind.into(),
+                match joint.realisation {
+                    Some(made_of) => format!("{}, {made_of}", joint.kind),
+                    None => joint.kind.into(),
+                },
                 joint.between.join("–"),
                 joint.holds.to_string(),
                 joint.tsdas.to_string(),

@@ -356,6 +356,7 @@ fn summarise(
         damping: method.foreign_damping().map(Damping::name),
         precision: method.precision_name(),
         orientation: method.orientation_name(),
+        plane: scene.planar.as_ref().map(|planar| planar.plane.name()),
         step: plan.step,
         steps: ending.steps,
         duration,

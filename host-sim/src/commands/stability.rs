@@ -40,7 +40,8 @@ impl StabilityCheck {
     /// # Errors
     /// [`MethodError::Restless`] in a precision in which no pose is at rest.
     pub fn of(scene: &Scene, method: &Method) -> Result<Self, MethodError> {
-        let found = stability(&scene.model, &State::initial(&scene.model), method)?;
+        let model = &*scene.in_world();
+        let found = stability(model, &State::initial(model), method)?;
         let some = found.as_ref().filter(|found| found.largest_step > 0.0);
         Ok(Self {
             scheme: method.scheme_name(),

@@ -32,6 +32,9 @@ pub struct Summary {
     pub precision: &'static str,
     /// How orientations are stored.
     pub orientation: &'static str,
+    /// The plane that a planar scene ran in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plane: Option<String>,
     /// \[s\] the step.
     pub step: f64,
     /// Steps done.
@@ -212,6 +215,8 @@ impl Summary {
         let damping = self.damping.map(|name| format!(", {name} damping")).unwrap_or_default();
         let method =
             format!("{}{newton}{damping}, {}, {}", self.scheme, self.precision, self.orientation);
+        let plane = self.plane.as_ref().map(|plane| format!(", in the plane {plane}"));
+        let method = method + &plane.unwrap_or_default();
         let frequency = format!(
             "≤ {} Hz (estimate {} Hz)",
             significant(self.frequency_bound_hz, 5),

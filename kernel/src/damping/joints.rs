@@ -27,7 +27,7 @@ pub(crate) fn sweep_joints<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: boo
     levers: &[Lever<P>],
     bodies: &mut [BodyState<P>],
 ) {
-    let torsions = model.torsions.iter().zip(sweep.turns);
+    let torsions = model.torsions.iter().zip(P::Real::counts(sweep.turns));
     if REVERSE {
         if T::TORSIONS {
             for (spring, &turns) in torsions.rev() {

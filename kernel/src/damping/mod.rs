@@ -46,8 +46,8 @@ use crate::elements::torsion_spring::TorsionSpring;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelRef, Terms};
-use crate::pose::{End, MOST_ARMS, Placed, Places, Spot, held_turns, placed, twist_of};
-use crate::real::Real;
+use crate::pose::{CountOf, End, MOST_ARMS, Placed, Places, Spot, held_turns, placed, twist_of};
+use crate::real::{Real, Truth as _};
 use crate::space::{Linear as _, Vector as _};
 
 /// How a scheme treats dampers.
@@ -104,13 +104,13 @@ impl<P: Geometry, K> Sweep<'_, P, K> {
 
 /// One pass over all dampers, ascending, or descending with `REVERSE`; groups come before torsion
 /// springs in ascending order.
-#[inline]
+#[inline(always)]
 pub(crate) fn sweep<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     bodies: &mut [BodyState<P>],
 ) {
-    let torsions = model.torsions.iter().zip(sweep.turns);
+    let torsions = model.torsions.iter().zip(P::Real::counts(sweep.turns));
     if REVERSE {
         if T::TORSIONS {
             for (spring, &turns) in torsions.rev() {
@@ -155,12 +155,13 @@ fn sweep_group<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
             continue;
         };
         let coefficient = engaged(model, &element, whole);
-        if T::CLEARANCES && coefficient == P::Real::ZERO {
+        let idle = P::Real::truth(T::CLEARANCES) & coefficient.equals(P::Real::ZERO);
+        if idle.all() {
             continue;
         }
         let damper = sweep.damper::<REVERSE>(coefficient, share);
         each_direction::<P, T, REVERSE>(model, places, &element, |direction| {
-            pair.damp::<P, K>(&direction, damper);
+            pair.damp::<P, K>(&direction, damper, idle);
         });
     }
     pair.store::<P>(bodies);
@@ -174,7 +175,9 @@ fn new_pair<P: Geometry, T: Terms, K: Kick<P>>(
     ends: [BodyIndex; 2],
     bodies: &[BodyState<P>],
 ) -> Pair<P::Space> {
-    let [a, b] = ends.map(|end| End::new(model, sweep.places, end, None));
+    let [a, b] = ends;
+    let a = End::new(model, sweep.places, a, None);
+    let b = End::new(model, sweep.places, b, None);
     let rate = b.velocity - a.velocity;
     Pair::new(model, ends.map(BodyIndex::row), bodies, rate, &sweep.kick)
 }
@@ -196,11 +199,10 @@ fn each_direction<P: Geometry, T: Terms, const REVERSE: bool>(
         directions.swap(0, count - 1);
     }
     for along in directions.into_iter().take(count) {
-        let moment = |body: BodyIndex, arm: P::Vector| match places.frames.get(body.row()) {
-            Some(frame) => P::moment_to_body(frame, arm.cross(along)),
-            None => P::Moment::ZERO,
-        };
-        let moments = [moment(group.a, element.arm_a), moment(group.b, element.arm_b)];
+        let moments = [
+            moment(places, group.a, element.arm_a.cross(along)),
+            moment(places, group.b, element.arm_b.cross(along)),
+        ];
         visit(Direction { along, moments });
     }
     if (T::REVOLUTES || T::UNIVERSALS) && !REVERSE {
@@ -222,11 +224,17 @@ fn each_turn<P: Geometry, T: Terms, const REVERSE: bool>(
         turns.swap(0, 1);
     }
     for turn in turns.into_iter().take(count) {
-        let moments = [group.a, group.b].map(|body| match places.frames.get(body.row()) {
-            Some(frame) => P::moment_to_body(frame, turn),
-            None => P::Moment::ZERO,
-        });
+        let moments = [moment(places, group.a, turn), moment(places, group.b, turn)];
         visit(Direction { along: P::Vector::ZERO, moments });
+    }
+}
+
+/// A moment in world axes as a body sees it; the ground sees none.
+#[inline(always)]
+fn moment<P: Geometry>(places: Places<'_, P>, body: BodyIndex, world: P::Moment) -> P::Moment {
+    match places.frames.get(body.row()) {
+        Some(frame) => P::moment_to_body(frame, world),
+        None => P::Moment::ZERO,
     }
 }
 
@@ -281,7 +289,8 @@ fn sweep_stars<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
                     moments[1] = end_b.moment_to_axes(arm_b.cross(u));
                 }
                 let damper = sweep.damper::<REVERSE>(coefficient, share);
-                pair.damp::<P, K>(&Direction { along: u, moments }, damper);
+                let idle = P::Real::truth(false);
+                pair.damp::<P, K>(&Direction { along: u, moments }, damper, idle);
             };
             let dampers = dampers.iter().zip(shares);
             let elements = tips.get(..arms).unwrap_or_default().iter().zip(dampers);
@@ -317,7 +326,7 @@ fn torsion<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     spring: &TorsionSpring<P::Space>,
-    turns: i32,
+    turns: CountOf<P>,
     bodies: &mut [BodyState<P>],
 ) {
     let Some(row) = spring.damper.row() else { return };
@@ -325,7 +334,8 @@ fn torsion<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     let known = (direction, model.dampers.get(row), sweep.shares.get(row));
     let (Some(direction), Some(&coefficient), Some(share)) = known else { return };
     let mut pair = new_pair(model, sweep, [spring.a, spring.b], bodies);
-    pair.damp::<P, K>(&direction, sweep.damper::<REVERSE>(coefficient, share));
+    let idle = P::Real::truth(false);
+    pair.damp::<P, K>(&direction, sweep.damper::<REVERSE>(coefficient, share), idle);
     pair.store::<P>(bodies);
 }
 
@@ -336,14 +346,11 @@ fn torsion_direction<P: Geometry, T: Terms>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     spring: &TorsionSpring<P::Space>,
-    turns: i32,
+    turns: CountOf<P>,
     bodies: &[BodyState<P>],
 ) -> Option<Direction<P::Space>> {
     let twist = twist_of::<P>(spring, bodies, turns)?;
     let world = End::new(model, places, spring.a, None).moment_to_world(twist.gradient);
-    let moments = [spring.a, spring.b].map(|body| match places.frames.get(body.row()) {
-        Some(frame) => P::moment_to_body(frame, world),
-        None => P::Moment::ZERO,
-    });
+    let moments = [moment(places, spring.a, world), moment(places, spring.b, world)];
     Some(Direction { along: P::Vector::ZERO, moments })
 }

@@ -13,7 +13,7 @@ use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{ModelRef, Terms};
 use crate::pose::{Places, held_turns, placed};
-use crate::real::Real as _;
+use crate::real::{Real, Truth as _};
 use crate::space::{Linear as _, Moment as _, Space};
 
 /// What an impulse of 1 along a damper does to its two bodies.
@@ -24,6 +24,8 @@ pub(super) struct Motion<S: Space> {
     /// `K_ii`, 1/μ.
     pub(super) rate: S::Real,
     coefficient: S::Real,
+    /// The lanes in which it moves anything.
+    pub(super) known: <S::Real as Real>::Truth,
 }
 
 /// Where dampers stand: groups in order, then torsion springs.
@@ -139,6 +141,7 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
                 }
             }
             Mount::Torsion(row) => {
+                let turns = P::Real::counts(turns);
                 let Some((spring, &turns)) = model.torsions.iter().zip(turns).nth(row) else {
                     return;
                 };
@@ -166,6 +169,7 @@ impl<S: Space> Motion<S> {
             increments: [Increment::default(); 2],
             rate: S::Real::ZERO,
             coefficient,
+            known: S::Real::truth(true),
         };
         let ends = bodies.into_iter().zip(direction.moments).zip([-S::Real::ONE, S::Real::ONE]);
         for (((body, moment), sign), increment) in ends.zip(&mut motion.increments) {
@@ -177,7 +181,9 @@ impl<S: Space> Motion<S> {
             }
         }
         motion.rate = motion.rate(bodies, direction);
-        (motion.rate > S::Real::ZERO && coefficient > S::Real::ZERO).then_some(motion)
+        let zero = S::Real::ZERO;
+        motion.known = zero.less_than(motion.rate) & zero.less_than(coefficient);
+        motion.known.any().then_some(motion)
     }
 
     /// The rate along a direction between two bodies.

@@ -6,7 +6,7 @@ use crate::body::{BodyState, Diagonal, Increment};
 use crate::forces::Wrench;
 use crate::geometry::Geometry;
 use crate::model::{ModelRef, Terms};
-use crate::real::Real;
+use crate::real::{Real, Truth as _};
 use crate::space::{Linear as _, Moment as _, Space};
 
 /// What a damper knows of itself besides its levers.
@@ -76,10 +76,12 @@ impl<P: Geometry> Kick<P> for HalfKick<'_, P::Space> {
 
     #[inline(always)]
     fn of(&self, row: usize) -> Increment<P::Space> {
-        let rows = self.wrenches.get(row).zip(self.diagonals.get(row));
-        rows.map_or_else(Increment::default, |(wrench, diagonal)| {
-            diagonal.increment(wrench.force, wrench.torque, P::Real::HALF)
-        })
+        match (self.wrenches.get(row), self.diagonals.get(row)) {
+            (Some(wrench), Some(diagonal)) => {
+                diagonal.increment(wrench.force, wrench.torque, P::Real::HALF)
+            }
+            _ => Increment::default(),
+        }
     }
 }
 
@@ -103,16 +105,36 @@ struct Side<S: Space> {
     turn: S::Moment,
 }
 
+/// The body in a row with its inverse mass, velocity and what the kick gave to that.
+#[inline(always)]
+#[allow(clippy::type_complexity)]
+fn side<P: Geometry, T: Terms, K: Kick<P>>(
+    model: &ModelRef<'_, P, T>,
+    row: usize,
+    bodies: &[BodyState<P>],
+    kick: &K,
+) -> Option<(Side<P::Space>, P::Real, P::Vector, P::Vector)> {
+    let (body, state) = (model.bodies.get(row)?, bodies.get(row)?);
+    let kick = kick.of(row);
+    let side = Side {
+        inverse_inertia: body.inverse_inertia,
+        spin: P::spin(&state.angular_velocity),
+        kick: kick.angular,
+        turn: P::Moment::ZERO,
+    };
+    Some((side, body.inverse_mass, P::velocity(&state.velocity), kick.linear))
+}
+
 impl<S: Space> Side<S> {
     #[inline(always)]
     fn rate(&self, moment: S::Moment) -> S::Real {
         moment.dot(self.spin + self.turn)
     }
 
-    /// An impulsive moment; what it does per unit is at hand.
+    /// What an impulsive moment does.
     #[inline(always)]
-    fn turn(&mut self, response: S::Moment, impulse: S::Real) {
-        self.turn = self.turn + response * impulse;
+    fn turn(&mut self, response: S::Moment) {
+        self.turn = self.turn + response;
     }
 }
 
@@ -147,17 +169,8 @@ impl<S: Space> Pair<S> {
         ground_rate: S::Vector,
         kick: &K,
     ) -> Self {
-        let [a, b] = rows.map(|row| {
-            let (body, state) = (model.bodies.get(row)?, bodies.get(row)?);
-            let kick = kick.of(row);
-            let side = Side {
-                inverse_inertia: body.inverse_inertia,
-                spin: P::spin(&state.angular_velocity),
-                kick: kick.angular,
-                turn: S::Moment::ZERO,
-            };
-            Some((side, body.inverse_mass, P::velocity(&state.velocity), kick.linear))
-        });
+        let [a, b] = rows;
+        let (a, b) = (side(model, a, bodies, kick), side(model, b, bodies, kick));
         let mut velocity = ground_rate;
         let mut pushed = S::Vector::ZERO;
         let mut inverse_masses = [S::Real::ZERO; 2];
@@ -188,7 +201,7 @@ impl<S: Space> Pair<S> {
         matches!(self.sides.get(end), Some(Some(_)))
     }
 
-    /// One damper acts.
+    /// One damper acts, but in lanes where it is idle.
     #[inline(always)]
     pub(super) fn damp<
         P: Geometry<Space = S, Real = S::Real, Vector = S::Vector, Moment = S::Moment>,
@@ -197,6 +210,7 @@ impl<S: Space> Pair<S> {
         &mut self,
         direction: &Direction<S>,
         damper: Damper<S::Real>,
+        idle: <S::Real as Real>::Truth,
     ) {
         let Direction { along: u, moments: [moment_a, moment_b] } = *direction;
         let [a, b] = &mut self.sides;
@@ -221,7 +235,8 @@ impl<S: Space> Pair<S> {
             }
         }
         // Without a direction (coincident points) nothing can be pushed.
-        if inverse == S::Real::ZERO {
+        let idle = idle | inverse.equals(S::Real::ZERO);
+        if idle.all() {
             return;
         }
         let (x, impulse_per_rate) = damper.impulse_per_rate(inverse);
@@ -229,12 +244,12 @@ impl<S: Space> Pair<S> {
             rate = rate - kick * damper.unmet(x);
         }
         let impulse = impulse_per_rate * rate;
-        self.impulse = self.impulse + u * impulse;
+        self.impulse = self.impulse + (u * impulse).unless(idle);
         if let Some(a) = a {
-            a.turn(response_a, impulse);
+            a.turn((response_a * impulse).unless(idle));
         }
         if let Some(b) = b {
-            b.turn(response_b, -impulse);
+            b.turn((response_b * -impulse).unless(idle));
         }
     }
 

@@ -15,7 +15,7 @@ use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::model::{ModelRef, Terms};
 use crate::pose::Places;
-use crate::real::Real;
+use crate::real::{Real, choose};
 
 /// Writes the share of every damper; `shares` is as long as the dampers, `held` has an empty one per
 /// body.
@@ -46,8 +46,9 @@ pub(crate) fn share<P: Geometry, T: Terms>(
                     }
                 });
                 if let Some(share) = shares.get_mut(row) {
-                    share.own = share.own + part * all;
-                    share.later = share.later + part * later;
+                    let (own, after) = (share.own + part * all, share.later + part * later);
+                    share.own = P::Real::pick(motion.known, own, share.own);
+                    share.later = P::Real::pick(motion.known, after, share.later);
                 }
             });
         }
@@ -55,11 +56,10 @@ pub(crate) fn share<P: Geometry, T: Terms>(
     for share in shares {
         let Share { own: all, later } = *share;
         // A damper without a direction or a coefficient has no motion of its own.
-        let known = all > zero && all.is_finite();
-        *share = if known {
-            Share { own: P::Real::ONE / all, later: later / all }
-        } else {
-            Share::ALONE
-        };
+        let known = zero.less_than(all) & (all * zero).equals(zero);
+        let alone = Share::<P::Real>::ALONE;
+        let (own, later) =
+            choose!(P::Real, known, (P::Real::ONE / all, later / all), (alone.own, alone.later));
+        *share = Share { own, later };
     }
 }

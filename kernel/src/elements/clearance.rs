@@ -7,17 +7,18 @@
 //! (Flores & Ambrósio 2004 review dry clearance joints, whose dampers grow likewise, after Hunt &
 //! Crossley 1975; contact here is the joint's own spring.)
 
-use crate::real::Real;
+use crate::real::{Real, choose};
 
 /// What remains of `extension` \[m\] beyond a dead band of ±`clearance` \[m\]; without one all of it.
 #[inline(always)]
 pub fn beyond<R: Real>(extension: R, clearance: Option<R>) -> R {
-    match clearance {
-        None => extension,
-        Some(c) if extension > c => extension - c,
-        Some(c) if extension < -c => extension + c,
-        Some(_) => R::ZERO,
-    }
+    let Some(c) = clearance else { return extension };
+    choose!(
+        R,
+        c.less_than(extension),
+        extension - c,
+        choose!(R, extension.less_than(-c), extension + c, R::ZERO)
+    )
 }
 
 /// What acts of a damper \[N·s/m\] at `extension` \[m\]: without a clearance all of it.
@@ -25,7 +26,7 @@ pub fn beyond<R: Real>(extension: R, clearance: Option<R>) -> R {
 pub fn engaged<R: Real>(damping: R, extension: R, clearance: Option<R>) -> R {
     let Some(c) = clearance else { return damping };
     let x = beyond(extension, clearance).abs();
-    if x < c { damping * (x / c) } else { damping }
+    choose!(R, x.less_than(c), damping * (x / c), damping)
 }
 
 #[cfg(test)]

@@ -43,7 +43,7 @@ impl<R: Real> PointBushing<R> {
 
 impl<V: Vector> PointLaw<V> for PointBushing<V::Real> {
     /// `|d|` \[m\].
-    #[inline]
+    #[inline(always)]
     fn extension(&self, stretch: &Stretch<V>) -> V::Real {
         let d = stretch.displacement;
         d.dot(d).sqrt()

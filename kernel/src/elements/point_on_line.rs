@@ -11,7 +11,7 @@
 
 use crate::elements::clearance::{beyond, engaged};
 use crate::elements::point_law::{PointLaw, Stretch};
-use crate::real::Real;
+use crate::real::{Real, choose};
 use crate::space::{Linear as _, Space, Vector};
 
 /// The constants of a point on a line.
@@ -71,12 +71,12 @@ impl<S: Space> PointOnLine<S> {
     /// is one.
     #[inline(always)]
     pub fn force(&self, e: S::Vector, clearance: Option<S::Real>) -> S::Vector {
-        if clearance.is_none() && self.free_length == S::Real::ZERO {
-            return e * self.stiffness;
-        }
-        let length = e.dot(e).sqrt();
-        let tension = self.stiffness * beyond(length - self.free_length, clearance);
-        e * (tension * length.reciprocal_or_zero())
+        let smooth = S::Real::truth(clearance.is_none()) & self.free_length.equals(S::Real::ZERO);
+        choose!(S::Real, smooth, e * self.stiffness, {
+            let length = e.dot(e).sqrt();
+            let tension = self.stiffness * beyond(length - self.free_length, clearance);
+            e * (tension * length.reciprocal_or_zero())
+        })
     }
 
     /// Force on A \[N\] with the damper's share: `damping` in N·s/m, `rate` is `ė`.
@@ -95,7 +95,7 @@ impl<S: Space> PointOnLine<S> {
 
 impl<S: Space> PointLaw<S::Vector> for PointOnLine<S> {
     /// `|e| − L0` \[m\].
-    #[inline]
+    #[inline(always)]
     fn extension(&self, stretch: &Stretch<S::Vector>) -> S::Real {
         self.beyond_free(stretch.displacement)
     }

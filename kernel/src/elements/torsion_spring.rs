@@ -13,7 +13,7 @@
 
 use crate::arctangent::atan2;
 use crate::index::{BodyIndex, DamperIndex};
-use crate::real::Real;
+use crate::real::{Real, choose};
 use crate::space::{Linear as _, Space, Turn as _};
 
 /// The constants of a torsion spring.
@@ -63,22 +63,18 @@ pub struct SinceStart<S: Space> {
 impl<S: Space> SinceStart<S> {
     /// (w, v·n) with the sign that belongs to the turn count.
     #[inline(always)]
-    fn wound(&self, turns: i32) -> (S::Real, S::Real) {
-        let odd = turns & 1 != 0;
-        if odd { (-self.w, -self.s) } else { (self.w, self.s) }
+    fn wound(&self, turns: <S::Real as Real>::Count) -> (S::Real, S::Real) {
+        choose!(S::Real, S::Real::is_odd(turns), (-self.w, -self.s), (self.w, self.s))
     }
 
     /// The turn count brought to the half winding nearest the pose, which a step does near its
     /// boundary.
     #[inline(always)]
     #[must_use]
-    pub fn settled(&self, turns: i32) -> i32 {
+    pub fn settled(&self, turns: <S::Real as Real>::Count) -> <S::Real as Real>::Count {
         let (w, s) = self.wound(turns);
-        if w < S::Real::ZERO {
-            if s > S::Real::ZERO { turns.wrapping_add(1) } else { turns.wrapping_sub(1) }
-        } else {
-            turns
-        }
+        let zero = S::Real::ZERO;
+        S::Real::recount(turns, w.less_than(zero), zero.less_than(s))
     }
 }
 
@@ -104,21 +100,22 @@ impl<S: Space> TorsionSpring<S> {
         let (w, s) = turn.about(self.axis);
         let norm = w * w + s * s;
         // Written so that NaN counts as undefined, too.
-        let defined = norm >= S::Real::from_f64(LEAST_TWIST_NORM);
-        if defined { Some(SinceStart { turn, w, s, norm }) } else { None }
+        let norm = norm.only_where(S::Real::from_f64(LEAST_TWIST_NORM).at_most(norm))?;
+        Some(SinceStart { turn, w, s, norm })
     }
 
     /// The twist of a rotation at the turn count `turns`.
     #[inline(always)]
-    pub fn twist(&self, since: &SinceStart<S>, turns: i32) -> Twist<S> {
+    pub fn twist(&self, since: &SinceStart<S>, turns: <S::Real as Real>::Count) -> Twist<S> {
         let (w, s) = since.wound(turns);
         let two = S::Real::TWO;
         let principal = two * atan2(s, w);
-        let angle = if turns == 0 {
-            principal
-        } else {
-            S::Real::from_i32(turns) * (two * S::Real::PI) + principal
-        };
+        let angle = choose!(
+            S::Real,
+            S::Real::is_nil(turns),
+            principal,
+            S::Real::from_count(turns) * (two * S::Real::PI) + principal
+        );
         Twist { angle, gradient: since.turn.gradient(self.axis, since.s, since.norm) }
     }
 

@@ -80,7 +80,7 @@ impl<R: Real> Tsda<R> {
 
 impl<V: Vector> PointLaw<V> for Tsda<V::Real> {
     /// `L − L0` \[m\].
-    #[inline]
+    #[inline(always)]
     fn extension(&self, stretch: &Stretch<V>) -> V::Real {
         let d = stretch.displacement;
         d.dot(d).sqrt() - self.free_length

@@ -138,10 +138,10 @@ pub(crate) fn record<P: Geometry, T: Terms, D: Dampers>(
         }
         Law::PointOnLine if T::LINES => Some(lines::lines::<P, T, D>(model, group, &end_a, &end_b)),
         Law::Revolute if T::REVOLUTES => {
-            Some(revolute::revolute::<P, T, D>(model, group, &end_a, &end_b))
+            revolute::revolute::<P, T, D>(model, group, &end_a, &end_b)
         }
         Law::Universal if T::UNIVERSALS => {
-            Some(universal::universal::<P, T, D>(model, group, &end_a, &end_b))
+            universal::universal::<P, T, D>(model, group, &end_a, &end_b)
         }
         _ => None,
     }

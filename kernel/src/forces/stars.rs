@@ -13,7 +13,8 @@ use crate::forces::record::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::{End, MOST_ARMS};
-use crate::space::{Linear as _, Space, Vector as _};
+use crate::real::Real;
+use crate::space::{Linear, Space, Vector as _};
 
 /// A group of TSDA stars.
 #[inline(always)]
@@ -60,60 +61,88 @@ fn block<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usiz
 ) -> Option<Record<P::Space>> {
     let centres: &[_; STARS] = rows(model.points, group.centre(0))?;
     let tips: &[_; ARMS] = rows(model.points, group.tips(0))?;
-    let springs: &[[_; ARMS]; STARS] = grid(model.tsdas, group.element as usize)?;
-    let dampers: Option<&[[_; ARMS]; STARS]> = match group.damper.row() {
-        Some(row) if D::ACT && T::DAMPERS => Some(grid(model.dampers, row)?),
-        _ => None,
+    let springs = Springs::<_, STARS, ARMS> {
+        springs: grid(model.tsdas, group.element as usize)?,
+        dampers: match group.damper.row() {
+            Some(row) if D::ACT && T::DAMPERS => Some(grid(model.dampers, row)?),
+            _ => None,
+        },
+        clearance: model.clearance(group),
     };
-    let clearance = model.clearance(group);
     let mut spots = [(P::Location::default(), P::Vector::ZERO); STARS];
     for (spot, centre) in spots.iter_mut().zip(centres) {
         *spot = end_a.place(centre);
     }
     let mut pulls_a = [P::Vector::ZERO; STARS];
     let mut torque_b = P::Moment::ZERO;
-    for arm in 0..ARMS {
-        let (tip, tip_arm) = end_b.place(&tips[arm]);
+    // A point of B at a time, for all stars: what it takes is in registers, and forgotten with it.
+    for (arm, tip) in tips.iter().enumerate() {
+        let (tip, tip_arm) = end_b.place(tip);
         let mut stretches = [P::Vector::ZERO; STARS];
-        let mut column = [Tsda::default(); STARS];
-        for star in 0..STARS {
-            stretches[star] = P::displacement(&spots[star].0, &tip);
-            column[star] = springs[star][arm];
+        for (stretch, (centre, _)) in stretches.iter_mut().zip(&spots) {
+            *stretch = P::displacement(centre, &tip);
         }
-        let mut pulls = [P::Vector::ZERO; STARS];
-        match (dampers, clearance) {
-            (None, None) => pulls = Tsda::forces(&column, &stretches),
-            _ => {
-                for star in 0..STARS {
-                    let d = stretches[star];
-                    pulls[star] = match dampers {
-                        Some(dampers) => {
-                            let v_rel =
-                                end_b.point_velocity(tip_arm) - end_a.point_velocity(spots[star].1);
-                            column[star].damped_force(dampers[star][arm], d, v_rel, clearance)
-                        }
-                        None => column[star].force(d, clearance),
-                    };
+        let pulls = springs.pulls(arm, &stretches, |star| {
+            end_b.point_velocity(tip_arm) - end_a.point_velocity(spots[star].1)
+        });
+        for (pull_a, pull) in pulls_a.iter_mut().zip(pulls) {
+            *pull_a = if arm == 0 { pull } else { *pull_a + pull };
+        }
+        let torque = end_b.moment(tip_arm, sum(&pulls));
+        torque_b = if arm == 0 { -torque } else { torque_b - torque };
+    }
+    let mut torques_a = [P::Moment::ZERO; STARS];
+    for (torque, (pull, (_, arm))) in torques_a.iter_mut().zip(pulls_a.iter().zip(&spots)) {
+        *torque = end_a.moment(*arm, *pull);
+    }
+    Some(Record { force: sum(&pulls_a), torque_a: sum(&torques_a), torque_b })
+}
+
+/// The sum in ascending order. From the first term on: a start from 0 would cost an addition, and
+/// what records are added to is never −0, so that the sign of a zero is no matter.
+#[inline(always)]
+fn sum<V: Linear>(terms: &[V]) -> V {
+    let Some((&first, others)) = terms.split_first() else { return V::ZERO };
+    others.iter().fold(first, |sum, &term| sum + term)
+}
+
+/// What pulls at the points of a block.
+struct Springs<'m, R, const STARS: usize, const ARMS: usize> {
+    springs: &'m [[Tsda<R>; ARMS]; STARS],
+    dampers: Option<&'m [[R; ARMS]; STARS]>,
+    clearance: Option<R>,
+}
+
+impl<R: Real, const STARS: usize, const ARMS: usize> Springs<'_, R, STARS, ARMS> {
+    /// The stars' pulls on the point `arm` of B, at their stretches and, where dampers act, rates.
+    #[inline(always)]
+    fn pulls<V: Linear<Real = R>>(
+        &self,
+        arm: usize,
+        stretches: &[V; STARS],
+        rate: impl Fn(usize) -> V,
+    ) -> [V; STARS] {
+        let mut springs = [Tsda::default(); STARS];
+        for (spring, arms) in springs.iter_mut().zip(self.springs) {
+            *spring = arms[arm];
+        }
+        let mut pulls = *stretches;
+        match (self.dampers, self.clearance) {
+            (None, None) => pulls = Tsda::forces(&springs, stretches),
+            (None, clearance) => {
+                for (pull, spring) in pulls.iter_mut().zip(&springs) {
+                    *pull = spring.force(*pull, clearance);
+                }
+            }
+            (Some(dampers), clearance) => {
+                for (star, (pull, spring)) in pulls.iter_mut().zip(&springs).enumerate() {
+                    let damping = dampers[star][arm];
+                    *pull = spring.damped_force(damping, *pull, rate(star), clearance);
                 }
             }
         }
-        let mut pull_b = pulls[0];
-        for star in 0..STARS {
-            if star > 0 {
-                pull_b = pull_b + pulls[star];
-            }
-            pulls_a[star] = if arm == 0 { pulls[star] } else { pulls_a[star] + pulls[star] };
-        }
-        let torque = end_b.moment(tip_arm, pull_b);
-        torque_b = if arm == 0 { -torque } else { torque_b - torque };
+        pulls
     }
-    let mut record =
-        Record { force: pulls_a[0], torque_a: end_a.moment(spots[0].1, pulls_a[0]), torque_b };
-    for star in 1..STARS {
-        record.force = record.force + pulls_a[star];
-        record.torque_a = record.torque_a + end_a.moment(spots[star].1, pulls_a[star]);
-    }
-    Some(record)
 }
 
 /// `N` rows from `first` on.
@@ -171,4 +200,152 @@ fn many<P: Geometry, T: Terms, D: Dampers>(
         record.torque_a = record.torque_a + arm_a.cross(pull_a);
     }
     Some(record)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{Body, BodyState};
+    use crate::elements::element::Law;
+    use crate::forces::record::{DampersLeft, ExplicitDampers};
+    use crate::geometry::F64;
+    use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
+    use crate::model::{Model, ModelOwner as _};
+    use crate::pose::Places;
+    use crate::vector::Vec3;
+
+    const WORLD: BodyIndex = BodyIndex::WORLD;
+    const FIRST: BodyIndex = BodyIndex(0);
+    const SECOND: BodyIndex = BodyIndex(1);
+
+    /// Two stars with three points, of which one coincides with a centre at the start.
+    fn group(between: [BodyIndex; 2], stars: u8, arms: u8) -> Group {
+        Group {
+            law: Law::Tsda,
+            a: between[0],
+            b: between[1],
+            stars,
+            arms,
+            shared: stars > 1,
+            point: 0,
+            element: 0,
+            damper: DamperIndex(0),
+            clearance: ClearanceIndex::NONE,
+        }
+    }
+
+    /// Both ways of one group, in a pose and motion without any symmetry.
+    fn both_ways<D: Dampers>(group: Group, coincident: bool) -> [Record<f64>; 2] {
+        let spring = |i: i32| Tsda {
+            stiffness: 1e4 + 37.0 * f64::from(i),
+            free_length: 0.05 + 1e-3 * f64::from(i),
+        };
+        let mut points = [
+            Vec3::new(0.11, -0.02, 0.03),
+            Vec3::new(0.1, 0.01, -0.04),
+            Vec3::new(-0.2, 0.05, 0.01),
+            Vec3::new(-0.17, -0.03, 0.02),
+            Vec3::new(-0.19, 0.02, -0.06),
+        ];
+        let mut state = BodyState::<F64>::new(
+            [0.3, -0.1, 0.2],
+            [0.8, 0.0, 0.6, 0.0],
+            [1.0, -2.0, 0.5],
+            [0.3, -0.7, 1.1],
+        );
+        let mut states = [state; 2];
+        state.velocity = Vec3::new(-0.4, 0.2, 0.9);
+        states[1] = state;
+        if coincident {
+            points[3] = points[1];
+        } else {
+            states[1].position = Vec3::new(0.35, -0.12, 0.21);
+        }
+        let model = Model::<F64, 2, 1, 5, 6, 0, 6, 0, 0, 0, 0, 0, 0, 1> {
+            bodies: [Body::<f64>::new(1.0, [1.0; 3]); 2],
+            initial: states,
+            gravity: [],
+            groups: [group],
+            points,
+            tsdas: core::array::from_fn(|i| spring(i as i32)),
+            bushings: [],
+            dampers: core::array::from_fn(|i| 10.0 + i as f64),
+            torsions: [],
+            loads: [],
+            lines: [],
+            inputs: [],
+            knots: [],
+            clearances: [1e-3],
+            revolutes: [],
+            universals: [],
+        };
+        let frames = states.map(|state| F64::frame(&state.position, &state.orientation));
+        let view = model.view();
+        let places = Places { frames: &frames, signals: &[] };
+        let end = |body| End::new(&view, places, body, Some(&states));
+        let (a, b) = (end(group.a), end(group.b));
+        let straight = stars::<F64, _, D>(&view, &group, &a, &b).unwrap();
+        [straight, many::<F64, _, D>(&view, &group, &a, &b).unwrap()]
+    }
+
+    /// The moment that the ground takes is no one's.
+    fn assert_same(group: Group, [straight, long]: [Record<f64>; 2]) {
+        assert_eq!(straight.force, long.force, "{group:?}");
+        assert!(group.a.is_world() || straight.torque_a == long.torque_a, "{group:?}");
+        assert!(group.b.is_world() || straight.torque_b == long.torque_b, "{group:?}");
+        assert!(straight.force.dot(straight.force) > 0.0);
+    }
+
+    #[test]
+    fn the_straight_line_has_the_bits_of_the_long_way() {
+        for between in [[FIRST, SECOND], [WORLD, SECOND], [FIRST, WORLD]] {
+            for (stars, arms) in [(2, 3), (1, 3), (1, 1)] {
+                let free = group(between, stars, arms);
+                let clear = Group { clearance: ClearanceIndex(0), ..free };
+                for group in [free, clear] {
+                    assert_same(group, both_ways::<DampersLeft>(group, false));
+                    assert_same(group, both_ways::<ExplicitDampers>(group, false));
+                }
+            }
+        }
+        // Where points coincide there is no direction, and the others pull on.
+        let group = group([FIRST, SECOND], 2, 3);
+        let [straight, long] = both_ways::<DampersLeft>(group, true);
+        assert_same(group, [straight, long]);
+    }
+
+    #[test]
+    fn what_a_model_lacks_has_no_record() {
+        let lacking = [
+            Group { point: 1, ..group([FIRST, SECOND], 2, 3) },
+            Group { element: 1, ..group([FIRST, SECOND], 2, 3) },
+            Group { point: 3, ..group([FIRST, SECOND], 1, 3) },
+        ];
+        let model = Model::<F64, 1, 0, 5, 6, 0> {
+            bodies: [Body::<f64>::new(1.0, [1.0; 3])],
+            initial: [BodyState::default()],
+            gravity: [],
+            groups: [],
+            points: [Vec3::ZERO; 5],
+            tsdas: [Tsda::default(); 6],
+            bushings: [],
+            dampers: [],
+            torsions: [],
+            loads: [],
+            lines: [],
+            inputs: [],
+            knots: [],
+            clearances: [],
+            revolutes: [],
+            universals: [],
+        };
+        let view = model.view();
+        let frame = F64::frame(&Vec3::ZERO, &Default::default());
+        let places = Places { frames: &[frame; 2], signals: &[] };
+        for group in lacking {
+            let end = |body| End::new(&view, places, body, None);
+            let (a, b) = (end(group.a), end(group.b));
+            assert!(stars::<F64, _, DampersLeft>(&view, &group, &a, &b).is_none(), "{group:?}");
+        }
+    }
 }

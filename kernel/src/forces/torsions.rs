@@ -9,6 +9,7 @@ use crate::geometry::Geometry;
 use crate::index::TorsionIndex;
 use crate::model::{ModelRef, Terms};
 use crate::pose::{End, Places};
+use crate::real::Real as _;
 use crate::space::Linear as _;
 use crate::status::Cause;
 
@@ -22,7 +23,8 @@ pub(super) fn torsions<P: Geometry, T: Terms, D: Dampers>(
     wrenches: &mut [Wrench<P::Space>],
 ) -> Result<(), Cause> {
     let settle = turns.at == At::Boundary;
-    for (i, (spring, turns)) in model.torsions.iter().zip(turns.counts).enumerate() {
+    let counts = P::Real::counts_mut(turns.counts);
+    for (i, (spring, turns)) in model.torsions.iter().zip(counts).enumerate() {
         let (a, b) = (bodies.get(spring.a.row()), bodies.get(spring.b.row()));
         let relative =
             P::Orientation::relative(a.map(|s| &s.orientation), b.map(|s| &s.orientation));

@@ -168,7 +168,8 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
                 }
             }
             Mount::Torsion(spring) => {
-                let Some((spring, &turns)) = view.torsions.iter().zip(self.turns).nth(spring)
+                let Some((spring, &turns)) =
+                    view.torsions.iter().zip(P::Real::counts(self.turns)).nth(spring)
                 else {
                     return;
                 };
@@ -248,6 +249,39 @@ fn largest_eigenvalue<R: Real>(mut block: Block<R>) -> R {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::F64;
+    use crate::sketch::{Sketch, Spring, Start};
+
+    const WORLD: BodyIndex = BodyIndex::WORLD;
+    const SPRING: Spring = Spring { stiffness: 300.0, damping: 0.0, free_length: 0.1 };
+
+    /// Springs that come and go between three bodies and the world in no order, under tension, and a
+    /// wound one.
+    const SKETCH: Sketch = Sketch::new()
+        .body(2.0, [0.1, 0.2, 0.15], Start::at([0.0, 0.1, 0.2]))
+        .body(1.0, [0.2, 0.1, 0.15], Start::at([0.5, -0.1, 0.3]))
+        .body(0.5, [0.3, 0.2, 0.25], Start::at([0.2, 0.7, -0.4]))
+        .tsda([BodyIndex(2), BodyIndex(0)], [[0.1, 0.0, 0.0], [0.0, 0.2, 0.1]], SPRING)
+        .tsda([WORLD, BodyIndex(1)], [[0.0; 3], [0.1, 0.2, 0.0]], SPRING)
+        .tsda([BodyIndex(0), BodyIndex(1)], [[0.0, 0.1, 0.0], [0.3, 0.0, 0.1]], SPRING)
+        .tsda([BodyIndex(2), WORLD], [[0.0, 0.1, 0.2], [0.5; 3]], SPRING)
+        .torsion_spring([BodyIndex(1), BodyIndex(2)], [0.0, 0.0, 1.0], 20.0, 0.0, 3.0);
+
+    crate::model!(static MODEL: F64 = SKETCH);
+
+    /// All bodies in one pass and each by itself: the same bits, for [`crate::watch`] compares them.
+    #[test]
+    fn the_bound_is_that_of_the_stiffest_body() {
+        let state = State::initial(&MODEL);
+        let mut frames = MODEL.per_body(<F64 as Geometry>::Frame::default());
+        place_bodies::<F64>(state.bodies.as_ref(), frames.as_mut());
+        let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
+        let of = |row| square_of(&MODEL.view(), places, &state.bodies, &state.turns, row);
+        let [a, b, c] = [of(0), of(1), of(2)];
+        assert!(a > 0.0 && b > 0.0 && c > 0.0 && a != b && b != c, "{a} {b} {c}");
+        assert_eq!(bound(&MODEL, &state), a.max(b).max(c).sqrt());
+        assert_eq!(of(3), 0.0);
+    }
 
     #[test]
     fn the_eigenvalue_bound_is_tight_and_above() {

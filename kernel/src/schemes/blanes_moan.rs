@@ -36,7 +36,7 @@ impl Scheme for BlanesMoanS6 {
         3.133
     }
 
-    #[inline]
+    #[inline(always)]
     fn step<P: Geometry, T: Terms>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, ()>,

@@ -13,7 +13,7 @@ use crate::status::Cause;
 use crate::step::Stepper;
 
 /// Drifts around kicks, first and last a drift; turn counts settle at the first evaluation.
-#[inline]
+#[inline(always)]
 pub(super) fn compose<P: Geometry, T: Terms>(
     stepper: &mut Stepper<'_, '_, P, T, ()>,
     composition: &Composition,

@@ -93,7 +93,7 @@ impl Scheme for Dbd {
         if self.newton == 0 { 2.0 } else { 1.0 }
     }
 
-    #[inline]
+    #[inline(always)]
     fn step<P: Geometry, T: Terms>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, DbdMemory<P>>,

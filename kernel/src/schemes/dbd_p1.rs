@@ -45,7 +45,7 @@ impl Scheme for DbdP1 {
         LIMITS.get(self.newton as usize).copied().unwrap_or(1.0)
     }
 
-    #[inline]
+    #[inline(always)]
     fn step<P: Geometry, T: Terms>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, DbdMemory<P>>,

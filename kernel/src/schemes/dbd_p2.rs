@@ -42,7 +42,7 @@ impl Scheme for DbdP2 {
         1.0
     }
 
-    #[inline]
+    #[inline(always)]
     fn step<P: Geometry, T: Terms>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, DbdMemory<P>>,

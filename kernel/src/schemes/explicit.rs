@@ -50,7 +50,7 @@ impl<S: Kicked> Scheme for Explicit<S> {
         self.0.stability_limit()
     }
 
-    #[inline]
+    #[inline(always)]
     fn step<P: Geometry, T: Terms>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, S::Memory<P>>,

@@ -38,7 +38,7 @@ impl Scheme for Leapfrog {
         2.0
     }
 
-    #[inline]
+    #[inline(always)]
     fn step<P: Geometry, T: Terms>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, ()>,
@@ -50,7 +50,7 @@ impl Scheme for Leapfrog {
 impl Kicked for Leapfrog {
     const EXPLICIT_EVALUATIONS: u32 = 2;
 
-    #[inline]
+    #[inline(always)]
     fn step_with<P: Geometry, T: Terms, D: Dampers>(
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {

@@ -40,7 +40,7 @@ pub trait Scheme: Copy {
     /// How dampers act.
     const DAMPING: Damping;
     /// Memory per body that the scheme needs within a step.
-    type Memory<P: Geometry>: Copy + Default;
+    type Memory<P: Geometry>: Copy + Default + Send;
     /// Whether its plants keep the joints' levers: [`NoLevers`](crate::damping::NoLevers), or
     /// [`Levers`](crate::damping::Levers) for damping joint by joint.
     type Levers: Keep;

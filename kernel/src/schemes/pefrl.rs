@@ -38,7 +38,7 @@ impl Scheme for Pefrl {
         2.989
     }
 
-    #[inline]
+    #[inline(always)]
     fn step<P: Geometry, T: Terms>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, ()>,

@@ -54,7 +54,7 @@ impl Scheme for Rk4 {
         2.828
     }
 
-    #[inline]
+    #[inline(always)]
     fn step<P: Geometry, T: Terms>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, Rk4Memory<P>>,

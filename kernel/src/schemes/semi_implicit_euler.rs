@@ -38,7 +38,7 @@ impl Scheme for SemiImplicitEuler {
         2.0
     }
 
-    #[inline]
+    #[inline(always)]
     fn step<P: Geometry, T: Terms>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, ()>,
@@ -50,7 +50,7 @@ impl Scheme for SemiImplicitEuler {
 impl Kicked for SemiImplicitEuler {
     const EXPLICIT_EVALUATIONS: u32 = 1;
 
-    #[inline]
+    #[inline(always)]
     fn step_with<P: Geometry, T: Terms, D: Dampers>(
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {

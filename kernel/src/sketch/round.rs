@@ -235,20 +235,20 @@ models! {
 #[macro_export]
 macro_rules! model {
     ($(#[$meta:meta])* $visible:vis static $name:ident: F64 = $sketch:path) => {
-        $crate::model!(@ [$(#[$meta])* $visible] $name F64 model_f64 $sketch);
+        $crate::model!(@ [$(#[$meta])* $visible] $name $crate::geometry::F64, model_f64 $sketch);
     };
     ($(#[$meta:meta])* $visible:vis static $name:ident: F32 = $sketch:path) => {
-        $crate::model!(@ [$(#[$meta])* $visible] $name F32 model_f32 $sketch);
+        $crate::model!(@ [$(#[$meta])* $visible] $name $crate::geometry::F32, model_f32 $sketch);
     };
     ($(#[$meta:meta])* $visible:vis static $name:ident: Planar64 = $sketch:path) => {
-        $crate::model!(@ [$(#[$meta])* $visible] $name Planar64 model_planar64 $sketch);
+        $crate::model!(@ [$(#[$meta])* $visible] $name $crate::planar::Planar64, model_planar64 $sketch);
     };
     ($(#[$meta:meta])* $visible:vis static $name:ident: Planar32 = $sketch:path) => {
-        $crate::model!(@ [$(#[$meta])* $visible] $name Planar32 model_planar32 $sketch);
+        $crate::model!(@ [$(#[$meta])* $visible] $name $crate::planar::Planar32, model_planar32 $sketch);
     };
-    (@ [$($head:tt)*] $name:ident $precision:ident $function:ident $sketch:path) => {
+    (@ [$($head:tt)*] $name:ident $precision:ty, $function:ident $sketch:path) => {
         $($head)* static $name: $crate::model::Model<
-            $crate::$precision,
+            $precision,
             { $sketch.counts()[0] },
             { $sketch.counts()[1] },
             { $sketch.counts()[2] },

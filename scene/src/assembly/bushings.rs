@@ -50,6 +50,16 @@ impl Assembly {
         Ok(())
     }
 
+    /// Leaves out the mass \[kg\] that the last group's joint has no use for.
+    pub(crate) fn leave_out(&mut self, mass: f64) {
+        self.left_out.insert(self.model.groups.len() - 1, mass);
+    }
+
+    /// \[kg\] what a group's joint has no use for.
+    pub(crate) fn mass_left_out(&self, number: usize) -> f64 {
+        self.left_out.get(&number).copied().unwrap_or(0.0)
+    }
+
     /// Adds a universal joint without a spider: the first body's axis, as long as its lever \[m\], and
     /// the second's, each in its own axes.
     pub(crate) fn add_universal(

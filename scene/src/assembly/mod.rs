@@ -48,6 +48,8 @@ pub(crate) struct Assembly {
     points: BTreeMap<String, Vec3<f64>>,
     /// \[m\] how large joints are whose elements have no length, by their groups.
     sizes: BTreeMap<usize, f64>,
+    /// \[kg\] what the scene gives spiders that joints of bushings have no use for, by their groups.
+    left_out: BTreeMap<usize, f64>,
     /// Per body where it has points of its own, from its centre of mass, body axes.
     ends: Vec<Vec<(String, Vec3<f64>)>>,
     /// Rows of the torsion springs between two bodies, ascending.

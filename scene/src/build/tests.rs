@@ -54,6 +54,20 @@ fn the_source_lies_where_the_crate_includes_it() {
 }
 
 #[test]
+fn a_value_may_be_another_than_in_the_file() {
+    let folder = Folder::new("set", BALL);
+    let build = || Build::scene(folder.scene());
+    let written = Folder::new("set-written", &BALL.replace("mass = 2", "mass = 3"));
+    let other = Build::scene(written.scene()).source().unwrap().source;
+    let model = |source: &str| source.split_once("static ").unwrap().1.to_owned();
+    let set = build().set("body.ball.mass=3").source().unwrap().source;
+    assert_eq!(model(&set), model(&other));
+    assert_ne!(model(&set), model(&build().source().unwrap().source));
+    let (written, lines) = folder.write(&build().set("body.bal.mass=3"));
+    assert!(!written && lines.contains("did you mean `ball`?"), "{lines}");
+}
+
+#[test]
 fn a_scene_with_an_error_is_refused_with_its_place() {
     let folder = Folder::new("place", &BALL.replace("mass = 2", "mass = -2"));
     let (written, lines) = folder.write(&Build::scene(folder.scene()));

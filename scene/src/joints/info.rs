@@ -30,6 +30,8 @@ pub struct JointInfo {
     pub tsdas: usize,
     /// \[m\] how large it is: the free length of its TSDAs, of a bushing that of those it stands for.
     pub size: f64,
+    /// \[kg\] of a spider that the scene gives and a bushing has no use for.
+    pub mass_left_out: f64,
     /// \[m\] the largest |L − L0| of its elements at the initial pose.
     pub assembly_error: f64,
 }

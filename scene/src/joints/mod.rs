@@ -154,6 +154,7 @@ pub(crate) fn read_all(
             hinges,
             tsdas: 0,
             size: 0.0,
+            mass_left_out: 0.0,
             assembly_error: 0.0,
         });
     }
@@ -169,6 +170,7 @@ pub(crate) fn read_all(
             }
             info.tsdas += group.elements();
             info.size = info.size.max(reach);
+            info.mass_left_out += assembly.mass_left_out(number);
             info.assembly_error = info.assembly_error.max(extension);
         }
     }

@@ -92,8 +92,8 @@ fn bushing(
     size: Size,
     assembly: &mut Assembly,
 ) -> Result<Vec<Hinge>, SceneError> {
-    // Read for what is wrong with it: a bushing has no use for it.
-    table.optional("spider", Spider)?;
+    // Read for what is wrong with it, too: a bushing has no use for it.
+    let spider = table.optional("spider", Spider)?;
     if !size.is_isotropic() {
         let problem = "makes a joint that no bushing between its two bodies is as stiff as";
         let help = "without `ring` it is span/√2, and the joint as stiff in every direction; or \
@@ -106,6 +106,9 @@ fn bushing(
     assembly
         .add_universal(&joint.pair, joint.at_w, [lever, axis], size.length(), joint.spring)
         .map_err(|defect| defect.refuse(table))?;
+    if let Some((body, _)) = spider {
+        assembly.leave_out(body.mass);
+    }
     // The second axis is of the second body: about it turns the first, the other way.
     Ok(vec![assembly.hinge(&joint.pair, a1), assembly.hinge(&joint.pair.reversed(), -a2)])
 }

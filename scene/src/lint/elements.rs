@@ -26,6 +26,13 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
             };
             warn(Severity::Warning, text);
         }
+        if joint.mass_left_out > 0.0 {
+            let mass = short(joint.mass_left_out);
+            warn(
+                Severity::Note,
+                &format!("is a bushing: the {mass} kg of its spider are left out"),
+            );
+        }
         let facts = &groups[joint.groups.clone()];
         let rate = facts.iter().map(|group| group.stretching_rate).fold(0.0, f64::max);
         if rate > STRETCHING_RATE {

@@ -76,7 +76,7 @@ impl Unplanar {
         };
         let more = match self.departures.len() - 1 {
             0 => String::new(),
-            1 => format!(", as 1 other thing does that `host-sim check` names without `planar`"),
+            1 => ", as 1 other thing does that `host-sim check` names without `planar`".into(),
             more => {
                 format!(", as {more} other things do that `host-sim check` counts without `planar`")
             }

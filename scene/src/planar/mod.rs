@@ -87,7 +87,7 @@ fn normals(scene: &Scene) -> Vec<Vec3<f64>> {
         counted.entry(key).or_insert((0, axis)).0 += 1;
     }
     let mut counted: Vec<_> = counted.into_values().collect();
-    counted.sort_by(|a, b| b.0.cmp(&a.0));
+    counted.sort_by_key(|row| std::cmp::Reverse(row.0));
     let common = counted.into_iter().take(MOST_AXES).map(|(_, axis)| axis);
     let mut all: Vec<Vec3<f64>> = Vec::new();
     for axis in std::iter::once(z).chain(common).chain([y, x]) {

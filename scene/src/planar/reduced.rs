@@ -126,8 +126,6 @@ fn add(arms: &mut Vec<Arm>, arm: Arm, near: f64) {
 /// TSDAs, and points on lines normal to the plane.
 fn stars(elements: &[Element], clearance: f64, near: f64) -> Result<Reduced, Obstacle> {
     let mut arms: Vec<Arm> = Vec::new();
-    // \[N·s/m\] what lines damp in every direction.
-    let mut around = 0.0;
     let (mut lean, mut is_exact) = (1.0, true);
     for element in elements {
         let Some(along) = element.direction() else { continue };
@@ -142,10 +140,10 @@ fn stars(elements: &[Element], clearance: f64, near: f64) -> Result<Reduced, Obs
         let square = if is_parallel { 1.0 } else { share * share };
         let free_length =
             if is_parallel { element.free_length } else { element.free_length * share };
-        let of_line = element.line.is_some();
-        around += if of_line { element.damping } else { 0.0 };
-        let damping = if of_line { 0.0 } else { element.damping * square };
-        let own = arm(element, element.stiffness * square, damping, free_length);
+        if element.line.is_some() && element.damping > 0.0 {
+            return Err("damps across its springs, which no element of the plane does".into());
+        }
+        let own = arm(element, element.stiffness * square, element.damping * square, free_length);
         add(&mut arms, Arm { reach: element.free_length / share, ..own }, near);
     }
     let mut stars: Vec<Vec<Arm>> = Vec::new();
@@ -155,22 +153,13 @@ fn stars(elements: &[Element], clearance: f64, near: f64) -> Result<Reduced, Obs
             None => stars.push(vec![arm]),
         }
     }
-    if around > 0.0 {
-        let [star] = &mut stars[..] else { return Err(damps_across()) };
-        let directions: Vec<_> = star.iter().map(direction).collect();
-        match directions[..] {
-            [u, v] if u.dot(v).abs() <= ALIKE => {
-                star.iter_mut().for_each(|arm| arm.damping += around);
-            }
-            _ => return Err(damps_across()),
-        }
-    }
     for star in &mut stars {
-        if star.len() > 2 && clearance == 0.0 {
-            if let Some(two) = condensed(star) {
-                *star = two;
-                is_exact = false;
-            }
+        if star.len() > 2
+            && clearance == 0.0
+            && let Some(two) = condensed(star)
+        {
+            *star = two;
+            is_exact = false;
         }
     }
     if stars.is_empty() {
@@ -178,10 +167,6 @@ fn stars(elements: &[Element], clearance: f64, near: f64) -> Result<Reduced, Obs
     }
     let clearance = if clearance > 0.0 { clearance / lean } else { 0.0 };
     Ok(Reduced { law: Law::Tsda, line: None, stars, clearance, is_exact })
-}
-
-fn damps_across() -> Obstacle {
-    "damps across its spring, which no element of the plane does".into()
 }
 
 /// The unit direction of an arm.

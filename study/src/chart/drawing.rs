@@ -17,6 +17,7 @@ use crate::chart::layout::{Layout, NARROW, WIDE};
 use crate::chart::style::{FRONT, INK, Style};
 use crate::command::Command;
 use crate::point::{Machine, Point, Stepper, front, is_paper};
+use crate::variants::Compared;
 use crate::words::{Cost, times};
 
 /// What a chart is made from.
@@ -37,6 +38,8 @@ pub struct Chart<'c> {
     pub real_time_instructions: f64,
     /// Processor, build and whatever else the measurements depend on: lines of text.
     pub conditions: &'c [String],
+    /// The scene and what it can be made into.
+    pub variants: &'c [Compared],
 }
 
 /// [pixels] of the largest text; a character is about 0.6 of that wide.

@@ -89,6 +89,7 @@ pub(crate) fn chart(points: &[Point]) -> Chart<'_> {
         command: Command::default(),
         real_time_instructions: 168e6 / 1.5,
         conditions: &[],
+        variants: &[],
     }
 }
 

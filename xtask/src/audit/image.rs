@@ -66,6 +66,15 @@ impl Image {
         self.symbols.iter().map(|symbol| symbol.name.as_str())
     }
 
+    /// Where the symbol of this name lies.
+    ///
+    /// # Errors
+    /// Where there is none.
+    pub fn address(&self, name: &str) -> Result<u64> {
+        let symbol = self.symbols.iter().find(|symbol| symbol.name == name);
+        Ok(symbol.with_context(|| format!("the image has no `{name}`"))?.address)
+    }
+
     /// The function of this name and all that it reaches by calls.
     ///
     /// # Errors
@@ -148,7 +157,7 @@ fn header(line: &str) -> Option<(u64, String)> {
 }
 
 /// `   20000:<tab>bl<tab>24b70 <name+0x2>`
-fn instruction(line: &str) -> Option<(u64, &str, &str)> {
+pub fn instruction(line: &str) -> Option<(u64, &str, &str)> {
     let mut columns = line.splitn(3, '\t');
     let address = columns.next()?.trim().strip_suffix(':')?;
     let address = u64::from_str_radix(address, 16).ok()?;

@@ -16,7 +16,7 @@ use crate::steps::Steps;
 use crate::target::{Toolchain, firmware, setup};
 
 use checks::{CHECKS, Check};
-pub use image::Image;
+pub use image::{Image, instruction};
 pub use roots::Root;
 use roots::{CALLS, ENDS, MODELS, PRECISIONS, SCHEMES, STEPPING, planted};
 

@@ -2,11 +2,15 @@
 //!
 //! `program cost in QEMU, image of the audit => rows`. Instructions, plant, model and stack are
 //! measured by the program; `.text` is the code that the step reaches, with its literals, known for
-//! the steps that the audit links.
+//! the steps that the audit links. Which scenes with which values: `firmware/build.rs`; which schemes and
+//! dampings: `firmware/src/chart.rs`.
 
 pub mod baseline;
 mod compare;
+mod cycles;
+mod goals;
 pub mod guards;
+mod mix;
 mod row;
 
 use anyhow::{Context as _, Result, bail};
@@ -15,6 +19,7 @@ use crate::audit::{Image, Root};
 use crate::command::root;
 use crate::target::{Toolchain, firmware, setup};
 
+use mix::Mix;
 use row::Cost;
 
 const FILE: &str = "docs/costs.csv";
@@ -26,7 +31,7 @@ const FILE: &str = "docs/costs.csv";
 pub fn run(scenes: &[String], compare: bool) -> Result<()> {
     let toolchain = setup::complete()?;
     let file = root().join(FILE);
-    let costs = measure(&toolchain)?;
+    let (costs, mixes) = measure(&toolchain)?;
     for scene in scenes {
         if !costs.iter().any(|cost| cost.scene == *scene) {
             let mut known: Vec<&str> = costs.iter().map(|cost| cost.scene.as_str()).collect();
@@ -35,13 +40,15 @@ pub fn run(scenes: &[String], compare: bool) -> Result<()> {
             bail!("there is no shipped scene `{scene}`; there are: {}", known.join(", "));
         }
     }
-    println!("\n{}", row::table(&costs, scenes));
+    println!("\n{}", row::table(&costs, &mixes, scenes));
+    println!("\n{}", goals::table(&costs));
     if compare {
         let before = std::fs::read_to_string(&file).with_context(|| format!("cannot read {FILE}"));
         return compare::compare(&row::read(&before?)?, &costs);
     }
     std::fs::write(&file, row::csv(&costs)).with_context(|| format!("cannot write {FILE}"))?;
     println!("written: {FILE}");
+    mix::write(&toolchain, &costs, &mixes)?;
     baseline::write(&toolchain)
 }
 
@@ -53,9 +60,9 @@ pub fn baseline() -> Result<()> {
     baseline::write(&setup::complete()?)
 }
 
-fn measure(toolchain: &Toolchain) -> Result<Vec<Cost>> {
+fn measure(toolchain: &Toolchain) -> Result<(Vec<Cost>, Vec<Mix>)> {
     let image = Image::read(&firmware::build_audit(toolchain)?)?;
-    let mut costs = parse(&firmware::execute(toolchain, "cost", false, &[])?)?;
+    let (mut costs, mixes) = mix::measure(toolchain)?;
     for cost in &mut costs {
         // A Newton iteration more is a number, not code.
         let scheme = cost.scheme.split('+').next().unwrap_or_default();
@@ -66,7 +73,7 @@ fn measure(toolchain: &Toolchain) -> Result<Vec<Cost>> {
     if !costs.iter().any(|cost| cost.text.is_some()) {
         bail!("the program reported no step of the audit's");
     }
-    Ok(costs)
+    Ok((costs, mixes))
 }
 
 /// The rows among a program's lines.

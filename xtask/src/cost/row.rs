@@ -4,6 +4,8 @@ use std::fmt::Write as _;
 
 use anyhow::{Context as _, Result, bail};
 
+use super::mix::Mix;
+
 const HEADER: &str = "scene,scheme,precision,step_s,instructions_mean,instructions_max,text_bytes,\
                       rodata_bytes,plant_ram_bytes,stack_bytes,estimated_rate_168mhz_hz";
 /// \[Hz\] a common clock of Cortex-M4F parts.
@@ -126,15 +128,28 @@ fn read_row(line: &str) -> Option<Cost> {
 }
 
 /// The rows of the named scenes, or all where none is named.
-pub fn table(costs: &[Cost], scenes: &[String]) -> String {
+pub fn table(costs: &[Cost], mixes: &[Mix], scenes: &[String]) -> String {
     let mut text = format!(
-        "{:<16} {:<28} {:<5} {:>9} {:>9} {:>8} {:>8} {:>6} {:>6} {:>10}\n",
-        "scene", "scheme", "real", "instr/step", "max", ".text", ".rodata", "RAM", "stack", "rate*"
+        "{:<16} {:<28} {:<5} {:>9} {:>9} {:>8} {:>8} {:>6} {:>6} {:>10} {:>5} {:>17}\n",
+        "scene",
+        "scheme",
+        "real",
+        "instr/step",
+        "max",
+        ".text",
+        ".rodata",
+        "RAM",
+        "stack",
+        "rate*",
+        "fp",
+        "cycles**"
     );
-    for c in costs.iter().filter(|c| scenes.is_empty() || scenes.contains(&c.scene)) {
+    let rows = costs.iter().zip(mixes);
+    for (c, mix) in rows.filter(|(c, _)| scenes.is_empty() || scenes.contains(&c.scene)) {
+        let [least, most] = mix.cycles();
         let _ = writeln!(
             text,
-            "{:<16} {:<28} {:<5} {:>10} {:>9} {:>8} {:>8} {:>6} {:>6} {:>7} Hz",
+            "{:<16} {:<28} {:<5} {:>10} {:>9} {:>8} {:>8} {:>6} {:>6} {:>7} Hz {:>3.0} % {:>17}",
             c.scene,
             c.scheme,
             c.precision,
@@ -144,10 +159,13 @@ pub fn table(costs: &[Cost], scenes: &[String]) -> String {
             c.model,
             c.plant,
             c.stack,
-            c.rate()
+            c.rate(),
+            100.0 * mix.arithmetic(),
+            format!("{least}-{most}")
         );
     }
-    text + "* an estimate: 168 MHz, 1.5 cycles per instruction, memory without wait states"
+    text + "* an estimate: 168 MHz, 1.5 cycles per instruction, memory without wait states\n\
+            ** an estimate: by the manual's table of cycles, memory without wait states"
 }
 
 #[cfg(test)]

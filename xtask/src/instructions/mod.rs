@@ -3,7 +3,6 @@
 //! `program steps of dbd-bench below callgrind => instructions per step, beside flops, a plain loop and the baseline`.
 //! Judged are the counts against their baseline, how they grow with a chain, and how far above the flops they are.
 
-mod callgrind;
 mod table;
 
 use std::path::Path;
@@ -13,7 +12,9 @@ use anyhow::{Context as _, Result, bail};
 
 use crate::baseline::{Baseline, Count, Key};
 use crate::built::{Program, build};
+use crate::callgrind;
 use crate::command::{cargo, output, program};
+use crate::target::setup;
 
 use table::Row;
 
@@ -58,6 +59,9 @@ impl How {
     }
 }
 
+/// The function of the program that is counted.
+const FUNCTION: &str = "*counted_steps*";
+
 /// What is stepped: a scene or a chain.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Subject {
@@ -90,9 +94,7 @@ fn subjects() -> Vec<Subject> {
 /// # Errors
 /// Where valgrind is missing, building or counting fails, a count is outside its band or a goal is not met.
 pub fn run(baseline: bool) -> Result<()> {
-    if !callgrind::is_there() {
-        bail!("valgrind is missing: {}", callgrind::REMEDY);
-    }
+    setup::counter()?;
     let built = build(cargo().args(["build", "--release"]).args(BUILD))?;
     let steps = found(&built)?;
     let rows = rows(&steps.path, &[How::F64, How::F32, How::Plain])?;
@@ -107,15 +109,11 @@ pub fn run(baseline: bool) -> Result<()> {
     FILE.check(&key, &counts(&rows))
 }
 
-/// The step of `cargo xtask test`; where there is no valgrind nothing is counted, which is said.
+/// The step of `cargo xtask test`.
 ///
 /// # Errors
 /// Where counting fails, a count is outside its band or grows otherwise than with the bodies.
 pub fn check(built: &[Program]) -> Result<()> {
-    if !callgrind::is_there() {
-        println!("left out, valgrind is missing: {}", callgrind::REMEDY);
-        return Ok(());
-    }
     let rows = rows(&found(built)?.path, &[How::F64, How::F32])?;
     FILE.check(&key()?, &counts(&rows))?;
     let growth = table::growth(&rows);
@@ -126,6 +124,19 @@ pub fn check(built: &[Program]) -> Result<()> {
 fn found(built: &[Program]) -> Result<&Program> {
     let program = built.iter().find(|program| program.name == PROGRAM);
     program.with_context(|| format!("`{PROGRAM}` was not built"))
+}
+
+/// Instructions per step, rounded.
+fn per_step(steps: &Path, what: &str, how: &str, count: u64) -> Result<u64> {
+    let collected = callgrind::count(steps, FUNCTION, &[what, how, &count.to_string()])?;
+    Ok((collected as f64 / count as f64).round() as u64)
+}
+
+/// Floating-point operations of a step in double precision.
+fn flops(steps: &Path, what: &str) -> Result<f64> {
+    let said = output(program(steps).args([what, "flops", "1"]))?;
+    let flops = said.split_whitespace().next().and_then(|word| word.parse().ok());
+    flops.with_context(|| format!("no flops in `{said}`"))
 }
 
 /// The compiler of the host, and what it compiles for.
@@ -168,9 +179,8 @@ fn rows(steps: &Path, hows: &[How]) -> Result<Vec<Row>> {
             return Ok(false);
         };
         let subject = &subjects[row];
-        let count =
-            |how: How| callgrind::per_step(steps, &subject.argument, how.name(), subject.steps);
-        let flops = || callgrind::flops(steps, &subject.argument);
+        let count = |how: How| per_step(steps, &subject.argument, how.name(), subject.steps);
+        let flops = || flops(steps, &subject.argument);
         let (count, flops) = match how {
             Some(how) => (Some((how, count(how)?)), None),
             None => (None, Some(flops()?)),

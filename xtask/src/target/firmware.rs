@@ -89,9 +89,32 @@ pub fn execute(
     long: bool,
     arguments: &[String],
 ) -> Result<Vec<String>> {
+    execute_with(toolchain, name, long, arguments, &[])
+}
+
+/// The image that holds a program, built.
+///
+/// # Errors
+/// Where there is no such program, or it does not build.
+pub fn build(toolchain: &Toolchain, name: &str) -> Result<PathBuf> {
     let bin = image_of(name)?;
     run_command(toolchain.cargo("build", LIBRARIES).args(selection(bin)).args(features(bin)))?;
-    let image = toolchain.images(PROFILE).join(bin);
+    Ok(toolchain.images(PROFILE).join(bin))
+}
+
+/// The same as [`execute`] with further options of the emulator.
+///
+/// # Errors
+/// As [`execute`].
+pub fn execute_with(
+    toolchain: &Toolchain,
+    name: &str,
+    long: bool,
+    arguments: &[String],
+    options: &[String],
+) -> Result<Vec<String>> {
+    let image = build(toolchain, name)?;
+    let bin = image_of(name)?;
     let told = (bin == SHARED).then(|| name.to_owned());
     let arguments: Vec<String> = told.into_iter().chain(arguments.iter().cloned()).collect();
     let mut command = toolchain.cargo("run", LIBRARIES);
@@ -100,6 +123,7 @@ pub fn execute(
     if bin == PLANT {
         command.args(["-icount", CLOCK]);
     }
+    command.args(options);
     if !arguments.is_empty() {
         command.args(["-append", &arguments.join(" ")]);
     }

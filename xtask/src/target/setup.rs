@@ -36,6 +36,14 @@ pub fn browser() -> Result<()> {
     tool("browser", other.unwrap_or(BROWSERS[0]), BROWSERS[0], otherwise)
 }
 
+/// Finds or installs what counts the host's instructions, and prints its version.
+///
+/// # Errors
+/// Where there is none and it cannot be installed.
+pub fn counter() -> Result<()> {
+    tool("counter of instructions", "valgrind", "valgrind", "install valgrind")
+}
+
 /// Finds or installs everything and prints what was found.
 ///
 /// # Errors
@@ -45,6 +53,7 @@ pub fn complete() -> Result<Toolchain> {
     let tools = [
         tool("emulator", EMULATOR, EMULATOR, "install QEMU for Arm, version 7 or later"),
         tool("disassembler", DISASSEMBLER, BINUTILS, "install GNU binutils for arm-none-eabi"),
+        counter(),
     ];
     let missing = toolchain.as_ref().err().into_iter();
     let missing = missing.chain(tools.iter().filter_map(|tool| tool.as_ref().err()));

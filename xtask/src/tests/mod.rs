@@ -17,7 +17,7 @@ use crate::built::{Program, build};
 use crate::command::{cargo, run as run_command, succeeds};
 use crate::steps::Steps;
 use crate::target::{Toolchain, firmware, project, setup, trajectory};
-use crate::{audit, boards, cost, instructions, packages};
+use crate::{audit, boards, cost, growth, instructions, packages};
 
 use cases::{Case, Selection};
 
@@ -49,6 +49,7 @@ pub fn run(long: bool, write_times: bool) -> Result<()> {
     steps.step("packages of what is published", packages::check);
     linter_and_documentation(&mut steps);
     let programs = tests(&mut steps, Selection::All, &mut cases);
+    steps.step("work grows with the bodies alone", || growth::check(&programs));
     in_a_browser(&mut steps, &programs);
     documentation_tests(&mut steps);
     let host = std::thread::scope(|scope| {

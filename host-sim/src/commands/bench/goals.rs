@@ -4,7 +4,9 @@
 
 use serde::Serialize;
 
+use super::ensembles::Together;
 use super::fit::exponent;
+use super::turns::Figure;
 use super::ways::Row;
 
 /// A figure and what it ought to be.
@@ -73,8 +75,25 @@ impl Goal {
 
 /// The goals that the rows say something about.
 #[must_use]
-pub fn goals(rows: &[Row]) -> Vec<Goal> {
-    growth(rows).into_iter().collect()
+pub fn goals(rows: &[Row], ensembles: &[Together]) -> Vec<Goal> {
+    growth(rows).into_iter().chain(ensembles.iter().filter_map(lockstep)).collect()
+}
+
+/// Ensembles on AVX2, which is what was aimed at.
+fn lockstep(ensemble: &Together) -> Option<Goal> {
+    let Together { precision, instructions, threads, over_alone, over_one_thread, .. } = ensemble;
+    if *instructions != "avx2" {
+        return None;
+    }
+    let figure = (*over_alone)?;
+    let (figure, least) = match (*threads, *precision) {
+        (1, "f64") => (figure, 3.2),
+        (1, _) => (figure, 5.0),
+        _ => (Figure { median: (*over_one_thread)?, ..figure }, 1.8),
+    };
+    let beside = if *threads == 1 { "one by one" } else { "one thread" };
+    let what = format!("{threads} × {precision} on {instructions} over {beside}");
+    Some(Goal::new(what, figure.median, figure.median * figure.spread, [Some(least), None]))
 }
 
 /// How the time of a step grows with the bodies of a chain.

@@ -5,6 +5,7 @@
 //! instructions, which `cargo xtask instructions` counts, say it without noise.
 
 mod arguments;
+mod ensembles;
 mod error;
 mod fit;
 mod goals;
@@ -36,5 +37,6 @@ pub fn bench(
         let mut heard = |round: usize| progress((done * rounds + round) as u64, all as u64);
         rows.push(ways::measured(system, rounds, arguments.steps, &mut heard)?);
     }
-    Ok(Outcome::new(rounds, rows))
+    let ensembles = ensembles::measured(&systems, rounds, arguments.steps);
+    Ok(Outcome::new(rounds, rows, ensembles))
 }

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::ensembles::Together;
 use super::fit::{Counts, Fit, fit};
 use super::goals::{Goal, goals};
 use super::ways::Row;
@@ -15,6 +16,8 @@ pub struct Outcome {
     pub rounds: usize,
     /// The systems.
     pub systems: Vec<Row>,
+    /// Ensembles of the first of them that is small.
+    pub ensembles: Vec<Together>,
     /// What a step's time is made of; `None` where the systems do not tell.
     pub fit: Option<Fit>,
     /// What was aimed at.
@@ -26,7 +29,7 @@ pub struct Outcome {
 impl Outcome {
     /// What follows from rows.
     #[must_use]
-    pub fn new(rounds: usize, systems: Vec<Row>) -> Self {
+    pub fn new(rounds: usize, systems: Vec<Row>, ensembles: Vec<Together>) -> Self {
         let times: Vec<(Counts, f64)> = systems
             .iter()
             .filter_map(|row| {
@@ -44,9 +47,10 @@ impl Outcome {
             checked: cfg!(debug_assertions),
             rounds,
             fit: fit(&times),
-            goals: goals(&systems),
+            goals: goals(&systems, &ensembles),
             largest_spread,
             systems,
+            ensembles,
         }
     }
 }

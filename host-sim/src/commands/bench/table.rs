@@ -24,9 +24,32 @@ impl Outcome {
             ("f32, std, plain", "time over that of f64, round by round, the median: the kernel in f32; the std reference (Vec, nalgebra, Box<dyn Element>); a plain loop over the same elements".to_owned()),
             ("bound", "time of f64 over that of its flops, two in a cycle of the clock".to_owned()),
         ]);
+        text += &self.together(look);
         text += &self.fitted(look);
         text += &self.aimed_at(look);
         text
+    }
+
+    fn together(&self, look: Look) -> String {
+        let Some(first) = self.ensembles.first() else { return String::new() };
+        let lines: Vec<[String; 6]> = self
+            .ensembles
+            .iter()
+            .map(|ensemble| {
+                [
+                    ensemble.precision.to_owned(),
+                    ensemble.instructions.to_owned(),
+                    ensemble.threads.to_string(),
+                    ensemble.instances.to_string(),
+                    cell(ensemble.over_alone.map(|ratio| ratio.median), 2),
+                    cell(ensemble.over_alone.map(|ratio| 100.0 * ratio.spread), 0),
+                ]
+            })
+            .collect();
+        let head = ["numbers", "instructions", "threads", "instances", "faster", "±%"];
+        let title =
+            format!("\nensembles of {}, beside the same instances one by one\n", first.name);
+        title + &look.columns(Some(head), &lines)
     }
 
     fn fitted(&self, look: Look) -> String {
@@ -42,24 +65,35 @@ impl Outcome {
     }
 
     fn aimed_at(&self, look: Look) -> String {
-        let mut rows: Vec<(String, String)> =
+        let goals: Vec<(String, String)> =
             self.goals.iter().map(|goal| (goal.what.clone(), goal.text())).collect();
+        let mut text = String::new();
+        if !goals.is_empty() {
+            text = format!("\n{}{}", look.paint(HEAD, "goals\n"), look.table(&goals));
+        }
+        let warnings: Vec<(&str, String)> =
+            self.warnings().into_iter().map(|warning| ("warning", warning)).collect();
+        if !warnings.is_empty() {
+            text += &format!("\n{}", look.table(&warnings));
+        }
+        text
+    }
+
+    /// What makes figures doubtful.
+    fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
         if self.checked {
-            let text =
-                "this program checks its arithmetic; a released one is faster: cargo run --release";
-            rows.push(("warning".to_owned(), text.to_owned()));
+            let text = "this program checks its arithmetic, which takes time: cargo run --release does not";
+            warnings.push(text.to_owned());
         }
         if self.largest_spread > CALM {
-            let spread = 100.0 * self.largest_spread;
-            let text = format!(
-                "times scatter by up to {spread:.0} %: other work on this machine; ratios bear it, the least times hardly, all else does not"
-            );
-            rows.push(("warning".to_owned(), text));
+            warnings.push(format!(
+                "times scatter by up to {:.0} %: other work on this machine; ratios bear it, the least times hardly, \
+                 all else does not",
+                100.0 * self.largest_spread
+            ));
         }
-        if rows.is_empty() {
-            return String::new();
-        }
-        format!("\n{}{}", look.paint(HEAD, "goals\n"), look.table(&rows))
+        warnings
     }
 }
 

@@ -55,7 +55,7 @@ fn of_golden(
     head: &Head,
     other: &Result<Scene, String>,
 ) -> Result<Scene, String> {
-    let own = |scene: &Scene| head.model == Some(model_hash(&scene.model));
+    let own = |scene: &Scene| head.model == Some(model_hash(&*scene.in_world()));
     if let Some(scene) = other.as_ref().ok().filter(|scene| own(scene)) {
         return fits(scene.clone(), head);
     }

@@ -2,12 +2,22 @@
 //!
 //! `key => schema, meaning, default`.
 
+use dbd_scene::Realisation;
 use dbd_scene::vocabulary::{TableKeys, colours};
 use serde_json::{Value, json};
 
 use super::inner::{kinds, orientation, within};
 use super::values::Range::{Any, NotNegative, Positive};
 use super::values::{Key, any, array, choice, halves, heading, name, number, numbers, place};
+
+/// What joints are made of.
+pub(super) fn realisation() -> Key {
+    Key(
+        choice(&Realisation::ALL.map(Realisation::name)),
+        "What joints are made of: TSDAs, or bushings without a length, as stiff at the pose of assembly",
+        "tsda",
+    )
+}
 
 pub(super) fn of_spring(key: &str, tables: &[TableKeys]) -> Option<Key> {
     Some(match key {
@@ -78,6 +88,7 @@ pub(super) fn of_joint(key: &str, tables: &[TableKeys]) -> Option<Key> {
             "Whether points stand off their lines to the same sides or away from the other line",
             "alike",
         ),
+        "realisation" => realisation(),
         _ => return None,
     })
 }

@@ -5,7 +5,9 @@
 use dbd_scene::vocabulary::TableKeys;
 use serde_json::{Value, json};
 
-use super::elements::{of_geometry, of_input, of_joint, of_line, of_load, of_readout, of_spring};
+use super::elements::{
+    of_geometry, of_input, of_joint, of_line, of_load, of_readout, of_spring, realisation,
+};
 use super::elements::{of_torsion, of_tsda};
 use super::inner::{self, orientation, within};
 use super::values::Range::{Any, Positive};
@@ -38,6 +40,7 @@ fn of_scene(key: &str) -> Option<Key> {
         "duration" => Key(number(Positive), "s, > 0: simulated time, as 0.5 or \"500 ms\"", ""),
         "step" => Key(number(Positive), "s, > 0: the step, as \"20us\"", "chosen by the run"),
         "every" => Key(number(Positive), "s, > 0: time between samples", "chosen by the run"),
+        "realisation" => realisation(),
         "planar" => Key(
             json!({ "type": "boolean" }),
             "Whether it runs in its plane, with three freedoms per body; refused where anything leaves it",

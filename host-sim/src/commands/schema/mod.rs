@@ -120,7 +120,7 @@ fn schema() -> Value {
         "properties": properties,
         "required": ["name", "duration", "body"],
         "additionalProperties": false,
-        "if": { "required": ["defaults"] },
+        "if": { "anyOf": [{ "required": ["defaults"] }, { "required": ["realisation"] }] },
         "then": {},
         "else": { "properties": whole },
     })
@@ -186,10 +186,23 @@ fn complete(table: &str, tables: &[TableKeys]) -> Value {
         let keys: Vec<Value> = keys.iter().map(|key| has(key)).collect();
         json!({ "required": [key], "properties": { key: any(&keys) } })
     };
+    // A bushing has no use for them.
+    let free = |key: &str| table == "joint" && matches!(key, "arm" | "spider");
+    let bushing = json!({
+        "required": ["realisation"],
+        "properties": { "realisation": { "const": "bushing" } },
+    });
     let rules = |table: &str| -> Vec<Value> {
-        of_kinds(table, tables)
-            .map(|(kind, _)| when(table, kind, json!({ "required": required_of(table, kind) })))
-            .collect()
+        let of = |kind| {
+            let keys = required_of(table, kind);
+            let always: Vec<_> = keys.iter().filter(|key| !free(key)).collect();
+            let mut then = json!({ "required": always });
+            if let Some(key) = keys.iter().find(|key| free(key)) {
+                then["anyOf"] = any(&[has(key), bushing.clone()])["anyOf"].take();
+            }
+            then
+        };
+        of_kinds(table, tables).map(|(kind, _)| when(table, kind, of(kind))).collect()
     };
     match table {
         "body" => json!({

@@ -1,0 +1,108 @@
+//! Whether models have one structure: the same parts between the same bodies, whatever their numbers.
+//!
+//! `(model, model) => the first part that differs`.
+
+use dbd_kernel::elements::input::{Input, InputKind};
+use dbd_kernel::geometry::{Float, Named};
+use dbd_kernel::{BodyIndex, Load, LoadFrame, Real, TorsionSpring};
+use dbd_scene::SceneModel;
+
+/// In what two models differ that must not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Difference {
+    /// One has more of these parts than the other.
+    Count {
+        /// The parts, in plural.
+        parts: &'static str,
+        /// How many the first has.
+        first: usize,
+        /// How many the other has.
+        other: usize,
+    },
+    /// This part joins other bodies, follows another law, or acts at other times.
+    Part {
+        /// The kind of part.
+        part: &'static str,
+        /// Its row among its kind.
+        row: usize,
+    },
+}
+
+impl std::fmt::Display for Difference {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Count { parts, first, other } => {
+                write!(f, "it has {other} {parts}, the first instance {first}")
+            }
+            Self::Part { part, row } => write!(
+                f,
+                "its {part} {row} is between other bodies, of another kind or at another time than \
+                 the first instance's"
+            ),
+        }
+    }
+}
+
+/// The first part in which `other` has another structure than `first`.
+pub(crate) fn difference<R: Real + Named>(
+    first: &SceneModel<Float<R>>,
+    other: &SceneModel<Float<R>>,
+) -> Option<Difference> {
+    let counts = |model: &SceneModel<Float<R>>| {
+        [
+            ("bodies", model.bodies.len()),
+            ("fields of gravity", model.gravity.len()),
+            ("joints and single elements", model.groups.len()),
+            ("points", model.points.len()),
+            ("TSDAs", model.tsdas.len()),
+            ("point bushings", model.bushings.len()),
+            ("dampers", model.dampers.len()),
+            ("torsion springs", model.torsions.len()),
+            ("loads", model.loads.len()),
+            ("points on lines", model.lines.len()),
+            ("inputs", model.inputs.len()),
+            ("knots of tables", model.knots.len()),
+            ("clearances", model.clearances.len()),
+            ("revolutes of bushings", model.revolutes.len()),
+            ("universal joints of bushings", model.universals.len()),
+        ]
+    };
+    for ((parts, first), (_, other)) in counts(first).into_iter().zip(counts(other)) {
+        if first != other {
+            return Some(Difference::Count { parts, first, other });
+        }
+    }
+    fn row<T>(first: &[T], other: &[T], alike: impl Fn(&T, &T) -> bool) -> Option<usize> {
+        first.iter().zip(other).position(|(first, other)| !alike(first, other))
+    }
+    let parts = [
+        ("joint or element", row(&first.groups, &other.groups, PartialEq::eq)),
+        ("torsion spring", row(&first.torsions, &other.torsions, |a, b| spring(a) == spring(b))),
+        ("load", row(&first.loads, &other.loads, |a, b| load(a) == load(b))),
+        ("input", row(&first.inputs, &other.inputs, |a, b| input(a) == input(b))),
+        ("knot of a table", row(&first.knots, &other.knots, |a, b| a.time == b.time)),
+    ];
+    parts.into_iter().find_map(|(part, row)| row.map(|row| Difference::Part { part, row }))
+}
+
+fn spring<R: Real>(spring: &TorsionSpring<R>) -> ([BodyIndex; 2], Option<usize>) {
+    ([spring.a, spring.b], spring.damper.row())
+}
+
+fn load<R: Real>(load: &Load<R>) -> (BodyIndex, LoadFrame, [f64; 2]) {
+    (load.body, load.frame, [load.from, load.until])
+}
+
+/// Kind, bodies or element, axes and table of an input.
+type InputShape = (u8, [u16; 2], LoadFrame, [u16; 2]);
+
+fn input<R: Real + Named>(input: &Input<Float<R>>) -> InputShape {
+    let (kind, of, frame) = match input.kind {
+        InputKind::Force { body, frame, .. } => (0, [body.0, 0], frame),
+        InputKind::Torque { body, frame, .. } => (1, [body.0, 0], frame),
+        InputKind::JointTorque { a, b, .. } => (2, [a.0, b.0], LoadFrame::Body),
+        InputKind::Actuator { group, element } => (3, [group, element], LoadFrame::World),
+        InputKind::Anchor { .. } => (4, [0; 2], LoadFrame::World),
+    };
+    (kind, of, frame, [input.knot, input.knots])
+}

@@ -1,0 +1,208 @@
+//! A batch: as many instances as a register has lanes, stepped as one.
+//!
+//! `(members, steps) => members`. Steps are made in blocks, without the guards of a step. What a lane
+//! does in a block is doubted where it turned too far in a step or is not finite at the end: its own
+//! plant then does the block anew, one instance by itself, and tells what failed where. A lane whose
+//! instance has failed, or that never had one, runs the twin of another.
+
+use dbd_kernel::damping::NoLevers;
+use dbd_kernel::geometry::Named;
+use dbd_kernel::{Plant, Real, Scheme, State};
+
+#[cfg(test)]
+mod tests;
+
+use crate::gather::{self, LanesModel, ModelOf};
+use crate::lanes::Lanes;
+use crate::register::{Register, Work};
+
+/// Steps between two looks at a batch.
+const BLOCK: u64 = 64;
+
+/// The plant of one instance.
+pub type PlantOf<R, S> = Plant<Box<ModelOf<R>>, S>;
+/// The plant of a register's lanes.
+type LanesPlant<V, S> = Plant<Box<LanesModel<V>>, S>;
+
+/// A batch of whatever register.
+pub(crate) trait Batch<R, S>: Send
+where
+    R: Real + Named,
+    S: Scheme,
+{
+    /// `steps` steps of all instances that run.
+    fn advance(&mut self, steps: u64);
+    /// An instance, brought to the present.
+    fn member(&mut self, member: usize) -> &PlantOf<R, S>;
+    /// An instance, to be changed.
+    fn member_mut(&mut self, member: usize) -> &mut PlantOf<R, S>;
+}
+
+/// Where the present state of the instances is.
+#[derive(Clone, Copy, PartialEq)]
+enum Present {
+    /// In their own plants alone.
+    Members,
+    /// In the lanes alone.
+    Lanes,
+    /// In both.
+    Both,
+}
+
+/// Instances in the lanes of `V`.
+pub(crate) struct Members<V: Register, S: Scheme> {
+    plants: Vec<PlantOf<V::Number, S>>,
+    /// The member in each lane; the first lane of a member is its own.
+    seats: Vec<usize>,
+    /// The lanes' plant, once any member runs.
+    lanes: Option<LanesPlant<V, S>>,
+    present: Present,
+}
+
+impl<V: Register, S: Scheme> Members<V, S> {
+    /// A batch of at most as many plants as the register has lanes, of one structure, scheme and step.
+    pub(crate) fn new(plants: Vec<PlantOf<V::Number, S>>) -> Self {
+        Self { plants, seats: Vec::new(), lanes: None, present: Present::Members }
+    }
+
+    /// Brings the members' states into the lanes; `None` where none of them runs. All lanes are at one
+    /// step: that of the first that runs.
+    fn seat(&mut self) -> Option<()> {
+        if self.present == Present::Members {
+            let all = 0..self.plants.len();
+            let running = |&member: &usize| self.plants[member].status().is_running();
+            let step = |member: usize| self.plants[member].state().step;
+            let first = all.clone().find(running)?;
+            let mut seats: Vec<usize> =
+                all.filter(running).filter(|&member| step(member) == step(first)).collect();
+            seats.resize(V::LANES, first);
+            let plants: Vec<_> = seats.iter().map(|&member| &self.plants[member]).collect();
+            if self.lanes.is_none() || self.seats != seats {
+                let models: Vec<_> = plants.iter().map(|plant| plant.model()).collect();
+                let model = Box::new(gather::model::<V>(&models));
+                let plant = Plant::new(model, *plants[0].scheme(), plants[0].step_size());
+                self.lanes = Some(plant.ok()?);
+            }
+            let states: Vec<_> = plants.iter().map(|plant| plant.state()).collect();
+            let state = gather::state::<V>(&states);
+            self.lanes.as_mut()?.resume(state);
+            self.seats = seats;
+            self.present = Present::Both;
+        }
+        Some(())
+    }
+
+    /// Brings the lanes' states into the members' plants.
+    fn leave(&mut self) {
+        if let (Present::Lanes, Some(lanes)) = (self.present, &self.lanes) {
+            for lane in own_lanes(&self.seats) {
+                let state = gather::lane(lanes.state(), lane);
+                self.plants[self.seats[lane]].resume(state);
+            }
+            self.present = Present::Both;
+        }
+    }
+
+    /// A block of steps; whether any member still runs.
+    fn block(&mut self, steps: u64) -> bool {
+        self.seat();
+        let apart: Vec<usize> =
+            (0..self.plants.len()).filter(|member| !self.seats.contains(member)).collect();
+        let Some(lanes) = self.lanes.as_mut().filter(|_| self.present != Present::Members) else {
+            return false;
+        };
+        let before = lanes.state().clone();
+        let far = before.step.checked_add(steps + 1).is_none() || near_an_end(&before, steps);
+        let doubted = if far { u32::MAX } else { V::enter(Block { lanes, steps }) };
+        self.present = Present::Lanes;
+        // Those at another step, and those that failed, which stay as they are.
+        for member in apart {
+            let _ = self.plants[member].advance(steps);
+        }
+        let doubted: Vec<usize> =
+            own_lanes(&self.seats).filter(|lane| doubted >> lane & 1 != 0).collect();
+        if doubted.is_empty() {
+            return true;
+        }
+        self.leave();
+        for lane in doubted {
+            let plant = &mut self.plants[self.seats[lane]];
+            plant.resume(gather::lane(&before, lane));
+            let _ = plant.advance(steps);
+        }
+        self.present = Present::Members;
+        true
+    }
+}
+
+/// The lanes that stand for their members.
+fn own_lanes(seats: &[usize]) -> impl Iterator<Item = usize> {
+    (0..seats.len()).filter(|&lane| !seats[..lane].contains(&seats[lane]))
+}
+
+/// Whether any turn count may come to its end within so many steps.
+fn near_an_end<V: Register>(state: &State<LanesModel<V>>, steps: u64) -> bool {
+    let most = u64::from(u32::MAX / 2) - 1 - steps;
+    state.turns.iter().any(|&turns| u64::from(turns.unsigned_abs()) > most)
+}
+
+impl<V: Register, S: Scheme<Levers = NoLevers> + Send> Batch<V::Number, S> for Members<V, S> {
+    fn advance(&mut self, steps: u64) {
+        let mut left = steps;
+        while left > 0 {
+            let block = left.min(BLOCK);
+            if !self.block(block) {
+                return;
+            }
+            left -= block;
+        }
+    }
+
+    fn member(&mut self, member: usize) -> &PlantOf<V::Number, S> {
+        self.leave();
+        &self.plants[member]
+    }
+
+    fn member_mut(&mut self, member: usize) -> &mut PlantOf<V::Number, S> {
+        self.leave();
+        self.present = Present::Members;
+        &mut self.plants[member]
+    }
+}
+
+/// Steps of lanes.
+struct Block<'b, V: Register, S: Scheme> {
+    lanes: &'b mut LanesPlant<V, S>,
+    steps: u64,
+}
+
+impl<V: Register, S: Scheme> Work for Block<'_, V, S> {
+    /// The lanes that are in doubt.
+    type Outcome = u32;
+
+    #[inline(always)]
+    fn run(self) -> u32 {
+        let Self { lanes, steps } = self;
+        let h = Lanes::<V>::from_f64(lanes.step_size());
+        let one = Lanes::<V>::ONE;
+        let mut calm = Lanes::<V>::truth(true);
+        for _ in 0..steps {
+            // No lane fails by itself: what it cannot do makes it no number.
+            let _ = lanes.step_unguarded();
+            for body in &lanes.state().bodies {
+                let turn = body.angular_velocity * h;
+                calm = calm & turn.dot(turn).at_most(one);
+            }
+        }
+        for body in &lanes.state().bodies {
+            let (q, zero) = (body.orientation, Lanes::<V>::ZERO);
+            for v in [body.position, body.velocity, body.angular_velocity, q.v] {
+                for x in [v.x, v.y, v.z] {
+                    calm = calm & (x * zero).equals(zero);
+                }
+            }
+            calm = calm & (q.w * zero).equals(zero);
+        }
+        V::bits(!calm)
+    }
+}

@@ -1,0 +1,213 @@
+//! From models and states of one instance each to those of lanes, and back.
+//!
+//! `models => model of lanes; states => state of lanes; (state of lanes, lane) => state`. All models
+//! have one structure, see [`crate::alike`].
+
+use dbd_kernel::elements::input::{Input, InputKind, Knot};
+use dbd_kernel::geometry::Float;
+use dbd_kernel::schedule::Signal;
+use dbd_kernel::{
+    Body, BodyState, Load, PointBushing, PointOnLine, Quaternion, Revolute, State, TorsionSpring,
+    Tsda, Universal, Vec3,
+};
+use dbd_scene::SceneModel;
+
+use crate::lanes::Lanes;
+use crate::register::Register;
+
+/// The model of one instance.
+pub(crate) type ModelOf<R> = SceneModel<Float<R>>;
+/// The model of a register's lanes.
+pub(crate) type LanesModel<V> = SceneModel<Float<Lanes<V>>>;
+
+/// A number, a vector and a quaternion of each lane, as `of` finds them by the lane.
+fn number<V: Register>(of: impl Fn(usize) -> V::Number) -> Lanes<V> {
+    Lanes::new(of)
+}
+
+fn vector<V: Register>(of: impl Fn(usize) -> Vec3<V::Number>) -> Vec3<Lanes<V>> {
+    Vec3::new(number(|i| of(i).x), number(|i| of(i).y), number(|i| of(i).z))
+}
+
+fn quaternion<V: Register>(of: impl Fn(usize) -> Quaternion<V::Number>) -> Quaternion<Lanes<V>> {
+    Quaternion { w: number(|i| of(i).w), v: vector(|i| of(i).v) }
+}
+
+fn body_state<V: Register>(
+    of: impl Fn(usize) -> BodyState<Float<V::Number>>,
+) -> BodyState<Float<Lanes<V>>> {
+    BodyState {
+        position: vector(|i| of(i).position),
+        orientation: quaternion(|i| of(i).orientation),
+        velocity: vector(|i| of(i).velocity),
+        angular_velocity: vector(|i| of(i).angular_velocity),
+    }
+}
+
+/// The model whose lane i is `models[i]`.
+pub(crate) fn model<V: Register>(models: &[&ModelOf<V::Number>]) -> LanesModel<V> {
+    let first = models[0];
+    /// A part of each lane's model at a time.
+    macro_rules! each {
+        ($parts:ident, |$row:ident| $new:expr) => {
+            (0..first.$parts.len()).map(|$row| $new).collect()
+        };
+    }
+    SceneModel {
+        bodies: each!(bodies, |row| {
+            let of = |i: usize| models[i].bodies[row];
+            Body {
+                mass: number(|i| of(i).mass),
+                inertia: vector(|i| of(i).inertia),
+                inverse_mass: number(|i| of(i).inverse_mass),
+                inverse_inertia: vector(|i| of(i).inverse_inertia),
+                ratio: vector(|i| of(i).ratio),
+                inverse_ratio: vector(|i| of(i).inverse_ratio),
+            }
+        }),
+        initial: each!(initial, |row| body_state(|i| models[i].initial[row])),
+        gravity: each!(gravity, |row| vector(|i| models[i].gravity[row])),
+        groups: first.groups.clone(),
+        points: each!(points, |row| vector(|i| models[i].points[row])),
+        tsdas: each!(tsdas, |row| {
+            let of = |i: usize| models[i].tsdas[row];
+            Tsda {
+                stiffness: number(|i| of(i).stiffness),
+                free_length: number(|i| of(i).free_length),
+            }
+        }),
+        bushings: each!(bushings, |row| PointBushing {
+            stiffness: number(|i| models[i].bushings[row].stiffness)
+        }),
+        dampers: each!(dampers, |row| number(|i| models[i].dampers[row])),
+        torsions: each!(torsions, |row| {
+            let of = |i: usize| &models[i].torsions[row];
+            TorsionSpring {
+                a: of(0).a,
+                b: of(0).b,
+                axis: vector(|i| of(i).axis),
+                reference: quaternion(|i| of(i).reference),
+                stiffness: number(|i| of(i).stiffness),
+                preload: number(|i| of(i).preload),
+                damper: of(0).damper,
+            }
+        }),
+        loads: each!(loads, |row| {
+            let of = |i: usize| &models[i].loads[row];
+            Load {
+                body: of(0).body,
+                frame: of(0).frame,
+                force: vector(|i| of(i).force),
+                torque: vector(|i| of(i).torque),
+                from: of(0).from,
+                until: of(0).until,
+            }
+        }),
+        lines: each!(lines, |row| {
+            let of = |i: usize| models[i].lines[row];
+            PointOnLine {
+                direction: vector(|i| of(i).direction),
+                stiffness: number(|i| of(i).stiffness),
+                free_length: number(|i| of(i).free_length),
+            }
+        }),
+        inputs: each!(inputs, |row| input(|i| &models[i].inputs[row])),
+        knots: each!(knots, |row| {
+            let of = |i: usize| &models[i].knots[row];
+            Knot {
+                time: of(0).time,
+                value: number(|i| of(i).value),
+                slope: number(|i| of(i).slope),
+            }
+        }),
+        clearances: each!(clearances, |row| number(|i| models[i].clearances[row])),
+        revolutes: each!(revolutes, |row| {
+            let of = |i: usize| models[i].revolutes[row];
+            Revolute {
+                stiffness: number(|i| of(i).stiffness),
+                along: number(|i| of(i).along),
+                levers: [vector(|i| of(i).levers[0]), vector(|i| of(i).levers[1])],
+            }
+        }),
+        universals: each!(universals, |row| {
+            let of = |i: usize| models[i].universals[row];
+            Universal {
+                stiffness: number(|i| of(i).stiffness),
+                lever: vector(|i| of(i).lever),
+                axis: vector(|i| of(i).axis),
+            }
+        }),
+    }
+}
+
+fn input<'m, V: Register>(
+    of: impl Fn(usize) -> &'m Input<Float<V::Number>>,
+) -> Input<Float<Lanes<V>>> {
+    // The vectors of its kind: point and direction, axis, or nothing.
+    let vectors = |i: usize| match of(i).kind {
+        InputKind::Force { point, direction, .. } => [point, direction],
+        InputKind::Torque { axis, .. } | InputKind::JointTorque { axis, .. } => [axis; 2],
+        InputKind::Anchor { direction } => [direction; 2],
+        InputKind::Actuator { .. } => [Vec3::default(); 2],
+    };
+    let (point, axis) = (vector(|i| vectors(i)[0]), vector(|i| vectors(i)[1]));
+    let kind = match of(0).kind {
+        InputKind::Force { body, frame, .. } => {
+            InputKind::Force { body, point, direction: axis, frame }
+        }
+        InputKind::Torque { body, frame, .. } => InputKind::Torque { body, axis, frame },
+        InputKind::JointTorque { a, b, .. } => InputKind::JointTorque { a, b, axis },
+        InputKind::Actuator { group, element } => InputKind::Actuator { group, element },
+        InputKind::Anchor { .. } => InputKind::Anchor { direction: axis },
+    };
+    let Input { knot, knots, .. } = *of(0);
+    Input { kind, value: number(|i| of(i).value), knot, knots }
+}
+
+/// The state whose lane i is `states[i]`; all are at one step.
+pub(crate) fn state<V: Register>(states: &[&State<ModelOf<V::Number>>]) -> State<LanesModel<V>> {
+    let first = states[0];
+    State {
+        bodies: (0..first.bodies.len()).map(|row| body_state(|i| states[i].bodies[row])).collect(),
+        turns: (0..first.turns.len())
+            .flat_map(|row| states.iter().map(move |state| state.turns[row]))
+            .collect(),
+        step: first.step,
+        signals: (0..first.signals.len())
+            .map(|row| Signal {
+                value: number(|i| states[i].signals[row].value),
+                rate: number(|i| states[i].signals[row].rate),
+            })
+            .collect(),
+    }
+}
+
+/// The state in a lane.
+pub(crate) fn lane<V: Register>(
+    state: &State<LanesModel<V>>,
+    lane: usize,
+) -> State<ModelOf<V::Number>> {
+    let vector = |v: Vec3<Lanes<V>>| Vec3::new(v.x.lane(lane), v.y.lane(lane), v.z.lane(lane));
+    State {
+        bodies: state
+            .bodies
+            .iter()
+            .map(|body| BodyState {
+                position: vector(body.position),
+                orientation: Quaternion {
+                    w: body.orientation.w.lane(lane),
+                    v: vector(body.orientation.v),
+                },
+                velocity: vector(body.velocity),
+                angular_velocity: vector(body.angular_velocity),
+            })
+            .collect(),
+        turns: state.turns.iter().skip(lane).step_by(V::LANES).copied().collect(),
+        step: state.step,
+        signals: state
+            .signals
+            .iter()
+            .map(|signal| Signal { value: signal.value.lane(lane), rate: signal.rate.lane(lane) })
+            .collect(),
+    }
+}

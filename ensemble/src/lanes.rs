@@ -1,0 +1,236 @@
+//! A number of several lanes: what the kernel's laws and schemes take for one.
+//!
+//! `(lanes, lanes) => lanes`. What a step decides by a number becomes a selection, see
+//! [`dbd_kernel::Real`]. Where no lane is meant, as in a conversion to `f64`, it is the first.
+
+use std::cmp::Ordering;
+use std::fmt::{Debug, Formatter};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use dbd_kernel::Real;
+use dbd_kernel::geometry::Named;
+use dbd_kernel::real::{Constant, Truth as _};
+use dbd_kernel::words::{Word, WordSource};
+
+use crate::register::Register;
+
+/// One number per lane of a register.
+#[derive(Clone, Copy)]
+#[repr(transparent)]
+pub(crate) struct Lanes<V>(V);
+
+impl<V: Register> Lanes<V> {
+    /// A number per lane.
+    #[inline(always)]
+    pub(crate) fn new(lanes: impl Fn(usize) -> V::Number) -> Self {
+        Self(V::from_lanes(lanes))
+    }
+
+    /// The number in a lane.
+    #[inline(always)]
+    pub(crate) fn lane(self, lane: usize) -> V::Number {
+        self.0.lane(lane)
+    }
+
+    /// Constants of a register as those of its lanes.
+    #[allow(unsafe_code)]
+    const fn of(registers: &'static [V]) -> &'static [Self] {
+        // SAFETY: the type is transparent.
+        unsafe { std::slice::from_raw_parts(registers.as_ptr().cast(), registers.len()) }
+    }
+}
+
+impl<V: Register> Debug for Lanes<V> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        f.debug_list().entries((0..V::LANES).map(|lane| self.lane(lane))).finish()
+    }
+}
+
+impl<V: Register> Default for Lanes<V> {
+    fn default() -> Self {
+        Self::ZERO
+    }
+}
+
+/// Equal in every lane.
+impl<V: Register> PartialEq for Lanes<V> {
+    #[inline(always)]
+    fn eq(&self, other: &Self) -> bool {
+        self.0.equals(other.0).all()
+    }
+}
+
+/// Ordered where all lanes are ordered alike.
+impl<V: Register> PartialOrd for Lanes<V> {
+    #[inline(always)]
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        if self.0.less_than(other.0).all() {
+            Some(Ordering::Less)
+        } else if other.0.less_than(self.0).all() {
+            Some(Ordering::Greater)
+        } else if self == other {
+            Some(Ordering::Equal)
+        } else {
+            None
+        }
+    }
+}
+
+macro_rules! operator {
+    ($($operation:ident $function:ident;)*) => {
+        $(impl<V: Register> $operation for Lanes<V> {
+            type Output = Self;
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                Self(self.0.$function(other.0))
+            }
+        })*
+    };
+}
+
+operator! {
+    Add add;
+    Sub sub;
+    Mul mul;
+    Div div;
+}
+
+impl<V: Register> Neg for Lanes<V> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(self.0.neg())
+    }
+}
+
+impl<V: Register> Named for Lanes<V> {
+    const NAME: &'static str = <V::Number as Named>::NAME;
+}
+
+impl<V: Register> Real for Lanes<V> {
+    const LANES: usize = V::LANES;
+    type Truth = V::Truth;
+    type Count = V::Count;
+
+    const ZERO: Self = Self(V::NUMBERS[0]);
+    const ONE: Self = Self(V::NUMBERS[1]);
+    const HALF: Self = Self(V::NUMBERS[2]);
+    const TWO: Self = Self(V::NUMBERS[3]);
+    const PI: Self = Self(V::NUMBERS[4]);
+    const FRAC_PI_2: Self = Self(V::NUMBERS[5]);
+    const FRAC_PI_4: Self = Self(V::NUMBERS[6]);
+    const TAN_PI_8: Self = Self(V::NUMBERS[7]);
+    const ATAN: &'static [Self] = Self::of(V::ATAN);
+    const COS: &'static [Self] = Self::of(V::COS);
+    const SINC: &'static [Self] = Self::of(V::SINC);
+
+    #[inline(always)]
+    fn from_f64(value: f64) -> Self {
+        Self(V::splat(V::Number::from_f64(value)))
+    }
+    #[inline(always)]
+    fn constant(value: Constant) -> Self {
+        Self(V::splat(V::Number::constant(value)))
+    }
+    fn to_f64(self) -> f64 {
+        self.lane(0).to_f64()
+    }
+    #[inline(always)]
+    fn from_u64(value: u64) -> Self {
+        Self(V::splat(V::Number::from_u64(value)))
+    }
+    #[inline(always)]
+    fn from_i32(value: i32) -> Self {
+        Self(V::splat(V::Number::from_i32(value)))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+    #[inline(always)]
+    fn is_finite(self) -> bool {
+        self * Self::ZERO == Self::ZERO
+    }
+    fn word(self) -> Word {
+        self.lane(0).word()
+    }
+    fn from_words(source: &mut impl WordSource) -> Self {
+        Self(V::splat(V::Number::from_words(source)))
+    }
+
+    #[inline(always)]
+    fn truth(holds: bool) -> V::Truth {
+        V::truth(|_| holds)
+    }
+    #[inline(always)]
+    fn equals(self, other: Self) -> V::Truth {
+        self.0.equals(other.0)
+    }
+    #[inline(always)]
+    fn less_than(self, other: Self) -> V::Truth {
+        self.0.less_than(other.0)
+    }
+    #[inline(always)]
+    fn at_most(self, other: Self) -> V::Truth {
+        self.0.at_most(other.0)
+    }
+    #[inline(always)]
+    fn pick(truth: V::Truth, then: Self, otherwise: Self) -> Self {
+        Self(V::pick(truth, then.0, otherwise.0))
+    }
+    #[inline(always)]
+    fn only_where(self, truth: V::Truth) -> Option<Self> {
+        Some(Self(V::pick(truth, self.0, V::NUMBERS[8])))
+    }
+    #[inline(always)]
+    fn counts(stored: &[i32]) -> &[V::Count] {
+        V::counts(stored)
+    }
+    #[inline(always)]
+    fn counts_mut(stored: &mut [i32]) -> &mut [V::Count] {
+        V::counts_mut(stored)
+    }
+    #[inline(always)]
+    fn from_count(count: V::Count) -> Self {
+        let count = count.as_ref();
+        Self(V::from_lanes(|lane| V::Number::from_i32(count[lane])))
+    }
+    #[inline(always)]
+    fn is_odd(count: V::Count) -> V::Truth {
+        let count = count.as_ref();
+        V::truth(|lane| count[lane] & 1 != 0)
+    }
+    #[inline(always)]
+    fn is_nil(count: V::Count) -> V::Truth {
+        let count = count.as_ref();
+        V::truth(|lane| count[lane] == 0)
+    }
+    #[inline(always)]
+    fn recount(mut count: V::Count, truth: V::Truth, up: V::Truth) -> V::Count {
+        let (truth, up) = (V::bits(truth), V::bits(up));
+        if truth != 0 {
+            for (lane, count) in count.as_mut().iter_mut().enumerate() {
+                let [truth, up] = [truth, up].map(|truths| truths >> lane & 1 != 0);
+                *count = V::Number::recount(*count, truth, up);
+            }
+        }
+        count
+    }
+
+    #[inline(always)]
+    fn reciprocal_or_zero(self) -> Self {
+        Self::pick(self.equals(Self::ZERO), Self::ZERO, Self::ONE / self)
+    }
+    // Each lane asks for itself: a product that is 0 in one says nothing of the others.
+    #[inline(always)]
+    fn reciprocals_or_zero<const N: usize>(mut values: [Self; N]) -> [Self; N] {
+        for value in &mut values {
+            *value = value.reciprocal_or_zero();
+        }
+        values
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self::pick(self.less_than(Self::ZERO), -self, self)
+    }
+}

@@ -1,0 +1,75 @@
+//! The numbers that lanes are made of, and the batches of each.
+//!
+//! `(instruction set, plants) => batch`.
+
+use dbd_kernel::damping::NoLevers;
+use dbd_kernel::geometry::Named;
+use dbd_kernel::{Real, Scheme};
+
+use crate::batch::{Batch, Members, PlantOf};
+use crate::instructions::InstructionSet;
+use crate::register;
+
+/// A number that has registers: `f64` and `f32`.
+pub trait Number: Real + Named + sealed::Batches {
+    /// How many of them go in lockstep.
+    fn lanes(set: InstructionSet) -> usize;
+}
+
+pub(crate) mod sealed {
+    use super::{Batch, InstructionSet, NoLevers, PlantOf, Scheme};
+
+    /// What only this crate does with a number.
+    pub trait Batches: super::Real + super::Named {
+        /// A batch of plants.
+        #[allow(private_interfaces)]
+        fn batch<S: Scheme<Levers = NoLevers> + Send + 'static>(
+            set: InstructionSet,
+            plants: Vec<PlantOf<Self, S>>,
+        ) -> Box<dyn Batch<Self, S>>;
+    }
+}
+
+macro_rules! number {
+    ($number:ty, $array:ident, $narrow:ident, $wide:ident) => {
+        impl Number for $number {
+            fn lanes(set: InstructionSet) -> usize {
+                use register::Register as _;
+                match set {
+                    InstructionSet::Baseline => register::$array::LANES,
+                    #[cfg(target_arch = "x86_64")]
+                    InstructionSet::Avx2 => register::$narrow::LANES,
+                    #[cfg(target_arch = "x86_64")]
+                    InstructionSet::Avx512 => register::$wide::LANES,
+                    #[cfg(not(target_arch = "x86_64"))]
+                    InstructionSet::Avx2 | InstructionSet::Avx512 => register::$array::LANES,
+                }
+            }
+        }
+
+        impl sealed::Batches for $number {
+            #[allow(private_interfaces)]
+            fn batch<S: Scheme<Levers = NoLevers> + Send + 'static>(
+                set: InstructionSet,
+                plants: Vec<PlantOf<Self, S>>,
+            ) -> Box<dyn Batch<Self, S>> {
+                match set {
+                    InstructionSet::Baseline => {
+                        Box::new(Members::<register::$array, S>::new(plants))
+                    }
+                    #[cfg(target_arch = "x86_64")]
+                    InstructionSet::Avx2 => Box::new(Members::<register::$narrow, S>::new(plants)),
+                    #[cfg(target_arch = "x86_64")]
+                    InstructionSet::Avx512 => Box::new(Members::<register::$wide, S>::new(plants)),
+                    #[cfg(not(target_arch = "x86_64"))]
+                    InstructionSet::Avx2 | InstructionSet::Avx512 => {
+                        Box::new(Members::<register::$array, S>::new(plants))
+                    }
+                }
+            }
+        }
+    };
+}
+
+number!(f64, Doubles, Doubles256, Doubles512);
+number!(f32, Singles, Singles256, Singles512);

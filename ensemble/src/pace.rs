@@ -1,0 +1,108 @@
+//! How fast an ensemble is beside its instances stepped one after the other.
+//!
+//! `(model, scheme, h, instruction set, threads) => steps per second of both`. Both in one process, in
+//! turn, from the same state.
+
+use std::num::NonZeroUsize;
+use std::time::Instant;
+
+use dbd_kernel::damping::NoLevers;
+use dbd_kernel::geometry::Float;
+use dbd_kernel::{Plant, Scheme};
+use dbd_scene::SceneModel;
+
+use crate::batch::PlantOf;
+use crate::ensemble::{Ensemble, EnsembleError};
+use crate::instructions::InstructionSet;
+use crate::number::Number;
+
+/// What is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Course {
+    /// The instruction set.
+    pub set: InstructionSet,
+    /// How many threads step the ensemble; those that step alone have one.
+    pub threads: NonZeroUsize,
+    /// Steps of each instance in a round.
+    pub steps: u64,
+    /// Rounds, of which each times both.
+    pub rounds: NonZeroUsize,
+}
+
+/// Steps per second, of all instances together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pace {
+    /// Instances, a full batch for each thread.
+    pub instances: usize,
+    /// Of the ensemble, round by round.
+    pub together: Vec<f64>,
+    /// Of its instances one after the other on one thread, round by round.
+    pub alone: Vec<f64>,
+}
+
+impl Pace {
+    /// How many times faster the ensemble is: the median of the rounds' ratios.
+    #[must_use]
+    pub fn ratio(&self) -> f64 {
+        let mut ratios: Vec<f64> = self
+            .together
+            .iter()
+            .zip(&self.alone)
+            .map(|(together, alone)| together / alone)
+            .collect();
+        ratios.sort_by(f64::total_cmp);
+        ratios.get(ratios.len() / 2).copied().unwrap_or(f64::NAN)
+    }
+
+    /// The same of the fastest rounds of each: what other programs took least from.
+    #[must_use]
+    pub fn best_ratio(&self) -> f64 {
+        let most = |rates: &[f64]| rates.iter().copied().fold(f64::NAN, f64::max);
+        most(&self.together) / most(&self.alone)
+    }
+}
+
+/// Times an ensemble of alike instances of `model` against the same plants by themselves.
+///
+/// # Errors
+/// [`EnsembleError`] where the machine lacks the instruction set, or the step is none.
+pub fn pace<R: Number, S: Scheme<Levers = NoLevers> + Send + 'static>(
+    model: &SceneModel<Float<R>>,
+    scheme: S,
+    step_size: f64,
+    course: Course,
+) -> Result<Pace, EnsembleError> {
+    let Course { set, threads, steps, rounds } = course;
+    let instances = R::lanes(set) * threads.get();
+    let models = vec![model.clone(); instances];
+    let mut plants = Vec::with_capacity(instances);
+    for model in &models {
+        let plant: PlantOf<R, S> = Plant::new(Box::new(model.clone()), scheme, step_size)
+            .map_err(|_| EnsembleError::Step { step: step_size })?;
+        plants.push(plant);
+    }
+    let mut ensemble = Ensemble::with_instructions(models, scheme, step_size, set)?;
+    let mut pace = Pace { instances, together: Vec::new(), alone: Vec::new() };
+    let done = steps as f64 * instances as f64;
+    // The first round brings code and data in.
+    for round in 0..=rounds.get() {
+        (0..instances).for_each(|instance| ensemble.plant_mut(instance).reset());
+        plants.iter_mut().for_each(Plant::reset);
+        // Lanes are filled before their first step.
+        ensemble.advance(1);
+        plants.iter_mut().for_each(|plant| _ = plant.step());
+        let start = Instant::now();
+        ensemble.advance_on(threads, steps);
+        let together = done / start.elapsed().as_secs_f64();
+        let start = Instant::now();
+        for plant in &mut plants {
+            let _ = plant.advance(steps);
+        }
+        let alone = done / start.elapsed().as_secs_f64();
+        if round > 0 {
+            pace.together.push(together);
+            pace.alone.push(alone);
+        }
+    }
+    Ok(pace)
+}

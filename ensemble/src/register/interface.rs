@@ -1,0 +1,90 @@
+//! What a register does, and the work that is done with one.
+
+use dbd_kernel::Real;
+use dbd_kernel::geometry::Named;
+use dbd_kernel::real::Truth;
+
+/// A register of numbers. Its operations need its instruction set: a machine that lacks it never comes to
+/// them, for [`crate::InstructionSet::is_there`] is asked first. Within [`Register::enter`] each is an
+/// instruction, elsewhere a call.
+pub(crate) trait Register: Copy + Send + Sync + 'static {
+    /// The number in each lane.
+    type Number: Real<Truth = bool, Count = i32> + Named;
+    /// A truth per lane.
+    type Truth: Truth;
+    /// A turn count per lane, as it is stored.
+    type Count: Copy + AsRef<[i32]> + AsMut<[i32]>;
+
+    /// How many numbers it holds, at most 32.
+    const LANES: usize;
+    /// The coefficients of [`Real`], in every lane.
+    const ATAN: &'static [Self];
+    /// Likewise.
+    const COS: &'static [Self];
+    /// Likewise.
+    const SINC: &'static [Self];
+    /// 0, 1, ½, 2, π, π/2, π/4, tan(π/8) and no number, in every lane.
+    const NUMBERS: [Self; 9];
+
+    /// The same number in every lane.
+    fn splat(number: Self::Number) -> Self;
+    /// A number per lane.
+    fn from_lanes(lanes: impl Fn(usize) -> Self::Number) -> Self;
+    /// The number in a lane.
+    fn lane(self, lane: usize) -> Self::Number;
+    /// A truth per lane.
+    fn truth(lanes: impl Fn(usize) -> bool) -> Self::Truth;
+    /// The truths, lane 0 lowest.
+    fn bits(truth: Self::Truth) -> u32;
+
+    fn add(self, other: Self) -> Self;
+    fn sub(self, other: Self) -> Self;
+    fn mul(self, other: Self) -> Self;
+    fn div(self, other: Self) -> Self;
+    fn neg(self) -> Self;
+    fn sqrt(self) -> Self;
+    fn equals(self, other: Self) -> Self::Truth;
+    fn less_than(self, other: Self) -> Self::Truth;
+    fn at_most(self, other: Self) -> Self::Truth;
+    fn pick(truth: Self::Truth, then: Self, otherwise: Self) -> Self;
+    /// Turn counts as they are stored, a register's lanes together.
+    fn counts(stored: &[i32]) -> &[Self::Count];
+    /// Likewise.
+    fn counts_mut(stored: &mut [i32]) -> &mut [Self::Count];
+
+    /// Does `work` where the instruction set may be used.
+    fn enter<W: Work>(work: W) -> W::Outcome;
+}
+
+/// What is done with an instruction set.
+pub(crate) trait Work {
+    /// What comes of it.
+    type Outcome;
+    /// Does it. To be inlined, with all that it calls: what is compiled apart knows of no instruction set
+    /// but the machine's least.
+    fn run(self) -> Self::Outcome;
+}
+
+/// The constants of a register, from those of its number.
+macro_rules! constants {
+    ($number:ty) => {
+        const ATAN: &'static [Self] =
+            &Self::splat_all::<{ <$number as Real>::ATAN.len() }>(<$number as Real>::ATAN);
+        const COS: &'static [Self] =
+            &Self::splat_all::<{ <$number as Real>::COS.len() }>(<$number as Real>::COS);
+        const SINC: &'static [Self] =
+            &Self::splat_all::<{ <$number as Real>::SINC.len() }>(<$number as Real>::SINC);
+        const NUMBERS: [Self; 9] = Self::splat_all(&[
+            <$number as Real>::ZERO,
+            <$number as Real>::ONE,
+            <$number as Real>::HALF,
+            <$number as Real>::TWO,
+            <$number as Real>::PI,
+            <$number as Real>::FRAC_PI_2,
+            <$number as Real>::FRAC_PI_4,
+            <$number as Real>::TAN_PI_8,
+            <$number>::NAN,
+        ]);
+    };
+}
+pub(super) use constants;

@@ -1,0 +1,290 @@
+//! Registers of x86-64: AVX2 and AVX-512.
+// Operations on masks of bits are safe, those on registers are not; one macro writes both.
+#![allow(unsafe_code, unused_unsafe)]
+
+use std::arch::x86_64::*;
+use std::ops::{BitAnd, BitOr, Not};
+
+use dbd_kernel::Real;
+use dbd_kernel::real::Truth;
+
+use crate::register::interface::{Register, Work, constants};
+
+// SAFETY of all below: an ensemble of these registers is only made where `InstructionSet::is_there` has
+// found the instructions on this machine, and nothing else uses them. Arrays and registers of one size
+// are plain bits to each other.
+
+macro_rules! register {
+    (
+        $(#[$doc:meta])* $name:ident, $number:ty, $lanes:literal, $inner:ty, $feature:literal,
+        $truth:ident, $truth_inner:ty,
+        add $add:ident, sub $sub:ident, mul $mul:ident, div $div:ident, sqrt $sqrt:ident,
+        splat $splat:ident,
+        neg $neg:expr, compare $compare:ident, pick $pick:expr,
+        and $and:expr, or $or:expr, not $not:expr, bits $bits:expr, truth $from:ident,
+    ) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy)]
+        #[repr(transparent)]
+        pub(crate) struct $name($inner);
+
+        /// A truth per lane.
+        #[derive(Clone, Copy)]
+        #[repr(transparent)]
+        pub(crate) struct $truth($truth_inner);
+
+        impl BitAnd for $truth {
+            type Output = Self;
+            #[inline(always)]
+            fn bitand(self, other: Self) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { ($and)(self.0, other.0) })
+            }
+        }
+
+        impl BitOr for $truth {
+            type Output = Self;
+            #[inline(always)]
+            fn bitor(self, other: Self) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { ($or)(self.0, other.0) })
+            }
+        }
+
+        impl Not for $truth {
+            type Output = Self;
+            #[inline(always)]
+            fn not(self) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { ($not)(self.0) })
+            }
+        }
+
+        impl Truth for $truth {
+            #[inline(always)]
+            fn any(self) -> bool {
+                <$name>::bits(self) != 0
+            }
+            #[inline(always)]
+            fn all(self) -> bool {
+                <$name>::bits(self) == (1 << $lanes) - 1
+            }
+        }
+
+        impl $name {
+            const fn splat_all<const N: usize>(numbers: &[$number]) -> [Self; N] {
+                let mut all = [Self::of_array([0.0; $lanes]); N];
+                let mut i = 0;
+                while i < N {
+                    all[i] = Self::of_array([numbers[i]; $lanes]);
+                    i += 1;
+                }
+                all
+            }
+
+            #[inline(always)]
+            const fn of_array(lanes: [$number; $lanes]) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { std::mem::transmute::<[$number; $lanes], $inner>(lanes) })
+            }
+
+            #[inline(always)]
+            fn to_array(self) -> [$number; $lanes] {
+                // SAFETY: see above.
+                unsafe { std::mem::transmute(self.0) }
+            }
+        }
+
+        impl Register for $name {
+            type Number = $number;
+            type Truth = $truth;
+            type Count = [i32; $lanes];
+
+            const LANES: usize = $lanes;
+            constants!($number);
+
+            #[inline(always)]
+            fn splat(number: $number) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { $splat(number) })
+            }
+            #[inline(always)]
+            fn from_lanes(lanes: impl Fn(usize) -> $number) -> Self {
+                Self::of_array(std::array::from_fn(lanes))
+            }
+            #[inline(always)]
+            fn lane(self, lane: usize) -> $number {
+                self.to_array()[lane]
+            }
+            #[inline(always)]
+            fn truth(lanes: impl Fn(usize) -> bool) -> $truth {
+                // SAFETY: see above.
+                $truth(unsafe { $from!($lanes, lanes) })
+            }
+            #[inline(always)]
+            fn bits(truth: $truth) -> u32 {
+                // SAFETY: see above.
+                unsafe { ($bits)(truth.0) }
+            }
+            #[inline(always)]
+            fn add(self, other: Self) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { $add(self.0, other.0) })
+            }
+            #[inline(always)]
+            fn sub(self, other: Self) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { $sub(self.0, other.0) })
+            }
+            #[inline(always)]
+            fn mul(self, other: Self) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { $mul(self.0, other.0) })
+            }
+            #[inline(always)]
+            fn div(self, other: Self) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { $div(self.0, other.0) })
+            }
+            #[inline(always)]
+            fn neg(self) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { ($neg)(self.0) })
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { $sqrt(self.0) })
+            }
+            #[inline(always)]
+            fn equals(self, other: Self) -> $truth {
+                // SAFETY: see above.
+                $truth(unsafe { $compare!(_CMP_EQ_OQ, self.0, other.0) })
+            }
+            #[inline(always)]
+            fn less_than(self, other: Self) -> $truth {
+                // SAFETY: see above.
+                $truth(unsafe { $compare!(_CMP_LT_OQ, self.0, other.0) })
+            }
+            #[inline(always)]
+            fn at_most(self, other: Self) -> $truth {
+                // SAFETY: see above.
+                $truth(unsafe { $compare!(_CMP_LE_OQ, self.0, other.0) })
+            }
+            #[inline(always)]
+            fn pick(truth: $truth, then: Self, otherwise: Self) -> Self {
+                // SAFETY: see above.
+                Self(unsafe { ($pick)(truth.0, then.0, otherwise.0) })
+            }
+            #[inline(always)]
+            fn counts(stored: &[i32]) -> &[[i32; $lanes]] {
+                stored.as_chunks().0
+            }
+            #[inline(always)]
+            fn counts_mut(stored: &mut [i32]) -> &mut [[i32; $lanes]] {
+                stored.as_chunks_mut().0
+            }
+            #[inline(always)]
+            fn enter<W: Work>(work: W) -> W::Outcome {
+                #[target_feature(enable = $feature)]
+                fn with_instructions<W: Work>(work: W) -> W::Outcome {
+                    work.run()
+                }
+                // SAFETY: see above.
+                unsafe { with_instructions(work) }
+            }
+        }
+    };
+}
+
+macro_rules! compare_256_single {
+    ($how:ident, $a:expr, $b:expr) => {
+        _mm256_cmp_ps::<$how>($a, $b)
+    };
+}
+
+macro_rules! compare_256_double {
+    ($how:ident, $a:expr, $b:expr) => {
+        _mm256_cmp_pd::<$how>($a, $b)
+    };
+}
+
+macro_rules! compare_512_single {
+    ($how:ident, $a:expr, $b:expr) => {
+        _mm512_cmp_ps_mask::<$how>($a, $b)
+    };
+}
+
+macro_rules! compare_512_double {
+    ($how:ident, $a:expr, $b:expr) => {
+        _mm512_cmp_pd_mask::<$how>($a, $b)
+    };
+}
+
+// A mask of as many bits as the number has, for each lane.
+macro_rules! mask_single {
+    ($lanes:literal, $truth:expr) => {{
+        let lanes: [u32; $lanes] = std::array::from_fn(|i| if $truth(i) { u32::MAX } else { 0 });
+        std::mem::transmute::<[u32; $lanes], __m256>(lanes)
+    }};
+}
+
+macro_rules! mask_double {
+    ($lanes:literal, $truth:expr) => {{
+        let lanes: [u64; $lanes] = std::array::from_fn(|i| if $truth(i) { u64::MAX } else { 0 });
+        std::mem::transmute::<[u64; $lanes], __m256d>(lanes)
+    }};
+}
+
+// A bit for each lane.
+macro_rules! mask_bits {
+    ($lanes:literal, $truth:expr) => {
+        (0..$lanes).fold(0, |bits, lane| bits | (u32::from($truth(lane)) << lane)) as _
+    };
+}
+
+register! {
+    /// Eight numbers of single precision.
+    Singles256, f32, 8, __m256, "avx2", Truths8x32, __m256,
+    add _mm256_add_ps, sub _mm256_sub_ps, mul _mm256_mul_ps, div _mm256_div_ps,
+    sqrt _mm256_sqrt_ps, splat _mm256_set1_ps,
+    neg |x| _mm256_xor_ps(x, _mm256_set1_ps(-0.0)), compare compare_256_single,
+    pick |truth, then, otherwise| _mm256_blendv_ps(otherwise, then, truth),
+    and _mm256_and_ps, or _mm256_or_ps,
+    not |x| _mm256_xor_ps(x, _mm256_castsi256_ps(_mm256_set1_epi32(-1))),
+    bits |x| _mm256_movemask_ps(x) as u32, truth mask_single,
+}
+
+register! {
+    /// Four numbers of double precision.
+    Doubles256, f64, 4, __m256d, "avx2", Truths4x64, __m256d,
+    add _mm256_add_pd, sub _mm256_sub_pd, mul _mm256_mul_pd, div _mm256_div_pd,
+    sqrt _mm256_sqrt_pd, splat _mm256_set1_pd,
+    neg |x| _mm256_xor_pd(x, _mm256_set1_pd(-0.0)), compare compare_256_double,
+    pick |truth, then, otherwise| _mm256_blendv_pd(otherwise, then, truth),
+    and _mm256_and_pd, or _mm256_or_pd,
+    not |x| _mm256_xor_pd(x, _mm256_castsi256_pd(_mm256_set1_epi32(-1))),
+    bits |x| _mm256_movemask_pd(x) as u32, truth mask_double,
+}
+
+register! {
+    /// Sixteen numbers of single precision.
+    Singles512, f32, 16, __m512, "avx512f,avx512dq", Truths16, __mmask16,
+    add _mm512_add_ps, sub _mm512_sub_ps, mul _mm512_mul_ps, div _mm512_div_ps,
+    sqrt _mm512_sqrt_ps, splat _mm512_set1_ps,
+    neg |x| _mm512_xor_ps(x, _mm512_set1_ps(-0.0)), compare compare_512_single,
+    pick |truth, then, otherwise| _mm512_mask_blend_ps(truth, otherwise, then),
+    and BitAnd::bitand, or BitOr::bitor, not Not::not,
+    bits |x: __mmask16| u32::from(x), truth mask_bits,
+}
+
+register! {
+    /// Eight numbers of double precision.
+    Doubles512, f64, 8, __m512d, "avx512f,avx512dq", Truths8, __mmask8,
+    add _mm512_add_pd, sub _mm512_sub_pd, mul _mm512_mul_pd, div _mm512_div_pd,
+    sqrt _mm512_sqrt_pd, splat _mm512_set1_pd,
+    neg |x| _mm512_xor_pd(x, _mm512_set1_pd(-0.0)), compare compare_512_double,
+    pick |truth, then, otherwise| _mm512_mask_blend_pd(truth, otherwise, then),
+    and BitAnd::bitand, or BitOr::bitor, not Not::not,
+    bits |x: __mmask8| u32::from(x), truth mask_bits,
+}
