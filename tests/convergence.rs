@@ -5,8 +5,8 @@ use dbd_kernel::damping::Damping;
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::model::ModelOwner;
 use dbd_kernel::{
-    BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F64, JointWise, Leapfrog,
-    LoadFrame, Pefrl, Rk4, Scheme, SemiImplicitEuler, Vec3,
+    BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F64, Leapfrog, LoadFrame,
+    Pefrl, Rk4, Scheme, SemiImplicitEuler, Vec3,
 };
 use dbd_tests::page::{block, figure, table};
 use dbd_tests::{Bench, distance, hung_ring, run, turned};
@@ -102,8 +102,6 @@ impl Case {
             Rk4 = Rk4;
             Explicit<SemiImplicitEuler> = Explicit(SemiImplicitEuler);
             Explicit<Leapfrog> = Explicit(Leapfrog);
-            JointWise<SemiImplicitEuler> = JointWise(SemiImplicitEuler);
-            JointWise<Leapfrog> = JointWise(Leapfrog);
         }
         observed
     }
@@ -144,7 +142,6 @@ fn in_the_plane_with_dampers() {
         let (order, fine) = (format!("{:.2}", of.order), of.fine);
         let error = match (of.name, of.damping) {
             ("leapfrog", Damping::Sweeps) => case.error(Leapfrog, 8_000),
-            ("leapfrog", Damping::JointWise) => case.error(JointWise(Leapfrog), 8_000),
             _ => fine,
         };
         let cells = [format!("`{}`", of.name), of.damping.name().into(), order, figure(error, 2)];

@@ -10,8 +10,7 @@ use micromath::F32Ext;
 
 use crate::euler::{EulerAngles, Trigonometric};
 use crate::geometry::{Float, Named};
-use crate::one_lane;
-use crate::real::{Constant, Real};
+use crate::real::{Constant, Real, one_lane};
 use crate::words::{Word, WordSource};
 
 /// A number of single precision whose functions are approximations.

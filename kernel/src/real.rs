@@ -285,6 +285,8 @@ macro_rules! one_lane {
     };
 }
 
+pub use one_lane;
+
 impl Real for f64 {
     one_lane!();
 

@@ -199,8 +199,11 @@ pub fn check_step(method: &Method, step: f64) -> Result<(), PlantError> {
 ///
 /// # Errors
 /// [`PlantError::Input`] with the first input that it does not; [`PlantError::Method`] where this
-/// build does not hold the precision.
+/// build does not hold the precision, [`PlantError::Planar`] where a planar scene does not run in it.
 pub fn check_inputs(scene: &Scene, method: &Method) -> Result<(), PlantError> {
+    if scene.planar.is_some() {
+        return with_planar_precision!(method, P => Ok(scene.check_inputs::<P>()?));
+    }
     with_precision!(method, P => Ok(scene.check_inputs::<P>()?))
 }
 

@@ -103,7 +103,7 @@ mod tests {
         };
         let text = text(&[own.clone(), bushing]);
         for part in
-            ["as it is", "2.0e-5", "40 µs", "8 × as fast", "2345", "--set realisation=bushing"]
+            ["as it is", "2.0e-5", "40us", "8 × as fast", "2345", "--set realisation=bushing"]
         {
             assert!(text.contains(part), "{part}: {text}");
         }

@@ -14,7 +14,8 @@ use syn::{Expr, ExprLit, Field, GenericArgument, Lit, Meta, PathArguments, Type,
 /// Crates whose types users meet.
 const CRATES: [&str; 5] = ["kernel", "scene", "plant", "golden", "node"];
 /// Files whose types are numbers of any unit: vectors, constants of arithmetic, a precision.
-const ANY_UNIT: [&str; 3] = ["kernel/src/vector.rs", "kernel/src/real.rs", "kernel/src/loose.rs"];
+const ANY_UNIT: [&str; 4] =
+    ["kernel/src/vector.rs", "kernel/src/plane.rs", "kernel/src/real.rs", "kernel/src/loose.rs"];
 /// What a number is called in the sources.
 const NUMBERS: [&str; 5] = ["f64", "f32", "R", "Real", "Local"];
 /// What holds numbers of one unit.

@@ -143,6 +143,10 @@ fn every_key_of_a_summary_is_in_the_reference() {
     let golden = crate::golden::bless(folder.path("a.golden").to_str().unwrap(), 1e-3);
     let summary: Value = serde_json::from_str(&golden.summary.json()).unwrap();
     written.extend(summary.as_object().unwrap().keys().cloned());
+    // And of one in its plane.
+    let done = folder.run(&scene, &["--planar", "--json"]);
+    let summary: Value = serde_json::from_str(&done.out).unwrap();
+    written.extend(summary.as_object().unwrap().keys().cloned());
     // And of one that is assembled.
     let open = PENDULUM.replace("[[body]]", "[assemble]\n[[body]]");
     let done = folder.run(&folder.scene(&open), &["--json"]);
