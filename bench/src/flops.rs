@@ -17,7 +17,7 @@ const STEPS: u64 = 16;
 /// Steps that are taken before.
 const BEFORE: u64 = 16;
 
-/// Floating-point operations per step of a model from t = 0 on, mean of [`STEPS`] after as many others;
+/// Floating-point operations per step of a model from t = 0 on, mean of `STEPS` after as many others;
 /// `None` where
 /// the step `step` \[s\] is none in this precision, or a run with it fails at once.
 #[must_use]
