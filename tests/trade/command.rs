@@ -30,7 +30,15 @@ fn the_command_leaves_its_files_and_says_how_to_run_what_it_chose() {
     let (exit, said, errors) = call(&["trade", "spring-ball", "--window", "0.1s", "--out", out]);
     assert_eq!(exit, Exit::Done);
     // Not a terminal: a line for each part of the work.
-    let parts = ["chaos", "the truth", "opinion", "stable steps", "0 % of", "measuring times"];
+    let parts = [
+        "chaos",
+        "the truth",
+        "opinion",
+        "stable steps",
+        "0 % of",
+        "measuring times",
+        "joints of another make",
+    ];
     assert_eq!(errors.lines().count(), parts.len(), "{errors}");
     for (line, part) in errors.lines().zip(parts) {
         assert!(line.contains(part), "{errors}");
