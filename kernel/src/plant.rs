@@ -19,7 +19,7 @@ use crate::schedule::{KnotStep, LoadWindow, Signal, StageTime, sample};
 use crate::schemes::Scheme;
 use crate::state::State;
 use crate::status::{Cause, Failure, Status};
-use crate::step::{Diagonal, Ledger, Stepper};
+use crate::step::{Diagonal, Ledger, Stepper, Workspace};
 use crate::words::is_finite;
 
 /// A model stepped by a scheme at a fixed step. `H` points to the model: `&M`, or a pointer that
@@ -172,7 +172,7 @@ where
     #[inline(always)]
     fn attempt(&mut self) -> Result<(), Cause> {
         let model = self.model.view();
-        self.scheme.step(&mut Stepper {
+        let workspace = Workspace {
             model,
             h: self.h,
             diagonals: self.diagonals.as_ref(),
@@ -186,9 +186,9 @@ where
             step: self.state.step,
             frames: self.frames.as_mut(),
             wrenches: self.wrenches.as_mut(),
-            memory: self.memory.as_mut(),
             ledger: &mut self.ledger,
-        })
+        };
+        self.scheme.step(&mut Stepper { workspace, memory: self.memory.as_mut() })
     }
 
     /// Latches a failure.

@@ -1,8 +1,10 @@
 //! What schemes are made of: evaluation, kick, drift, on the memory of one plant.
 //!
-//! [`Stepper`] borrows model, state and scratch for one step. A kick changes velocities by
+//! [`Workspace`] borrows model, state and scratch for one step. A kick changes velocities by
 //! `(h·D⁻¹)·Q`, a drift changes poses; the diagonal h·D⁻¹ is computed once per (model, step),
 //! D the diagonal of masses and principal inertias (Franco & Degani 2026, eq. 7–8).
+
+use core::ops::{Deref, DerefMut};
 
 pub use crate::body::Diagonal;
 use crate::body::{Body, BodyState, Increment};
@@ -32,11 +34,37 @@ pub(crate) struct Ledger {
     pub(crate) ready: bool,
 }
 
-/// Model, state and scratch of one plant, lent for one step. `S` is the scheme's memory per body.
+/// Model, state and scratch of one plant, lent for one step, with the scheme's memory `S` per body.
 ///
-/// A scheme is written with its methods: [`Self::evaluate`], [`Self::kick`], [`Self::drift`], the
-/// sweeps, and [`Self::each`] for what is a scheme's own.
+/// A scheme is written with the methods of its [`Workspace`]: [`Workspace::evaluate`],
+/// [`Workspace::kick`], [`Workspace::drift`], the sweeps, and with [`Self::each`] for what is a
+/// scheme's own.
 pub struct Stepper<'s, 'm, P: Geometry, T, S> {
+    /// What does not depend on the scheme.
+    pub(crate) workspace: Workspace<'s, 'm, P, T>,
+    /// The scheme's memory per body.
+    pub(crate) memory: &'s mut [S],
+}
+
+impl<'s, 'm, P: Geometry, T, S> Deref for Stepper<'s, 'm, P, T, S> {
+    type Target = Workspace<'s, 'm, P, T>;
+
+    #[inline(always)]
+    fn deref(&self) -> &Self::Target {
+        &self.workspace
+    }
+}
+
+impl<P: Geometry, T, S> DerefMut for Stepper<'_, '_, P, T, S> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        &mut self.workspace
+    }
+}
+
+/// Model, state and scratch of one plant, lent for one step: the same for all schemes, so that what
+/// they are made of is compiled once for them all.
+pub struct Workspace<'s, 'm, P: Geometry, T> {
     /// The model.
     pub(crate) model: ModelRef<'m, P, T>,
     /// \[s\] the step size, rounded to the precision.
@@ -63,13 +91,11 @@ pub struct Stepper<'s, 'm, P: Geometry, T, S> {
     pub(crate) frames: &'s mut [P::Frame],
     /// The bodies' wrenches.
     pub(crate) wrenches: &'s mut [Wrench<P::Space>],
-    /// The scheme's memory per body.
-    pub(crate) memory: &'s mut [S],
     /// Evaluations and the freshness of the wrenches.
     pub(crate) ledger: &'s mut Ledger,
 }
 
-impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
+impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
     /// \[s\] the step size, rounded to the precision.
     #[must_use]
     pub fn step_size(&self) -> P::Real {
@@ -111,7 +137,11 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     /// [`Cause::UndefinedTwist`] names the torsion spring whose twist is undefined.
     #[inline(always)]
     pub fn evaluate<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
-        if P::Real::LANES == 1 { self.evaluate_apart::<D>(at) } else { self.evaluate_here::<D>(at) }
+        if P::Real::LANES == 1 {
+            self.evaluate_apart::<D::Forces>(at)
+        } else {
+            self.evaluate_here::<D::Forces>(at)
+        }
     }
 
     // One body of it for all of a scheme's evaluations.
@@ -292,6 +322,26 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
             damping::sweep::<P, T, _, REVERSE>(&self.model, &sweep, self.bodies);
         }
     }
+}
+
+impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
+    /// [`Workspace::drift`].
+    #[inline(always)]
+    pub fn drift(&mut self, time: P::Real) {
+        self.workspace.drift(time);
+    }
+
+    /// [`Workspace::kick_and_drift`].
+    #[inline(always)]
+    pub fn kick_and_drift(&mut self, scale: P::Real, time: P::Real) {
+        self.workspace.kick_and_drift(scale, time);
+    }
+
+    /// [`Workspace::drift_of_order_four`].
+    #[inline(always)]
+    pub fn drift_of_order_four(&mut self, time: P::Real) {
+        self.workspace.drift_of_order_four(time);
+    }
 
     /// Visits every body with its memory, its state, `(h·D⁻¹)·Q` with the gyroscopic term
     /// `−ω × (I·ω)` at its present rate, Q its wrench at the last evaluation, and h.
@@ -300,14 +350,13 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
         &mut self,
         mut visit: impl FnMut(&mut S, &mut BodyState<P>, Increment<P::Space>, P::Real),
     ) {
-        self.ledger.fresh = false;
-        let h = self.h;
-        let rows = self
-            .bodies
+        let Workspace { bodies, model, wrenches, diagonals, ledger, h, .. } = &mut self.workspace;
+        ledger.fresh = false;
+        let rows = bodies
             .iter_mut()
             .zip(self.memory.iter_mut())
-            .zip(self.model.bodies)
-            .zip(self.wrenches.iter().zip(self.diagonals));
+            .zip(model.bodies)
+            .zip(wrenches.iter().zip(*diagonals));
         for (((state, memory), body), (wrench, diagonal)) in rows {
             let w = P::spin(&state.angular_velocity);
             let torque = wrench.torque - w.commutator(body.inertia.scale(w));
@@ -315,7 +364,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
                 linear: wrench.force * diagonal.mass,
                 angular: torque.scale(diagonal.inertia),
             };
-            visit(memory, state, increment, h);
+            visit(memory, state, increment, *h);
         }
     }
 }

@@ -261,8 +261,9 @@ impl<P: Geometry, S: Scheme> AnyPlant for Typed<P, S>
 where
     Plant<Arc<SceneModel<P>>, S>: Send,
 {
+    // As the other one, so that a step is compiled once.
     fn step(&mut self) -> Status {
-        self.plant.step()
+        self.plant.advance(1)
     }
 
     fn advance(&mut self, n: u64) -> Status {

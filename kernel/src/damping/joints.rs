@@ -20,7 +20,6 @@ use crate::space::{Linear as _, Moment as _, Vector as _};
 
 /// One pass over all levers and dampers, ascending, or descending with `REVERSE`; the levers are
 /// ready.
-#[inline]
 pub(crate) fn sweep_joints<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
@@ -141,7 +140,6 @@ fn between<P: Geometry, T: Terms, const REVERSE: bool>(
 }
 
 /// Makes all levers ready: for this pose and for the kick of `sweep`.
-#[inline]
 pub(crate) fn prepare<P: Geometry, T: Terms, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,

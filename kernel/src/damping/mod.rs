@@ -110,6 +110,29 @@ pub(crate) fn sweep<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     sweep: &Sweep<'_, P, K>,
     bodies: &mut [BodyState<P>],
 ) {
+    if P::Real::LANES == 1 {
+        sweep_apart::<P, T, K, REVERSE>(model, sweep, bodies);
+    } else {
+        sweep_here::<P, T, K, REVERSE>(model, sweep, bodies);
+    }
+}
+
+// One body of it for all schemes.
+fn sweep_apart<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    bodies: &mut [BodyState<P>],
+) {
+    sweep_here::<P, T, K, REVERSE>(model, sweep, bodies);
+}
+
+// Lanes are stepped by a function that may use more instructions than its callees: it has none.
+#[inline(always)]
+fn sweep_here<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    bodies: &mut [BodyState<P>],
+) {
     let torsions = model.torsions.iter().zip(P::Real::counts(sweep.turns));
     if REVERSE {
         if T::TORSIONS {

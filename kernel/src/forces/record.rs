@@ -39,6 +39,8 @@ impl<S: Space> Record<S> {
 
 /// Whether the dampers' forces are part of an evaluation.
 pub trait Dampers {
+    /// What of them matters to an evaluation: those that do the same there are one type.
+    type Forces: Dampers;
     /// Whether they act.
     const ACT: bool;
     /// Whether what is left of them acts joint by joint.
@@ -50,6 +52,7 @@ pub trait Dampers {
 pub struct ExplicitDampers;
 
 impl Dampers for ExplicitDampers {
+    type Forces = Self;
     const ACT: bool = true;
 }
 
@@ -58,6 +61,7 @@ impl Dampers for ExplicitDampers {
 pub struct DampersLeft;
 
 impl Dampers for DampersLeft {
+    type Forces = Self;
     const ACT: bool = false;
 }
 
@@ -66,6 +70,7 @@ impl Dampers for DampersLeft {
 pub struct DampersOfJoints;
 
 impl Dampers for DampersOfJoints {
+    type Forces = DampersLeft;
     const ACT: bool = false;
     const JOINT_WISE: bool = true;
 }

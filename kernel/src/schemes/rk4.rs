@@ -59,7 +59,8 @@ impl Scheme for Rk4 {
         &self,
         stepper: &mut Stepper<'_, '_, P, T, Rk4Memory<P>>,
     ) -> Result<(), Cause> {
-        for (memory, state) in stepper.memory.iter_mut().zip(stepper.bodies.iter()) {
+        let states = stepper.workspace.bodies.iter();
+        for (memory, state) in stepper.memory.iter_mut().zip(states) {
             *memory = Rk4Memory { start: *state, ..Rk4Memory::default() };
         }
         let (half, one, two) = (P::Real::HALF, P::Real::ONE, P::Real::TWO);
