@@ -11,7 +11,7 @@ use core::marker::PhantomData;
 
 use crate::attitude::Attitude;
 use crate::real::Real;
-use crate::space::{Moment, Space, Vector};
+use crate::space::{Linear, Moment, Space, Vector};
 use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::Words;
 
@@ -27,6 +27,26 @@ pub struct Limits {
     pub drift: f64,
     /// \[m\] the ground that an input moves.
     pub shift: f64,
+}
+
+/// The way from one point to another, and how long it is beside a free length.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reach<V: Linear> {
+    /// \[m\] world axes.
+    pub way: V,
+    /// \[m\] its length.
+    pub length: V::Real,
+    /// \[m\] what of it is beyond the free length.
+    pub beyond: V::Real,
+}
+
+impl<V: Linear> Reach<V> {
+    /// Of a way in its own number.
+    #[inline(always)]
+    pub fn of(way: V, free_length: V::Real) -> Self {
+        let length = way.dot(way).sqrt();
+        Self { way, length, beyond: length - free_length }
+    }
 }
 
 /// How a precision stores and combines positions and velocities, and which attitude goes with them.
@@ -73,6 +93,16 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     fn shift(location: &Self::Location, by: Self::Vector) -> Self::Location;
     /// `to − from` \[m\], world axes.
     fn displacement(from: &Self::Location, to: &Self::Location) -> Self::Vector;
+    /// [`Self::displacement`] beside a free length \[m\]: a precision may know the difference of the lengths
+    /// better than the way.
+    #[inline(always)]
+    fn reach(
+        from: &Self::Location,
+        to: &Self::Location,
+        free_length: Self::Real,
+    ) -> Reach<Self::Vector> {
+        Reach::of(Self::displacement(from, to), free_length)
+    }
     /// Body axes to world axes.
     fn to_world(frame: &Self::Frame, v: Self::Vector) -> Self::Vector;
     /// World axes to body axes.

@@ -7,6 +7,7 @@
 
 use crate::elements::clearance::{beyond, engaged};
 use crate::elements::point_law::{PointLaw, Stretch, taut};
+use crate::geometry::Reach;
 use crate::real::Real;
 use crate::space::{Linear, Vector};
 
@@ -34,29 +35,34 @@ impl<R: Real> Tsda<R> {
     /// Force on A \[N\] without damping, beyond a clearance \[m\] if there is one.
     #[inline(always)]
     pub fn force<V: Linear<Real = R>>(&self, d: V, clearance: Option<R>) -> V {
-        let length = d.dot(d).sqrt();
-        let inverse = length.reciprocal_or_zero();
-        let tension = self.stiffness * beyond(length - self.free_length, clearance);
-        d * (tension * inverse)
+        self.pull(&Reach::of(d, self.free_length), clearance)
     }
 
-    /// [`Self::force`] of several without clearance: whether any has no length is asked once.
+    /// [`Self::force`] at a known reach.
     #[inline(always)]
-    pub(crate) fn forces<V: Linear<Real = R>, const N: usize>(
+    pub(crate) fn pull<V: Linear<Real = R>>(&self, reach: &Reach<V>, clearance: Option<R>) -> V {
+        let inverse = reach.length.reciprocal_or_zero();
+        let tension = self.stiffness * beyond(reach.beyond, clearance);
+        reach.way * (tension * inverse)
+    }
+
+    /// [`Self::pull`] of several without clearance: whether any has no length is asked once.
+    #[inline(always)]
+    pub(crate) fn pulls<V: Linear<Real = R>, const N: usize>(
         springs: &[Self; N],
-        d: &[V; N],
+        reaches: &[Reach<V>; N],
     ) -> [V; N] {
         let mut lengths = [R::ZERO; N];
         for i in 0..N {
-            lengths[i] = d[i].dot(d[i]).sqrt();
+            lengths[i] = reaches[i].length;
         }
         let inverses = R::reciprocals_or_zero(lengths);
-        let mut forces = *d;
+        let mut pulls = [V::ZERO; N];
         for i in 0..N {
-            let tension = springs[i].stiffness * (lengths[i] - springs[i].free_length);
-            forces[i] = d[i] * (tension * inverses[i]);
+            let tension = springs[i].stiffness * reaches[i].beyond;
+            pulls[i] = reaches[i].way * (tension * inverses[i]);
         }
-        forces
+        pulls
     }
 
     /// Force on A \[N\] with the damper's share, `damping` in N·s/m.
@@ -68,12 +74,22 @@ impl<R: Real> Tsda<R> {
         v_rel: V,
         clearance: Option<R>,
     ) -> V {
-        let length = d.dot(d).sqrt();
-        let inverse = length.reciprocal_or_zero();
-        let extension = length - self.free_length;
-        let damping = engaged(damping, extension, clearance);
+        self.damped_pull(damping, &Reach::of(d, self.free_length), v_rel, clearance)
+    }
+
+    /// [`Self::damped_force`] at a known reach.
+    #[inline(always)]
+    pub(crate) fn damped_pull<V: Linear<Real = R>>(
+        &self,
+        damping: R,
+        reach: &Reach<V>,
+        v_rel: V,
+        clearance: Option<R>,
+    ) -> V {
+        let (d, inverse) = (reach.way, reach.length.reciprocal_or_zero());
+        let damping = engaged(damping, reach.beyond, clearance);
         let tension =
-            self.stiffness * beyond(extension, clearance) + damping * (d.dot(v_rel) * inverse);
+            self.stiffness * beyond(reach.beyond, clearance) + damping * (d.dot(v_rel) * inverse);
         d * (tension * inverse)
     }
 }

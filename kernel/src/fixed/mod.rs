@@ -16,9 +16,10 @@ mod turn;
 pub use turn::FixedTurn;
 
 use crate::compensated::{CompensatedF32, Kept};
-use crate::fixed::number::{from_f32, from_f64, to_f32, to_f64};
+use crate::fixed::number::{from_f32, from_f64, nearest_f32, squared, to_f32, to_f64};
 use crate::fixed::turn::in_single;
-use crate::geometry::{Geometry, Limits};
+use crate::geometry::{Geometry, Limits, Reach};
+use crate::real::Real as _;
 use crate::vector::{Rotation, Vec3};
 use crate::words::{Word, WordSource, WordVisitor, Words};
 
@@ -110,6 +111,13 @@ fn single<const BITS: i32>(at: [i64; 3]) -> Vec3<f32> {
     Vec3::new(x, y, z)
 }
 
+/// The same near zero, from both sides.
+#[inline(always)]
+fn nearest<const BITS: i32>(at: [i64; 3]) -> Vec3<f32> {
+    let [x, y, z] = at.map(nearest_f32::<BITS>);
+    Vec3::new(x, y, z)
+}
+
 #[inline(always)]
 fn sum(a: [i64; 3], b: [i64; 3]) -> [i64; 3] {
     [a[0].wrapping_add(b[0]), a[1].wrapping_add(b[1]), a[2].wrapping_add(b[2])]
@@ -171,6 +179,21 @@ impl Geometry for Fixed {
     #[inline(always)]
     fn displacement(from: &FixedPlace, to: &FixedPlace) -> Vec3<f32> {
         single::<PLACE>(difference(to.at, from.at))
+    }
+    #[inline(always)]
+    fn reach(from: &FixedPlace, to: &FixedPlace, free_length: f32) -> Reach<Vec3<f32>> {
+        let d = difference(to.at, from.at);
+        let way = nearest::<PLACE>(d);
+        let square = way.dot(way);
+        let length = square.sqrt();
+        // Beyond this the sums of squares end.
+        if square > 256.0 {
+            return Reach { way, length, beyond: length - free_length };
+        }
+        let free = from_f32::<28, 29>(free_length);
+        let more = squared(&d).wrapping_sub(squared(&[free]));
+        let more = to_f32::<{ 2 * (PLACE - 32) }>(more);
+        Reach { way, length, beyond: more * (length + free_length).reciprocal_or_zero() }
     }
     #[inline(always)]
     fn to_world(frame: &FixedPose, v: Vec3<f32>) -> Vec3<f32> {
