@@ -29,24 +29,13 @@ pub struct Limits {
     pub shift: f64,
 }
 
-/// The way from one point to another, and how long it is beside a free length.
+/// The way from one point to another, and what is known of its length beside a free one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reach<V: Linear> {
     /// \[m\] world axes.
     pub way: V,
-    /// \[m\] its length.
-    pub length: V::Real,
-    /// \[m\] what of it is beyond the free length.
-    pub beyond: V::Real,
-}
-
-impl<V: Linear> Reach<V> {
-    /// Of a way in its own number.
-    #[inline(always)]
-    pub fn of(way: V, free_length: V::Real) -> Self {
-        let length = way.dot(way).sqrt();
-        Self { way, length, beyond: length - free_length }
-    }
+    /// \[m²\] by how much its square is more than that of the free length, `None` where the way tells as well.
+    pub more: Option<V::Real>,
 }
 
 /// How a precision stores and combines positions and velocities, and which attitude goes with them.
@@ -101,7 +90,8 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
         to: &Self::Location,
         free_length: Self::Real,
     ) -> Reach<Self::Vector> {
-        Reach::of(Self::displacement(from, to), free_length)
+        let _ = free_length;
+        Reach { way: Self::displacement(from, to), more: None }
     }
     /// Body axes to world axes.
     fn to_world(frame: &Self::Frame, v: Self::Vector) -> Self::Vector;
@@ -124,6 +114,22 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     /// Adds a displacement to a stored position.
     fn translate(position: &mut Self::Position, displacement: Self::Vector);
 
+    /// Moves a position by `velocity` for `time` \[s\].
+    #[inline(always)]
+    fn drift(position: &mut Self::Position, velocity: &Self::Velocity, time: Self::Real) {
+        Self::translate(position, Self::velocity(velocity) * time);
+    }
+    /// Turns about body axis `AXIS` by its `rate` for `time` \[s\], given cosine and sine of half the angle.
+    #[inline(always)]
+    fn turn_about<const AXIS: usize>(
+        orientation: &mut Self::Orientation,
+        rate: &Self::Spin,
+        time: Self::Real,
+        (cos, sin): (Self::Real, Self::Real),
+    ) {
+        let _ = (rate, time);
+        Self::Orientation::turn_about::<AXIS>(orientation, cos, sin);
+    }
     /// Whether a position is within the limits, and no drift before it was beyond them.
     #[inline(always)]
     fn is_within(_position: &Self::Position) -> bool {

@@ -35,15 +35,17 @@ impl<R: Real> Tsda<R> {
     /// Force on A \[N\] without damping, beyond a clearance \[m\] if there is one.
     #[inline(always)]
     pub fn force<V: Linear<Real = R>>(&self, d: V, clearance: Option<R>) -> V {
-        self.pull(&Reach::of(d, self.free_length), clearance)
+        self.pull(&Reach { way: d, more: None }, clearance)
     }
 
-    /// [`Self::force`] at a known reach.
+    /// [`Self::force`] at a reach.
     #[inline(always)]
     pub(crate) fn pull<V: Linear<Real = R>>(&self, reach: &Reach<V>, clearance: Option<R>) -> V {
-        let inverse = reach.length.reciprocal_or_zero();
-        let tension = self.stiffness * beyond(reach.beyond, clearance);
-        reach.way * (tension * inverse)
+        let d = reach.way;
+        let length = d.dot(d).sqrt();
+        let inverse = length.reciprocal_or_zero();
+        let tension = self.stiffness * beyond(self.extended(length, reach), clearance);
+        d * (tension * inverse)
     }
 
     /// [`Self::pull`] of several without clearance: whether any has no length is asked once.
@@ -54,15 +56,26 @@ impl<R: Real> Tsda<R> {
     ) -> [V; N] {
         let mut lengths = [R::ZERO; N];
         for i in 0..N {
-            lengths[i] = reaches[i].length;
+            let d = reaches[i].way;
+            lengths[i] = d.dot(d).sqrt();
         }
         let inverses = R::reciprocals_or_zero(lengths);
         let mut pulls = [V::ZERO; N];
         for i in 0..N {
-            let tension = springs[i].stiffness * reaches[i].beyond;
+            let tension = springs[i].stiffness * springs[i].extended(lengths[i], &reaches[i]);
             pulls[i] = reaches[i].way * (tension * inverses[i]);
         }
         pulls
+    }
+
+    /// \[m\] how much longer than its free length a reach of this `length` is.
+    #[inline(always)]
+    fn extended<V: Linear<Real = R>>(&self, length: R, reach: &Reach<V>) -> R {
+        match reach.more {
+            None => length - self.free_length,
+            // L² − L0² = (L − L0)·(L + L0).
+            Some(more) => more * (length + self.free_length).reciprocal_or_zero(),
+        }
     }
 
     /// Force on A \[N\] with the damper's share, `damping` in N·s/m.
@@ -74,10 +87,10 @@ impl<R: Real> Tsda<R> {
         v_rel: V,
         clearance: Option<R>,
     ) -> V {
-        self.damped_pull(damping, &Reach::of(d, self.free_length), v_rel, clearance)
+        self.damped_pull(damping, &Reach { way: d, more: None }, v_rel, clearance)
     }
 
-    /// [`Self::damped_force`] at a known reach.
+    /// [`Self::damped_force`] at a reach.
     #[inline(always)]
     pub(crate) fn damped_pull<V: Linear<Real = R>>(
         &self,
@@ -86,10 +99,13 @@ impl<R: Real> Tsda<R> {
         v_rel: V,
         clearance: Option<R>,
     ) -> V {
-        let (d, inverse) = (reach.way, reach.length.reciprocal_or_zero());
-        let damping = engaged(damping, reach.beyond, clearance);
+        let d = reach.way;
+        let length = d.dot(d).sqrt();
+        let inverse = length.reciprocal_or_zero();
+        let extension = self.extended(length, reach);
+        let damping = engaged(damping, extension, clearance);
         let tension =
-            self.stiffness * beyond(reach.beyond, clearance) + damping * (d.dot(v_rel) * inverse);
+            self.stiffness * beyond(extension, clearance) + damping * (d.dot(v_rel) * inverse);
         d * (tension * inverse)
     }
 }

@@ -16,10 +16,11 @@ mod turn;
 pub use turn::FixedTurn;
 
 use crate::compensated::{CompensatedF32, Kept};
-use crate::fixed::number::{from_f32, from_f64, nearest_f32, squared, to_f32, to_f64};
+use crate::fixed::number::{
+    exact_product, from_f32, from_f64, nearest_f32, squared, to_f32, to_f64,
+};
 use crate::fixed::turn::in_single;
 use crate::geometry::{Geometry, Limits, Reach};
-use crate::real::Real as _;
 use crate::vector::{Rotation, Vec3};
 use crate::words::{Word, WordSource, WordVisitor, Words};
 
@@ -184,16 +185,13 @@ impl Geometry for Fixed {
     fn reach(from: &FixedPlace, to: &FixedPlace, free_length: f32) -> Reach<Vec3<f32>> {
         let d = difference(to.at, from.at);
         let way = nearest::<PLACE>(d);
-        let square = way.dot(way);
-        let length = square.sqrt();
-        // Beyond this the sums of squares end.
-        if square > 256.0 {
-            return Reach { way, length, beyond: length - free_length };
+        // Beyond this the sums of squares end, and the way tells as well as theirs would.
+        if way.dot(way) > 256.0 || free_length > 16.0 {
+            return Reach { way, more: Some(way.dot(way) - free_length * free_length) };
         }
-        let free = from_f32::<28, 29>(free_length);
+        let free = from_f32::<27, 30>(free_length);
         let more = squared(&d).wrapping_sub(squared(&[free]));
-        let more = to_f32::<{ 2 * (PLACE - 32) }>(more);
-        Reach { way, length, beyond: more * (length + free_length).reciprocal_or_zero() }
+        Reach { way, more: Some(to_f32::<{ 2 * (PLACE - 32) }>(more)) }
     }
     #[inline(always)]
     fn to_world(frame: &FixedPose, v: Vec3<f32>) -> Vec3<f32> {
@@ -240,6 +238,30 @@ impl Geometry for Fixed {
         } else {
             [LOST; 3]
         };
+    }
+    #[inline(always)]
+    fn drift(position: &mut FixedPlace, velocity: &Kept, time: f32) {
+        let Kept { sum: v, lost } = velocity;
+        let [x, y, z] = [(v.x, lost.x), (v.y, lost.y), (v.z, lost.z)]
+            .map(|(sum, lost)| exact_product(sum, lost, time));
+        let (whole, rest) = (Vec3::new(x.0, y.0, z.0), Vec3::new(x.1, y.1, z.1));
+        Self::translate(position, whole);
+        position.at = sum(position.at, fixed(rest));
+    }
+    #[inline(always)]
+    fn turn_about<const AXIS: usize>(
+        orientation: &mut FixedTurn,
+        rate: &Kept,
+        time: f32,
+        _: (f32, f32),
+    ) {
+        let Kept { sum, lost } = rate;
+        let (sum, lost) = match AXIS {
+            0 => (sum.x, lost.x),
+            1 => (sum.y, lost.y),
+            _ => (sum.z, lost.z),
+        };
+        orientation.turn_exactly::<AXIS>(exact_product(sum, lost, 0.5 * time));
     }
     #[inline(always)]
     fn is_within(position: &FixedPlace) -> bool {

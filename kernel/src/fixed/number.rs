@@ -53,6 +53,21 @@ pub(crate) fn to_f32<const BITS: i32>(value: i64) -> f32 {
     high as f32 * const { single_power(32 - BITS) } + low as f32 * const { single_power(-BITS) }
 }
 
+/// The upper half of a number's digits, and the lower.
+#[inline(always)]
+fn digits(value: f32) -> (f32, f32) {
+    let upper = f32::from_bits(value.to_bits() & 0xffff_f000);
+    (upper, value - upper)
+}
+
+/// `(sum − lost)·factor` as two numbers that add up to it, to 2^-35 of it: the product of the upper halves of
+/// their digits, which is exact, and all else (Dekker 1971).
+#[inline(always)]
+pub(crate) fn exact_product(sum: f32, lost: f32, factor: f32) -> (f32, f32) {
+    let ((a, b), (p, q)) = (digits(sum), digits(factor));
+    (a * p, a * q + (b - lost) * factor)
+}
+
 /// The nearest multiple of 2^32, over it, and what is left.
 #[inline(always)]
 fn halves(value: i64) -> (i32, i32) {
