@@ -11,9 +11,32 @@ use core::marker::PhantomData;
 
 use crate::attitude::Attitude;
 use crate::real::Real;
-use crate::space::{Moment, Space, Vector};
+use crate::space::{Linear, Moment, Space, Vector};
 use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::Words;
+
+/// How far what a precision stores may go: of fixed point, for what floats has no end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Limits {
+    /// \[m\] a centre of mass or a point of the ground from the origin, along each axis.
+    pub extent: f64,
+    /// \[m\] a point of a body from its centre of mass.
+    pub reach: f64,
+    /// \[m\] a centre of mass in one drift, along each axis.
+    pub drift: f64,
+    /// \[m\] the ground that an input moves.
+    pub shift: f64,
+}
+
+/// The way from one point to another, and what is known of its length beside a free one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reach<V: Linear> {
+    /// \[m\] world axes.
+    pub way: V,
+    /// \[m²\] by how much its square is more than that of the free length, `None` where the way tells as well.
+    pub more: Option<V::Real>,
+}
 
 /// How a precision stores and combines positions and velocities, and which attitude goes with them.
 pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
@@ -46,6 +69,8 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     const SPACE: &'static str = <Self::Space as Space>::NAME;
     /// How orientations are stored, in users' words.
     const ORIENTATION: &'static str = <Self::Orientation as Attitude>::NAME;
+    /// How far bodies and points may go, `None` where numbers float.
+    const LIMITS: Option<Limits> = None;
 
     /// Prepares a pose for [`Self::place`].
     fn frame(position: &Self::Position, orientation: &Self::Orientation) -> Self::Frame;
@@ -57,6 +82,17 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     fn shift(location: &Self::Location, by: Self::Vector) -> Self::Location;
     /// `to − from` \[m\], world axes.
     fn displacement(from: &Self::Location, to: &Self::Location) -> Self::Vector;
+    /// [`Self::displacement`] beside a free length \[m\]: a precision may know the difference of the lengths
+    /// better than the way.
+    #[inline(always)]
+    fn reach(
+        from: &Self::Location,
+        to: &Self::Location,
+        free_length: Self::Real,
+    ) -> Reach<Self::Vector> {
+        let _ = free_length;
+        Reach { way: Self::displacement(from, to), more: None }
+    }
     /// Body axes to world axes.
     fn to_world(frame: &Self::Frame, v: Self::Vector) -> Self::Vector;
     /// World axes to body axes.
@@ -77,6 +113,33 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     fn spin_up(stored: &mut Self::Spin, increment: Self::Moment);
     /// Adds a displacement to a stored position.
     fn translate(position: &mut Self::Position, displacement: Self::Vector);
+
+    /// Moves a position by `velocity` for `time` \[s\].
+    #[inline(always)]
+    fn drift(position: &mut Self::Position, velocity: &Self::Velocity, time: Self::Real) {
+        Self::translate(position, Self::velocity(velocity) * time);
+    }
+    /// Turns about body axis `AXIS` by its `rate` for `time` \[s\], given cosine and sine of half the angle.
+    #[inline(always)]
+    fn turn_about<const AXIS: usize>(
+        orientation: &mut Self::Orientation,
+        rate: &Self::Spin,
+        time: Self::Real,
+        (cos, sin): (Self::Real, Self::Real),
+    ) {
+        let _ = (rate, time);
+        Self::Orientation::turn_about::<AXIS>(orientation, cos, sin);
+    }
+    /// Whether a position is within the limits, and no drift before it was beyond them.
+    #[inline(always)]
+    fn is_within(_position: &Self::Position) -> bool {
+        true
+    }
+    /// Whether the ground may be moved by `displacement` \[m\].
+    #[inline(always)]
+    fn bears_shift(_displacement: Self::Real) -> bool {
+        true
+    }
 
     /// Rounds a world position \[m\] once.
     fn position_from_f64(position: [f64; 3]) -> Self::Position;

@@ -3,6 +3,7 @@
 //! `(states, turn counts, h) => the first fault`. One pass over the bodies; turn counts only where a
 //! model has torsion springs. What costs more than a step can bear is [`crate::watch`]'s.
 
+use crate::attitude::Attitude as _;
 use crate::body::BodyState;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, TorsionIndex};
@@ -36,6 +37,22 @@ pub(crate) fn first_fault<P: Geometry, T: Terms>(
     if T::TORSIONS {
         let ended = turns.iter().position(|turns| matches!(*turns, i32::MIN | i32::MAX))?;
         return Some(Cause::Turns { spring: TorsionIndex(ended as u16) });
+    }
+    None
+}
+
+/// The first body whose orientation or place a precision of fixed point could not store.
+#[inline]
+pub(crate) fn first_beyond<P: Geometry>(bodies: &[BodyState<P>]) -> Option<Cause> {
+    P::LIMITS?;
+    for (row, state) in bodies.iter().enumerate() {
+        let body = BodyIndex(row as u16);
+        if state.orientation.is_lost() {
+            return Some(Cause::Spin { body });
+        }
+        if !P::is_within(&state.position) {
+            return Some(Cause::Extent { body });
+        }
     }
     None
 }
