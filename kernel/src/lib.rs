@@ -9,9 +9,9 @@
 //! - [`words`], `square_root`, [`real`], [`vector`], [`space`], [`plane`], [`arctangent`]: the
 //!   arithmetic, and the words in which it is stored.
 //! - `compositions`, [`index`]: coefficients, and names of a model's parts.
-//! - [`attitude`], [`geometry`], [`planar`], [`euler`], [`loose`]: a precision is a type: [`F64`],
-//!   [`F32`], in the plane [`Planar64`], [`Planar32`]; an orientation is a quaternion or, as in the
-//!   paper, angles.
+//! - [`attitude`], [`geometry`], [`compensated`], [`planar`], [`euler`], [`loose`]: a precision is a
+//!   type: [`F64`], [`F32`], [`CompensatedF32`], in the plane [`Planar64`], [`Planar32`]; an
+//!   orientation is a quaternion or, as in the paper, angles.
 //! - [`body`], [`rotation`], `lockstep`: one rigid body, and how it turns, alone or in lanes.
 //! - [`status`], [`elements`], [`schedule`]: what can fail; the laws, one per file; what happens when.
 //! - [`mod@model`], [`sketch`], [`state`]: read-only constants of bodies and elements, and how a person
@@ -66,6 +66,7 @@ pub mod attitude;
 pub mod body;
 #[cfg(feature = "heapless")]
 pub mod builder;
+pub mod compensated;
 mod compositions;
 #[cfg(feature = "nalgebra")]
 mod convert;
@@ -106,6 +107,7 @@ pub mod watch;
 pub mod words;
 
 pub use body::{Body, BodyState};
+pub use compensated::CompensatedF32;
 pub use elements::load::{Load, LoadFrame};
 pub use elements::point_bushing::PointBushing;
 pub use elements::point_on_line::PointOnLine;
