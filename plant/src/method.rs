@@ -84,6 +84,17 @@ pub enum MethodError {
         /// The precision or the way of storing orientations.
         what: &'static str,
     },
+    /// A way of storing orientations that a precision has not.
+    #[error("{precision} has no orientations as {orientation}")]
+    #[diagnostic(help(
+        "it stores quaternions of its own: leave --orientation out, or --precision f64 or f32"
+    ))]
+    Orientation {
+        /// The precision's name.
+        precision: &'static str,
+        /// The way of storing orientations.
+        orientation: &'static str,
+    },
     /// A precision in which no pose is at rest.
     #[error("there is no stability to look at in {precision}: its square root is off by per cents")]
     #[diagnostic(help(
@@ -208,24 +219,32 @@ impl Method {
         self.orientation
     }
 
-    /// Whether this build holds it: micromath and Euler angles take the feature `comparison`.
+    /// Whether this build holds it: compensated sums, micromath and Euler angles take the feature
+    /// `comparison`.
     ///
     /// # Errors
-    /// [`MethodError::Comparison`] where it does not.
+    /// [`MethodError::Comparison`] where it does not, [`MethodError::Orientation`] where no build does.
     pub fn check_built(&self) -> Result<(), MethodError> {
-        let usual = self.precision != PrecisionName::F32Micromath
-            && self.orientation == OrientationName::Quaternion;
-        if usual || cfg!(all(feature = "comparison", not(test))) {
+        let quaternions = self.orientation == OrientationName::Quaternion;
+        let usual =
+            matches!(self.precision, PrecisionName::F64 | PrecisionName::F32) && quaternions;
+        let exists = quaternions || self.precision != PrecisionName::F32Compensated;
+        if usual || (exists && cfg!(all(feature = "comparison", not(test)))) {
             Ok(())
         } else {
             Err(self.not_built())
         }
     }
 
-    /// The refusal of a method that is there for comparison.
+    /// The refusal of a method that this build does not hold.
     pub(crate) fn not_built(&self) -> MethodError {
+        let quaternions = self.orientation == OrientationName::Quaternion;
         let what = match self.precision {
-            PrecisionName::F32Micromath => self.precision.name(),
+            PrecisionName::F32Compensated if !quaternions => {
+                let (precision, orientation) = (self.precision.name(), self.orientation.name());
+                return MethodError::Orientation { precision, orientation };
+            }
+            PrecisionName::F32Compensated | PrecisionName::F32Micromath => self.precision.name(),
             PrecisionName::F64 | PrecisionName::F32 => self.orientation.name(),
         };
         MethodError::Comparison { what }
@@ -297,7 +316,7 @@ impl Method {
     pub fn rounded(&self, step: f64) -> f64 {
         match self.precision {
             PrecisionName::F64 => step,
-            PrecisionName::F32 | PrecisionName::F32Micromath => f64::from(step as f32),
+            _ => f64::from(step as f32),
         }
     }
 
@@ -373,7 +392,7 @@ mod tests {
             for orientation in OrientationName::ALL {
                 let method = Method::new(SchemeName::Rk4, None, *precision).unwrap();
                 let method = method.with_orientation(*orientation);
-                let usual = *precision != PrecisionName::F32Micromath
+                let usual = matches!(precision, PrecisionName::F64 | PrecisionName::F32)
                     && *orientation == OrientationName::Quaternion;
                 assert_eq!(method.check_built().is_ok(), usual || built, "{method:?}");
             }

@@ -99,6 +99,8 @@ named! {
         F64 = "f64",
         /// Single precision.
         F32 = "f32",
+        /// Single precision that keeps what sums on the state round off: twice the words.
+        F32Compensated = "f32-compensated",
         /// Single precision with micromath's square root, sine and cosine: what fast and loose costs.
         F32Micromath = "f32-micromath",
     }

@@ -6,6 +6,8 @@
 
 use std::sync::Arc;
 
+#[cfg(all(feature = "comparison", not(test)))]
+use dbd_kernel::CompensatedF32;
 use dbd_kernel::energy::energy;
 #[cfg(all(feature = "comparison", not(test)))]
 use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
@@ -43,6 +45,11 @@ macro_rules! with_precision {
                 $body
             }
             #[cfg(all(feature = "comparison", not(test)))]
+            (PrecisionName::F32Compensated, OrientationName::Quaternion) => {
+                type $P = CompensatedF32;
+                $body
+            }
+            #[cfg(all(feature = "comparison", not(test)))]
             (PrecisionName::F64, OrientationName::Euler321) => {
                 type $P = EulerF64;
                 $body
@@ -77,7 +84,6 @@ macro_rules! with_precision {
                 type $P = LooseSingleEuler32;
                 $body
             }
-            #[cfg(not(all(feature = "comparison", not(test))))]
             (_, _) => Err($method.not_built().into()),
         }
     };
