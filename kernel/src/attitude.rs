@@ -42,6 +42,11 @@ pub trait Attitude: Copy + Debug + Default + PartialEq + Send + Words + 'static 
     fn keep(&mut self, _resting: <Self::Real as Real>::Truth, _start: &Self) {}
     /// Restores unit length, or the range of angles, after the turns of a step.
     fn renormalise(&mut self);
+    /// Whether a turn was none that can be stored: what is left is no orientation.
+    #[inline(always)]
+    fn is_lost(&self) -> bool {
+        false
+    }
     /// Rounds a unit quaternion once, scalar first.
     fn from_f64(orientation: [f64; 4]) -> Self;
     /// The unit quaternion in double precision, scalar first.

@@ -4,6 +4,8 @@
 //! data, the only words of a body that hash and snapshot see.
 
 use crate::attitude::Attitude as _;
+use crate::compensated::Kept;
+use crate::fixed::{Fixed, FixedPlace, FixedTurn};
 use crate::geometry::{F32, F64, Geometry};
 use crate::planar::{Planar32, Planar64};
 use crate::plane::{Axial, Heading, Plane, Vec2};
@@ -210,6 +212,24 @@ macro_rules! constants {
             }
         }
     };
+}
+
+impl BodyState<Fixed> {
+    /// [`Self::from_f64`] in a constant, with the same bits.
+    #[must_use]
+    pub const fn new(
+        position: [f64; 3],
+        orientation: [f64; 4],
+        velocity: [f64; 3],
+        angular_velocity: [f64; 3],
+    ) -> Self {
+        Self {
+            position: FixedPlace::new(position),
+            orientation: FixedTurn::new(orientation),
+            velocity: Kept::from_f64(velocity),
+            angular_velocity: Kept::from_f64(angular_velocity),
+        }
+    }
 }
 
 constants!(f64, F64);

@@ -15,6 +15,20 @@ use crate::space::{Moment, Space, Vector};
 use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::Words;
 
+/// How far what a precision stores may go: of fixed point, for what floats has no end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Limits {
+    /// \[m\] a centre of mass or a point of the ground from the origin, along each axis.
+    pub extent: f64,
+    /// \[m\] a point of a body from its centre of mass.
+    pub reach: f64,
+    /// \[m\] a centre of mass in one drift, along each axis.
+    pub drift: f64,
+    /// \[m\] the ground that an input moves.
+    pub shift: f64,
+}
+
 /// How a precision stores and combines positions and velocities, and which attitude goes with them.
 pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     /// The number in which forces and rates are computed.
@@ -46,6 +60,8 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     const SPACE: &'static str = <Self::Space as Space>::NAME;
     /// How orientations are stored, in users' words.
     const ORIENTATION: &'static str = <Self::Orientation as Attitude>::NAME;
+    /// How far bodies and points may go, `None` where numbers float.
+    const LIMITS: Option<Limits> = None;
 
     /// Prepares a pose for [`Self::place`].
     fn frame(position: &Self::Position, orientation: &Self::Orientation) -> Self::Frame;
@@ -77,6 +93,17 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     fn spin_up(stored: &mut Self::Spin, increment: Self::Moment);
     /// Adds a displacement to a stored position.
     fn translate(position: &mut Self::Position, displacement: Self::Vector);
+
+    /// Whether a position is within the limits, and no drift before it was beyond them.
+    #[inline(always)]
+    fn is_within(_position: &Self::Position) -> bool {
+        true
+    }
+    /// Whether the ground may be moved by `displacement` \[m\].
+    #[inline(always)]
+    fn bears_shift(_displacement: Self::Real) -> bool {
+        true
+    }
 
     /// Rounds a world position \[m\] once.
     fn position_from_f64(position: [f64; 3]) -> Self::Position;

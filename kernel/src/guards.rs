@@ -3,6 +3,7 @@
 //! `(states, turn counts, h) => the first fault`. One pass over the bodies; turn counts only where a
 //! model has torsion springs. What costs more than a step can bear is [`crate::watch`]'s.
 
+use crate::attitude::Attitude as _;
 use crate::body::BodyState;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, TorsionIndex};
@@ -13,7 +14,7 @@ use crate::status::{Cause, MOST_TURN};
 use crate::words::is_finite;
 
 /// The first body with a number in its state that is infinite or NaN or that turns too far in a
-/// step, else the first turn count at its end.
+/// step or is beyond what is stored, else the first turn count at its end.
 #[inline]
 pub(crate) fn first_fault<P: Geometry, T: Terms>(
     bodies: &[BodyState<P>],
@@ -29,8 +30,11 @@ pub(crate) fn first_fault<P: Geometry, T: Terms>(
         if !is_finite(state) {
             return Some(Cause::NonFinite { body });
         }
-        if !slow {
+        if !slow || state.orientation.is_lost() {
             return Some(Cause::Spin { body });
+        }
+        if !P::is_within(&state.position) {
+            return Some(Cause::Extent { body });
         }
     }
     if T::TORSIONS {

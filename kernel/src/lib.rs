@@ -9,8 +9,8 @@
 //! - [`words`], `square_root`, [`real`], [`vector`], [`space`], [`plane`], [`arctangent`]: the
 //!   arithmetic, and the words in which it is stored.
 //! - `compositions`, [`index`]: coefficients, and names of a model's parts.
-//! - [`attitude`], [`geometry`], [`compensated`], [`planar`], [`euler`], [`loose`]: a precision is a
-//!   type: [`F64`], [`F32`], [`CompensatedF32`], in the plane [`Planar64`], [`Planar32`]; an
+//! - [`attitude`], [`geometry`], [`compensated`], [`fixed`], [`planar`], [`euler`], [`loose`]: a precision
+//!   is a type: [`F64`], [`F32`], [`CompensatedF32`], [`Fixed`], in the plane [`Planar64`], [`Planar32`]; an
 //!   orientation is a quaternion or, as in the paper, angles.
 //! - [`body`], [`rotation`], `lockstep`: one rigid body, and how it turns, alone or in lanes.
 //! - [`status`], [`elements`], [`schedule`]: what can fail; the laws, one per file; what happens when.
@@ -18,8 +18,8 @@
 //!   writes them; plain data and its hash.
 //! - `pose`, [`forces`], [`damping`]: where points lie; one evaluation; dampers as impulses.
 //! - [`step`], [`schemes`]: kick and drift; how they make a step.
-//! - `guards`, `refusal`, [`plant`]: what a step must not have made; why a plant refuses what it is given;
-//!   model, scheme, step and state together.
+//! - `guards`, [`extents`], `refusal`, [`plant`]: what a step must not have made; what a precision cannot
+//!   hold; why a plant refuses what it is given; model, scheme, step and state together.
 //! - [`energy`], [`frequency`], [`watch`]: what a state holds, how fast it can vibrate; guards that
 //!   look at both.
 //! - [`snapshot`], [`readouts`]: a state as bytes from machine to machine; what sensors see.
@@ -74,6 +74,8 @@ pub mod damping;
 pub mod elements;
 pub mod energy;
 pub mod euler;
+pub mod extents;
+pub mod fixed;
 pub mod forces;
 #[cfg(feature = "defmt")]
 mod format;
@@ -116,6 +118,7 @@ pub use elements::torsion_spring::TorsionSpring;
 pub use elements::tsda::Tsda;
 pub use elements::universal::Universal;
 pub use energy::Energy;
+pub use fixed::Fixed;
 pub use geometry::{F32, F64, Geometry};
 pub use index::BodyIndex;
 pub use model::{Model, ModelOwner};

@@ -8,7 +8,10 @@ use core::ops::Deref;
 
 use crate::attitude::Attitude as _;
 use crate::damping::{Damping, Held, Keep, Share, find, share, weigh};
+use crate::elements::input::{Input, InputKind};
+use crate::extents::first_excess;
 use crate::forces::Wrench;
+use crate::geometry::Geometry;
 use crate::guards::first_fault;
 use crate::index::{BodyIndex, InputIndex};
 use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, SpaceOf, Terms};
@@ -58,7 +61,8 @@ where
     /// once to the precision. The diagonals of the inverse Jacobian are computed here.
     ///
     /// # Errors
-    /// [`PlantError::Step`] where the rounded step is not positive and finite.
+    /// [`PlantError::Step`] where the rounded step is not positive and finite, [`PlantError::Extent`] where
+    /// a part of the model is beyond what the precision holds.
     pub fn new(model: H, scheme: S, step_size: f64) -> Result<Self, PlantError> {
         let h = RealOf::<H::Target>::from_f64(step_size);
         if !(h > RealOf::<H::Target>::ZERO && h.is_finite()) {
@@ -66,6 +70,10 @@ where
         }
         let owner = &*model;
         let view = owner.view();
+        let excess = first_excess::<<H::Target as ModelOwner>::Precision, _, _>;
+        if let Some(excess) = excess(&view, owner.initial(), step_size) {
+            return Err(PlantError::Extent(excess));
+        }
         let mut diagonals = owner.per_body(Diagonal::default());
         for (diagonal, body) in diagonals.as_mut().iter_mut().zip(view.bodies) {
             *diagonal = Diagonal::new(body, h);
@@ -299,6 +307,9 @@ where
         if !(value.is_finite() && rate.is_finite()) {
             return Err(InputError::NotFinite(input));
         }
+        if moves_ground(known) && !<H::Target as ModelOwner>::Precision::bears_shift(value) {
+            return Err(InputError::Extent(input));
+        }
         let now = Signal { value, rate };
         if *signal != now {
             *signal = now;
@@ -320,6 +331,13 @@ where
     /// length; nothing is changed then.
     pub fn set_state(&mut self, state: State<H::Target>) -> Result<(), StateError> {
         check(&state, &self.state)?;
+        let inputs = self.model.view().inputs;
+        let known = inputs.iter().zip(state.signals.as_ref());
+        if let Some(row) = known.into_iter().position(|(input, signal)| {
+            moves_ground(input) && !<H::Target as ModelOwner>::Precision::bears_shift(signal.value)
+        }) {
+            return Err(StateError::Signal(InputIndex(row as u16)));
+        }
         self.resume(state);
         Ok(())
     }
@@ -375,6 +393,10 @@ where
     }
 }
 
+fn moves_ground<P: Geometry>(input: &Input<P>) -> bool {
+    matches!(input.kind, InputKind::Anchor { .. })
+}
+
 /// Whether a plant in the state `own` can go on from `state`.
 fn check<M: ModelOwner>(state: &State<M>, own: &State<M>) -> Result<(), StateError> {
     let counts =
@@ -386,6 +408,9 @@ fn check<M: ModelOwner>(state: &State<M>, own: &State<M>) -> Result<(), StateErr
         let index = BodyIndex(i as u16);
         if !is_finite(body) {
             return Err(StateError::NotFinite(index));
+        }
+        if !M::Precision::is_within(&body.position) {
+            return Err(StateError::Extent(index));
         }
         let q = body.orientation.to_f64();
         let norm: f64 = q.iter().map(|c| c * c).sum();

@@ -3,6 +3,7 @@
 //! `condition => error that names it`. Each is a few bytes, without text; the text is made where it is
 //! shown.
 
+use crate::extents::Excess;
 use crate::index::{BodyIndex, InputIndex};
 
 /// Why a plant could not be made.
@@ -11,12 +12,18 @@ use crate::index::{BodyIndex, InputIndex};
 pub enum PlantError {
     /// The step is not a positive finite number in the model's precision.
     Step(f64),
+    /// A part of the model is beyond what the precision holds.
+    Extent(Excess),
 }
 
 impl core::fmt::Display for PlantError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let PlantError::Step(step) = self;
-        write!(f, "the step must be a positive finite time, not {step} s")
+        match self {
+            PlantError::Step(step) => {
+                write!(f, "the step must be a positive finite time, not {step} s")
+            }
+            PlantError::Extent(excess) => excess.fmt(f),
+        }
     }
 }
 
@@ -32,6 +39,8 @@ pub enum InputError {
     Table(InputIndex),
     /// The value is infinite or not a number in the model's precision.
     NotFinite(InputIndex),
+    /// The ground would be moved farther than the precision holds.
+    Extent(InputIndex),
 }
 
 impl core::fmt::Display for InputError {
@@ -40,6 +49,9 @@ impl core::fmt::Display for InputError {
             InputError::Unknown(input) => write!(f, "the model has no input {}", input.0),
             InputError::Table(input) => write!(f, "input {} follows a table", input.0),
             InputError::NotFinite(input) => write!(f, "input {}: the value is not finite", input.0),
+            InputError::Extent(input) => {
+                write!(f, "input {}: fixed-point numbers do not hold the displacement", input.0)
+            }
         }
     }
 }
@@ -54,11 +66,13 @@ pub enum StateError {
     Count,
     /// A number of this body is infinite or not a number.
     NotFinite(BodyIndex),
+    /// This body is farther from the origin than the precision holds.
+    Extent(BodyIndex),
     /// The orientation of this body is no unit quaternion within 1e-3.
     Orientation(BodyIndex),
     /// This body leaves the plane that the model lies in.
     OffPlane(BodyIndex),
-    /// The signal of this input is infinite or not a number.
+    /// The signal of this input is infinite, not a number or beyond what the precision holds.
     Signal(InputIndex),
 }
 
@@ -70,6 +84,9 @@ impl core::fmt::Display for StateError {
             }
             StateError::NotFinite(body) => {
                 write!(f, "the state of body {} is not finite", body.0)
+            }
+            StateError::Extent(body) => {
+                write!(f, "body {} is farther away than fixed-point numbers hold", body.0)
             }
             StateError::Orientation(body) => {
                 write!(f, "the orientation of body {} is no unit quaternion", body.0)

@@ -44,6 +44,11 @@ pub enum Cause {
         /// The first such body.
         body: BodyIndex,
     },
+    /// This body is farther from the origin, or moved farther in a step, than fixed-point numbers hold.
+    Extent {
+        /// The first such body.
+        body: BodyIndex,
+    },
     /// The turn count of this torsion spring is at its end: 2³¹ turns.
     Turns {
         /// The first such spring.
@@ -96,6 +101,9 @@ impl core::fmt::Display for Failure {
             }
             Cause::Spin { body } => {
                 write!(f, "body {} turns by more than {MOST_TURN} rad in a step", body.0)?;
+            }
+            Cause::Extent { body } => {
+                write!(f, "body {} is farther away than fixed-point numbers hold", body.0)?;
             }
             Cause::Turns { spring } => {
                 write!(f, "the turn count of torsion spring {} is at its end", spring.0)?;

@@ -144,6 +144,10 @@ fn describe(scene: &Scene, trouble: Trouble) -> String {
             let body = name(&scene.body_names, body.row());
             format!("body `{body}` turns by more than {MOST_TURN} rad in a step")
         }
+        Trouble::Step(Cause::Extent { body }) => {
+            let body = name(&scene.body_names, body.row());
+            format!("body `{body}` is farther away, or faster, than fixed-point numbers hold")
+        }
         Trouble::Step(Cause::Turns { spring }) => {
             let spring = name(&scene.torsion_names, usize::from(spring.0));
             format!("the turn count of {spring} is at its end")

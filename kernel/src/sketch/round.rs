@@ -1,12 +1,14 @@
 //! From a sketch to a model: counted, rounded once, checked.
 
 use crate::body::{Body, BodyState};
+use crate::compensated::Kept;
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::revolute::Revolute;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::elements::universal::Universal;
+use crate::fixed::{Fixed, FixedPlace, FixedPoint, FixedTurn};
 use crate::geometry::{F32, F64};
 use crate::model::Model;
 use crate::planar::{Planar32, Planar64};
@@ -71,10 +73,27 @@ roundings! {
     f32: vector_f32, quaternion_f32, flat_f32, axial_f32, about_f32, heading_f32;
 }
 
-/// The model of a sketch in one floating-point precision.
+const fn place(v: &Vec3<f64>) -> FixedPlace {
+    FixedPlace::new([v.x, v.y, v.z])
+}
+
+const fn turn(q: &Quaternion<f64>) -> FixedTurn {
+    FixedTurn::new([q.w, q.v.x, q.v.y, q.v.z])
+}
+
+const fn kept(v: &Vec3<f64>) -> Kept {
+    Kept::from_f64([v.x, v.y, v.z])
+}
+
+const fn point(v: &Vec3<f64>) -> FixedPoint {
+    FixedPoint::new([v.x, v.y, v.z])
+}
+
+/// The model of a sketch in one precision.
 macro_rules! models {
     ($($function:ident: $precision:ty, $real:ty, $vector:ident, $moment:ident, $inertia:ident,
-        $quaternion:ident;)*) => {
+        $quaternion:ident,
+        stored $position:ident $turn:ident $velocity:ident $spin:ident $point:ident;)*) => {
         impl Sketch {
             $(
                 /// The model in this precision; its sizes are [`Sketch::counts`].
@@ -125,14 +144,14 @@ macro_rules! models {
                             inverse_ratio: $inertia(&b.inverse_ratio),
                         }),
                         initial: rounded!(self.initial, BODIES, s => BodyState {
-                            position: $vector(&s.position),
-                            orientation: $quaternion(&s.orientation),
-                            velocity: $vector(&s.velocity),
-                            angular_velocity: $moment(&s.angular_velocity),
+                            position: $position(&s.position),
+                            orientation: $turn(&s.orientation),
+                            velocity: $velocity(&s.velocity),
+                            angular_velocity: $spin(&s.angular_velocity),
                         }),
                         gravity: rounded!(self.gravity, GRAVITY, g => $vector(g)),
                         groups: rounded!(self.groups, GROUPS, g => *g),
-                        points: rounded!(self.points, POINTS, p => $vector(p)),
+                        points: rounded!(self.points, POINTS, p => $point(p)),
                         tsdas: rounded!(self.tsdas, TSDAS, t => Tsda {
                             stiffness: t.stiffness as $real,
                             free_length: t.free_length as $real,
@@ -181,14 +200,20 @@ macro_rules! models {
 }
 
 models! {
-    model_f64: F64, f64, vector_f64, vector_f64, vector_f64, quaternion_f64;
-    model_f32: F32, f32, vector_f32, vector_f32, vector_f32, quaternion_f32;
-    model_planar64: Planar64, f64, flat_f64, axial_f64, about_f64, heading_f64;
-    model_planar32: Planar32, f32, flat_f32, axial_f32, about_f32, heading_f32;
+    model_f64: F64, f64, vector_f64, vector_f64, vector_f64, quaternion_f64,
+        stored vector_f64 quaternion_f64 vector_f64 vector_f64 vector_f64;
+    model_f32: F32, f32, vector_f32, vector_f32, vector_f32, quaternion_f32,
+        stored vector_f32 quaternion_f32 vector_f32 vector_f32 vector_f32;
+    model_fixed: Fixed, f32, vector_f32, vector_f32, vector_f32, quaternion_f32,
+        stored place turn kept kept point;
+    model_planar64: Planar64, f64, flat_f64, axial_f64, about_f64, heading_f64,
+        stored flat_f64 heading_f64 flat_f64 axial_f64 flat_f64;
+    model_planar32: Planar32, f32, flat_f32, axial_f32, about_f32, heading_f32,
+        stored flat_f32 heading_f32 flat_f32 axial_f32 flat_f32;
 }
 
-/// A `static` model from a [`Sketch`] in a `const`, in precision `F64` or `F32` or, where it lies in the
-/// plane z = 0, `Planar64` or `Planar32`: the compiler counts its parts, rounds them once and checks
+/// A `static` model from a [`Sketch`] in a `const`, in precision `F64`, `F32` or `Fixed` or, where it lies
+/// in the plane z = 0, `Planar64` or `Planar32`: the compiler counts its parts, rounds them once and checks
 /// every index.
 ///
 /// ```
@@ -239,6 +264,9 @@ macro_rules! model {
     };
     ($(#[$meta:meta])* $visible:vis static $name:ident: F32 = $sketch:path) => {
         $crate::model!(@ [$(#[$meta])* $visible] $name $crate::geometry::F32, model_f32 $sketch);
+    };
+    ($(#[$meta:meta])* $visible:vis static $name:ident: Fixed = $sketch:path) => {
+        $crate::model!(@ [$(#[$meta])* $visible] $name $crate::fixed::Fixed, model_fixed $sketch);
     };
     ($(#[$meta:meta])* $visible:vis static $name:ident: Planar64 = $sketch:path) => {
         $crate::model!(@ [$(#[$meta])* $visible] $name $crate::planar::Planar64, model_planar64 $sketch);

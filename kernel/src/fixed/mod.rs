@@ -1,0 +1,257 @@
+//! Fixed-point geometry: near double precision on a unit for single precision.
+//!
+//! `positions, orientations, points in integers => exact differences => single precision`. Where
+//! bodies are is stored in integers of 64 bits, metres to 2^-57 and unit quaternions to 2^-62; a rotation
+//! has 30 bits after the point, a point 27. A point's place is the exact sum of products, the way between
+//! two points their exact difference, rounded once to single precision. Forces, rates and their increments
+//! are `f32`, velocities compensated sums ([`crate::compensated`]): laws, sweeps, schemes are those of `f32`.
+//!
+//! Integers have ends, and [`LIMITS`] says where: a model is checked when a plant of it is made, a state after
+//! every step ([`Cause::Extent`](crate::status::Cause)), and none ever wraps. Constants of models are made by
+//! [`FixedPoint::new`], [`FixedPlace::new`], [`FixedTurn::new`] and `BodyState::<Fixed>::new`.
+
+mod number;
+mod turn;
+
+pub use turn::FixedTurn;
+
+use crate::compensated::{CompensatedF32, Kept};
+use crate::fixed::number::{from_f32, from_f64, to_f32, to_f64};
+use crate::fixed::turn::in_single;
+use crate::geometry::{Geometry, Limits};
+use crate::vector::{Rotation, Vec3};
+use crate::words::{Word, WordSource, WordVisitor, Words};
+
+/// Bits after the point of a position and of a place, metres.
+pub(crate) const PLACE: i32 = 57;
+/// Bits after the point of a body's points, metres.
+pub(crate) const POINT: i32 = 27;
+
+/// How far bodies and points may go. Within a step, which no guard looks into, a body may go 7 drifts beyond:
+/// places are below 32 m then, ways between two of them below 64 m, which is where integers end.
+pub const LIMITS: Limits = Limits { extent: 24.0, reach: 7.0, drift: 0.125, shift: 7.0 };
+
+/// Where a body is after a drift beyond the limits: 32 m, from where no drifts of a step lead back.
+const LOST: i64 = 1 << (PLACE + 5);
+
+/// Fixed-point geometry with forces in single precision.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Fixed;
+
+/// Where something is, metres to 2^-57.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FixedPlace {
+    /// \[2^-57 m\] world axes.
+    pub at: [i64; 3],
+}
+
+/// A point of a body or of the ground, metres to 2^-27.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FixedPoint {
+    /// \[2^-27 m\] of a body within 32 bits.
+    pub at: [i64; 3],
+}
+
+/// The pose of a body in fixed point, and its rotation in single precision.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FixedPose {
+    position: [i64; 3],
+    rotation: [[i32; 3]; 3],
+    single: Rotation<f32>,
+}
+
+impl FixedPlace {
+    /// A place \[m\] rounded once.
+    #[must_use]
+    pub const fn new(at: [f64; 3]) -> Self {
+        let bits = PLACE as u32;
+        Self { at: [from_f64(at[0], bits), from_f64(at[1], bits), from_f64(at[2], bits)] }
+    }
+}
+
+impl FixedPoint {
+    /// A point \[m\] rounded once.
+    #[must_use]
+    pub const fn new(at: [f64; 3]) -> Self {
+        let bits = POINT as u32;
+        Self { at: [from_f64(at[0], bits), from_f64(at[1], bits), from_f64(at[2], bits)] }
+    }
+}
+
+/// Words of a vector of integers.
+macro_rules! words {
+    ($($name:ident)*) => {
+        $(impl Words for $name {
+            fn visit(&self, visitor: &mut impl WordVisitor) {
+                for c in self.at {
+                    visitor.word(Word::U64(c as u64));
+                }
+            }
+
+            fn fill(&mut self, source: &mut impl WordSource) {
+                for c in &mut self.at {
+                    *c = source.take(8) as i64;
+                }
+            }
+        })*
+    };
+}
+
+words!(FixedPlace FixedPoint);
+
+/// A vector of integers in single precision.
+#[inline(always)]
+fn single<const BITS: i32>(at: [i64; 3]) -> Vec3<f32> {
+    let [x, y, z] = at.map(to_f32::<BITS>);
+    Vec3::new(x, y, z)
+}
+
+#[inline(always)]
+fn sum(a: [i64; 3], b: [i64; 3]) -> [i64; 3] {
+    [a[0].wrapping_add(b[0]), a[1].wrapping_add(b[1]), a[2].wrapping_add(b[2])]
+}
+
+#[inline(always)]
+fn difference(a: [i64; 3], b: [i64; 3]) -> [i64; 3] {
+    [a[0].wrapping_sub(b[0]), a[1].wrapping_sub(b[1]), a[2].wrapping_sub(b[2])]
+}
+
+/// A displacement \[m\] below 8 m, in the units of a place.
+#[inline(always)]
+fn fixed(v: Vec3<f32>) -> [i64; 3] {
+    [v.x, v.y, v.z].map(from_f32::<28, 29>)
+}
+
+impl Geometry for Fixed {
+    type Real = f32;
+    type Vector = Vec3<f32>;
+    type Moment = Vec3<f32>;
+    type Space = f32;
+    type Position = FixedPlace;
+    type Orientation = FixedTurn;
+    type Velocity = Kept;
+    type Spin = Kept;
+    type Local = FixedPoint;
+    type Location = FixedPlace;
+    type Frame = FixedPose;
+
+    const NAME: &'static str = "fixed";
+    const LIMITS: Option<Limits> = Some(LIMITS);
+
+    #[inline(always)]
+    fn frame(position: &FixedPlace, orientation: &FixedTurn) -> FixedPose {
+        let rotation = orientation.matrix();
+        FixedPose { position: position.at, rotation, single: in_single(&rotation) }
+    }
+    #[inline(always)]
+    fn place(frame: &FixedPose, local: &FixedPoint) -> (FixedPlace, Vec3<f32>) {
+        let point = local.at.map(|c| i64::from(c as i32));
+        let row = |position: i64, row: [i32; 3]| {
+            let [x, y, z] = row.map(i64::from);
+            let [px, py, pz] = point;
+            position.wrapping_add(x * px).wrapping_add(y * py).wrapping_add(z * pz)
+        };
+        let ([x, y, z], [rx, ry, rz]) = (frame.position, frame.rotation);
+        let at = [row(x, rx), row(y, ry), row(z, rz)];
+        let [x, y, z] = local.at.map(|c| c as i32 as f32 * const { 1.0 / (1_u32 << POINT) as f32 });
+        (FixedPlace { at }, frame.single.to_world(Vec3::new(x, y, z)))
+    }
+    #[inline(always)]
+    fn ground(local: &FixedPoint) -> FixedPlace {
+        FixedPlace { at: local.at.map(|c| c << (PLACE - POINT)) }
+    }
+    #[inline(always)]
+    fn shift(location: &FixedPlace, by: Vec3<f32>) -> FixedPlace {
+        FixedPlace { at: sum(location.at, fixed(by)) }
+    }
+    #[inline(always)]
+    fn displacement(from: &FixedPlace, to: &FixedPlace) -> Vec3<f32> {
+        single::<PLACE>(difference(to.at, from.at))
+    }
+    #[inline(always)]
+    fn to_world(frame: &FixedPose, v: Vec3<f32>) -> Vec3<f32> {
+        frame.single.to_world(v)
+    }
+    #[inline(always)]
+    fn to_body(frame: &FixedPose, v: Vec3<f32>) -> Vec3<f32> {
+        frame.single.to_body(v)
+    }
+    #[inline(always)]
+    fn moment_to_world(frame: &FixedPose, m: Vec3<f32>) -> Vec3<f32> {
+        frame.single.to_world(m)
+    }
+    #[inline(always)]
+    fn moment_to_body(frame: &FixedPose, m: Vec3<f32>) -> Vec3<f32> {
+        frame.single.to_body(m)
+    }
+    #[inline(always)]
+    fn position(stored: &FixedPlace) -> Vec3<f32> {
+        single::<PLACE>(stored.at)
+    }
+    #[inline(always)]
+    fn velocity(stored: &Kept) -> Vec3<f32> {
+        CompensatedF32::velocity(stored)
+    }
+    #[inline(always)]
+    fn spin(stored: &Kept) -> Vec3<f32> {
+        CompensatedF32::spin(stored)
+    }
+    #[inline(always)]
+    fn accelerate(stored: &mut Kept, increment: Vec3<f32>) {
+        CompensatedF32::accelerate(stored, increment);
+    }
+    #[inline(always)]
+    fn spin_up(stored: &mut Kept, increment: Vec3<f32>) {
+        CompensatedF32::spin_up(stored, increment);
+    }
+    #[inline(always)]
+    fn translate(position: &mut FixedPlace, displacement: Vec3<f32>) {
+        let Vec3 { x, y, z } = displacement;
+        let within = |c: f32| c.abs() <= const { LIMITS.drift as f32 };
+        position.at = if within(x) && within(y) && within(z) {
+            sum(position.at, fixed(displacement))
+        } else {
+            [LOST; 3]
+        };
+    }
+    #[inline(always)]
+    fn is_within(position: &FixedPlace) -> bool {
+        const EXTENT: i32 = (LIMITS.extent as i32) << (PLACE - 32);
+        position.at.iter().all(|c| (-EXTENT..=EXTENT).contains(&((c >> 32) as i32)))
+    }
+    #[inline(always)]
+    fn bears_shift(displacement: f32) -> bool {
+        displacement.abs() <= const { LIMITS.shift as f32 }
+    }
+    fn position_from_f64(position: [f64; 3]) -> FixedPlace {
+        FixedPlace::new(position)
+    }
+    fn position_to_f64(position: &FixedPlace) -> [f64; 3] {
+        position.at.map(|c| to_f64(c, PLACE as u32))
+    }
+    fn velocity_from_f64(velocity: [f64; 3]) -> Kept {
+        CompensatedF32::velocity_from_f64(velocity)
+    }
+    fn velocity_to_f64(velocity: &Kept) -> [f64; 3] {
+        CompensatedF32::velocity_to_f64(velocity)
+    }
+    fn spin_from_f64(spin: [f64; 3]) -> Kept {
+        CompensatedF32::spin_from_f64(spin)
+    }
+    fn spin_to_f64(spin: &Kept) -> [f64; 3] {
+        CompensatedF32::spin_to_f64(spin)
+    }
+    fn local_from_f64(local: [f64; 3]) -> FixedPoint {
+        FixedPoint::new(local)
+    }
+    fn local_to_f64(local: &FixedPoint) -> [f64; 3] {
+        local.at.map(|c| to_f64(c, POINT as u32))
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,141 @@
+//! Numbers of fixed point: an integer times a power of two that its type does not know.
+//!
+//! `f64, f32 <=> i64`, and the product of two numbers of magnitude 1. Conversions to integers saturate;
+//! sums are the caller's to keep in range. Everything is exact or says by how much it is not.
+
+/// 2 to a power, exact.
+const fn power_of_two(exponent: u32) -> f64 {
+    (1_u64 << exponent) as f64
+}
+
+/// `value·2^bits` to the nearest integer, ties away from zero. What is too large saturates, what is no
+/// number becomes the least, which no range holds.
+pub(crate) const fn from_f64(value: f64, bits: u32) -> i64 {
+    if value.is_nan() {
+        return i64::MIN;
+    }
+    let scaled = value * power_of_two(bits);
+    let whole = scaled as i64;
+    let rest = scaled - whole as f64;
+    if rest >= 0.5 {
+        whole.saturating_add(1)
+    } else if rest <= -0.5 {
+        whole.saturating_sub(1)
+    } else {
+        whole
+    }
+}
+
+/// `value·2^-bits`, rounded once.
+pub(crate) const fn to_f64(value: i64, bits: u32) -> f64 {
+    value as f64 * (1.0 / power_of_two(bits))
+}
+
+/// 2 to a power between −126 and 127, exact.
+pub(crate) const fn single_power(exponent: i32) -> f32 {
+    f32::from_bits(((exponent + 127) as u32) << 23)
+}
+
+/// `value·2^(WHOLE + PART)`, cut off towards zero: the upper part by `2^WHOLE`, what it leaves, exactly, by
+/// `2^PART`, at most 30. Saturates at `2^(31 + PART)`.
+#[inline(always)]
+pub(crate) fn from_f32<const WHOLE: i32, const PART: i32>(value: f32) -> i64 {
+    let scaled = value * const { single_power(WHOLE) };
+    let whole = scaled as i32;
+    let part = (scaled - whole as f32) * const { single_power(PART) };
+    (i64::from(whole) << PART).wrapping_add(i64::from(part as i32))
+}
+
+/// The number of single precision near `value·2^-BITS`: within 2^-23 of itself, or 128 where that is more.
+#[inline(always)]
+pub(crate) fn to_f32<const BITS: i32>(value: i64) -> f32 {
+    let (high, low) = ((value >> 32) as i32, value as u32);
+    high as f32 * const { single_power(32 - BITS) } + low as f32 * const { single_power(-BITS) }
+}
+
+/// `a·b` of two numbers of 62 bits after the point, in 60 bits: from 3 below it to 1 above, without the
+/// product of both lower halves. For magnitudes up to 1.99.
+#[inline(always)]
+pub(crate) fn product(a: i64, b: i64) -> i64 {
+    let (a_high, b_high) = (a >> 32, b >> 32);
+    let (a_low, b_low) = (i64::from(a as u32 >> 1), i64::from(b as u32 >> 1));
+    let across = (a_high * b_low).wrapping_add(b_high * a_low);
+    (a_high * b_high).wrapping_add(across >> 31)
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// Pseudo-random words (xorshift, Marsaglia 2003).
+    pub(crate) fn words(mut seed: u64) -> impl Iterator<Item = u64> {
+        core::iter::repeat_with(move || {
+            seed ^= seed << 13;
+            seed ^= seed >> 7;
+            seed ^= seed << 17;
+            seed
+        })
+    }
+
+    #[test]
+    fn double_precision_is_rounded_to_the_nearest_and_saturates() {
+        assert_eq!(from_f64(1.5, 57), 3 << 56);
+        assert_eq!([from_f64(0.5, 0), from_f64(-0.5, 0), from_f64(2.49, 0)], [1, -1, 2]);
+        assert_eq!(from_f64(f64::INFINITY, 57), i64::MAX);
+        assert_eq!(from_f64(-1e300, 57), i64::MIN);
+        assert_eq!(from_f64(f64::NAN, 57), i64::MIN);
+        for word in words(1).take(10_000) {
+            let value = (word as i64 >> 11) as f64 * (-70.0_f64).exp2();
+            let exact = (word as i64 >> 11) as i128;
+            // 2^13 units of 2^-70 to one of 2^-57.
+            let off = i128::from(from_f64(value, 57)) * (1 << 13) - exact;
+            assert!(off.abs() <= 1 << 12, "{value:e}: {off}");
+            assert_eq!(to_f64(word as i64 >> 11, 57) * 57.0_f64.exp2(), (word as i64 >> 11) as f64);
+        }
+    }
+
+    #[test]
+    fn single_precision_is_cut_off_by_less_than_a_unit() {
+        for word in words(2).take(100_000) {
+            // Magnitudes from 2^-60 to 1/8.
+            let mantissa = 0x0080_0000 | (word as u32 & 0x007f_ffff);
+            let exponent = -84 + ((word >> 32) % 58) as i32;
+            let sign = if word >> 63 == 0 { 1 } else { -1 };
+            let value = sign as f32 * mantissa as f32 * single_power(exponent);
+            let exact = (i128::from(sign) * i128::from(mantissa)) << (exponent + 84);
+            let off = (i128::from(from_f32::<30, 27>(value)) << 27) - exact;
+            assert!(off.abs() < 1 << 27, "{value:e}: {off}");
+        }
+        assert_eq!(from_f32::<30, 27>(f32::NAN), 0);
+        assert_eq!(from_f32::<30, 27>(1e30), (i64::from(i32::MAX) << 27) + i64::from(i32::MAX));
+    }
+
+    #[test]
+    fn numbers_come_back_to_single_precision() {
+        for word in words(3).take(100_000) {
+            let value = word as i64 >> (word % 64);
+            let back = f64::from(to_f32::<57>(value)) * 57.0_f64.exp2();
+            let off = i128::from(value) - back as i128;
+            let bound = (value.unsigned_abs() >> 23).max(256);
+            assert!(off.unsigned_abs() <= u128::from(bound), "{value}: {off}");
+        }
+    }
+
+    #[test]
+    fn products_are_within_their_bounds_of_the_exact_ones() {
+        let mut worst = [0_i128; 2];
+        for (a, b) in words(4).zip(words(5)).take(1_000_000) {
+            // Magnitudes up to 1.99.
+            let [a, b] = [a, b].map(|word| ((word as i64) / 2) + ((word as i64) >> 3));
+            let [a, b] = [a, b].map(|v| v >> (v & 15));
+            let exact = i128::from(a) * i128::from(b);
+            if exact.unsigned_abs() >> 124 > 0 {
+                continue;
+            }
+            // 2^64 units of 2^-124 to one of 2^-60.
+            let off = (i128::from(product(a, b)) << 64) - exact;
+            worst = [worst[0].min(off), worst[1].max(off)];
+        }
+        assert!(worst[0] > -3 << 64 && worst[1] < 1 << 64, "{worst:?}");
+    }
+}

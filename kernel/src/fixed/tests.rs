@@ -1,0 +1,181 @@
+use super::number::tests::words;
+use super::*;
+use crate::attitude::Attitude as _;
+use crate::body::BodyState;
+use crate::index::BodyIndex;
+use crate::plant::Plant;
+use crate::schemes::Leapfrog;
+use crate::sketch::{Sketch, Start};
+use crate::status::Cause;
+use crate::vector::Quaternion;
+
+/// Numbers in [−1, 1] of words.
+fn units(seed: u64) -> impl Iterator<Item = f64> {
+    words(seed).map(|word| (word as i64 >> 11) as f64 * (1.0 / (1_u64 << 52) as f64))
+}
+
+fn unit(numbers: &mut impl Iterator<Item = f64>) -> [f64; 4] {
+    let q: [f64; 4] = core::array::from_fn(|_| numbers.next().unwrap());
+    let n = libm::sqrt(q.iter().map(|c| c * c).sum());
+    q.map(|c| c / n)
+}
+
+/// The matrix of a stored quaternion, exact but for its length: entries times 2^124, and the length's
+/// square likewise.
+fn exact_matrix(q: &FixedTurn) -> ([[i128; 3]; 3], i128) {
+    let (w, [x, y, z]) = (i128::from(q.w), q.v.map(i128::from));
+    let n = w * w + x * x + y * y + z * z;
+    let rows = [
+        [n - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), n - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), n - 2 * (x * x + y * y)],
+    ];
+    (rows, n)
+}
+
+#[test]
+fn matrices_are_the_exact_ones_to_the_nearest() {
+    let mut numbers = units(11);
+    for _ in 0..20_000 {
+        let q = FixedTurn::from_f64(unit(&mut numbers));
+        let (exact, n) = exact_matrix(&q);
+        // The length of what double precision gives is 1 within 2^-50.
+        assert!((n - (1 << 124)).abs() < 1 << 74);
+        for (row, exact) in q.matrix().into_iter().zip(exact) {
+            for (c, exact) in row.into_iter().zip(exact) {
+                // 2^94 units of 2^-124 to one of 2^-30: half of one, and a 2^-19th for the length.
+                let off = (i128::from(c) << 94) - exact;
+                assert!(off.abs() < (1 << 93) + (1 << 75), "{q:?}: {off}");
+            }
+        }
+    }
+}
+
+#[test]
+fn turns_are_exact_to_what_they_were_given() {
+    let mut numbers = units(12);
+    for _ in 0..20_000 {
+        let (mut q, turn) = (FixedTurn::from_f64(unit(&mut numbers)), unit(&mut numbers));
+        let (a, turn) = (q, Quaternion::<f32>::from_f64(turn));
+        q.turn(turn);
+        q.renormalise();
+        // The exact product of the exact numbers of single precision, of unit length.
+        let [bw, bx, by, bz] = turn.to_f64().map(|c| (c * (1_u64 << 50) as f64) as i128);
+        let (aw, [ax, ay, az]) = (i128::from(a.w), a.v.map(i128::from));
+        let product = [
+            aw * bw - ax * bx - ay * by - az * bz,
+            aw * bx + ax * bw + ay * bz - az * by,
+            aw * by + ay * bw + az * bx - ax * bz,
+            aw * bz + az * bw + ax * by - ay * bx,
+        ];
+        // Components by 2^112; the length is that of single precision and one Newton step takes its
+        // square off: 2^-46 of it is left.
+        let length = turn.to_f64().iter().map(|c| c * c).sum::<f64>();
+        let root = libm::sqrt(length);
+        for (c, exact) in [q.w, q.v[0], q.v[1], q.v[2]].into_iter().zip(product) {
+            let exact = exact as f64 / root * (1.0 / (1_u64 << 50) as f64);
+            assert!((c as f64 - exact).abs() < 2e4, "{c} {exact}");
+        }
+        let (_, n) = exact_matrix(&q);
+        assert!((n - (1 << 124)).abs() < 1 << 79, "{n}");
+    }
+}
+
+#[test]
+fn places_and_ways_between_them_are_exact() {
+    let mut numbers = units(13);
+    let mut next =
+        move |scale: f64| -> [f64; 3] { core::array::from_fn(|_| numbers.next().unwrap() * scale) };
+    let mut turns = units(14);
+    for _ in 0..20_000 {
+        let position = FixedPlace::new(next(24.0));
+        let point = FixedPoint::new(next(4.0));
+        let ground = FixedPoint::new(next(24.0));
+        let frame = Fixed::frame(&position, &FixedTurn::from_f64(unit(&mut turns)));
+        let (place, arm) = Fixed::place(&frame, &point);
+        let way = Fixed::displacement(&Fixed::ground(&ground), &place).to_f64();
+        for (i, way) in way.into_iter().enumerate() {
+            let row = frame.rotation[i].map(i128::from);
+            let turned: i128 = (0..3).map(|j| row[j] * i128::from(point.at[j])).sum();
+            let exact = i128::from(position.at[i]) + turned;
+            assert_eq!(i128::from(place.at[i]), exact);
+            let exact = (exact - (i128::from(ground.at[i]) << 30)) as f64 / 57.0_f64.exp2();
+            assert!((way - exact).abs() <= exact.abs() * 1.3e-7 + 2e-15, "{way} {exact}");
+            let turned = turned as f64 / 57.0_f64.exp2();
+            assert!((arm.to_f64()[i] - turned).abs() < 2e-6, "{arm:?} {turned}");
+        }
+    }
+}
+
+#[test]
+fn constants_have_the_bits_of_what_is_made_at_run_time() {
+    const AT: [f64; 3] = [0.1, -20.2, 1e-9];
+    const TURN: [f64; 4] = [0.8, 0.0, 0.6, 0.0];
+    const RATES: [[f64; 3]; 2] = [[1.0 / 3.0, 2.0, -0.7], [0.3, 1e10, -1.1]];
+    const STATE: BodyState<Fixed> = BodyState::<Fixed>::new(AT, TURN, RATES[0], RATES[1]);
+    assert_eq!(STATE, BodyState::from_f64(AT, TURN, RATES[0], RATES[1]));
+    let position = Fixed::position_to_f64(&STATE.position);
+    assert!(position.iter().zip(AT).all(|(a, b)| (a - b).abs() < 1e-17 + 4e-16 * b.abs()));
+}
+
+/// A free body with a velocity \[m/s\] and an angular velocity \[rad/s\], stepped by 1 ms.
+fn flight(at: f64, velocity: f64, spin: f64, steps: u64) -> (Result<(), Cause>, f64) {
+    let start = Start {
+        velocity: [0.0, velocity, 0.0],
+        angular_velocity: [spin, 0.0, 0.0],
+        ..Start::at([0.0, at, 0.0])
+    };
+    let model = Sketch::new()
+        .gravity([0.0, 0.0, -1e-3])
+        .body(1.0, [0.1, 0.2, 0.2], start)
+        .model_fixed::<1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0>();
+    let mut plant = Plant::new(&model, Leapfrog, 1e-3).unwrap();
+    let end = plant.advance(steps).ok().map_err(|failure| failure.cause);
+    (end, Fixed::position_to_f64(&plant.state().bodies[0].position)[1])
+}
+
+#[test]
+fn what_leaves_its_limits_latches_and_never_wraps() {
+    let extent = Err(Cause::Extent { body: BodyIndex(0) });
+    // At every speed up to the limit: the first step beyond the extent fails, on the side it left.
+    for tenth in 1..=12 {
+        let velocity = f64::from(tenth) * 10.0;
+        for sign in [1.0, -1.0] {
+            let (end, at) = flight(sign * 20.0, sign * velocity, 0.0, 1_000_000);
+            assert_eq!(end, extent);
+            assert!(at * sign > 24.0 && at * sign < 24.2, "{velocity}: {at}");
+        }
+    }
+    // The whole way, from one end to the other.
+    let (end, at) = flight(-24.0, 100.0, 0.0, 479);
+    assert!(end.is_ok() && (at - 23.9).abs() < 1e-4, "{end:?} {at}");
+    // A kick makes it faster than a step bears, there and back within one.
+    let mut numbers = units(15);
+    for _ in 0..1000 {
+        let mut place = FixedPlace::new([24.0 * numbers.next().unwrap(); 3]);
+        let drift = numbers.next().unwrap() as f32 * 1e3;
+        Fixed::translate(&mut place, Vec3::new(0.0, drift, 0.0));
+        for _ in 0..6 {
+            Fixed::translate(&mut place, Vec3::new(0.0, 0.125, -0.125));
+        }
+        assert_eq!(Fixed::is_within(&place), drift.abs() <= 0.125 && place.at[1] >> 52 < 24 << 5);
+    }
+    for drift in [f32::NAN, f32::INFINITY, 0.126, -1e30] {
+        let mut place = FixedPlace::default();
+        Fixed::translate(&mut place, Vec3::new(0.0, 0.0, drift));
+        assert!(!Fixed::is_within(&place), "{drift}");
+    }
+}
+
+#[test]
+fn a_turn_that_is_none_latches() {
+    assert_eq!(flight(0.0, 0.0, 900.0, 1000).0, Ok(()));
+    assert_eq!(flight(0.0, 0.0, 1100.0, 1).0, Err(Cause::Spin { body: BodyIndex(0) }));
+    for turn in [Quaternion::new(f32::NAN, 0.0, 0.0, 0.0), Quaternion::new(3.0, 1e9, 0.0, 0.0)] {
+        let mut q = FixedTurn::default();
+        q.turn(turn);
+        q.turn(Quaternion::IDENTITY);
+        q.renormalise();
+        assert!(q.is_lost());
+    }
+}

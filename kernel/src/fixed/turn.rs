@@ -1,0 +1,179 @@
+//! A unit quaternion of fixed point, and the rotation of fixed point that it is.
+//!
+//! `(turn of single precision, quaternion) => quaternion, to 2^-60; quaternion => matrix, to 2^-31`.
+//! A turn is what a step adds and comes with the digits of single precision; what it is added to keeps
+//! its own. A turn that is no rotation, one of several radians, leaves zero, which stays zero.
+
+use crate::attitude::Attitude;
+use crate::fixed::number::{from_f32, from_f64, product, to_f32, to_f64};
+use crate::vector::{Quaternion, Rotation, Vec3};
+use crate::words::{Word, WordSource, WordVisitor, Words};
+
+/// Bits after the point.
+const BITS: i32 = 62;
+/// 1 with 60 bits after the point.
+const ONE: i64 = 1 << 60;
+
+/// A unit quaternion, 62 bits after the point, scalar first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FixedTurn {
+    /// Scalar part.
+    pub w: i64,
+    /// Vector part.
+    pub v: [i64; 3],
+}
+
+impl Default for FixedTurn {
+    fn default() -> Self {
+        Self { w: 1 << BITS, v: [0; 3] }
+    }
+}
+
+impl FixedTurn {
+    /// Each component of a unit quaternion rounded once, scalar first.
+    #[must_use]
+    pub const fn new(orientation: [f64; 4]) -> Self {
+        let [w, x, y, z] = orientation;
+        let bits = BITS as u32;
+        Self { w: from_f64(w, bits), v: [from_f64(x, bits), from_f64(y, bits), from_f64(z, bits)] }
+    }
+
+    /// The conjugate.
+    #[inline(always)]
+    fn conjugate(&self) -> Self {
+        Self { w: self.w, v: self.v.map(i64::wrapping_neg) }
+    }
+
+    /// The Hamilton product, to a few units of 2^-60.
+    #[inline(always)]
+    fn product(&self, other: &Self) -> Self {
+        let (a, [ax, ay, az]) = (self.w, self.v);
+        let (b, [bx, by, bz]) = (other.w, other.v);
+        let sum = |terms: [i64; 4]| {
+            let [p, q, r, s] = terms;
+            p.wrapping_add(q).wrapping_add(r).wrapping_sub(s) << 2
+        };
+        let opposite = |p: i64, q: i64| product(p, q).wrapping_neg();
+        Self {
+            w: sum([product(a, b), opposite(ax, bx), opposite(ay, by), product(az, bz)]),
+            v: [
+                sum([product(a, bx), product(ax, b), product(ay, bz), product(az, by)]),
+                sum([product(a, by), product(ay, b), product(az, bx), product(ax, bz)]),
+                sum([product(a, bz), product(az, b), product(ax, by), product(ay, bx)]),
+            ],
+        }
+    }
+
+    /// The square of its length, 60 bits after the point.
+    #[inline(always)]
+    fn square(&self) -> i64 {
+        let [x, y, z] = self.v;
+        let [w, x, y, z] = [self.w, x, y, z].map(|c| product(c, c));
+        w.wrapping_add(x).wrapping_add(y.wrapping_add(z))
+    }
+
+    /// The matrix, 30 bits after the point, to the nearest.
+    #[inline(always)]
+    pub(crate) fn matrix(&self) -> [[i32; 3]; 3] {
+        let (w, [x, y, z]) = (self.w, self.v);
+        let (xx, yy, zz) = (product(x, x), product(y, y), product(z, z));
+        let (xy, xz, yz) = (product(x, y), product(x, z), product(y, z));
+        let (wx, wy, wz) = (product(w, x), product(w, y), product(w, z));
+        // Twice what is given, and a half for the nearest.
+        let rounded = |c: i64| ((c.wrapping_add(1 << 28)) >> 29) as i32;
+        let half = ONE / 2;
+        [
+            [rounded(half - (yy + zz)), rounded(xy - wz), rounded(xz + wy)],
+            [rounded(xy + wz), rounded(half - (xx + zz)), rounded(yz - wx)],
+            [rounded(xz - wy), rounded(yz + wx), rounded(half - (xx + yy))],
+        ]
+    }
+}
+
+/// A matrix of 30 bits after the point in single precision.
+#[inline(always)]
+pub(crate) fn in_single(matrix: &[[i32; 3]; 3]) -> Rotation<f32> {
+    const UNIT: f32 = 1.0 / (1 << 30) as f32;
+    let row = |[x, y, z]: [i32; 3]| Vec3::new(x as f32, y as f32, z as f32) * UNIT;
+    let [x, y, z] = *matrix;
+    Rotation { x: row(x), y: row(y), z: row(z) }
+}
+
+impl Words for FixedTurn {
+    fn visit(&self, visitor: &mut impl WordVisitor) {
+        visitor.word(Word::U64(self.w as u64));
+        for c in self.v {
+            visitor.word(Word::U64(c as u64));
+        }
+    }
+
+    fn fill(&mut self, source: &mut impl WordSource) {
+        self.w = source.take(8) as i64;
+        for c in &mut self.v {
+            *c = source.take(8) as i64;
+        }
+    }
+}
+
+impl Attitude for FixedTurn {
+    type Real = f32;
+    type Turn = Quaternion<f32>;
+
+    const NAME: &'static str = "quaternion";
+
+    #[inline(always)]
+    fn rotation(&self) -> Rotation<f32> {
+        in_single(&self.matrix())
+    }
+    #[inline(always)]
+    fn quaternion(&self) -> Quaternion<f32> {
+        let [w, x, y, z] = [self.w, self.v[0], self.v[1], self.v[2]].map(to_f32::<BITS>);
+        Quaternion::new(w, x, y, z)
+    }
+    #[inline(always)]
+    fn since_world(&self) -> Quaternion<f32> {
+        self.quaternion()
+    }
+    #[inline(always)]
+    fn turn(&mut self, turn: Quaternion<f32>) {
+        let length = turn.w * turn.w + turn.v.dot(turn.v);
+        if !(0.75..1.25).contains(&length) {
+            *self = Self { w: 0, v: [0; 3] };
+            return;
+        }
+        let fixed = from_f32::<30, 30>;
+        let Vec3 { x, y, z } = turn.v;
+        let [w, x, y, z] = [turn.w, x, y, z].map(|c| fixed(c) << 2);
+        *self = self.product(&Self { w, v: [x, y, z] });
+    }
+    /// One Newton step towards unit length.
+    #[inline(always)]
+    fn renormalise(&mut self) {
+        // Half of what is missing, 62 bits after the point.
+        let missing = ONE.wrapping_sub(self.square()) << 1;
+        let more = |c: i64| c.wrapping_add(product(c, missing) << 2);
+        *self = Self { w: more(self.w), v: self.v.map(more) };
+    }
+    #[inline(always)]
+    fn is_lost(&self) -> bool {
+        let [x, y, z] = self.v;
+        self.w | x | y | z == 0
+    }
+    fn from_f64(orientation: [f64; 4]) -> Self {
+        Self::new(orientation)
+    }
+    fn to_f64(&self) -> [f64; 4] {
+        [self.w, self.v[0], self.v[1], self.v[2]].map(|c| to_f64(c, BITS as u32))
+    }
+    /// Where both are near each other what is small about their difference has all its digits.
+    #[inline(always)]
+    fn relative(first: Option<&Self>, second: Option<&Self>) -> Quaternion<f32> {
+        match (first, second) {
+            (Some(a), Some(b)) => a.conjugate().product(b).quaternion(),
+            (Some(a), None) => a.conjugate().quaternion(),
+            (None, Some(b)) => b.quaternion(),
+            (None, None) => Quaternion::IDENTITY,
+        }
+    }
+}
