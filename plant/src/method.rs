@@ -226,10 +226,10 @@ impl Method {
     /// [`MethodError::Comparison`] where it does not, [`MethodError::Orientation`] where no build does.
     pub fn check_built(&self) -> Result<(), MethodError> {
         let quaternions = self.orientation == OrientationName::Quaternion;
-        let usual =
-            matches!(self.precision, PrecisionName::F64 | PrecisionName::F32) && quaternions;
-        let exists = quaternions || self.precision != PrecisionName::F32Compensated;
-        if usual || (exists && cfg!(all(feature = "comparison", not(test)))) {
+        let aside =
+            matches!(self.precision, PrecisionName::F32Compensated | PrecisionName::F32Micromath);
+        let exists = quaternions || self.precision.is_plain();
+        if (quaternions && !aside) || (exists && cfg!(all(feature = "comparison", not(test)))) {
             Ok(())
         } else {
             Err(self.not_built())
@@ -240,12 +240,12 @@ impl Method {
     pub(crate) fn not_built(&self) -> MethodError {
         let quaternions = self.orientation == OrientationName::Quaternion;
         let what = match self.precision {
-            PrecisionName::F32Compensated if !quaternions => {
+            precision if !precision.is_plain() && !quaternions => {
                 let (precision, orientation) = (self.precision.name(), self.orientation.name());
                 return MethodError::Orientation { precision, orientation };
             }
             PrecisionName::F32Compensated | PrecisionName::F32Micromath => self.precision.name(),
-            PrecisionName::F64 | PrecisionName::F32 => self.orientation.name(),
+            _ => self.orientation.name(),
         };
         MethodError::Comparison { what }
     }
@@ -392,9 +392,14 @@ mod tests {
             for orientation in OrientationName::ALL {
                 let method = Method::new(SchemeName::Rk4, None, *precision).unwrap();
                 let method = method.with_orientation(*orientation);
-                let usual = matches!(precision, PrecisionName::F64 | PrecisionName::F32)
-                    && *orientation == OrientationName::Quaternion;
-                assert_eq!(method.check_built().is_ok(), usual || built, "{method:?}");
+                let quaternions = *orientation == OrientationName::Quaternion;
+                let aside = [PrecisionName::F32Compensated, PrecisionName::F32Micromath]
+                    .contains(precision);
+                let exists = quaternions || precision.is_plain();
+                let held = if built { exists } else { quaternions && !aside };
+                assert_eq!(method.check_built().is_ok(), held, "{method:?}");
+                let refused = matches!(method.check_built(), Err(MethodError::Orientation { .. }));
+                assert_eq!(refused, !exists, "{method:?}");
             }
         }
         let help = MethodError::Comparison { what: "euler-321" }.help().unwrap().to_string();

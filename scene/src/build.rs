@@ -9,7 +9,7 @@ use std::fmt::{self, Display};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use dbd_kernel::{CompensatedF32, F32, State, frequency};
+use dbd_kernel::{CompensatedF32, F32, Fixed, State, frequency};
 
 use crate::export::{Export, ExportPrecision, ExportScheme, SchemeError, source};
 use crate::time::{Time, TimeError, display};
@@ -245,6 +245,13 @@ impl Build {
             let held = match precision {
                 ExportPrecision::F64 => continue,
                 ExportPrecision::F32 => scene.check_inputs::<F32>(),
+                ExportPrecision::Fixed => {
+                    if let Err(misfit) = scene.check_extents::<Fixed>(step) {
+                        let help = misfit.remedy.replace("--precision f64", "f64");
+                        return Err(BuildError::Option(format!("{called}: {misfit}"), help));
+                    }
+                    scene.check_inputs::<Fixed>()
+                }
                 ExportPrecision::F32Compensated => scene.check_inputs::<CompensatedF32>(),
             };
             let single = step as f32;

@@ -21,7 +21,7 @@ pub use scheme::{ExportScheme, MOST_ITERATIONS, SchemeError};
 
 use dbd_kernel::geometry::Float;
 use dbd_kernel::planar::Planar;
-use dbd_kernel::{CompensatedF32, F32, F64, Geometry as _, Vec3};
+use dbd_kernel::{CompensatedF32, F32, F64, Fixed, Geometry as _, Vec3};
 
 use number::SourceGeometry;
 
@@ -42,13 +42,15 @@ pub enum ExportPrecision {
     F64,
     /// Single precision.
     F32,
+    /// Fixed-point geometry with forces in single precision.
+    Fixed,
     /// Single precision with compensated sums.
     F32Compensated,
 }
 
 impl ExportPrecision {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::F64, Self::F32, Self::F32Compensated];
+    pub const ALL: [Self; 4] = [Self::F64, Self::F32, Self::Fixed, Self::F32Compensated];
 
     /// `f64`, `f32` …
     #[must_use]
@@ -56,6 +58,7 @@ impl ExportPrecision {
         match self {
             Self::F64 => F64::NAME,
             Self::F32 => F32::NAME,
+            Self::Fixed => Fixed::NAME,
             Self::F32Compensated => CompensatedF32::NAME,
         }
     }
@@ -66,6 +69,7 @@ impl ExportPrecision {
         match self {
             Self::F64 => F64::SUFFIX,
             Self::F32 => F32::SUFFIX,
+            Self::Fixed => Fixed::SUFFIX,
             Self::F32Compensated => CompensatedF32::SUFFIX,
         }
     }
@@ -115,6 +119,9 @@ pub fn source(scene: &Scene, export: &Export) -> String {
         match precision {
             ExportPrecision::F64 => text += &parts_of::<f64>(scene, &export.scheme),
             ExportPrecision::F32 => text += &parts_of::<f32>(scene, &export.scheme),
+            ExportPrecision::Fixed => {
+                text += &parts::<Fixed>(scene, &scene.model, &export.scheme);
+            }
             ExportPrecision::F32Compensated => {
                 text += &parts::<CompensatedF32>(scene, &scene.model, &export.scheme);
             }

@@ -3,11 +3,12 @@
 //! `number, vector, moment, turn => expression`; a space's are of its own types.
 
 use dbd_kernel::compensated::{Kept, KeptTurn};
+use dbd_kernel::fixed::{FixedPlace, FixedPoint, FixedTurn};
 use dbd_kernel::geometry::{Float, Named};
 use dbd_kernel::planar::Planar;
 use dbd_kernel::plane::{Axial, Heading, Vec2};
 use dbd_kernel::space::Space;
-use dbd_kernel::{CompensatedF32, Geometry, Quaternion, Real, Vec3};
+use dbd_kernel::{CompensatedF32, Fixed, Geometry, Quaternion, Real, Vec3};
 
 /// A number that can be written as source, and the precision made of it.
 pub trait SourceNumber: Real + Named {
@@ -153,6 +154,38 @@ impl SourceGeometry for CompensatedF32 {
     }
     fn local(point: &Vec3<f32>) -> String {
         Single::vector(point)
+    }
+}
+
+impl SourceGeometry for Fixed {
+    const SUFFIX: &'static str = "Fixed";
+
+    fn name() -> String {
+        "dbd_kernel::Fixed".into()
+    }
+    fn stored_position(position: &FixedPlace) -> String {
+        format!("dbd_kernel::fixed::FixedPlace {{ at: {:?} }}", position.at)
+    }
+    fn stored_velocity(velocity: &Kept) -> String {
+        CompensatedF32::stored_velocity(velocity)
+    }
+    fn stored_spin(spin: &Kept) -> String {
+        CompensatedF32::stored_spin(spin)
+    }
+    fn vector(v: &Vec3<f32>) -> String {
+        Single::vector(v)
+    }
+    fn moment(m: &Vec3<f32>) -> String {
+        Single::vector(m)
+    }
+    fn turn(q: &Quaternion<f32>) -> String {
+        Single::turn(q)
+    }
+    fn orientation(turn: &FixedTurn) -> String {
+        format!("dbd_kernel::fixed::FixedTurn {{ w: {}, v: {:?} }}", turn.w, turn.v)
+    }
+    fn local(point: &FixedPoint) -> String {
+        format!("dbd_kernel::fixed::FixedPoint {{ at: {:?} }}", point.at)
     }
 }
 
