@@ -7,11 +7,13 @@
 //! - [`flops`]: the operations of a step.
 //! - [`chain`]: chains of any length.
 //! - [`vectors`], [`plain`](mod@plain): the same steps, written plainly.
+//! - [`kept`]: the energy that a scheme keeps, by which rounding is seen.
 //!
 //! `examples/steps.rs` takes steps for `cargo xtask instructions`, which counts their instructions.
 
 pub mod chain;
 pub mod counted;
 pub mod flops;
+pub mod kept;
 pub mod plain;
 pub mod vectors;

@@ -84,6 +84,17 @@ pub enum MethodError {
         /// The precision or the way of storing orientations.
         what: &'static str,
     },
+    /// A way of storing orientations that a precision has not.
+    #[error("{precision} has no orientations as {orientation}")]
+    #[diagnostic(help(
+        "it stores quaternions of its own: leave --orientation out, or --precision f64 or f32"
+    ))]
+    Orientation {
+        /// The precision's name.
+        precision: &'static str,
+        /// The way of storing orientations.
+        orientation: &'static str,
+    },
     /// A precision in which no pose is at rest.
     #[error("there is no stability to look at in {precision}: its square root is off by per cents")]
     #[diagnostic(help(
@@ -208,25 +219,33 @@ impl Method {
         self.orientation
     }
 
-    /// Whether this build holds it: micromath and Euler angles take the feature `comparison`.
+    /// Whether this build holds it: compensated sums, micromath and Euler angles take the feature
+    /// `comparison`.
     ///
     /// # Errors
-    /// [`MethodError::Comparison`] where it does not.
+    /// [`MethodError::Comparison`] where it does not, [`MethodError::Orientation`] where no build does.
     pub fn check_built(&self) -> Result<(), MethodError> {
-        let usual = self.precision != PrecisionName::F32Micromath
-            && self.orientation == OrientationName::Quaternion;
-        if usual || cfg!(all(feature = "comparison", not(test))) {
+        let quaternions = self.orientation == OrientationName::Quaternion;
+        let aside =
+            matches!(self.precision, PrecisionName::F32Compensated | PrecisionName::F32Micromath);
+        let exists = quaternions || self.precision.is_plain();
+        if (quaternions && !aside) || (exists && cfg!(all(feature = "comparison", not(test)))) {
             Ok(())
         } else {
             Err(self.not_built())
         }
     }
 
-    /// The refusal of a method that is there for comparison.
+    /// The refusal of a method that this build does not hold.
     pub(crate) fn not_built(&self) -> MethodError {
+        let quaternions = self.orientation == OrientationName::Quaternion;
         let what = match self.precision {
-            PrecisionName::F32Micromath => self.precision.name(),
-            PrecisionName::F64 | PrecisionName::F32 => self.orientation.name(),
+            precision if !precision.is_plain() && !quaternions => {
+                let (precision, orientation) = (self.precision.name(), self.orientation.name());
+                return MethodError::Orientation { precision, orientation };
+            }
+            PrecisionName::F32Compensated | PrecisionName::F32Micromath => self.precision.name(),
+            _ => self.orientation.name(),
         };
         MethodError::Comparison { what }
     }
@@ -297,7 +316,7 @@ impl Method {
     pub fn rounded(&self, step: f64) -> f64 {
         match self.precision {
             PrecisionName::F64 => step,
-            PrecisionName::F32 | PrecisionName::F32Micromath => f64::from(step as f32),
+            _ => f64::from(step as f32),
         }
     }
 
@@ -373,9 +392,14 @@ mod tests {
             for orientation in OrientationName::ALL {
                 let method = Method::new(SchemeName::Rk4, None, *precision).unwrap();
                 let method = method.with_orientation(*orientation);
-                let usual = *precision != PrecisionName::F32Micromath
-                    && *orientation == OrientationName::Quaternion;
-                assert_eq!(method.check_built().is_ok(), usual || built, "{method:?}");
+                let quaternions = *orientation == OrientationName::Quaternion;
+                let aside = [PrecisionName::F32Compensated, PrecisionName::F32Micromath]
+                    .contains(precision);
+                let exists = quaternions || precision.is_plain();
+                let held = if built { exists } else { quaternions && !aside };
+                assert_eq!(method.check_built().is_ok(), held, "{method:?}");
+                let refused = matches!(method.check_built(), Err(MethodError::Orientation { .. }));
+                assert_eq!(refused, !exists, "{method:?}");
             }
         }
         let help = MethodError::Comparison { what: "euler-321" }.help().unwrap().to_string();

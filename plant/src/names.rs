@@ -99,6 +99,10 @@ named! {
         F64 = "f64",
         /// Single precision.
         F32 = "f32",
+        /// Single precision with positions and orientations in fixed point: nearly what double has.
+        Fixed = "fixed",
+        /// Single precision that keeps what sums on the state round off: twice the words.
+        F32Compensated = "f32-compensated",
         /// Single precision with micromath's square root, sine and cosine: what fast and loose costs.
         F32Micromath = "f32-micromath",
     }
@@ -115,6 +119,20 @@ named! {
         Euler321 = "euler-321",
         /// Yaw, pitch, roll alone: loses precision near a pitch of ±90°.
         Euler321Single = "euler-321-single",
+    }
+}
+
+impl PrecisionName {
+    /// Whether what it stores of a body is one number per component, as columns of a trace show it.
+    #[must_use]
+    pub fn is_plain(self) -> bool {
+        !self.is_kept()
+    }
+
+    /// Whether additions to a state lose nothing to rounding that counts.
+    #[must_use]
+    pub fn is_kept(self) -> bool {
+        matches!(self, Self::Fixed | Self::F32Compensated)
     }
 }
 

@@ -126,14 +126,19 @@ impl Numerals {
     #[must_use]
     pub fn of_names(precision: &str, orientation: &str) -> Option<Self> {
         let precision = PrecisionName::of_name(precision)?;
-        let number = match precision {
+        let reading = match precision {
             PrecisionName::F64 => Digits::Double,
+            _ => Digits::Single,
+        };
+        // Two words of single precision hold more than one has digits for.
+        let number = match precision {
             PrecisionName::F32 | PrecisionName::F32Micromath => Digits::Single,
+            _ => Digits::Double,
         };
         // Angles are stored otherwise than they are shown.
         let quaternion = orientation == OrientationName::Quaternion.name();
         let orientation = if quaternion { number } else { Digits::Double };
-        Some(Self { position: number, orientation, velocity: number, reading: number })
+        Some(Self { position: number, orientation, velocity: number, reading })
     }
 }
 
@@ -162,6 +167,9 @@ mod tests {
         assert_eq!(known("f32", "quaternion"), Some(Numerals::of::<F32>()));
         assert_eq!(known("f64", "quaternion"), Some(Numerals::of::<F64>()));
         assert_eq!(known("f32", "euler-321"), Some(Numerals::of::<dbd_kernel::euler::EulerF32>()));
+        let compensated = Numerals::of::<dbd_kernel::CompensatedF32>();
+        assert_eq!(known("f32-compensated", "quaternion"), Some(compensated));
+        assert_eq!(compensated.reading, Digits::Single);
         assert_eq!(known("f16", "quaternion"), None);
     }
 

@@ -6,20 +6,23 @@
 
 use std::sync::Arc;
 
+#[cfg(all(feature = "comparison", not(test)))]
+use dbd_kernel::CompensatedF32;
 use dbd_kernel::energy::energy;
 #[cfg(all(feature = "comparison", not(test)))]
 use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
 use dbd_kernel::index::InputIndex;
 #[cfg(all(feature = "comparison", not(test)))]
 use dbd_kernel::loose::{Loose32, LooseEuler32, LooseSingleEuler32};
-use dbd_kernel::plant::{InputError, Plant, StateError};
+use dbd_kernel::plant::{self as kernel, InputError, Plant, StateError};
 use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::schedule::Signal;
 use dbd_kernel::snapshot::SnapshotError;
 use dbd_kernel::{
-    BodyIndex, BodyState, Energy, F32, F64, Geometry, Planar32, Planar64, Scheme, State, Status,
+    BodyIndex, BodyState, Energy, F32, F64, Fixed, Geometry, Planar32, Planar64, Scheme, State,
+    Status,
 };
-use dbd_scene::{Planar, Scene, SceneModel, UnfitInput, widen};
+use dbd_scene::{Misfit, Planar, Scene, SceneModel, UnfitInput, widen};
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -40,6 +43,15 @@ macro_rules! with_precision {
             }
             (PrecisionName::F32, OrientationName::Quaternion) => {
                 type $P = F32;
+                $body
+            }
+            (PrecisionName::Fixed, OrientationName::Quaternion) => {
+                type $P = Fixed;
+                $body
+            }
+            #[cfg(all(feature = "comparison", not(test)))]
+            (PrecisionName::F32Compensated, OrientationName::Quaternion) => {
+                type $P = CompensatedF32;
                 $body
             }
             #[cfg(all(feature = "comparison", not(test)))]
@@ -77,7 +89,6 @@ macro_rules! with_precision {
                 type $P = LooseSingleEuler32;
                 $body
             }
-            #[cfg(not(all(feature = "comparison", not(test))))]
             (_, _) => Err($method.not_built().into()),
         }
     };
@@ -148,6 +159,10 @@ pub enum PlantError {
         /// The precision or the way of storing orientations.
         what: &'static str,
     },
+    /// A part of the model is beyond what the precision holds.
+    #[error(transparent)]
+    #[diagnostic(help("{}", .0.remedy))]
+    Extent(#[from] Misfit),
     /// This build does not hold the method.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -166,7 +181,10 @@ pub enum PlantError {
 /// does not hold the method.
 pub fn plant(scene: &Scene, method: &Method, step: f64) -> Result<Box<dyn AnyPlant>, PlantError> {
     check_inputs(scene, method)?;
-    let Some(planar) = &scene.planar else { return plant_of_model(&scene.model, method, step) };
+    let Some(planar) = &scene.planar else {
+        check_extents(scene, method, step)?;
+        return plant_of_model(&scene.model, method, step);
+    };
     check_step(method, step)?;
     let new = New { model: &planar.model, plane: Some((planar, &scene.model)), method, step };
     with_planar_precision!(method, P => with_scheme!(method, scheme => new.typed::<P, _>(scheme)))
@@ -207,6 +225,18 @@ pub fn check_inputs(scene: &Scene, method: &Method) -> Result<(), PlantError> {
     with_precision!(method, P => Ok(scene.check_inputs::<P>()?))
 }
 
+/// Whether a method's precision holds a scene's places and displacements, with steps of `step` \[s\].
+///
+/// # Errors
+/// [`PlantError::Extent`] with the first part that it does not; [`PlantError::Method`] where this build does
+/// not hold the precision.
+pub fn check_extents(scene: &Scene, method: &Method, step: f64) -> Result<(), PlantError> {
+    if scene.planar.is_some() {
+        return Ok(());
+    }
+    with_precision!(method, P => Ok(scene.check_extents::<P>(step)?))
+}
+
 fn refused(method: &Method, step: f64) -> PlantError {
     PlantError::Step { step, rounded: method.rounded(step), precision: method.precision_name() }
 }
@@ -235,8 +265,13 @@ impl New<'_> {
             None => exact,
         };
         let planar = self.plane.map(|(planar, _)| planar.clone());
-        let plant = Plant::new(Arc::new(model), scheme, self.step)
-            .map_err(|_| refused(self.method, self.step))?;
+        let plant =
+            Plant::new(Arc::new(model), scheme, self.step).map_err(|error| match error {
+                kernel::PlantError::Step(_) => refused(self.method, self.step),
+                kernel::PlantError::Extent(excess) => {
+                    Misfit::unnamed::<P>(&excess, self.step).into()
+                }
+            })?;
         Ok(Box::new(Typed { plant, planar, exact, method: *self.method }))
     }
 }

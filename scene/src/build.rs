@@ -9,7 +9,7 @@ use std::fmt::{self, Display};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use dbd_kernel::{F32, State, frequency};
+use dbd_kernel::{CompensatedF32, F32, Fixed, State, frequency};
 
 use crate::export::{Export, ExportPrecision, ExportScheme, SchemeError, source};
 use crate::time::{Time, TimeError, display};
@@ -236,14 +236,30 @@ impl Build {
                 display(crate::time::rounded(MARGIN * limit / bound, 2)),
             ));
         }
-        if precisions.contains(&ExportPrecision::F32) {
+        for precision in &precisions {
+            let name = precision.name();
+            if scene.planar.is_some() && !precision.has_planes() {
+                let message = format!("{called} is planar, and {name} has no plane");
+                return Err(BuildError::Option(message, "f32, or without `planar`".into()));
+            }
+            let held = match precision {
+                ExportPrecision::F64 => continue,
+                ExportPrecision::F32 => scene.check_inputs::<F32>(),
+                ExportPrecision::Fixed => {
+                    if let Err(misfit) = scene.check_extents::<Fixed>(step) {
+                        let help = misfit.remedy.replace("--precision f64", "f64");
+                        return Err(BuildError::Option(format!("{called}: {misfit}"), help));
+                    }
+                    scene.check_inputs::<Fixed>()
+                }
+                ExportPrecision::F32Compensated => scene.check_inputs::<CompensatedF32>(),
+            };
             let single = step as f32;
             if !(single > 0.0 && single.is_finite()) {
-                let message = format!("f32 does not hold the step of {}", display(step));
+                let message = format!("{name} does not hold the step of {}", display(step));
                 return Err(BuildError::Option(message, "a longer step, or f64".into()));
             }
-            let held = scene.check_inputs::<F32>();
-            held.map_err(|error| BuildError::Input(called, error))?;
+            held.map_err(|error| BuildError::Input(called.clone(), error))?;
         }
         let source = source(&scene, &Export { precisions, scheme, step });
         Ok(Built { scene, source, warnings })
@@ -259,7 +275,9 @@ impl Build {
         for name in &self.precisions {
             let Some(one) = ExportPrecision::ALL.into_iter().find(|one| one.name() == name) else {
                 let message = format!("there is no precision \"{name}\"");
-                return Err(BuildError::Option(message, "f32 or f64".into()));
+                let names = ExportPrecision::ALL.map(ExportPrecision::name);
+                let help = format!("one of {}", names.join(", "));
+                return Err(BuildError::Option(message, help));
             };
             if !precisions.contains(&one) {
                 precisions.push(one);

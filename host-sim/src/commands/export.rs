@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
 use dbd_output::file::write_at;
-use dbd_plant::plant::{check_inputs, check_step};
+use dbd_plant::plant::{check_extents, check_inputs, check_step};
 use dbd_plant::time::Time;
 use dbd_plant::{
     DampingName, Frequencies, Method, Named as _, PlantError, PrecisionName, SchemeName,
@@ -101,13 +101,15 @@ pub fn export(scene: &Scene, options: &ExportOptions) -> Result<String, ExportEr
     let scheme = ExportScheme::named(options.scheme.name(), options.newton, damping)?;
     let step = options.step.map(Time::seconds).or(scene.step);
     let step = step.unwrap_or_else(|| Frequencies::of(scene).default_limit(scene.duration));
-    let asked = |one: &ExportPrecision| options.precision.is_none_or(|asked| asked == *one);
-    let all = [ExportPrecision::F64, ExportPrecision::F32];
-    let precisions: Vec<ExportPrecision> = all.into_iter().filter(asked).collect();
+    let precisions = match options.precision {
+        Some(one) => vec![one],
+        None => vec![ExportPrecision::F64, ExportPrecision::F32],
+    };
     for precision in &precisions {
         let method = Method::default().with_precision(precision.name());
         check_step(&method, step)?;
         check_inputs(scene, &method)?;
+        check_extents(scene, &method, step)?;
     }
     let precisions = precisions.into_iter().map(ExportPrecision::source).collect();
     Ok(source::source(scene, &source::Export { precisions, scheme, step }))
@@ -141,6 +143,8 @@ pub enum ExportPrecision {
     F64,
     /// Single precision.
     F32,
+    /// Fixed-point geometry with forces in single precision.
+    Fixed,
 }
 
 impl ExportPrecision {
@@ -148,6 +152,7 @@ impl ExportPrecision {
         match self {
             Self::F64 => PrecisionName::F64,
             Self::F32 => PrecisionName::F32,
+            Self::Fixed => PrecisionName::Fixed,
         }
     }
 
@@ -155,6 +160,7 @@ impl ExportPrecision {
         match self {
             Self::F64 => source::ExportPrecision::F64,
             Self::F32 => source::ExportPrecision::F32,
+            Self::Fixed => source::ExportPrecision::Fixed,
         }
     }
 }

@@ -168,7 +168,9 @@ fn of_rounding(
     let product = frequencies.bound * step;
     let [order, _] = method.orders();
     let shortest = match method.scheme_name() {
-        _ if method.precision() == PrecisionName::F64 => return None,
+        _ if method.precision() == PrecisionName::F64 || method.precision().is_kept() => {
+            return None;
+        }
         _ if order < 2 => SHORTEST_FIRST,
         name if COMPOSED.contains(&name) => SHORTEST_COMPOSED,
         _ => SHORTEST,

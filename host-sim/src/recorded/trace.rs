@@ -10,7 +10,7 @@ use dbd_golden::subject::BodyNumbers;
 use dbd_kernel::words::{Fnv1a, Word, WordVisitor as _};
 use dbd_plant::numerals::{Digits, Numerals};
 use dbd_plant::time::display;
-use dbd_plant::{Named as _, OrientationName};
+use dbd_plant::{Named as _, OrientationName, PrecisionName};
 use dbd_scene::TraceColumns;
 
 use crate::recorded::head::{Head, Kind, Value};
@@ -319,8 +319,11 @@ impl TraceReader {
     fn state_differs(&self) -> bool {
         let summary = &self.summary;
         let Some(hash) = &summary.state_hash else { return false };
-        // Of Euler angles the stored words are others than the columns; earlier summaries do not hold the turn counts.
-        if summary.orientation != OrientationName::Quaternion.name() || summary.trace_hash.is_none()
+        // Of Euler angles and fixed point the stored words are others than the columns; earlier summaries do not hold the turn counts.
+        let plain = PrecisionName::of_name(&summary.precision).is_none_or(PrecisionName::is_plain);
+        if !plain
+            || summary.orientation != OrientationName::Quaternion.name()
+            || summary.trace_hash.is_none()
         {
             return false;
         }

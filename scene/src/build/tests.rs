@@ -104,7 +104,10 @@ fn options_that_are_not_right_are_refused_with_what_would_be() {
         lines.lines().nth(1).unwrap().strip_prefix("cargo::error=").unwrap().to_owned()
     };
     let ball = || Build::scene(folder.scene());
-    assert_eq!(refused(&ball().precision("f16")), "there is no precision \"f16\" (f32 or f64)");
+    assert_eq!(
+        refused(&ball().precision("f16")),
+        "there is no precision \"f16\" (one of f64, f32, fixed, f32-compensated)"
+    );
     assert!(refused(&ball().scheme("leapfrg")).contains("(did you mean leapfrog?"));
     assert!(refused(&ball().step("fast")).contains("for example 20us"));
     assert!(refused(&ball().step(-1.0)).contains("must be positive"));

@@ -19,11 +19,15 @@ pub use number::SourceNumber;
 pub use preamble::preamble;
 pub use scheme::{ExportScheme, MOST_ITERATIONS, SchemeError};
 
-use dbd_kernel::Vec3;
+use dbd_kernel::geometry::Float;
+use dbd_kernel::planar::Planar;
+use dbd_kernel::{CompensatedF32, F32, F64, Fixed, Geometry as _, Vec3};
 
-use crate::Scene;
+use number::SourceGeometry;
+
 use crate::planar::Plane;
 use crate::time::display;
+use crate::{Scene, SceneModel};
 
 /// Stands before what a program need not use.
 const UNUSED: &str = "#[allow(dead_code)]\n";
@@ -38,19 +42,42 @@ pub enum ExportPrecision {
     F64,
     /// Single precision.
     F32,
+    /// Fixed-point geometry with forces in single precision.
+    Fixed,
+    /// Single precision with compensated sums.
+    F32Compensated,
 }
 
 impl ExportPrecision {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::F64, Self::F32];
+    pub const ALL: [Self; 4] = [Self::F64, Self::F32, Self::Fixed, Self::F32Compensated];
 
-    /// `f64` or `f32`.
+    /// `f64`, `f32` …
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Self::F64 => "f64",
-            Self::F32 => "f32",
+            Self::F64 => F64::NAME,
+            Self::F32 => F32::NAME,
+            Self::Fixed => Fixed::NAME,
+            Self::F32Compensated => CompensatedF32::NAME,
         }
+    }
+
+    /// What types are called by it: `FourBarF32`.
+    #[must_use]
+    pub fn suffix(self) -> &'static str {
+        match self {
+            Self::F64 => F64::SUFFIX,
+            Self::F32 => F32::SUFFIX,
+            Self::Fixed => Fixed::SUFFIX,
+            Self::F32Compensated => CompensatedF32::SUFFIX,
+        }
+    }
+
+    /// Whether a planar scene has it.
+    #[must_use]
+    pub fn has_planes(self) -> bool {
+        matches!(self, Self::F64 | Self::F32)
     }
 }
 
@@ -90,8 +117,14 @@ pub fn source(scene: &Scene, export: &Export) -> String {
     text += &plant::scheme(scene, &export.scheme);
     for precision in &export.precisions {
         match precision {
-            ExportPrecision::F64 => text += &parts::<f64>(scene, &export.scheme),
-            ExportPrecision::F32 => text += &parts::<f32>(scene, &export.scheme),
+            ExportPrecision::F64 => text += &parts_of::<f64>(scene, &export.scheme),
+            ExportPrecision::F32 => text += &parts_of::<f32>(scene, &export.scheme),
+            ExportPrecision::Fixed => {
+                text += &parts::<Fixed>(scene, &scene.model, &export.scheme);
+            }
+            ExportPrecision::F32Compensated => {
+                text += &parts::<CompensatedF32>(scene, &scene.model, &export.scheme);
+            }
         }
     }
     if let [only] = export.precisions[..] {
@@ -111,9 +144,22 @@ fn in_plane(plane: &Plane) -> String {
     )
 }
 
+/// What there is of a number's precision, in space or in its plane.
+fn parts_of<R: SourceNumber>(scene: &Scene, scheme: &ExportScheme) -> String {
+    match &scene.planar {
+        Some(planar) => parts::<Planar<R>>(scene, &planar.model, scheme),
+        None => parts::<Float<R>>(scene, &scene.model, scheme),
+    }
+}
+
 /// What there is of a precision.
-fn parts<R: SourceNumber>(scene: &Scene, scheme: &ExportScheme) -> String {
-    model::<R>(scene) + &model::joint_forces::<R>(scene) + &plant::plant::<R>(scene, scheme)
+fn parts<P: SourceGeometry>(
+    scene: &Scene,
+    exact: &SceneModel<F64>,
+    scheme: &ExportScheme,
+) -> String {
+    let model = model::model_in::<P>(scene, exact);
+    model + &model::joint_forces::<P>(scene) + &plant::plant::<P>(scene, scheme)
 }
 
 #[cfg(test)]

@@ -24,17 +24,17 @@ use crate::{Scene, SceneModel};
 #[must_use]
 pub fn model<R: SourceNumber>(scene: &Scene) -> String {
     match &scene.planar {
-        Some(planar) => of::<Planar<R>>(scene, &planar.model),
-        None => of::<Float<R>>(scene, &scene.model),
+        Some(planar) => model_in::<Planar<R>>(scene, &planar.model),
+        None => model_in::<Float<R>>(scene, &scene.model),
     }
 }
 
 /// Source of what steps, in a precision of its space.
-fn of<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>) -> String {
+pub(super) fn model_in<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>) -> String {
     let model: SceneModel<P> = exact.convert();
     let precision = P::name();
-    let suffix = <P::Real as SourceNumber>::TYPE;
-    let ty = format!("{}{suffix}", type_name(&scene.name));
+    let ty = format!("{}{}", type_name(&scene.name), P::SUFFIX);
+    let suffix = P::SUFFIX.to_uppercase();
     let name = format!("{}_{suffix}", constant_name(&scene.name));
     let counts = [
         model.bodies.len(),
@@ -98,23 +98,20 @@ fn of<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>) -> String {
 }
 
 /// The force of each joint on its second body: of its last group, which acts on that.
-pub(super) fn joint_forces<R: SourceNumber>(scene: &Scene) -> String {
+pub(super) fn joint_forces<P: SourceGeometry>(scene: &Scene) -> String {
     let names = constant_names(scene.joints.iter().map(|joint| joint.name.as_str()));
     let name = constant_name(&scene.name);
     let joints = scene.joints.iter().zip(names);
-    let (ty, axes) = match scene.planar {
-        Some(_) => (Planar::<R>::name(), "the plane's axes"),
-        None => (R::TYPE.to_owned(), "world"),
-    };
+    let axes = if scene.planar.is_some() { "the plane's axes" } else { "world" };
+    let ty = P::name();
     let line = |(joint, constant): (&crate::JointInfo, String)| {
-        let force =
-            Readout::<Float<R>>::JointForce { group: joint.groups.end.checked_sub(1)? as u16 };
+        let force = Readout::<P>::JointForce { group: joint.groups.end.checked_sub(1)? as u16 };
         Some(format!(
             "/// \\[N\\] the force of the joint {} on its second body, {axes}.\n\
              {UNUSED}pub const {name}_JOINT_{constant}_FORCE_{precision}: Readout<{ty}> = {};\n",
             quoted(&joint.name),
             readout(&force),
-            precision = R::TYPE,
+            precision = P::SUFFIX.to_uppercase(),
         ))
     };
     joints.filter_map(line).collect()

@@ -2,11 +2,13 @@
 //!
 //! `number, vector, moment, turn => expression`; a space's are of its own types.
 
+use dbd_kernel::compensated::{Kept, KeptTurn};
+use dbd_kernel::fixed::{FixedPlace, FixedPoint, FixedTurn};
 use dbd_kernel::geometry::{Float, Named};
 use dbd_kernel::planar::Planar;
 use dbd_kernel::plane::{Axial, Heading, Vec2};
 use dbd_kernel::space::Space;
-use dbd_kernel::{Geometry, Quaternion, Real, Vec3};
+use dbd_kernel::{CompensatedF32, Fixed, Geometry, Quaternion, Real, Vec3};
 
 /// A number that can be written as source, and the precision made of it.
 pub trait SourceNumber: Real + Named {
@@ -32,8 +34,16 @@ impl SourceNumber for f32 {
 
 /// A precision in a space, whose constants can be written as source.
 pub(super) trait SourceGeometry: Geometry<Real: SourceNumber> {
+    /// What types are called by it; constants in capitals, functions in small letters.
+    const SUFFIX: &'static str;
     /// Its type in the kernel.
     fn name() -> String;
+    /// A stored position's expression.
+    fn stored_position(position: &Self::Position) -> String;
+    /// A stored velocity's expression.
+    fn stored_velocity(velocity: &Self::Velocity) -> String;
+    /// A stored angular velocity's expression.
+    fn stored_spin(spin: &Self::Spin) -> String;
     /// A vector's expression.
     fn vector(v: &Self::Vector) -> String;
     /// A moment's expression.
@@ -47,8 +57,19 @@ pub(super) trait SourceGeometry: Geometry<Real: SourceNumber> {
 }
 
 impl<R: SourceNumber> SourceGeometry for Float<R> {
+    const SUFFIX: &'static str = R::TYPE;
+
     fn name() -> String {
         R::TYPE.into()
+    }
+    fn stored_position(position: &Vec3<R>) -> String {
+        Self::vector(position)
+    }
+    fn stored_velocity(velocity: &Vec3<R>) -> String {
+        Self::vector(velocity)
+    }
+    fn stored_spin(spin: &Vec3<R>) -> String {
+        Self::vector(spin)
     }
     fn vector(v: &Vec3<R>) -> String {
         format!("Vec3::new({}, {}, {})", v.x.number(), v.y.number(), v.z.number())
@@ -69,8 +90,19 @@ impl<R: SourceNumber> SourceGeometry for Float<R> {
 }
 
 impl<R: SourceNumber> SourceGeometry for Planar<R> {
+    const SUFFIX: &'static str = R::TYPE;
+
     fn name() -> String {
         R::TYPE.replace('F', "Planar")
+    }
+    fn stored_position(position: &Vec2<R>) -> String {
+        Self::vector(position)
+    }
+    fn stored_velocity(velocity: &Vec2<R>) -> String {
+        Self::vector(velocity)
+    }
+    fn stored_spin(spin: &Axial<R>) -> String {
+        Self::moment(spin)
     }
     fn vector(v: &Vec2<R>) -> String {
         format!("Vec2::new({}, {})", v.x.number(), v.y.number())
@@ -86,6 +118,74 @@ impl<R: SourceNumber> SourceGeometry for Planar<R> {
     }
     fn local(point: &Vec2<R>) -> String {
         Self::vector(point)
+    }
+}
+
+type Single = Float<f32>;
+
+impl SourceGeometry for CompensatedF32 {
+    const SUFFIX: &'static str = "Compensated";
+
+    fn name() -> String {
+        "dbd_kernel::CompensatedF32".into()
+    }
+    fn stored_position(position: &Kept) -> String {
+        let [sum, lost] = [position.sum, position.lost].map(|v| Single::vector(&v));
+        format!("dbd_kernel::compensated::Kept {{ sum: {sum}, lost: {lost} }}")
+    }
+    fn stored_velocity(velocity: &Kept) -> String {
+        Self::stored_position(velocity)
+    }
+    fn stored_spin(spin: &Kept) -> String {
+        Self::stored_position(spin)
+    }
+    fn vector(v: &Vec3<f32>) -> String {
+        Single::vector(v)
+    }
+    fn moment(m: &Vec3<f32>) -> String {
+        Single::vector(m)
+    }
+    fn turn(q: &Quaternion<f32>) -> String {
+        Single::turn(q)
+    }
+    fn orientation(turn: &KeptTurn) -> String {
+        let [sum, lost] = [turn.sum, turn.lost].map(|q| Single::turn(&q));
+        format!("dbd_kernel::compensated::KeptTurn {{ sum: {sum}, lost: {lost} }}")
+    }
+    fn local(point: &Vec3<f32>) -> String {
+        Single::vector(point)
+    }
+}
+
+impl SourceGeometry for Fixed {
+    const SUFFIX: &'static str = "Fixed";
+
+    fn name() -> String {
+        "dbd_kernel::Fixed".into()
+    }
+    fn stored_position(position: &FixedPlace) -> String {
+        format!("dbd_kernel::fixed::FixedPlace {{ at: {:?} }}", position.at)
+    }
+    fn stored_velocity(velocity: &Kept) -> String {
+        CompensatedF32::stored_velocity(velocity)
+    }
+    fn stored_spin(spin: &Kept) -> String {
+        CompensatedF32::stored_spin(spin)
+    }
+    fn vector(v: &Vec3<f32>) -> String {
+        Single::vector(v)
+    }
+    fn moment(m: &Vec3<f32>) -> String {
+        Single::vector(m)
+    }
+    fn turn(q: &Quaternion<f32>) -> String {
+        Single::turn(q)
+    }
+    fn orientation(turn: &FixedTurn) -> String {
+        format!("dbd_kernel::fixed::FixedTurn {{ w: {}, v: {:?} }}", turn.w, turn.v)
+    }
+    fn local(point: &FixedPoint) -> String {
+        format!("dbd_kernel::fixed::FixedPoint {{ at: {:?} }}", point.at)
     }
 }
 

@@ -3,7 +3,7 @@
 //! `(scene, scheme, precision) => type aliases, constructors`.
 
 use super::names::{constant_name, quoted, type_name};
-use super::number::SourceNumber;
+use super::number::SourceGeometry;
 use super::{ExportPrecision, ExportScheme, UNUSED};
 use crate::Scene;
 
@@ -19,35 +19,38 @@ pub(super) fn scheme(scene: &Scene, scheme: &ExportScheme) -> String {
 }
 
 /// The type of a precision's plant, and the call that makes one. It is generated where it is used.
-pub(super) fn plant<R: SourceNumber>(scene: &Scene, scheme: &ExportScheme) -> String {
+pub(super) fn plant<P: SourceGeometry>(scene: &Scene, scheme: &ExportScheme) -> String {
     let (ty, constant) = (type_name(&scene.name), constant_name(&scene.name));
-    let (precision, suffix, path) = (R::TYPE, R::TYPE.to_lowercase(), &scheme.path);
+    let (precision, capitals, path) = (P::SUFFIX, P::SUFFIX.to_uppercase(), &scheme.path);
+    let suffix = precision.to_lowercase();
     let model = format!("{ty}{precision}");
     format!(
-        "/// The scene {} stepped by {} in {suffix}.\n{UNUSED}\
+        "/// The scene {} stepped by {} in {name}.\n{UNUSED}\
          pub type {ty}Plant{precision} = dbd_kernel::Plant<&'static {model}, {path}>;\n\
          /// A plant at its initial state, with the step [`{constant}_STEP`].\n///\n\
-         /// # Errors\n/// Where {suffix} does not hold the step, which was looked at when this was \
+         /// # Errors\n/// Where {name} does not hold the step, which was looked at when this was \
          written.\n{UNUSED}#[inline]\n\
          pub fn plant_{suffix}() -> Result<{ty}Plant{precision}, dbd_kernel::plant::PlantError> {{\n    \
-             dbd_kernel::Plant::new(&{constant}_{precision}, {constant}_SCHEME, {constant}_STEP)\n\
+             dbd_kernel::Plant::new(&{constant}_{capitals}, {constant}_SCHEME, {constant}_STEP)\n\
          }}\n",
         quoted(&scene.name),
         scheme.name(),
+        name = P::NAME,
     )
 }
 
 /// Names without a precision, where there is only one.
 pub(super) fn only(scene: &Scene, precision: ExportPrecision) -> String {
-    let (ty, suffix) = (type_name(&scene.name), precision.name());
+    let (ty, suffix) = (type_name(&scene.name), precision.suffix());
+    let call = suffix.to_lowercase();
     format!(
-        "/// The scene's plant: its only precision is {suffix}.\n{UNUSED}\
-         pub type {ty}Plant = {ty}Plant{};\n\
+        "/// The scene's plant: its only precision is {}.\n{UNUSED}\
+         pub type {ty}Plant = {ty}Plant{suffix};\n\
          /// A plant at its initial state.\n///\n\
-         /// # Errors\n/// Those of [`plant_{suffix}`].\n{UNUSED}#[inline]\n\
+         /// # Errors\n/// Those of [`plant_{call}`].\n{UNUSED}#[inline]\n\
          pub fn plant() -> Result<{ty}Plant, dbd_kernel::plant::PlantError> {{\n    \
-             plant_{suffix}()\n\
+             plant_{call}()\n\
          }}\n",
-        suffix.to_uppercase(),
+        precision.name(),
     )
 }

@@ -52,10 +52,10 @@ pub(super) fn body<P: SourceGeometry>(body: &Body<P::Space>) -> String {
 pub(super) fn state<P: SourceGeometry>(state: &BodyState<P>) -> String {
     format!(
         "BodyState {{ position: {}, orientation: {}, velocity: {}, angular_velocity: {} }}",
-        P::vector(&P::position(&state.position)),
+        P::stored_position(&state.position),
         P::orientation(&state.orientation),
-        P::vector(&P::velocity(&state.velocity)),
-        P::moment(&P::spin(&state.angular_velocity)),
+        P::stored_velocity(&state.velocity),
+        P::stored_spin(&state.angular_velocity),
     )
 }
 

@@ -1,0 +1,167 @@
+//! Whether a scene lies within what a precision stores.
+//!
+//! `(scene, precision, step) => the first part that does not fit, by its name, with the numbers`.
+
+use dbd_kernel::extents::{Excess, Part, first_excess};
+use dbd_kernel::{BodyIndex, Geometry};
+
+use crate::Scene;
+use crate::time::display;
+
+/// A part of a model that a precision cannot hold.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{what}, and {precision} holds at most {limit} m")]
+pub struct Misfit {
+    /// What it is and does, with its number: ``the body `cart` lies 30 m from the origin``.
+    pub what: String,
+    /// \[m\] the limit.
+    pub limit: f64,
+    /// The precision's name.
+    pub precision: &'static str,
+    /// What would be right.
+    pub remedy: &'static str,
+}
+
+/// How far away a body or a point of the ground may be.
+const NEARER: &str = "an origin nearer to the mechanism, or --precision f64";
+/// How long an arm may be.
+const SHORTER: &str = "a centre of mass nearer to the point, or --precision f64";
+/// How far a body may move in a step.
+const FINER: &str = "a shorter step, or --precision f64";
+/// How far the ground may move.
+const LESS: &str =
+    "a smaller displacement, with the rest of it in the anchor's place, or --precision f64";
+
+impl Misfit {
+    /// What does not fit of a model of which no names are known.
+    #[must_use]
+    pub fn unnamed<P: Geometry>(excess: &Excess, step: f64) -> Self {
+        let body = |body: BodyIndex| format!("body {}", body.0);
+        let group = |group: u16| format!("group {group}");
+        Self::of::<P>(excess, step, body, group, |input| format!("input {input}"))
+    }
+
+    fn of<P: Geometry>(
+        excess: &Excess,
+        step: f64,
+        body: impl Fn(BodyIndex) -> String,
+        group: impl Fn(u16) -> String,
+        input: impl Fn(u16) -> String,
+    ) -> Self {
+        let value = excess.value;
+        let (what, remedy) = match excess.part {
+            Part::Body(of) => {
+                (format!("{} lies {value} m from the origin along an axis", body(of)), NEARER)
+            }
+            Part::Point { body: of, group: Some(row) } => (
+                format!(
+                    "a point of {} lies {value} m from the centre of mass of {}",
+                    group(row),
+                    body(of)
+                ),
+                SHORTER,
+            ),
+            Part::Point { body: of, group: None } => {
+                (format!("a force acts {value} m from the centre of mass of {}", body(of)), SHORTER)
+            }
+            Part::Ground { group: row } => (
+                format!(
+                    "a point of {} on the ground lies {value} m from the origin along an axis",
+                    group(row)
+                ),
+                NEARER,
+            ),
+            Part::Drift(of) => {
+                (format!("{} moves {value} m in a step of {}", body(of), display(step)), FINER)
+            }
+            Part::Signal(of) => (format!("{} moves the ground by {value} m", input(of.0)), LESS),
+        };
+        Self { what, limit: excess.limit, precision: P::NAME, remedy }
+    }
+}
+
+impl Scene {
+    /// Whether bodies, points and the ground's displacements lie within what a precision stores, with steps
+    /// of `step` \[s\], in space.
+    ///
+    /// # Errors
+    /// The first part that does not.
+    pub fn check_extents<P: Geometry>(&self, step: f64) -> Result<(), Misfit> {
+        let view = dbd_kernel::model::ModelOwner::view(&self.model);
+        let excess = first_excess::<P, _, _>(&view, &self.model.initial, step);
+        let Some(excess) = excess else { return Ok(()) };
+        let named = |kind: &str, name: Option<&String>, row: u16| match name {
+            Some(name) => format!("the {kind} `{name}`"),
+            None => format!("{kind} {row}"),
+        };
+        let body = |body: BodyIndex| named("body", self.body_names.get(body.row()), body.0);
+        let group = |row: u16| match self.joint_of(row.into()) {
+            Some(joint) => format!("the joint `{joint}`"),
+            None => self.raw_of(row.into()).map_or_else(|| format!("group {row}"), str::to_owned),
+        };
+        let input = |row: u16| {
+            named("input", self.inputs.get(usize::from(row)).map(|input| &input.name), row)
+        };
+        Err(Misfit::of::<P>(&excess, step, body, group, input))
+    }
+
+    fn joint_of(&self, group: usize) -> Option<&str> {
+        let joint = self.joints.iter().find(|joint| joint.groups.contains(&group))?;
+        Some(&joint.name)
+    }
+
+    /// What messages call the raw element of a group.
+    fn raw_of(&self, group: usize) -> Option<&str> {
+        let first = self.joints.iter().map(|joint| joint.groups.end).max().unwrap_or(0);
+        self.raw_names().get(group.checked_sub(first)?).map(String::as_str)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dbd_kernel::{F32, Fixed};
+
+    use super::*;
+
+    fn scene(body: &str, ground: &str, point: &str, velocity: &str) -> Scene {
+        let text = format!(
+            "name = \"far\"\nduration = 1\n\
+             [[body]]\nname = \"cart\"\nmass = 1\ninertia = [1, 1, 1]\nposition = {body}\nvelocity = {velocity}\n\
+             [[tsda]]\nname = \"spring\"\nbetween = [\"world\", \"cart\"]\npoints = [{ground}, {point}]\n\
+             stiffness = 10\nfree_length = 0\n\
+             [[input]]\nname = \"road\"\ntype = \"anchor\"\ntarget = \"spring\"\naxis = [1, 0, 0]\nvalue = 8\n"
+        );
+        Scene::parse(&text, "far.toml").unwrap_or_else(|error| panic!("{error:?}"))
+    }
+
+    #[test]
+    fn what_does_not_fit_is_named_with_the_numbers() {
+        let near = "[0, 0, 0]";
+        for (far, said) in [
+            (
+                scene("[0, 30, 0]", near, near, near),
+                "the body `cart` lies 30 m from the origin along an axis, and fixed holds at most 24 m",
+            ),
+            (
+                scene(near, "[0, 0, -25]", near, near),
+                "lies 25 m from the origin along an axis, and fixed holds at most 24 m",
+            ),
+            (
+                scene(near, near, "[6, 0, 8]", near),
+                "lies 10 m from the centre of mass of the body `cart`, and fixed holds at most 7 m",
+            ),
+            (
+                scene(near, near, near, "[0, 0, 500]"),
+                "the body `cart` moves 0.5 m in a step of 1ms, and fixed holds at most 0.125 m",
+            ),
+            (
+                scene(near, near, near, near),
+                "the input `road` moves the ground by 8 m, and fixed holds at most 7 m",
+            ),
+        ] {
+            let found = far.check_extents::<Fixed>(1e-3).unwrap_err().to_string();
+            assert!(found.contains(said), "{found}");
+            assert_eq!(far.check_extents::<F32>(1e-3), Ok(()));
+        }
+    }
+}
