@@ -121,7 +121,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
 
     // Lanes are stepped by a function that may use more instructions than its callees: it has none.
     #[inline(always)]
-    fn evaluate_here<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
+    pub(crate) fn evaluate_here<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
         self.ledger.evaluations += 1;
         self.ledger.fresh = false;
         self.ledger.ready = false;
