@@ -222,7 +222,7 @@ mod tests {
             for row in 0..3 {
                 let mut double = [1.0; 3];
                 double[row] = x;
-                let v = Vec3::from_f64(double);
+                let v = Vec3::<f64>::from_f64(double);
                 assert!(!are_finite(&|sums| v.visit(sums)), "{x}");
                 let v = Vec3::<f32>::from_f64(double);
                 assert!(!are_finite(&|sums| v.visit(sums)), "{x}");
