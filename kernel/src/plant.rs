@@ -8,7 +8,7 @@ use core::ops::Deref;
 
 use crate::attitude::Attitude as _;
 use crate::damping::{Damping, Held, Keep, Share, find, share, weigh};
-use crate::forces::Wrench;
+use crate::forces::{Wrench, are_in_line};
 use crate::guards::first_fault;
 use crate::index::{BodyIndex, InputIndex};
 use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, SpaceOf, Terms};
@@ -42,6 +42,7 @@ where
     frames: PerBody<H, FrameOf<H::Target>>,
     wrenches: PerBody<H, Wrench<SpaceOf<H::Target>>>,
     memory: PerBody<H, S::Memory<<H::Target as ModelOwner>::Precision>>,
+    in_line: bool,
     ledger: Ledger,
     status: Status,
 }
@@ -97,6 +98,7 @@ where
         }
         let wrenches = owner.per_body(Wrench::default());
         let memory = owner.per_body(S::Memory::default());
+        let in_line = are_in_line(&view);
         let mut plant = Self {
             model,
             scheme,
@@ -111,6 +113,7 @@ where
             frames,
             wrenches,
             memory,
+            in_line,
             ledger: Ledger::default(),
             status: Status::Running,
         };
@@ -187,6 +190,7 @@ where
             frames: self.frames.as_mut(),
             wrenches: self.wrenches.as_mut(),
             memory: self.memory.as_mut(),
+            in_line: self.in_line,
             ledger: &mut self.ledger,
         })
     }

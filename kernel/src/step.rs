@@ -63,6 +63,8 @@ pub struct Stepper<'s, 'm, P: Geometry, T, S> {
     pub(crate) frames: &'s mut [P::Frame],
     /// The bodies' wrenches.
     pub(crate) wrenches: &'s mut [Wrench<P::Space>],
+    /// Whether the groups are revolutes one after the other, see [`forces::are_in_line`].
+    pub(crate) in_line: bool,
     /// The scheme's memory per body.
     pub(crate) memory: &'s mut [S],
     /// Evaluations and the freshness of the wrenches.
@@ -132,6 +134,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
                 windows: self.windows,
                 signals: self.signals,
                 bodies: self.bodies,
+                in_line: self.in_line,
             },
             Turns { counts: self.turns, at },
             Evaluation { frames: self.frames, wrenches: self.wrenches },
