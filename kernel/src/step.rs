@@ -41,7 +41,7 @@ pub struct Stepper<'s, 'm, P: Geometry, T, S> {
     pub(crate) model: ModelRef<'m, P, T>,
     /// \[s\] the step size, rounded to the precision.
     pub(crate) h: P::Real,
-    /// h·D⁻¹ per body.
+    /// ½·h·D⁻¹ per body.
     pub(crate) diagonals: &'s [Diagonal<P::Space>],
     /// The dampers' shares.
     pub(crate) shares: &'s [Share<P::Real>],
@@ -314,10 +314,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
         for (((state, memory), body), (wrench, diagonal)) in rows {
             let w = P::spin(&state.angular_velocity);
             let torque = wrench.torque - w.commutator(body.inertia.scale(w));
-            let increment = Increment {
-                linear: wrench.force * diagonal.mass,
-                angular: torque.scale(diagonal.inertia),
-            };
+            let increment = diagonal.increment(wrench.force, torque, P::Real::ONE);
             visit(memory, state, increment, h);
         }
     }

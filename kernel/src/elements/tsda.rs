@@ -3,12 +3,24 @@
 //! `(d, v_rel) => force on A`, with `d = x_b − x_a` and `v_rel` the rate of `d`:
 //! tension `k·(L − L0) + c·(d·v_rel)/L` along `d/L`; the force on B is the opposite.
 //! Energy `½·k·(L − L0)²`; a clearance changes `L − L0` and c, see [`crate::elements::clearance`].
-//! Where the points coincide the direction is undefined and the force 0.
+//! Where the points coincide the direction is undefined and the force 0: of two that are closer than
+//! 1e-18 m (in double precision 1e-100 m) it falls to 0 with their distance, of others nothing changes.
 
 use crate::elements::clearance::{beyond, engaged};
 use crate::elements::point_law::{PointLaw, Stretch, taut};
-use crate::real::Real;
+use crate::real::{Constant, Real};
 use crate::space::{Linear, Vector};
+
+/// \[m²\] What a square of a length never falls below, so that none need be asked whether it is 0. It
+/// changes no bit of a square that is 2^54 (f32: 2^25) times as large, and is as small as leaves forces
+/// of 1e20 N finite.
+const LEAST_SQUARE: Constant = Constant { double: 1e-200, single: 1e-36 };
+
+/// The length of `d` \[m\].
+#[inline(always)]
+fn length<V: Linear>(d: V) -> V::Real {
+    (d.dot(d) + V::Real::constant(LEAST_SQUARE)).sqrt()
+}
 
 /// The constants of a TSDA with a free length.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -34,27 +46,27 @@ impl<R: Real> Tsda<R> {
     /// Force on A \[N\] without damping, beyond a clearance \[m\] if there is one.
     #[inline(always)]
     pub fn force<V: Linear<Real = R>>(&self, d: V, clearance: Option<R>) -> V {
-        let length = d.dot(d).sqrt();
-        let inverse = length.reciprocal_or_zero();
+        let length = length(d);
+        let inverse = R::ONE / length;
         let tension = self.stiffness * beyond(length - self.free_length, clearance);
         d * (tension * inverse)
     }
 
-    /// [`Self::force`] of several without clearance: whether any has no length is asked once.
+    /// [`Self::force`] of several without clearance.
     #[inline(always)]
     pub(crate) fn forces<V: Linear<Real = R>, const N: usize>(
         springs: &[Self; N],
         d: &[V; N],
     ) -> [V; N] {
-        let mut lengths = [R::ZERO; N];
+        let mut squares = [R::ZERO; N];
         for i in 0..N {
-            lengths[i] = d[i].dot(d[i]).sqrt();
+            squares[i] = d[i].dot(d[i]) + R::constant(LEAST_SQUARE);
         }
-        let inverses = R::reciprocals_or_zero(lengths);
+        let lengths = R::roots(squares);
         let mut forces = *d;
         for i in 0..N {
             let tension = springs[i].stiffness * (lengths[i] - springs[i].free_length);
-            forces[i] = d[i] * (tension * inverses[i]);
+            forces[i] = d[i] * (tension * (R::ONE / lengths[i]));
         }
         forces
     }
@@ -68,8 +80,8 @@ impl<R: Real> Tsda<R> {
         v_rel: V,
         clearance: Option<R>,
     ) -> V {
-        let length = d.dot(d).sqrt();
-        let inverse = length.reciprocal_or_zero();
+        let length = length(d);
+        let inverse = R::ONE / length;
         let extension = length - self.free_length;
         let damping = engaged(damping, extension, clearance);
         let tension =

@@ -161,21 +161,44 @@ fn pull<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usize
     }
     let mut pulls_a = [P::Vector::ZERO; STARS];
     let mut torque_b = P::Moment::ZERO;
-    // A point of B at a time, for all stars: what it takes is in registers, and forgotten with it.
-    for (arm, tip) in tips.iter().enumerate() {
-        let (tip, tip_arm) = end_b.place(tip);
-        let mut stretches = [P::Vector::ZERO; STARS];
-        for (stretch, (centre, _)) in stretches.iter_mut().zip(&spots) {
-            *stretch = P::displacement(centre, &tip);
+    if STARS == 1 && P::Space::PLANAR {
+        // Few enough for the registers to hold all.
+        let (mut at, mut arms) = ([(0, 0); ARMS], [P::Vector::ZERO; ARMS]);
+        let mut stretches = arms;
+        for (arm, tip) in tips.iter().enumerate() {
+            let (tip, tip_arm) = end_b.place(tip);
+            (at[arm].1, arms[arm]) = (arm, tip_arm);
+            stretches[arm] = P::displacement(&spots[0].0, &tip);
         }
-        let pulls = springs.pulls(arm, &stretches, |star| {
-            end_b.point_velocity(tip_arm) - end_a.point_velocity(spots[star].1)
+        let pulls = springs.pulls(at, &stretches, |arm| {
+            end_b.point_velocity(arms[arm]) - end_a.point_velocity(spots[0].1)
         });
-        for (pull_a, pull) in pulls_a.iter_mut().zip(pulls) {
-            *pull_a = if arm == 0 { pull } else { *pull_a + pull };
+        pulls_a[0] = sum(&pulls);
+        for (arm, pull) in pulls.into_iter().enumerate() {
+            let torque = end_b.moment(arms[arm], pull);
+            torque_b = if arm == 0 { torque } else { torque_b + torque };
         }
-        let torque = end_b.moment(tip_arm, sum(&pulls));
-        torque_b = if arm == 0 { -torque } else { torque_b - torque };
+    } else {
+        // A point of B at a time, for all stars: what it takes is in registers, and forgotten with it.
+        for (arm, tip) in tips.iter().enumerate() {
+            let (tip, tip_arm) = end_b.place(tip);
+            let mut stretches = [P::Vector::ZERO; STARS];
+            for (stretch, (centre, _)) in stretches.iter_mut().zip(&spots) {
+                *stretch = P::displacement(centre, &tip);
+            }
+            let mut at = [(0, arm); STARS];
+            for (star, at) in at.iter_mut().enumerate() {
+                at.0 = star;
+            }
+            let pulls = springs.pulls(at, &stretches, |star| {
+                end_b.point_velocity(tip_arm) - end_a.point_velocity(spots[star].1)
+            });
+            for (pull_a, pull) in pulls_a.iter_mut().zip(pulls) {
+                *pull_a = if arm == 0 { pull } else { *pull_a + pull };
+            }
+            let torque = end_b.moment(tip_arm, sum(&pulls));
+            torque_b = if arm == 0 { torque } else { torque_b + torque };
+        }
     }
     let mut torques_a = [P::Moment::ZERO; STARS];
     for (torque, (pull, (_, arm))) in torques_a.iter_mut().zip(pulls_a.iter().zip(&spots)) {
@@ -200,17 +223,18 @@ struct Springs<'m, R, const STARS: usize, const ARMS: usize> {
 }
 
 impl<R: Real, const STARS: usize, const ARMS: usize> Springs<'_, R, STARS, ARMS> {
-    /// The stars' pulls on the point `arm` of B, at their stretches and, where dampers act, rates.
+    /// The pulls of springs, each a star's at a point of B, at their stretches and, where dampers act,
+    /// rates.
     #[inline(always)]
-    fn pulls<V: Linear<Real = R>>(
+    fn pulls<V: Linear<Real = R>, const N: usize>(
         &self,
-        arm: usize,
-        stretches: &[V; STARS],
+        at: [(usize, usize); N],
+        stretches: &[V; N],
         rate: impl Fn(usize) -> V,
-    ) -> [V; STARS] {
-        let mut springs = [Tsda::default(); STARS];
-        for (spring, arms) in springs.iter_mut().zip(self.springs) {
-            *spring = arms[arm];
+    ) -> [V; N] {
+        let mut springs = [Tsda::default(); N];
+        for (spring, (star, arm)) in springs.iter_mut().zip(at) {
+            *spring = self.springs[star][arm];
         }
         let mut pulls = *stretches;
         match (self.dampers, self.clearance) {
@@ -221,9 +245,9 @@ impl<R: Real, const STARS: usize, const ARMS: usize> Springs<'_, R, STARS, ARMS>
                 }
             }
             (Some(dampers), clearance) => {
-                for (star, (pull, spring)) in pulls.iter_mut().zip(&springs).enumerate() {
+                for (i, (pull, (star, arm))) in pulls.iter_mut().zip(at).enumerate() {
                     let damping = dampers[star][arm];
-                    *pull = spring.damped_force(damping, *pull, rate(star), clearance);
+                    *pull = springs[i].damped_force(damping, *pull, rate(i), clearance);
                 }
             }
         }
@@ -272,7 +296,7 @@ fn many<P: Geometry, T: Terms, D: Dampers>(
             pull_a = pull_a + pull;
             *pull_b = *pull_b + pull;
             if !group.shared || star + 1 == stars {
-                record.torque_b = record.torque_b - arm_b.cross(*pull_b);
+                record.torque_b = record.torque_b + arm_b.cross(*pull_b);
                 *pull_b = P::Vector::ZERO;
             }
         }
