@@ -15,7 +15,7 @@ use crate::pose::{Places, place_bodies};
 use crate::real::Real;
 use crate::rotation;
 use crate::schedule::{self, KnotStep, LoadWindow, Signal, StageTime};
-use crate::space::Moment as _;
+use crate::space::{Moment as _, Space as _};
 use crate::status::Cause;
 
 /// What a plant knows of its evaluations. Never part of the state: evaluating anew gives the same
@@ -113,17 +113,23 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
     /// [`Cause::UndefinedTwist`] names the torsion spring whose twist is undefined.
     #[inline(always)]
     pub fn evaluate<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
-        if P::Real::LANES == 1 { self.evaluate_apart::<D>(at) } else { self.evaluate_here::<D>(at) }
+        if P::Real::LANES == 1 {
+            self.evaluate_apart::<D>(at)
+        } else {
+            self.evaluate_here::<D>(at, false)
+        }
     }
 
     // One body of it for all of a scheme's evaluations.
     fn evaluate_apart<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
-        self.evaluate_here::<D>(at)
+        self.evaluate_here::<D>(at, false)
     }
 
     // Lanes are stepped by a function that may use more instructions than its callees: it has none.
+    /// [`Self::evaluate`] with a body of its own, for a scheme that calls it in one place; `placed` tells
+    /// whether the frames are those of the present pose.
     #[inline(always)]
-    pub(crate) fn evaluate_here<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
+    pub(crate) fn evaluate_here<D: Dampers>(&mut self, at: At, placed: bool) -> Result<(), Cause> {
         self.ledger.evaluations += 1;
         self.ledger.fresh = false;
         self.ledger.ready = false;
@@ -135,6 +141,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
                 signals: self.signals,
                 bodies: self.bodies,
                 in_line: self.in_line,
+                placed,
             },
             Turns { counts: self.turns, at },
             Evaluation { frames: self.frames, wrenches: self.wrenches },
@@ -192,6 +199,37 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
         for ((state, body), (wrench, diagonal)) in rows {
             kick_body(state, wrench, diagonal, scale);
             drift_body(state, body, time);
+        }
+    }
+
+    /// [`Self::drift`], and the bodies' frames with it.
+    #[inline(always)]
+    pub(crate) fn drift_and_place(&mut self, time: P::Real) {
+        self.ledger.fresh = false;
+        self.ledger.ready = false;
+        let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
+        for ((state, body), frame) in rows {
+            drift_body(state, body, time);
+            *frame = P::frame(&state.position, &state.orientation);
+        }
+    }
+
+    /// [`Self::kick_and_drift`], and the bodies' frames with it.
+    #[inline(always)]
+    pub(crate) fn kick_drift_and_place(&mut self, scale: P::Real, time: P::Real) {
+        // Of a few bodies in the plane each of two loops is short enough to be unrolled, one is not.
+        if P::Space::PLANAR {
+            self.kick_and_drift(scale, time);
+            return place_bodies(self.bodies, self.frames);
+        }
+        self.ledger.fresh = false;
+        self.ledger.ready = false;
+        let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
+        let rows = rows.zip(self.wrenches.iter().zip(self.diagonals));
+        for (((state, body), frame), (wrench, diagonal)) in rows {
+            kick_body(state, wrench, diagonal, scale);
+            drift_body(state, body, time);
+            *frame = P::frame(&state.position, &state.orientation);
         }
     }
 

@@ -44,6 +44,8 @@ pub(crate) struct Instant<'s, P: Geometry> {
     pub(crate) bodies: &'s [BodyState<P>],
     /// Whether the groups [`are_in_line`].
     pub(crate) in_line: bool,
+    /// Whether the frames are those of the pose.
+    pub(crate) placed: bool,
 }
 
 /// What an evaluation writes, one of each per body.
@@ -80,6 +82,7 @@ pub fn wrenches<M: ModelOwner>(
             signals: state.signals.as_ref(),
             bodies: state.bodies.as_ref(),
             in_line: false,
+            placed: false,
         },
         Turns { counts: turns.as_mut(), at: At::Stage },
         Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() },
@@ -99,9 +102,11 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, D: Dampers>(
     turns: Turns<'_>,
     out: Evaluation<'_, P>,
 ) -> Result<(), Cause> {
-    let Instant { step, windows, signals, bodies, in_line } = instant;
+    let Instant { step, windows, signals, bodies, in_line, placed } = instant;
     let Evaluation { frames, wrenches } = out;
-    place_bodies(bodies, frames);
+    if !placed {
+        place_bodies(bodies, frames);
+    }
     start(model, windows, step, frames, wrenches);
     let places = Places { frames, signals };
     if T::INPUTS {

@@ -59,14 +59,14 @@ impl Kicked for Leapfrog {
         loop {
             if known {
                 if D::ACT || !stepper.has_dampers() {
-                    stepper.kick_and_drift(P::Real::HALF, stepper.h);
+                    stepper.kick_drift_and_place(P::Real::HALF, stepper.h);
                 } else {
                     stepper.damped_kick::<D, false>();
-                    stepper.drift(stepper.h);
+                    stepper.drift_and_place(stepper.h);
                 }
                 stepper.sample_inputs(P::Real::ONE);
             }
-            stepper.evaluate_here::<D>(At::Boundary)?;
+            stepper.evaluate_here::<D>(At::Boundary, known)?;
             if known {
                 break;
             }
