@@ -167,10 +167,10 @@ fn start<P: Geometry, T: Terms>(
     frames: &[P::Frame],
     wrenches: &mut [Wrench<P::Space>],
 ) {
-    let field = if T::GRAVITY { model.gravity.first() } else { None };
+    let field = if T::GRAVITY { model.gravity.first().copied() } else { None };
     for (body, wrench) in model.bodies.iter().zip(wrenches.iter_mut()) {
         let force = match field {
-            Some(gravity) => gravity::weight(body.mass, *gravity),
+            Some(gravity) => gravity::weight(body.mass, gravity),
             None => P::Vector::ZERO,
         };
         *wrench = Wrench { force, torque: P::Moment::ZERO };
