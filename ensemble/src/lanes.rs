@@ -221,14 +221,6 @@ impl<V: Register> Real for Lanes<V> {
     fn reciprocal_or_zero(self) -> Self {
         Self::pick(self.equals(Self::ZERO), Self::ZERO, Self::ONE / self)
     }
-    // Each lane asks for itself: a product that is 0 in one says nothing of the others.
-    #[inline(always)]
-    fn reciprocals_or_zero<const N: usize>(mut values: [Self; N]) -> [Self; N] {
-        for value in &mut values {
-            *value = value.reciprocal_or_zero();
-        }
-        values
-    }
     #[inline(always)]
     fn abs(self) -> Self {
         Self::pick(self.less_than(Self::ZERO), -self, self)

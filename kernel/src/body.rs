@@ -60,7 +60,8 @@ pub struct Increment<S: Space> {
     pub angular: S::Moment,
 }
 
-/// h·D⁻¹ of one body: the step over its mass and its principal inertias.
+/// ½·h·D⁻¹ of one body: half the step over its mass and its principal inertias. Half, for most kicks
+/// are halves: of them no factor is left.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Diagonal<S: Space> {
     /// \[s/kg\].
@@ -72,7 +73,8 @@ pub struct Diagonal<S: Space> {
 impl<S: Space> Diagonal<S> {
     /// The diagonal of a body for the step `h` \[s\]: one division each.
     pub fn new(body: &Body<S>, h: S::Real) -> Self {
-        Self { mass: h / body.mass, inertia: body.inertia.under(h) }
+        let half = S::Real::HALF;
+        Self { mass: half * (h / body.mass), inertia: body.inertia.under(h) * half }
     }
 
     /// `scale·(h·D⁻¹)·Q` of a force (world) and a torque (body axes), without the gyroscopic term.
@@ -83,9 +85,10 @@ impl<S: Space> Diagonal<S> {
         torque: S::Moment,
         scale: S::Real,
     ) -> Increment<S> {
+        let halves = S::Real::TWO * scale;
         Increment {
-            linear: force * (scale * self.mass),
-            angular: torque.scale(self.inertia * scale),
+            linear: force * (halves * self.mass),
+            angular: torque.scale(self.inertia * halves),
         }
     }
 }

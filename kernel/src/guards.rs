@@ -11,7 +11,7 @@ use crate::model::Terms;
 use crate::real::Real as _;
 use crate::space::Linear as _;
 use crate::status::{Cause, MOST_TURN};
-use crate::words::is_finite;
+use crate::words::{Sums, Words as _, is_finite};
 
 /// The first body with a number in its state that is infinite or NaN or that turns too far in a
 /// step, else the first turn count at its end.
@@ -21,6 +21,35 @@ pub(crate) fn first_fault<P: Geometry, T: Terms>(
     turns: &[i32],
     h: P::Real,
 ) -> Option<Cause> {
+    if !are_well::<P>(bodies, h)
+        && let Some(cause) = first_at_fault::<P>(bodies, h)
+    {
+        return Some(cause);
+    }
+    if T::TORSIONS {
+        let ended = turns.iter().position(|turns| matches!(*turns, i32::MIN | i32::MAX))?;
+        return Some(Cause::Turns { spring: TorsionIndex(ended as u16) });
+    }
+    None
+}
+
+/// Whether all bodies are well for sure: all their numbers in one sum, all their turns in another.
+#[inline]
+fn are_well<P: Geometry>(bodies: &[BodyState<P>], h: P::Real) -> bool {
+    let (mut sums, mut squares) = (Sums::ZERO, P::Real::ZERO);
+    for state in bodies {
+        state.visit(&mut sums);
+        let rate = P::spin(&state.angular_velocity);
+        squares = squares + rate.dot(rate);
+    }
+    // Half of what a body may turn, so that rounding has room.
+    sums.are_finite() && squares * (h * h) <= P::Real::HALF
+}
+
+/// Body by body: what may be at fault need not be.
+#[cold]
+#[inline(never)]
+fn first_at_fault<P: Geometry>(bodies: &[BodyState<P>], h: P::Real) -> Option<Cause> {
     // 1 rad: no conversion on a target without double precision.
     const { assert!(MOST_TURN == 1.0) };
     for (row, state) in bodies.iter().enumerate() {
@@ -33,10 +62,6 @@ pub(crate) fn first_fault<P: Geometry, T: Terms>(
         if !slow {
             return Some(Cause::Spin { body });
         }
-    }
-    if T::TORSIONS {
-        let ended = turns.iter().position(|turns| matches!(*turns, i32::MIN | i32::MAX))?;
-        return Some(Cause::Turns { spring: TorsionIndex(ended as u16) });
     }
     None
 }

@@ -10,7 +10,7 @@ use crate::attitude::Attitude as _;
 use crate::damping::{Damping, Held, Keep, Share, find, share, weigh};
 use crate::elements::input::{Input, InputKind};
 use crate::extents::first_excess;
-use crate::forces::Wrench;
+use crate::forces::{Wrench, are_in_line};
 use crate::geometry::Geometry;
 use crate::guards::{first_beyond, first_fault};
 use crate::index::{BodyIndex, InputIndex};
@@ -45,6 +45,7 @@ where
     frames: PerBody<H, FrameOf<H::Target>>,
     wrenches: PerBody<H, Wrench<SpaceOf<H::Target>>>,
     memory: PerBody<H, S::Memory<<H::Target as ModelOwner>::Precision>>,
+    in_line: bool,
     ledger: Ledger,
     status: Status,
 }
@@ -105,6 +106,7 @@ where
         }
         let wrenches = owner.per_body(Wrench::default());
         let memory = owner.per_body(S::Memory::default());
+        let in_line = are_in_line(&view);
         let mut plant = Self {
             model,
             scheme,
@@ -119,6 +121,7 @@ where
             frames,
             wrenches,
             memory,
+            in_line,
             ledger: Ledger::default(),
             status: Status::Running,
         };
@@ -194,6 +197,7 @@ where
             step: self.state.step,
             frames: self.frames.as_mut(),
             wrenches: self.wrenches.as_mut(),
+            in_line: self.in_line,
             ledger: &mut self.ledger,
         };
         self.scheme.step(&mut Stepper { workspace, memory: self.memory.as_mut() })

@@ -129,6 +129,14 @@ pub trait Real:
     fn from_i32(value: i32) -> Self;
     /// The correctly rounded square root.
     fn sqrt(self) -> Self;
+    /// [`Self::sqrt`] of each.
+    #[inline(always)]
+    fn roots<const N: usize>(mut values: [Self; N]) -> [Self; N] {
+        for value in &mut values {
+            *value = value.sqrt();
+        }
+        values
+    }
     /// Whether the number is neither infinite nor NaN.
     fn is_finite(self) -> bool;
     /// The number's stored word.
@@ -167,27 +175,6 @@ pub trait Real:
     #[inline(always)]
     fn reciprocal_or_zero(self) -> Self {
         if self == Self::ZERO { Self::ZERO } else { Self::ONE / self }
-    }
-
-    /// [`Self::reciprocal_or_zero`] of each. Where their product is not 0 none of them is: one
-    /// question instead of one for each.
-    #[inline(always)]
-    fn reciprocals_or_zero<const N: usize>(values: [Self; N]) -> [Self; N] {
-        let mut product = Self::ONE;
-        for value in values {
-            product = product * value;
-        }
-        let mut inverses = values;
-        if product == Self::ZERO {
-            for inverse in &mut inverses {
-                *inverse = inverse.reciprocal_or_zero();
-            }
-        } else {
-            for inverse in &mut inverses {
-                *inverse = Self::ONE / *inverse;
-            }
-        }
-        inverses
     }
 
     /// The absolute value.
@@ -393,6 +380,10 @@ impl Real for f32 {
     #[inline(always)]
     fn sqrt(self) -> Self {
         crate::square_root::sqrt_f32(self)
+    }
+    #[inline(always)]
+    fn roots<const N: usize>(values: [Self; N]) -> [Self; N] {
+        crate::square_root::roots_f32(values)
     }
     #[inline(always)]
     fn is_finite(self) -> bool {

@@ -41,6 +41,47 @@ pub fn sqrt_f32(x: f32) -> f32 {
     f32::from_bits(root)
 }
 
+/// The roots of several in single precision: two registers go over in one instruction.
+#[inline(always)]
+pub fn roots_f32<const N: usize>(mut values: [f32; N]) -> [f32; N] {
+    let (pairs, rest) = values.as_chunks_mut();
+    for pair in pairs {
+        *pair = roots_of_pair(*pair);
+    }
+    for value in rest {
+        *value = sqrt_f32(*value);
+    }
+    values
+}
+
+#[cfg(not(all(target_arch = "arm", target_os = "none", target_abi = "eabihf")))]
+#[inline(always)]
+fn roots_of_pair(pair: [f32; 2]) -> [f32; 2] {
+    pair.map(sqrt_f32)
+}
+
+#[cfg(all(target_arch = "arm", target_os = "none", target_abi = "eabihf"))]
+#[allow(unsafe_code)]
+#[inline(always)]
+fn roots_of_pair([a, b]: [f32; 2]) -> [f32; 2] {
+    let (root_a, root_b): (u32, u32);
+    // SAFETY: as above.
+    unsafe {
+        core::arch::asm!(
+            "vmov s0, s1, {a}, {b}",
+            "vsqrt.f32 s0, s0",
+            "vsqrt.f32 s1, s1",
+            "vmov {a}, {b}, s0, s1",
+            a = inlateout(reg) a.to_bits() => root_a,
+            b = inlateout(reg) b.to_bits() => root_b,
+            out("s0") _,
+            out("s1") _,
+            options(nostack, preserves_flags),
+        );
+    }
+    [f32::from_bits(root_a), f32::from_bits(root_b)]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -53,6 +94,7 @@ mod tests {
             let r = sqrt_f32(x);
             let exact = sqrt_f64(f64::from(x));
             assert_eq!(r, exact as f32, "{x:e}");
+            assert_eq!(roots_f32([x, 2.0, x]), [r, core::f32::consts::SQRT_2, r]);
             x *= 1.37;
         }
         assert_eq!(sqrt_f64(2.0), core::f64::consts::SQRT_2);

@@ -17,7 +17,7 @@ use crate::pose::{Places, place_bodies};
 use crate::real::Real;
 use crate::rotation;
 use crate::schedule::{self, KnotStep, LoadWindow, Signal, StageTime};
-use crate::space::Moment as _;
+use crate::space::{Moment as _, Space as _};
 use crate::status::Cause;
 
 /// What a plant knows of its evaluations. Never part of the state: evaluating anew gives the same
@@ -69,7 +69,7 @@ pub struct Workspace<'s, 'm, P: Geometry, T> {
     pub(crate) model: ModelRef<'m, P, T>,
     /// \[s\] the step size, rounded to the precision.
     pub(crate) h: P::Real,
-    /// h·D⁻¹ per body.
+    /// ½·h·D⁻¹ per body.
     pub(crate) diagonals: &'s [Diagonal<P::Space>],
     /// The dampers' shares.
     pub(crate) shares: &'s [Share<P::Real>],
@@ -91,6 +91,8 @@ pub struct Workspace<'s, 'm, P: Geometry, T> {
     pub(crate) frames: &'s mut [P::Frame],
     /// The bodies' wrenches.
     pub(crate) wrenches: &'s mut [Wrench<P::Space>],
+    /// Whether the groups are revolutes one after the other, see [`forces::are_in_line`].
+    pub(crate) in_line: bool,
     /// Evaluations and the freshness of the wrenches.
     pub(crate) ledger: &'s mut Ledger,
 }
@@ -140,18 +142,20 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
         if P::Real::LANES == 1 {
             self.evaluate_apart::<D::Forces>(at)
         } else {
-            self.evaluate_here::<D::Forces>(at)
+            self.evaluate_here::<D::Forces>(at, false)
         }
     }
 
     // One body of it for all of a scheme's evaluations.
     fn evaluate_apart<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
-        self.evaluate_here::<D>(at)
+        self.evaluate_here::<D>(at, false)
     }
 
     // Lanes are stepped by a function that may use more instructions than its callees: it has none.
+    /// [`Self::evaluate`] with a body of its own, for a scheme that calls it in one place; `placed` tells
+    /// whether the frames are those of the present pose.
     #[inline(always)]
-    fn evaluate_here<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
+    pub(crate) fn evaluate_here<D: Dampers>(&mut self, at: At, placed: bool) -> Result<(), Cause> {
         self.ledger.evaluations += 1;
         self.ledger.fresh = false;
         self.ledger.ready = false;
@@ -162,6 +166,8 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
                 windows: self.windows,
                 signals: self.signals,
                 bodies: self.bodies,
+                in_line: self.in_line,
+                placed,
             },
             Turns { counts: self.turns, at },
             Evaluation { frames: self.frames, wrenches: self.wrenches },
@@ -219,6 +225,37 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
         for ((state, body), (wrench, diagonal)) in rows {
             kick_body(state, wrench, diagonal, scale);
             drift_body(state, body, time);
+        }
+    }
+
+    /// [`Self::drift`], and the bodies' frames with it.
+    #[inline(always)]
+    pub(crate) fn drift_and_place(&mut self, time: P::Real) {
+        self.ledger.fresh = false;
+        self.ledger.ready = false;
+        let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
+        for ((state, body), frame) in rows {
+            drift_body(state, body, time);
+            *frame = P::frame(&state.position, &state.orientation);
+        }
+    }
+
+    /// [`Self::kick_and_drift`], and the bodies' frames with it.
+    #[inline(always)]
+    pub(crate) fn kick_drift_and_place(&mut self, scale: P::Real, time: P::Real) {
+        // Of a few bodies in the plane each of two loops is short enough to be unrolled, one is not.
+        if P::Space::PLANAR {
+            self.kick_and_drift(scale, time);
+            return place_bodies(self.bodies, self.frames);
+        }
+        self.ledger.fresh = false;
+        self.ledger.ready = false;
+        let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
+        let rows = rows.zip(self.wrenches.iter().zip(self.diagonals));
+        for (((state, body), frame), (wrench, diagonal)) in rows {
+            kick_body(state, wrench, diagonal, scale);
+            drift_body(state, body, time);
+            *frame = P::frame(&state.position, &state.orientation);
         }
     }
 
@@ -360,10 +397,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
         for (((state, memory), body), (wrench, diagonal)) in rows {
             let w = P::spin(&state.angular_velocity);
             let torque = wrench.torque - w.commutator(body.inertia.scale(w));
-            let increment = Increment {
-                linear: wrench.force * diagonal.mass,
-                angular: torque.scale(diagonal.inertia),
-            };
+            let increment = diagonal.increment(wrench.force, torque, P::Real::ONE);
             visit(memory, state, increment, *h);
         }
     }

@@ -122,12 +122,22 @@ impl WordVisitor for Finite {
 }
 
 /// What is finite only where every number visited so far is.
-struct Sums {
+pub(crate) struct Sums {
     /// The sum of single-precision numbers: one addition each.
     single: f32,
     /// Its highest bit is set by an exponent of ones, the mark of what is not finite, in the upper
     /// halves of double-precision numbers: in integers, for the target adds those in software.
     double: u32,
+}
+
+impl Sums {
+    pub(crate) const ZERO: Self = Self { single: 0.0, double: 0 };
+
+    /// Whether every number was finite for sure: the sum of finite numbers may overflow, too.
+    #[inline(always)]
+    pub(crate) fn are_finite(&self) -> bool {
+        self.double >> 31 == 0 && self.single.is_finite()
+    }
 }
 
 impl WordVisitor for Sums {
@@ -144,18 +154,8 @@ impl WordVisitor for Sums {
     }
 }
 
-/// Whether every number of some words is finite. A step asks this of every body.
-#[inline]
+/// Whether every number of some words is finite.
 pub(crate) fn is_finite(words: &impl Words) -> bool {
-    let mut sums = Sums { single: 0.0, double: 0 };
-    words.visit(&mut sums);
-    if sums.double >> 31 != 0 {
-        return false;
-    }
-    if sums.single.is_finite() {
-        return true;
-    }
-    // The sum of finite numbers may overflow, too.
     let mut finite = Finite(true);
     words.visit(&mut finite);
     finite.0
@@ -204,6 +204,32 @@ mod tests {
         }
         let opposite = [f32::INFINITY, f32::NEG_INFINITY];
         assert!(!is_finite(&Vec3::new(opposite[0], opposite[1], 0.0)));
+    }
+
+    #[test]
+    fn sums_are_finite_of_nothing_that_is_not() {
+        use crate::vector::Vec3;
+        let are_finite = |words: &dyn Fn(&mut Sums)| {
+            let mut sums = Sums::ZERO;
+            words(&mut sums);
+            sums.are_finite()
+        };
+        for x in [0.0, -0.0, 5e-324, 1.0, f64::MAX, f64::MIN] {
+            assert!(are_finite(&|sums| Vec3::new(x, x, x).visit(sums)), "{x:e}");
+        }
+        let lowest = f64::from_bits(0x7ff0_0000_0000_0001);
+        for x in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN, -f64::NAN, lowest] {
+            for row in 0..3 {
+                let mut double = [1.0; 3];
+                double[row] = x;
+                let v = Vec3::<f64>::from_f64(double);
+                assert!(!are_finite(&|sums| v.visit(sums)), "{x}");
+                let v = Vec3::<f32>::from_f64(double);
+                assert!(!are_finite(&|sums| v.visit(sums)), "{x}");
+            }
+        }
+        let opposite = Vec3::new(f32::INFINITY, f32::NEG_INFINITY, 0.0);
+        assert!(!are_finite(&|sums| opposite.visit(sums)));
     }
 
     #[test]

@@ -3,13 +3,25 @@
 //! `(d, v_rel) => force on A`, with `d = x_b − x_a` and `v_rel` the rate of `d`:
 //! tension `k·(L − L0) + c·(d·v_rel)/L` along `d/L`; the force on B is the opposite.
 //! Energy `½·k·(L − L0)²`; a clearance changes `L − L0` and c, see [`crate::elements::clearance`].
-//! Where the points coincide the direction is undefined and the force 0.
+//! Where the points coincide the direction is undefined and the force 0: of two that are closer than
+//! 1e-18 m (in double precision 1e-100 m) it falls to 0 with their distance, of others nothing changes.
 
 use crate::elements::clearance::{beyond, engaged};
 use crate::elements::point_law::{PointLaw, Stretch, taut};
 use crate::geometry::Reach;
-use crate::real::Real;
+use crate::real::{Constant, Real};
 use crate::space::{Linear, Vector};
+
+/// \[m²\] What a square of a length never falls below, so that none need be asked whether it is 0. It
+/// changes no bit of a square that is 2^54 (f32: 2^25) times as large, and is as small as leaves forces
+/// of 1e20 N finite.
+const LEAST_SQUARE: Constant = Constant { double: 1e-200, single: 1e-36 };
+
+/// The length of `d` \[m\].
+#[inline(always)]
+fn length<V: Linear>(d: V) -> V::Real {
+    (d.dot(d) + V::Real::constant(LEAST_SQUARE)).sqrt()
+}
 
 /// The constants of a TSDA with a free length.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -42,28 +54,28 @@ impl<R: Real> Tsda<R> {
     #[inline(always)]
     pub(crate) fn pull<V: Linear<Real = R>>(&self, reach: &Reach<V>, clearance: Option<R>) -> V {
         let d = reach.way;
-        let length = d.dot(d).sqrt();
-        let inverse = length.reciprocal_or_zero();
+        let length = length(d);
+        let inverse = R::ONE / length;
         let tension = self.stiffness * beyond(self.extended(length, reach), clearance);
         d * (tension * inverse)
     }
 
-    /// [`Self::pull`] of several without clearance: whether any has no length is asked once.
+    /// [`Self::pull`] of several without clearance.
     #[inline(always)]
     pub(crate) fn pulls<V: Linear<Real = R>, const N: usize>(
         springs: &[Self; N],
         reaches: &[Reach<V>; N],
     ) -> [V; N] {
-        let mut lengths = [R::ZERO; N];
+        let mut squares = [R::ZERO; N];
         for i in 0..N {
             let d = reaches[i].way;
-            lengths[i] = d.dot(d).sqrt();
+            squares[i] = d.dot(d) + R::constant(LEAST_SQUARE);
         }
-        let inverses = R::reciprocals_or_zero(lengths);
+        let lengths = R::roots(squares);
         let mut pulls = [V::ZERO; N];
         for i in 0..N {
             let tension = springs[i].stiffness * springs[i].extended(lengths[i], &reaches[i]);
-            pulls[i] = reaches[i].way * (tension * inverses[i]);
+            pulls[i] = reaches[i].way * (tension * (R::ONE / lengths[i]));
         }
         pulls
     }
@@ -74,7 +86,7 @@ impl<R: Real> Tsda<R> {
         match reach.more {
             None => length - self.free_length,
             // L² − L0² = (L − L0)·(L + L0).
-            Some(more) => more * (length + self.free_length).reciprocal_or_zero(),
+            Some(more) => more * (R::ONE / (length + self.free_length)),
         }
     }
 
@@ -100,8 +112,8 @@ impl<R: Real> Tsda<R> {
         clearance: Option<R>,
     ) -> V {
         let d = reach.way;
-        let length = d.dot(d).sqrt();
-        let inverse = length.reciprocal_or_zero();
+        let length = length(d);
+        let inverse = R::ONE / length;
         let extension = self.extended(length, reach);
         let damping = engaged(damping, extension, clearance);
         let tension =

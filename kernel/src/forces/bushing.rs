@@ -65,6 +65,6 @@ fn star<P: Geometry, T: Terms, D: Dampers>(
         }
         None => bushing.force(d),
     };
-    let (torque_a, torque_b) = (end_a.moment(arm_a, force), -end_b.moment(arm_b, force));
+    let (torque_a, torque_b) = (end_a.moment(arm_a, force), end_b.moment(arm_b, force));
     Some(Record { force, torque_a, torque_b })
 }

@@ -55,7 +55,7 @@ pub(super) fn lines<P: Geometry, T: Terms, D: Dampers>(
             };
             pull_a = pull_a + pull;
             slid = slid + pull * slide;
-            record.torque_b = record.torque_b - tip_arm.cross(pull);
+            record.torque_b = record.torque_b + tip_arm.cross(pull);
         }
         record.force = record.force + pull_a;
         record.torque_a = record.torque_a + (arm.cross(pull_a) + line.cross(slid));

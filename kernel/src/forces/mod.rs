@@ -20,6 +20,7 @@ mod universal;
 use crate::body::BodyState;
 pub use record::{At, Dampers, DampersLeft, DampersOfJoints, ExplicitDampers, Wrench};
 pub(crate) use record::{Record, Turns, apply};
+pub(crate) use stars::are_in_line;
 
 use crate::elements::gravity;
 use crate::elements::load::LoadFrame;
@@ -41,6 +42,10 @@ pub(crate) struct Instant<'s, P: Geometry> {
     pub(crate) signals: &'s [Signal<P::Real>],
     /// One per body.
     pub(crate) bodies: &'s [BodyState<P>],
+    /// Whether the groups [`are_in_line`].
+    pub(crate) in_line: bool,
+    /// Whether the frames are those of the pose.
+    pub(crate) placed: bool,
 }
 
 /// What an evaluation writes, one of each per body.
@@ -76,6 +81,8 @@ pub fn wrenches<M: ModelOwner>(
             windows: windows.as_ref(),
             signals: state.signals.as_ref(),
             bodies: state.bodies.as_ref(),
+            in_line: false,
+            placed: false,
         },
         Turns { counts: turns.as_mut(), at: At::Stage },
         Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() },
@@ -95,15 +102,19 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, D: Dampers>(
     turns: Turns<'_>,
     out: Evaluation<'_, P>,
 ) -> Result<(), Cause> {
-    let Instant { step, windows, signals, bodies } = instant;
+    let Instant { step, windows, signals, bodies, in_line, placed } = instant;
     let Evaluation { frames, wrenches } = out;
-    place_bodies(bodies, frames);
+    if !placed {
+        place_bodies(bodies, frames);
+    }
     start(model, windows, step, frames, wrenches);
     let places = Places { frames, signals };
     if T::INPUTS {
         inputs::push(model, places, wrenches);
     }
-    if T::TSDAS || T::BUSHINGS || T::LINES || T::REVOLUTES || T::UNIVERSALS {
+    if in_line && stars::may_be_in_line::<T>() {
+        stars::in_line::<P, T, D>(model, places, bodies, wrenches);
+    } else if T::TSDAS || T::BUSHINGS || T::LINES || T::REVOLUTES || T::UNIVERSALS {
         for group in model.groups {
             if let Some(record) = record::<P, T, D>(model, places, bodies, group) {
                 apply(wrenches, group.a.row(), group.b.row(), &record);
@@ -156,10 +167,10 @@ fn start<P: Geometry, T: Terms>(
     frames: &[P::Frame],
     wrenches: &mut [Wrench<P::Space>],
 ) {
-    let field = if T::GRAVITY { model.gravity.first() } else { None };
+    let field = if T::GRAVITY { model.gravity.first().copied() } else { None };
     for (body, wrench) in model.bodies.iter().zip(wrenches.iter_mut()) {
         let force = match field {
-            Some(gravity) => gravity::weight(body.mass, *gravity),
+            Some(gravity) => gravity::weight(body.mass, gravity),
             None => P::Vector::ZERO,
         };
         *wrench = Wrench { force, torque: P::Moment::ZERO };

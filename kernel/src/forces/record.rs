@@ -14,7 +14,8 @@ pub struct Wrench<S: Space> {
     pub torque: S::Moment,
 }
 
-/// What a group does to its two bodies, world axes; the force on B is the opposite of A's.
+/// What a group does to its two bodies, world axes: force and torque of A, and of B the opposite of its
+/// own torque; its force is the opposite of A's.
 #[derive(Clone, Copy)]
 pub(crate) struct Record<S: Space> {
     pub(crate) force: S::Vector,
@@ -102,6 +103,6 @@ pub(crate) fn apply<S: Space>(wrenches: &mut [Wrench<S>], a: usize, b: usize, re
     }
     if let Some(wrench) = wrenches.get_mut(b) {
         wrench.force = wrench.force - record.force;
-        wrench.torque = wrench.torque + record.torque_b;
+        wrench.torque = wrench.torque - record.torque_b;
     }
 }

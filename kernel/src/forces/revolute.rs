@@ -54,5 +54,5 @@ fn between<P: Geometry>(
         None => (revolute.force(d, levers[0]), torque),
     };
     let (torque_a, torque_b) = (end_a.moment(arm_a, force), end_b.moment(arm_b, force));
-    Record { force, torque_a: torque_a + torque, torque_b: -(torque_b + torque) }
+    Record { force, torque_a: torque_a + torque, torque_b: torque_b + torque }
 }

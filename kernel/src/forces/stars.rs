@@ -8,11 +8,13 @@
 //! straight line of [`block`]: its counts are known to the compiler, so that nothing is left of
 //! loops, bounds and lists. [`many`] takes the rest.
 
+use crate::body::BodyState;
+use crate::elements::element::Law;
 use crate::elements::tsda::Tsda;
-use crate::forces::record::{Dampers, Record};
+use crate::forces::record::{Dampers, Record, Wrench, apply};
 use crate::geometry::{Geometry, Reach};
 use crate::model::{Group, ModelRef, Terms};
-use crate::pose::{End, MOST_ARMS};
+use crate::pose::{End, MOST_ARMS, Places};
 use crate::real::Real;
 use crate::space::{Linear, Space, Vector as _};
 
@@ -50,8 +52,77 @@ fn straight<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: u
     }
 }
 
-/// `STARS` stars that share `ARMS` points of B: written out, each sum from its first term. `None`
-/// where the model lacks them.
+/// Whether a model may be [`are_in_line`], as far as its kinds of element tell.
+pub(super) const fn may_be_in_line<T: Terms>() -> bool {
+    let others = T::BUSHINGS || T::LINES || T::REVOLUTES || T::UNIVERSALS;
+    T::TSDAS && !(others || T::CLEARANCES || T::INPUTS)
+}
+
+/// Whether all groups of a model are revolutes of TSDAs, their points and springs in the order of the
+/// groups: then none is asked what it is and where its parts lie.
+pub(crate) fn are_in_line<P: Geometry, T: Terms>(model: &ModelRef<'_, P, T>) -> bool {
+    let (stars, arms) = if P::Space::PLANAR { (1, 2) } else { (2, 3) };
+    let is_next = |(i, group): (usize, &Group)| {
+        let (point, element) = (i * (stars + arms), i * stars * arms);
+        group.law == Law::Tsda
+            && (group.stars as usize, group.arms as usize) == (stars, arms)
+            && group.shared == (stars > 1)
+            && (group.point as usize, group.element as usize) == (point, element)
+            && !group.b.is_world()
+    };
+    may_be_in_line::<T>() && model.groups.iter().enumerate().all(is_next)
+}
+
+/// The revolutes of a model whose groups [`are_in_line`].
+#[inline(always)]
+pub(super) fn in_line<P: Geometry, T: Terms, D: Dampers>(
+    model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    bodies: &[BodyState<P>],
+    wrenches: &mut [Wrench<P::Space>],
+) {
+    if P::Space::PLANAR {
+        each::<P, T, D, 1, 2, 3, 2>(model, places, bodies, wrenches);
+    } else {
+        each::<P, T, D, 2, 3, 5, 6>(model, places, bodies, wrenches);
+    }
+}
+
+#[inline(always)]
+fn each<
+    P: Geometry,
+    T: Terms,
+    D: Dampers,
+    const STARS: usize,
+    const ARMS: usize,
+    const POINTS: usize,
+    const SPRINGS: usize,
+>(
+    model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    bodies: &[BodyState<P>],
+    wrenches: &mut [Wrench<P::Space>],
+) {
+    let points = model.points.as_chunks::<POINTS>().0;
+    let springs = model.tsdas.as_chunks::<SPRINGS>().0;
+    for (group, (points, springs)) in model.groups.iter().zip(points.iter().zip(springs)) {
+        let moving = D::ACT && T::DAMPERS && group.damper.row().is_some();
+        let moving = if moving { Some(bodies) } else { None };
+        let end_a = End::new(model, places, group.a, moving);
+        let Some(b) = End::new(model, places, group.b, moving).body() else { continue };
+        let Some(springs) = grid(springs, 0) else { continue };
+        let parts = (points.as_slice(), springs);
+        let record = match end_a.body() {
+            Some(a) => pull::<P, T, D, STARS, ARMS>(model, group, parts, &a, &b),
+            None => pull::<P, T, D, STARS, ARMS>(model, group, parts, &end_a.ground(), &b),
+        };
+        if let Some(record) = record {
+            apply(wrenches, group.a.row(), group.b.row(), &record);
+        }
+    }
+}
+
+/// `STARS` stars that share `ARMS` points of B. `None` where the model lacks them.
 #[inline(always)]
 fn block<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usize>(
     model: &ModelRef<'_, P, T>,
@@ -59,10 +130,25 @@ fn block<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usiz
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
 ) -> Option<Record<P::Space>> {
-    let centres: &[_; STARS] = rows(model.points, group.centre(0))?;
-    let tips: &[_; ARMS] = rows(model.points, group.tips(0))?;
+    let points = model.points.get(group.centre(0)..group.centre(0) + STARS + ARMS)?;
+    let springs = grid(model.tsdas, group.element as usize)?;
+    pull::<P, T, D, STARS, ARMS>(model, group, (points, springs), end_a, end_b)
+}
+
+/// What `STARS` stars that share `ARMS` points of B pull: written out, each sum from its first term.
+/// `None` where the model lacks some of it.
+#[inline(always)]
+fn pull<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usize>(
+    model: &ModelRef<'_, P, T>,
+    group: &Group,
+    (points, springs): (&[P::Local], &[[Tsda<P::Real>; ARMS]; STARS]),
+    end_a: &End<'_, P>,
+    end_b: &End<'_, P>,
+) -> Option<Record<P::Space>> {
+    let (centres, tips) = points.split_first_chunk::<STARS>()?;
+    let tips: &[_; ARMS] = tips.first_chunk()?;
     let springs = Springs::<_, STARS, ARMS> {
-        springs: grid(model.tsdas, group.element as usize)?,
+        springs,
         dampers: match group.damper.row() {
             Some(row) if D::ACT && T::DAMPERS => Some(grid(model.dampers, row)?),
             _ => None,
@@ -75,21 +161,44 @@ fn block<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usiz
     }
     let mut pulls_a = [P::Vector::ZERO; STARS];
     let mut torque_b = P::Moment::ZERO;
-    // A point of B at a time, for all stars: what it takes is in registers, and forgotten with it.
-    for (arm, tip) in tips.iter().enumerate() {
-        let (tip, tip_arm) = end_b.place(tip);
-        let mut reaches = [Reach::default(); STARS];
-        for (star, (reach, (centre, _))) in reaches.iter_mut().zip(&spots).enumerate() {
-            *reach = P::reach(centre, &tip, springs.springs[star][arm].free_length);
+    if STARS == 1 && P::Space::PLANAR {
+        // Few enough for the registers to hold all.
+        let (mut at, mut arms) = ([(0, 0); ARMS], [P::Vector::ZERO; ARMS]);
+        let mut reaches = [Reach::default(); ARMS];
+        for (arm, tip) in tips.iter().enumerate() {
+            let (tip, tip_arm) = end_b.place(tip);
+            (at[arm].1, arms[arm]) = (arm, tip_arm);
+            reaches[arm] = P::reach(&spots[0].0, &tip, springs.springs[0][arm].free_length);
         }
-        let pulls = springs.pulls(arm, &reaches, |star| {
-            end_b.point_velocity(tip_arm) - end_a.point_velocity(spots[star].1)
+        let pulls = springs.pulls(at, &reaches, |arm| {
+            end_b.point_velocity(arms[arm]) - end_a.point_velocity(spots[0].1)
         });
-        for (pull_a, pull) in pulls_a.iter_mut().zip(pulls) {
-            *pull_a = if arm == 0 { pull } else { *pull_a + pull };
+        pulls_a[0] = sum(&pulls);
+        for (arm, pull) in pulls.into_iter().enumerate() {
+            let torque = end_b.moment(arms[arm], pull);
+            torque_b = if arm == 0 { torque } else { torque_b + torque };
         }
-        let torque = end_b.moment(tip_arm, sum(&pulls));
-        torque_b = if arm == 0 { -torque } else { torque_b - torque };
+    } else {
+        // A point of B at a time, for all stars: what it takes is in registers, and forgotten with it.
+        for (arm, tip) in tips.iter().enumerate() {
+            let (tip, tip_arm) = end_b.place(tip);
+            let mut reaches = [Reach::default(); STARS];
+            for (star, (reach, (centre, _))) in reaches.iter_mut().zip(&spots).enumerate() {
+                *reach = P::reach(centre, &tip, springs.springs[star][arm].free_length);
+            }
+            let mut at = [(0, arm); STARS];
+            for (star, at) in at.iter_mut().enumerate() {
+                at.0 = star;
+            }
+            let pulls = springs.pulls(at, &reaches, |star| {
+                end_b.point_velocity(tip_arm) - end_a.point_velocity(spots[star].1)
+            });
+            for (pull_a, pull) in pulls_a.iter_mut().zip(pulls) {
+                *pull_a = if arm == 0 { pull } else { *pull_a + pull };
+            }
+            let torque = end_b.moment(tip_arm, sum(&pulls));
+            torque_b = if arm == 0 { torque } else { torque_b + torque };
+        }
     }
     let mut torques_a = [P::Moment::ZERO; STARS];
     for (torque, (pull, (_, arm))) in torques_a.iter_mut().zip(pulls_a.iter().zip(&spots)) {
@@ -114,19 +223,20 @@ struct Springs<'m, R, const STARS: usize, const ARMS: usize> {
 }
 
 impl<R: Real, const STARS: usize, const ARMS: usize> Springs<'_, R, STARS, ARMS> {
-    /// The stars' pulls on the point `arm` of B, at their reaches and, where dampers act, rates.
+    /// The pulls of springs, each a star's at a point of B, at their reaches and, where dampers act,
+    /// rates.
     #[inline(always)]
-    fn pulls<V: Linear<Real = R>>(
+    fn pulls<V: Linear<Real = R>, const N: usize>(
         &self,
-        arm: usize,
-        reaches: &[Reach<V>; STARS],
+        at: [(usize, usize); N],
+        reaches: &[Reach<V>; N],
         rate: impl Fn(usize) -> V,
-    ) -> [V; STARS] {
-        let mut springs = [Tsda::default(); STARS];
-        for (spring, arms) in springs.iter_mut().zip(self.springs) {
-            *spring = arms[arm];
+    ) -> [V; N] {
+        let mut springs = [Tsda::default(); N];
+        for (spring, (star, arm)) in springs.iter_mut().zip(at) {
+            *spring = self.springs[star][arm];
         }
-        let mut pulls = [V::ZERO; STARS];
+        let mut pulls = [V::ZERO; N];
         let elements = pulls.iter_mut().zip(reaches.iter().zip(&springs));
         match (self.dampers, self.clearance) {
             (None, None) => pulls = Tsda::pulls(&springs, reaches),
@@ -136,9 +246,11 @@ impl<R: Real, const STARS: usize, const ARMS: usize> Springs<'_, R, STARS, ARMS>
                 }
             }
             (Some(dampers), clearance) => {
-                for (star, (pull, (reach, spring))) in elements.enumerate() {
+                for ((pull, (reach, spring)), (i, (star, arm))) in
+                    elements.zip(at.into_iter().enumerate())
+                {
                     let damping = dampers[star][arm];
-                    *pull = spring.damped_pull(damping, reach, rate(star), clearance);
+                    *pull = spring.damped_pull(damping, reach, rate(i), clearance);
                 }
             }
         }
@@ -146,13 +258,7 @@ impl<R: Real, const STARS: usize, const ARMS: usize> Springs<'_, R, STARS, ARMS>
     }
 }
 
-/// `N` rows from `first` on.
-#[inline(always)]
-fn rows<V, const N: usize>(all: &[V], first: usize) -> Option<&[V; N]> {
-    all.get(first..first + N)?.first_chunk()
-}
-
-/// The same of `M` rows of `N`.
+/// `M` times `N` rows from `first` on.
 #[inline(always)]
 fn grid<V, const N: usize, const M: usize>(all: &[V], first: usize) -> Option<&[[V; N]; M]> {
     all.get(first..first + N * M)?.as_chunks().0.first_chunk()
@@ -193,7 +299,7 @@ fn many<P: Geometry, T: Terms, D: Dampers>(
             pull_a = pull_a + pull;
             *pull_b = *pull_b + pull;
             if !group.shared || star + 1 == stars {
-                record.torque_b = record.torque_b - arm_b.cross(*pull_b);
+                record.torque_b = record.torque_b + arm_b.cross(*pull_b);
                 *pull_b = P::Vector::ZERO;
             }
         }
@@ -206,13 +312,11 @@ fn many<P: Geometry, T: Terms, D: Dampers>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::{Body, BodyState};
-    use crate::elements::element::Law;
+    use crate::body::Body;
     use crate::forces::record::{DampersLeft, ExplicitDampers};
     use crate::geometry::F64;
     use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
     use crate::model::{Model, ModelOwner as _};
-    use crate::pose::Places;
     use crate::vector::Vec3;
 
     const WORLD: BodyIndex = BodyIndex::WORLD;

@@ -49,7 +49,7 @@ pub(super) fn torsions<P: Geometry, T: Terms, D: Dampers>(
             None => spring.torque(&twist),
         };
         let torque = end_a.moment_to_world(torque);
-        let record = Record { force: P::Vector::ZERO, torque_a: -torque, torque_b: torque };
+        let record = Record { force: P::Vector::ZERO, torque_a: -torque, torque_b: -torque };
         apply(wrenches, spring.a.row(), spring.b.row(), &record);
     }
     Ok(())

@@ -52,5 +52,5 @@ fn between<P: Geometry>(
     }
     let torque = lean.gradient * size;
     let (torque_a, torque_b) = (end_a.moment(arm_a, force), end_b.moment(arm_b, force));
-    Record { force, torque_a: torque_a + torque, torque_b: -(torque_b + torque) }
+    Record { force, torque_a: torque_a + torque, torque_b: torque_b + torque }
 }

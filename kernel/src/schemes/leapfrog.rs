@@ -54,17 +54,25 @@ impl Kicked for Leapfrog {
     fn step_with<P: Geometry, T: Terms, D: Dampers>(
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {
-        if D::ACT || !stepper.is_fresh() {
-            stepper.evaluate::<D>(At::Boundary)?;
+        // One evaluation in the code, whichever it is: all of a step is then one function.
+        let mut known = !D::ACT && stepper.is_fresh();
+        let h = stepper.h;
+        loop {
+            if known {
+                if D::ACT || !stepper.has_dampers() {
+                    stepper.kick_drift_and_place(P::Real::HALF, h);
+                } else {
+                    stepper.damped_kick::<D, false>();
+                    stepper.drift_and_place(h);
+                }
+                stepper.sample_inputs(P::Real::ONE);
+            }
+            stepper.evaluate_here::<D::Forces>(At::Boundary, known)?;
+            if known {
+                break;
+            }
+            known = true;
         }
-        if D::ACT || !stepper.has_dampers() {
-            stepper.kick_and_drift(P::Real::HALF, stepper.h);
-        } else {
-            stepper.damped_kick::<D, false>();
-            stepper.drift(stepper.h);
-        }
-        stepper.sample_inputs(P::Real::ONE);
-        stepper.evaluate::<D>(At::Boundary)?;
         if D::ACT {
             stepper.kick(P::Real::HALF);
         } else {
