@@ -21,8 +21,10 @@ use dbd_tests::scene;
 /// A survey of a scene's first moments; `cache` where results are kept.
 fn trade(name: &str, window: f64, cache: Option<&Path>) -> Trade {
     let cache = cache.map(Path::to_owned);
-    let options = TradeOptions { window: Some(window), period: None, cache, shipped: true };
-    survey(&scene(name), &options, &mut |_| ()).unwrap()
+    let scene = scene(name);
+    let shipped = Some(scene.clone());
+    let options = TradeOptions { window: Some(window), period: None, cache, shipped };
+    survey(&scene, &options, &mut |_| ()).unwrap()
 }
 
 /// The files of results in a folder.
