@@ -2,7 +2,7 @@
 //!
 //! `compared => lines of text, rows of a page`.
 
-use dbd_plant::digits::{approximate, significant};
+use dbd_plant::digits::significant;
 
 use crate::variants::{AS_IT_IS, Compared};
 use crate::words::{shown, times};
@@ -77,11 +77,11 @@ pub fn rows(compared: &[Compared]) -> Vec<[String; 9]> {
             one.bodies.to_string(),
             one.elements.to_string(),
             match one.difference {
-                _ if own => dash(),
+                Some(_) if own => dash(),
                 Some(difference) => format!("{difference:.1e}"),
                 None => "does not run".into(),
             },
-            one.stable_step.map_or_else(dash, approximate),
+            one.stable_step.map_or_else(dash, shown),
             shown(one.step),
             significant(1e9 * one.host_seconds, 3),
             cost,
