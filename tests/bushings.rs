@@ -2,7 +2,7 @@
 
 use dbd_kernel::energy::energy;
 use dbd_kernel::forces::wrenches;
-use dbd_kernel::{F32, F64, Geometry, Leapfrog, Plant, State, Vec3, frequency};
+use dbd_kernel::{F32, F64, Geometry, Leapfrog, Pefrl, Plant, State, Vec3, frequency};
 use dbd_reference::signals::Clock;
 use dbd_reference::{self as reference, Mechanism};
 use dbd_scene::{Scene, SceneModel};
@@ -195,28 +195,59 @@ fn the_bound_of_the_frequency_is_above_the_estimate() {
     }
 }
 
-/// The same mechanism of TSDAs and of bushings: what is as stiff moves alike, spiders of next to no mass
-/// aside.
-#[test]
-fn a_mechanism_moves_as_with_tsdas() {
-    let light = |scene: Scene| {
-        let light = scene.with("joint.*.spider.mass=5e-3").unwrap();
-        light.with("joint.*.spider.inertia=[1.4e-6, 1.4e-6, 1.4e-6]").unwrap()
-    };
-    for (own, finer, most) in [(scene("four-bar"), 1.0, 1e-4), (light(scene("3ruu")), 10.0, 1e-3)] {
-        let other = own.with("realisation=bushing").unwrap();
-        assert!(other.model.tsda_count() < own.model.tsda_count() / 2);
-        let h = own.step.unwrap() / finer;
-        let steps = (0.1 / h) as u64;
-        let [a, b] = [&own, &other].map(|scene| state_after(&scene.model, h, steps));
-        let mut farthest = 0.0_f64;
-        for (row, name) in other.body_names.iter().enumerate() {
-            let of = own.body_names.iter().position(|known| known == name).unwrap();
-            let gap = a.bodies[of].position - b.bodies[row].position;
+/// \[m\] how far the bodies of a scene, and of the same of bushings, come apart in a tenth of a second. Both run
+/// so finely that what differs is the model.
+fn apart(own: &Scene) -> f64 {
+    let other = own.with("realisation=bushing").unwrap();
+    assert!(other.model.tsda_count() < own.model.tsda_count() / 2);
+    let step = 0.25 / frequency::bound(&own.model, &State::initial(&own.model));
+    let mut plants = [own, &other].map(|scene| Plant::new(&scene.model, Pefrl, step).unwrap());
+    let place = |name| own.body_names.iter().position(|known| known == name).unwrap();
+    let rows: Vec<usize> = other.body_names.iter().map(place).collect();
+    let mut farthest = 0.0_f64;
+    for _ in 0..50 {
+        plants.iter_mut().for_each(|plant| plant.advance((2e-3 / step) as u64).ok().unwrap());
+        let [a, b] = plants.each_ref().map(|plant| &plant.state().bodies);
+        for (row, body) in rows.iter().zip(b) {
+            let gap = a[*row].position - body.position;
             farthest = farthest.max(gap.dot(gap).sqrt());
         }
-        assert!(farthest > 0.0 && farthest < most, "{}: {farthest:e}", own.name);
     }
+    farthest
+}
+
+/// The same mechanism of TSDAs and of bushings is as stiff at t = 0. Joints give way by F/k; by the share of
+/// their length that it is, TSDAs change their stiffness, and bushings do not: the difference of the motions
+/// falls as 1/k at least, to nothing.
+#[test]
+fn a_mechanism_moves_as_with_tsdas_the_more_the_stiffer_it_is() {
+    for (name, stiffness) in [("four-bar", 9e6), ("hexagon", 9e6)] {
+        let of = |factor: f64| {
+            let change = format!("joint.*.stiffness={:e}", factor * stiffness);
+            apart(&scene(name).with(&change).unwrap())
+        };
+        let [soft, stiff] = [1.0, 4.0].map(of);
+        assert!(stiff > 0.0 && soft / stiff > 4.0, "{name}: {soft:e} {stiff:e}");
+    }
+}
+
+/// Universal joints of bushings have no spider: what it weighs is missing, and the difference falls with its mass.
+/// What is left of light ones falls with the stiffness.
+#[test]
+fn without_spiders_a_mechanism_moves_as_with_light_ones() {
+    let of = |stiffness: f64, mass: f64| {
+        let inertia = 2.8e-4 * mass;
+        let changes = [
+            format!("joint.*.stiffness={stiffness:e}"),
+            format!("joint.*.spider.mass={mass:e}"),
+            format!("joint.*.spider.inertia=[{inertia:e}, {inertia:e}, {inertia:e}]"),
+        ];
+        apart(&changes.iter().fold(scene("3ruu"), |scene, change| scene.with(change).unwrap()))
+    };
+    let [whole, half] = [0.5, 0.25].map(|mass| of(4e6, mass));
+    assert!((1.8..2.2).contains(&(whole / half)), "{whole:e} {half:e}");
+    let [soft, stiff] = [1e6, 4e6].map(|stiffness| of(stiffness, 5e-3));
+    assert!(stiff > 0.0 && soft / stiff > 4.0, "{soft:e} {stiff:e}");
 }
 
 /// Part of the interface, as the hashes of `tests/golden` are: leapfrog, 500 steps.

@@ -5,7 +5,7 @@
 
 use std::fmt;
 
-use dbd_plant::digits::significant;
+use dbd_plant::digits::{approximate, significant};
 use dbd_plant::time::{display, rounded};
 
 use crate::need::{Need, PaperNeed, paper_need};
@@ -89,6 +89,10 @@ pub fn advice(points: &[Point], machine: Machine, uncertainty: f64) -> Vec<Advic
                     &format!("; the reference {who}, step {step}, needs {ratio} times as much");
             }
             sentence += &limits(points, row);
+            if let Some(least) = chosen.step_in_space.filter(|least| *least < chosen.step) {
+                sentence +=
+                    &format!("; stable in its plane alone, in space up to {}", approximate(least));
+            }
             let widest = chosen.host_spread.max(paper_spread);
             if machine == Machine::Host && widest > CALM {
                 let spread = percent(widest);
@@ -292,6 +296,16 @@ pub(crate) mod tests {
         points.iter_mut().for_each(|point| point.fall.finest = Some(1e-3));
         let text = sentences(&points, Machine::Host, 1e-4).pop().unwrap();
         assert!(text.ends_with("; in f32 its largest usable step is its most accurate"), "{text}");
+    }
+
+    #[test]
+    fn a_step_that_only_the_plane_bears_is_said_to() {
+        let mut points = ladder();
+        points.iter_mut().for_each(|point| point.step_in_space = Some(5e-4));
+        let said = sentences(&points, Machine::Host, 0.0);
+        let words = "; stable in its plane alone, in space up to 500us";
+        assert!(said[1].ends_with(words) && said[1].contains("step 1ms"), "{}", said[1]);
+        assert!(!said[2].contains("plane") && said[2].contains("step 100us"), "{}", said[2]);
     }
 
     #[test]

@@ -6,7 +6,7 @@ use std::io;
 use std::path::Path;
 
 use dbd_output::set::FileSet;
-use dbd_plant::digits::significant;
+use dbd_plant::digits::{approximate, significant};
 use dbd_plant::frequencies::LARGEST_TURN;
 use dbd_plant::time::{display, rounded};
 use dbd_scene::Scene;
@@ -22,12 +22,12 @@ use crate::point::{Machine, Point, front};
 use crate::stability::MARGIN;
 use crate::survey::Trade;
 use crate::timing::{CALM, ROUNDS};
-use crate::variants::Compared;
-use crate::variants_table::text as variants_text;
+use crate::variants::{Compared, SPATIAL};
+use crate::variants_table::{TITLE, meaning, text as variants_text};
 use crate::words::{capital, percent};
 
 /// Columns of `trade.csv`.
-pub const COLUMNS: [&str; 23] = [
+pub const COLUMNS: [&str; 24] = [
     "scheme",
     "newton",
     "damping",
@@ -51,10 +51,20 @@ pub const COLUMNS: [&str; 23] = [
     "host_seconds_least_per_second",
     "order",
     "finest_step",
+    "stable_step_in_space",
 ];
 
 /// \[1/s\] instructions of a Cortex-M4F at 168 MHz, 1.5 cycles each: an estimate, see docs/target.md.
 const REAL_TIME: f64 = 168e6 / 1.5;
+
+/// What people read on a terminal, piece by piece.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Piece {
+    /// A sentence, which a narrow terminal breaks; without its line feed.
+    Sentence(String),
+    /// Lines to be left as they are: tables, command lines.
+    Lines(String),
+}
 
 /// A survey to be reported.
 #[derive(Clone, Copy)]
@@ -140,12 +150,11 @@ impl<'r> Report<'r> {
     /// What people read on a terminal: for both machines what nothing beats, what to choose and
     /// how to run it.
     #[must_use]
-    pub fn text(&self) -> String {
+    pub fn pieces(&self) -> Vec<Piece> {
         let Self { scene, called, trade } = *self;
-        let mut text = format!("{}\n", scene.name);
-        for line in conditions(trade) {
-            text += &format!("  {line}\n");
-        }
+        let mut pieces = vec![Piece::Lines(format!("{}\n", scene.name))];
+        let sentences = |lines: Vec<String>| lines.into_iter().map(Piece::Sentence);
+        pieces.extend(sentences(conditions(trade)));
         let command = Command::new(scene, called);
         let points = &trade.points;
         for (machine, name) in
@@ -154,18 +163,22 @@ impl<'r> Report<'r> {
             if points.iter().all(|point| point.cost(machine).is_none()) {
                 continue;
             }
-            text += &format!("\n{name}: what nothing beats\n{}\n", table_of(points, machine));
-            if let Some(remark) = remark(points, machine) {
-                text += &format!("{remark}\n");
-            }
+            let table = table_of(points, machine);
+            pieces.push(Piece::Lines(format!("\n{name}: what nothing beats\n{table}\n")));
+            pieces.extend(remark(points, machine).map(|remark| Piece::Sentence(remark.into())));
             for advice in advice(points, machine, trade.head.uncertainty) {
-                text += &format!("{}\n", advice.sentence);
-                if let Some(line) = command.line(&points[advice.row]) {
-                    text += &format!("    {line}\n");
-                }
+                pieces.push(Piece::Sentence(advice.sentence));
+                let line = command.line(&points[advice.row]);
+                pieces.extend(line.map(|line| Piece::Lines(format!("    {line}\n"))));
             }
         }
-        text + &variants_text(&trade.variants)
+        if !trade.variants.is_empty() {
+            let table = variants_text(&trade.variants);
+            pieces.push(Piece::Lines(format!("\n{TITLE}\n{table}")));
+            let meaning = meaning(&trade.variants).into_iter().map(str::to_owned);
+            pieces.extend(sentences(meaning.collect()));
+        }
+        pieces
     }
 
     /// What programs read.
@@ -228,7 +241,20 @@ fn conditions(trade: &Trade) -> Vec<String> {
             .into(),
     ];
     lines.extend(trade.period.map(|period| format!("every step divides {}", display(period))));
+    lines.extend(of_plane(&trade.variants));
     lines
+}
+
+/// Of which model the steps of a planar scene are.
+fn of_plane(variants: &[Compared]) -> Option<String> {
+    let own = variants.first().filter(|own| own.planar)?;
+    let spatial = variants.iter().find(|one| one.name == SPATIAL)?;
+    let steps = [spatial, own].map(|one| one.stable_step.map_or("any".into(), approximate));
+    let [space, plane] = steps;
+    Some(format!(
+        "the scene is planar: what is stable, advised and timed is its model in the plane; in space it may tip \
+         out of it, and leapfrog is stable up to {space} there, up to {plane} in the plane"
+    ))
 }
 
 fn table(files: &mut FileSet, points: &[Point]) -> io::Result<()> {
@@ -263,6 +289,7 @@ fn table(files: &mut FileSet, points: &[Point]) -> io::Result<()> {
             &format!("{:?}", point.host_seconds_least),
             &number(point.fall.order),
             &number(point.fall.finest),
+            &number(point.step_in_space),
         ])?;
     }
     let file = rows.into_inner().map_err(|error| io::Error::other(error.to_string()))?;

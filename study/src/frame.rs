@@ -21,7 +21,7 @@ const SHORTEST: f64 = 1e-6;
 const FURTHEST: f64 = 1e7;
 
 /// What a survey is asked for.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct TradeOptions {
     /// \[s\] the longest window; 0.5 s or the scene's duration where `None`.
     pub window: Option<f64>,
@@ -29,9 +29,9 @@ pub struct TradeOptions {
     pub period: Option<f64>,
     /// The folder that results are kept in; nothing is kept where `None`.
     pub cache: Option<PathBuf>,
-    /// Whether the scene is the one that ships under its name, whose steps were counted on the
-    /// target.
-    pub shipped: bool,
+    /// The scene that ships under the scene's name: its steps were counted on the target, and those of some of its
+    /// variants.
+    pub shipped: Option<Scene>,
 }
 
 /// Why a survey cannot look at a window.

@@ -57,13 +57,21 @@ impl Limit {
 }
 
 impl Limits {
-    /// The limits of a scene.
+    /// The limits of a scene; of a planar one in its plane.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         let model = &*scene.in_world();
         let vibration = Vibration::about(model, &State::initial(model));
         let damped = !scene.model.dampers.is_empty();
         Self { frequencies: Frequencies::of(scene), vibration, damped }
+    }
+
+    /// The limits of a scene in space, whether or not it is planar: it may tip out of its plane.
+    #[must_use]
+    pub fn in_space(scene: &Scene) -> Self {
+        let mut spatial = scene.clone();
+        spatial.planar = None;
+        Self::of(&spatial)
     }
 
     /// \[rad/s\] the highest frequency; 0 where nothing vibrates.

@@ -109,7 +109,8 @@ fn variants(page: &mut String, chart: &Chart<'_>) {
     if chart.variants.is_empty() {
         return;
     }
-    page.push_str("<h2>Joints of another make</h2>\n<div class=\"wide\"><table>\n<thead><tr>");
+    let title = capital(variants_table::TITLE);
+    let _ = write!(page, "<h2>{title}</h2>\n<div class=\"wide\"><table>\n<thead><tr>");
     for (column, (name, unit)) in variants_table::HEADINGS.into_iter().enumerate() {
         let _ = write!(page, "<th{}>{name}<small>{unit}</small></th>", number(column > 0));
     }
@@ -121,8 +122,11 @@ fn variants(page: &mut String, chart: &Chart<'_>) {
         }
         page.push_str("</tr>\n");
     }
-    let meaning = escape(&capital(variants_table::MEANING));
-    let _ = writeln!(page, "</tbody></table></div>\n<p>{meaning}.</p>");
+    page.push_str("</tbody></table></div>\n<ul>\n");
+    for sentence in variants_table::meaning(chart.variants) {
+        let _ = writeln!(page, "<li>{}.</li>", escape(&capital(sentence)));
+    }
+    page.push_str("</ul>\n");
 }
 
 fn reading(page: &mut String, chart: &Chart<'_>) {

@@ -57,6 +57,9 @@ pub struct Point {
     pub host_spread: f64,
     /// Instructions per simulated second on Cortex-M4F, where they were counted.
     pub target_instructions: Option<f64>,
+    /// \[s\] of a planar scene the largest step that is stable in space, too, where it may tip; infinite, in JSON
+    /// null, where every step is.
+    pub step_in_space: Option<f64>,
     /// How the error falls with the step here.
     pub fall: Fall,
 }
@@ -238,6 +241,7 @@ pub(crate) mod tests {
             host_seconds: 1.02 * cost,
             host_spread: 0.05,
             target_instructions: Some(cost * 1e9),
+            step_in_space: None,
             fall: Fall::default(),
         }
     }

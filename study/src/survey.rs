@@ -27,7 +27,7 @@ use crate::measure::{Comparison, UNSTABLE};
 use crate::order::{Influences, describe};
 use crate::point::{Fall, Point, Stepper};
 use crate::timing::{Cost, costs};
-use crate::variants::{Compared, compare};
+use crate::variants::{Compared, compare, counted_as};
 use crate::ways::{Way, in_space, ways};
 
 /// A step's time is measured at this share of the explicit schemes' limit.
@@ -64,7 +64,7 @@ pub enum Phase {
     Runs(u64, u64),
     /// Measuring times: rounds done and all that are foreseen.
     Times(u64, u64),
-    /// The same mechanism with joints of another make.
+    /// Other models of the same mechanism.
     Variants,
 }
 
@@ -97,6 +97,8 @@ struct Job {
     steps: u64,
     weight: u64,
     limit: Limit,
+    /// \[s\] of a planar scene the largest step that is stable in space, too.
+    in_space: Option<f64>,
 }
 
 /// Surveys a scene. `progress` hears what it is at.
@@ -130,9 +132,12 @@ pub fn survey(
     let grid = head.grid;
     let ways = ways(scene, head.in_space);
     let limits = Limits::of(scene);
-    find(&limits, &ways, &mut cache, progress)?;
+    // In space a planar mechanism may tip, too.
+    let spatial = scene.planar.is_some().then(|| Limits::in_space(scene));
+    let both = [(OWN, Some(&limits)), (IN_SPACE, spatial.as_ref())];
+    find(&both, &ways, &mut cache, progress)?;
     let highest = limits.highest();
-    let jobs = jobs(&ways, &limits, &cache, &grid, scene.body_names.len());
+    let jobs = jobs(&ways, &both, &cache, &grid, scene.body_names.len());
     let missing: Vec<&Job> = jobs
         .iter()
         .filter(|job| !cache.accuracies.contains_key(&(job.label.clone(), job.steps)))
@@ -160,9 +165,11 @@ pub fn survey(
             cache.add(entry).map_err(SurveyError::Write)?;
         }
     }
-    let costs = if options.shipped { Costs::shipped() } else { Costs::none() };
-    let with_point =
-        |job: &Job| Some((point(scene, &costs, job, &grid, &cache)?, job.way.method()));
+    let costs = Costs::shipped();
+    let called = |scene: &Scene| counted_as(options.shipped.as_ref()?, scene);
+    let counted = called(scene);
+    let counted = counted.as_deref().map(|called| (called, &costs));
+    let with_point = |job: &Job| Some((point(counted, job, &grid, &cache)?, job.way.method()));
     let (mut points, methods): (Vec<Point>, Vec<_>) = jobs.iter().filter_map(with_point).unzip();
     let influences = Influences::of(scene, grid.window());
     describe(&mut points, &methods, influences, head.uncertainty);
@@ -170,7 +177,7 @@ pub fn survey(
         Some(variants) => variants,
         None => {
             progress(Phase::Variants);
-            let variants = compare(scene, &grid, &costs);
+            let variants = compare(scene, &grid, &costs, &called);
             cache.add(Entry::Variants(variants.clone())).map_err(SurveyError::Write)?;
             variants
         }
@@ -209,26 +216,29 @@ fn truth_of(opinion: Opinion, scene: &Scene, grid: Grid) -> Result<Vec<State>, N
 
 /// Finds the largest stable steps that are not known yet, on all the machine's threads.
 fn find(
-    limits: &Limits,
+    limits: &[Whose<'_>],
     ways: &[Way],
     cache: &mut Cache,
     progress: &mut dyn FnMut(Phase),
 ) -> Result<(), SurveyError> {
-    let mut missing: BTreeMap<String, Method> = BTreeMap::new();
-    for method in ways.iter().filter_map(|way| limits.decisive(way)) {
-        let label = label(&method);
-        if !cache.limits.contains_key(&label) {
-            missing.insert(label, method);
+    let mut missing: BTreeMap<String, (&Limits, Method)> = BTreeMap::new();
+    for (whose, limits) in limits {
+        let Some(limits) = limits else { continue };
+        for method in ways.iter().filter_map(|way| limits.decisive(way)) {
+            let label = label(whose, &method);
+            if !cache.limits.contains_key(&label) {
+                missing.insert(label, (limits, method));
+            }
         }
     }
     if missing.is_empty() {
         return Ok(());
     }
     progress(Phase::Limits);
-    let missing: Vec<(String, Method)> = missing.into_iter().collect();
+    let missing: Vec<_> = missing.into_iter().collect();
     in_parallel(
         &missing,
-        |(_, method)| limits.found(method),
+        |(_, (limits, method))| limits.found(method),
         |(label, _), step| {
             let entry = Entry::Limit { way: label.clone(), step };
             cache.add(entry).map_err(SurveyError::Write)
@@ -236,31 +246,55 @@ fn find(
     )
 }
 
+/// Limits of a model of the scene, and what stands before the labels under which they are kept.
+type Whose<'l> = (&'static str, Option<&'l Limits>);
+
+/// Of the model that steps.
+const OWN: &str = "";
+
+/// Of a planar scene in space.
+const IN_SPACE: &str = "in space, ";
+
 /// What a method's limit is kept under.
-fn label(method: &Method) -> String {
-    Way::Kernel(*method).stepper().label()
+fn label(whose: &str, method: &Method) -> String {
+    format!("{whose}{}", Way::Kernel(*method).stepper().label())
 }
 
-fn jobs(ways: &[Way], limits: &Limits, cache: &Cache, grid: &Grid, bodies: usize) -> Vec<Job> {
+/// How long a step of a way may be, from what was found.
+fn limit((whose, limits): Whose<'_>, way: &Way, cache: &Cache) -> Option<Limit> {
+    let limits = limits?;
+    let decisive = limits.decisive(way);
+    let found = decisive.and_then(|method| cache.limits.get(&label(whose, &method)).copied());
+    Some(limits.limit(way, found))
+}
+
+fn jobs(
+    ways: &[Way],
+    [own, spatial]: &[Whose<'_>; 2],
+    cache: &Cache,
+    grid: &Grid,
+    bodies: usize,
+) -> Vec<Job> {
     let of_way = |way: &Way| {
         let (way, own_label) = (*way, way.stepper().label());
         let price = match way {
             Way::Kernel(method) => u64::from(method.evaluations()),
             _ => REFERENCE,
         };
-        let decisive = limits.decisive(&way);
-        let found = decisive.and_then(|method| cache.limits.get(&label(&method)).copied());
-        let limit = limits.limit(&way, found);
-        let ladder = way.ladder(limits.highest(), limit.ladder_top(), grid, bodies);
-        ladder.into_iter().map(move |steps| Job {
+        let limit = limit(*own, &way, cache)?;
+        let in_space = self::limit(*spatial, &way, cache).map(|limit| limit.stable);
+        let highest = own.1.map_or(0.0, Limits::highest);
+        let ladder = way.ladder(highest, limit.ladder_top(), grid, bodies);
+        Some(ladder.into_iter().map(move |steps| Job {
             way,
             label: own_label.clone(),
             steps,
             weight: steps * u64::from(grid.samples) * price,
             limit,
-        })
+            in_space,
+        }))
     };
-    ways.iter().flat_map(of_way).collect()
+    ways.iter().filter_map(of_way).flatten().collect()
 }
 
 /// Does jobs on all the machine's threads, in their order; `done` hears of each as it is done.
@@ -320,7 +354,7 @@ fn run(
     })
 }
 
-fn point(scene: &Scene, costs: &Costs, job: &Job, grid: &Grid, cache: &Cache) -> Option<Point> {
+fn point(counted: Option<(&str, &Costs)>, job: &Job, grid: &Grid, cache: &Cache) -> Option<Point> {
     let entry = cache.accuracies.get(&(job.label.clone(), job.steps))?;
     let Entry::Accuracy { stable, lost, error, energy_rms, energy_peak, .. } = entry else {
         return None;
@@ -341,18 +375,20 @@ fn point(scene: &Scene, costs: &Costs, job: &Job, grid: &Grid, cache: &Cache) ->
         host_seconds_least: least / step,
         host_seconds: median / step,
         host_spread: spread,
-        target_instructions: instructions(scene, costs, &job.way).map(|count| count / step),
+        target_instructions: instructions(counted, &job.way).map(|count| count / step),
+        step_in_space: job.in_space,
         fall: Fall::default(),
         stepper,
     })
 }
 
-/// Instructions per step on Cortex-M4F, where they were counted: of the scenes that ship.
-fn instructions(scene: &Scene, costs: &Costs, way: &Way) -> Option<f64> {
+/// Instructions per step on Cortex-M4F, where they were counted: of the scenes that ship and some variants.
+fn instructions(counted: Option<(&str, &Costs)>, way: &Way) -> Option<f64> {
+    let (called, costs) = counted?;
     let Stepper { scheme, newton, damping, precision, orientation, kernel } = &way.stepper();
     if !kernel {
         return None;
     }
     let damping = damping.as_deref();
-    costs.instructions_per_step(&scene.name, scheme, *newton, damping, precision, orientation)
+    costs.instructions_per_step(called, scheme, *newton, damping, precision, orientation)
 }

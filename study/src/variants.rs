@@ -1,9 +1,10 @@
-//! A scene made otherwise: the same mechanism with joints of another kind, and how much its motion differs.
+//! A scene made otherwise: the same mechanism as another model, and how much its motion differs.
 //!
-//! `scene => variants; (scene, variant, grid) => difference, step, cost`. A variant is a change of the scene's text
+//! `scene => variants; (scene, variant, grid) => difference, steps, cost`. A variant is a change of the scene's text
 //! that is read anew; a further one is an entry of the list below. Both run in double precision far
 //! below the largest stable step, so that what differs is the model; the spiders of universal joints that
-//! only one of them has do not count.
+//! only one of them has do not count. The largest stable step is that of the model that steps: of a planar
+//! one in its plane.
 
 use dbd_plant::{Method, PrecisionName, SchemeName, plant};
 use dbd_reference::metric::Metric;
@@ -13,15 +14,27 @@ use serde::{Deserialize, Serialize};
 
 use crate::costs::Costs;
 use crate::grid::Grid;
-use crate::limits::Limits;
+use crate::limits::{Limit, Limits};
 use crate::stability::MARGIN;
 use crate::timing::costs;
 use crate::ways::Way;
 
-/// What a scene can be made into: a name, and the change that does it.
-const KINDS: &[(&str, &str)] = &[("bushing", "realisation=bushing")];
+/// What a scene can be made into: a name, and the changes that do it.
+const KINDS: &[(&str, &[&str])] = &[
+    ("bushing", &["realisation=bushing"]),
+    ("planar", &["planar=true"]),
+    ("planar-bushing", &["planar=true", "realisation=bushing"]),
+    (SPATIAL, &["planar=false"]),
+    ("spatial-bushing", &["planar=false", "realisation=bushing"]),
+];
 
-/// The part of the largest stable step at which motions are compared.
+/// What a scene is called beside its variants.
+pub const AS_IT_IS: &str = "as it is";
+
+/// What the model of a planar scene in space is called.
+pub const SPATIAL: &str = "spatial";
+
+/// The part of the largest stable step of leapfrog at which motions are compared.
 const FINE: f64 = 0.1;
 
 /// A scene made otherwise.
@@ -36,8 +49,10 @@ pub struct Variant {
 /// A scene and a variant of it, as surveyed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Compared {
-    /// `as it is`, or the variant's name.
+    /// [`AS_IT_IS`], or the variant's name.
     pub name: String,
+    /// Whether three freedoms per body step, in a plane.
+    pub planar: bool,
     /// Bodies.
     pub bodies: usize,
     /// Elements that count as a TSDA.
@@ -45,6 +60,8 @@ pub struct Compared {
     /// \[m\] root mean square over bodies and samples of the distance from the scene as it is; 0 of that,
     /// `None` where one of them cannot be run.
     pub difference: Option<f64>,
+    /// \[s\] the largest stable step of leapfrog about the pose at t = 0; `None` where every step is.
+    pub stable_step: Option<f64>,
     /// \[s\] the largest step of leapfrog that is advised.
     pub step: f64,
     /// \[s\] a step of leapfrog in double precision on one core of this machine.
@@ -53,65 +70,107 @@ pub struct Compared {
     pub target_instructions: Option<f64>,
 }
 
-/// The variants of a scene that are other models than it.
+/// The variants of a scene that are other models than it, and than each other.
 #[must_use]
 pub fn variants(scene: &Scene) -> Vec<Variant> {
-    let kinds = KINDS.iter().filter_map(|(name, change)| {
-        let variant = Variant { name, scene: scene.with(change).ok()? };
-        (variant.scene.model != scene.model).then_some(variant)
-    });
-    kinds.collect()
+    let mut found: Vec<Variant> = Vec::new();
+    for (name, changes) in KINDS {
+        let made = changes.iter().try_fold(scene.clone(), |scene, change| scene.with(change));
+        let Ok(made) = made else { continue };
+        let known = |other: &Scene| steps_alike(&made, other);
+        if !known(scene) && !found.iter().any(|other| known(&other.scene)) {
+            found.push(Variant { name, scene: made });
+        }
+    }
+    found
 }
 
-/// A scene beside its variants, itself first; nothing where it has none.
+/// Whether the same model steps.
+fn steps_alike(one: &Scene, other: &Scene) -> bool {
+    one.planar.is_some() == other.planar.is_some() && one.stepped() == other.stepped()
+}
+
+/// What the table of costs calls a scene of a name that it counts: the name, or that with a variant's behind
+/// it; `None` where the scene is neither `shipped`, the scene of that name, nor a variant of it.
 #[must_use]
-pub fn compare(scene: &Scene, grid: &Grid, counted: &Costs) -> Vec<Compared> {
+pub fn counted_as(shipped: &Scene, scene: &Scene) -> Option<String> {
+    if steps_alike(shipped, scene) {
+        return Some(shipped.name.clone());
+    }
+    let alike = |variant: &Variant| steps_alike(&variant.scene, scene);
+    let found = variants(shipped).into_iter().find(alike);
+    found.map(|variant| format!("{}-{}", shipped.name, variant.name))
+}
+
+/// A scene beside its variants, itself first; nothing where it has none. `called` says what the table of costs
+/// calls a scene.
+#[must_use]
+pub fn compare(
+    scene: &Scene,
+    grid: &Grid,
+    counted: &Costs,
+    called: &dyn Fn(&Scene) -> Option<String>,
+) -> Vec<Compared> {
     let variants = variants(scene);
     if variants.is_empty() {
         return Vec::new();
     }
-    let fine = Method::new(SchemeName::Pefrl, None, PrecisionName::F64).ok();
-    let run = |scene: &Scene| fine.as_ref().and_then(|method| motion(scene, method, grid));
-    let own = run(scene);
-    let mut all = vec![of(scene, "as it is", own.as_ref().map(|_| 0.0), counted, &scene.name)];
+    let own_limit = limit(scene);
+    let own = motion(scene, own_limit, grid);
+    let instructions = |scene: &Scene| {
+        let called = called(scene)?;
+        counted.instructions_per_step(&called, "leapfrog", None, None, "f32", "quaternion")
+    };
+    let difference = own.as_ref().map(|_| 0.0);
+    let mut all = vec![of(scene, AS_IT_IS, own_limit, difference, instructions(scene))];
     for Variant { name, scene: other } in &variants {
-        let states = own.as_ref().zip(run(other));
+        let limit = limit(other);
+        let states = own.as_ref().zip(motion(other, limit, grid));
         let difference = states.map(|(own, states)| distance((scene, own), (other, &states)));
-        let chip = format!("{}-{name}", scene.name);
-        all.push(of(other, name, difference.filter(|d| d.is_finite()), counted, &chip));
+        let difference = difference.filter(|difference| difference.is_finite());
+        all.push(of(other, name, limit, difference, instructions(other)));
     }
     all
 }
 
-fn of(scene: &Scene, name: &str, difference: Option<f64>, counted: &Costs, chip: &str) -> Compared {
-    let step = largest_step(scene, &Method::default());
+fn of(
+    scene: &Scene,
+    name: &str,
+    limit: Limit,
+    difference: Option<f64>,
+    target_instructions: Option<f64>,
+) -> Compared {
+    let Limit { stable, .. } = limit;
+    let step = limit.advised.min(scene.duration);
     let way = [Way::Kernel(Method::default())];
     let cost = costs(scene, &way, step, &mut |_, _| ());
-    let target_instructions =
-        counted.instructions_per_step(chip, "leapfrog", None, None, "f32", "quaternion");
     Compared {
         name: name.into(),
+        planar: scene.planar.is_some(),
         bodies: scene.model.bodies.len(),
-        elements: scene.model.tsda_count(),
+        elements: scene.stepped().tsda_count(),
         difference,
+        stable_step: Some(stable).filter(|step| step.is_finite()),
         step,
         host_seconds: cost.first().map_or(f64::INFINITY, |cost| cost.least),
         target_instructions,
     }
 }
 
-/// \[s\] the largest step of a method that is advised.
-fn largest_step(scene: &Scene, method: &Method) -> f64 {
+/// How long a step of leapfrog may be.
+fn limit(scene: &Scene) -> Limit {
     let limits = Limits::of(scene);
-    let way = Way::Kernel(*method);
+    let way = Way::Kernel(Method::default());
     let found = limits.decisive(&way).map(|method| limits.found(&method));
-    limits.limit(&way, found).advised.min(scene.duration)
+    limits.limit(&way, found)
 }
 
 /// The states of a scene at a grid's times, t = 0 first; `None` where a run fails.
-fn motion(scene: &Scene, method: &Method, grid: &Grid) -> Option<Vec<State>> {
-    let steps = grid.steps(FINE * largest_step(scene, method) / (1.0 - MARGIN));
-    let mut plant = plant(scene, method, grid.step(steps)).ok()?;
+fn motion(scene: &Scene, limit: Limit, grid: &Grid) -> Option<Vec<State>> {
+    // What leapfrog bears it bears, too, and is far more accurate.
+    let method = Method::new(SchemeName::Pefrl, None, PrecisionName::F64).ok()?;
+    let steps = grid.steps(FINE * limit.advised.min(scene.duration) / (1.0 - MARGIN));
+    let mut plant = plant(scene, &method, grid.step(steps)).ok()?;
     let mut states = vec![State::of(&plant.state())];
     for _ in 1..grid.times().len() {
         if !plant.advance(steps).is_running() {
@@ -175,7 +234,7 @@ mod tests {
         let scene = Scene::parse(CARDAN, "c.toml").unwrap();
         let found = variants(&scene);
         assert_eq!(found.iter().map(|one| one.name).collect::<Vec<_>>(), ["bushing"]);
-        let compared = compare(&scene, &Grid::new(1e-3, 0.1), &Costs::none());
+        let compared = compare(&scene, &Grid::new(1e-3, 0.1), &Costs::none(), &|_| None);
         let [own, bushing] = &compared[..] else { panic!("{compared:?}") };
         assert_eq!((own.bodies, own.elements, own.difference), (3, 12, Some(0.0)));
         assert_eq!((bushing.bodies, bushing.elements), (2, 1));
@@ -184,5 +243,70 @@ mod tests {
         assert!(bushing.step > 2.0 * own.step, "{} {}", bushing.step, own.step);
         // What is of bushings already has no other make.
         assert!(variants(&found[0].scene).is_empty());
+    }
+
+    /// Three bars in the plane z = 0.
+    const BARS: &str = r#"
+        name = "bars"
+        duration = 0.2
+        gravity = [0, -9.81, 0]
+        [[body]]
+        name = "left"
+        mass = 1
+        inertia = [0.001, 0.01, 0.01]
+        position = [0.15, 0, 0]
+        [[body]]
+        name = "right"
+        mass = 1
+        inertia = [0.001, 0.01, 0.01]
+        position = [0.45, 0, 0]
+        [[joint]]
+        name = "pivot"
+        type = "revolute"
+        between = ["world", "left"]
+        at = [0, 0, 0]
+        axis = [0, 0, 1]
+        span = 0.05
+        stiffness = 1e5
+        [[joint]]
+        name = "knee"
+        type = "revolute"
+        between = ["left", "right"]
+        at = [0.3, 0, 0]
+        axis = [0, 0, 1]
+        span = 0.05
+        stiffness = 1e5
+    "#;
+
+    #[test]
+    fn a_planar_scene_stands_beside_the_one_in_space() {
+        let scene = Scene::parse(BARS, "b.toml").unwrap();
+        let names = |scene: &Scene| variants(scene).iter().map(|one| one.name).collect::<Vec<_>>();
+        assert_eq!(names(&scene), ["bushing", "planar", "planar-bushing"]);
+        let planar = scene.with("planar=true").unwrap();
+        // In the plane first: what is not changed stays as it is.
+        assert_eq!(names(&planar), ["bushing", "spatial", "spatial-bushing"]);
+        let called = |scene: &Scene| counted_as(&Scene::parse(BARS, "b.toml").unwrap(), scene);
+        assert_eq!(called(&scene).as_deref(), Some("bars"));
+        assert_eq!(called(&planar).as_deref(), Some("bars-planar"));
+        let bushing = planar.with("realisation=bushing").unwrap();
+        assert_eq!(called(&bushing).as_deref(), Some("bars-planar-bushing"));
+        assert_eq!(called(&scene.with("body.left.mass=2").unwrap()), None);
+        let grid = Grid::new(1e-3, 0.1);
+        let there = compare(&scene, &grid, &Costs::none(), &|_| None);
+        let back = compare(&planar, &grid, &Costs::none(), &|_| None);
+        let elements = |all: &[Compared]| all.iter().map(|one| one.elements).collect::<Vec<_>>();
+        assert_eq!(elements(&there), [12, 2, 4, 2]);
+        assert_eq!(elements(&back), [4, 2, 12, 2]);
+        assert!(there[2].planar && !there[0].planar && back[0].planar && !back[2].planar);
+        // The same two models, whichever of them is asked for.
+        assert_eq!(
+            [there[0].stable_step, there[2].stable_step],
+            [back[2].stable_step, back[0].stable_step]
+        );
+        let [one, other] = [there[2].difference, back[2].difference].map(Option::unwrap);
+        assert!(one > 0.0 && one < 1e-3 && (one / other - 1.0).abs() < 1e-9, "{one:e} {other:e}");
+        // What tips out of the plane is faster than all in it.
+        assert!(there[2].stable_step > there[0].stable_step, "{there:?}");
     }
 }

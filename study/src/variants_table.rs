@@ -4,48 +4,84 @@
 
 use dbd_plant::digits::significant;
 
-use crate::variants::Compared;
+use crate::variants::{AS_IT_IS, Compared};
 use crate::words::{shown, times};
 
 /// The columns, each with its unit.
-pub const HEADINGS: [(&str, &str); 8] = [
-    ("joints", ""),
+pub const HEADINGS: [(&str, &str); 9] = [
+    ("model", ""),
     ("bodies", ""),
     ("elements", ""),
     ("differs by", "m"),
-    ("step", ""),
+    ("stable step", ""),
+    ("advised step", ""),
     ("PC", "ns/step"),
     ("PC", "core s/s"),
     ("Cortex-M4F", "instr/step"),
 ];
 
-/// What the table says, in words.
-pub const MEANING: &str = "joints of bushings in place of TSDAs: as stiff at t = 0, no universal joint has a \
-     spider; run them with --set realisation=bushing. The difference is root mean square over the bodies \
-     that both have and all samples; the step is the largest advised one of leapfrog, which takes the times";
+/// What the table is of.
+pub const TITLE: &str = "other models of the mechanism";
+
+/// What its figures are.
+const FIGURES: &str = "the difference is root mean square over the bodies that both have and all samples; steps \
+     are of leapfrog, the largest stable one about the pose at t = 0 of the model in its row; the times are of \
+     the advised one";
+
+/// What a make is, and how to run it: by the end of its name.
+const MAKES: [(&str, &str); 3] = [
+    (
+        "bushing",
+        "bushing: joints of bushings in place of TSDAs, as stiff at t = 0, no universal joint has a spider; run it \
+         with --set realisation=bushing",
+    ),
+    (
+        "planar",
+        "planar: three freedoms per body, in the plane; what is stable there may yet tip out of it in space, \
+         where the stable step is that of the spatial model; run it with --planar",
+    ),
+    (
+        "spatial",
+        "spatial: six freedoms per body, of which the plane has three; run it with --set planar=false",
+    ),
+];
+
+/// What the table says, a sentence each.
+#[must_use]
+pub fn meaning(compared: &[Compared]) -> Vec<&'static str> {
+    let made = |make: &str| compared.iter().any(|one| one.name.split('-').any(|part| part == make));
+    let makes = MAKES.iter().filter(|(make, _)| made(make)).map(|(_, text)| *text);
+    makes.chain([FIGURES]).collect()
+}
 
 /// The rows, a cell per column.
 #[must_use]
-pub fn rows(compared: &[Compared]) -> Vec<[String; 8]> {
+pub fn rows(compared: &[Compared]) -> Vec<[String; 9]> {
     let dash = || "–".to_owned();
     let first = compared.first().map_or(0.0, |own| own.host_seconds / own.step);
     let row = |one: &Compared| {
         let cost = one.host_seconds / one.step;
         let faster = first / cost;
-        let cost = match (cost.is_finite(), one.difference == Some(0.0)) {
+        let own = one.name == AS_IT_IS;
+        let cost = match (cost.is_finite(), own) {
             (false, _) => dash(),
             (true, true) => significant(cost, 3),
             (true, false) => format!("{}: {} × as fast", significant(cost, 3), times(faster)),
         };
         [
-            one.name.clone(),
+            match (own, one.planar) {
+                (true, true) => format!("{AS_IT_IS}, planar"),
+                (true, false) => format!("{AS_IT_IS}, spatial"),
+                (false, _) => one.name.clone(),
+            },
             one.bodies.to_string(),
             one.elements.to_string(),
             match one.difference {
-                Some(0.0) => dash(),
+                Some(_) if own => dash(),
                 Some(difference) => format!("{difference:.1e}"),
                 None => "does not run".into(),
             },
+            one.stable_step.map_or_else(dash, shown),
             shown(one.step),
             significant(1e9 * one.host_seconds, 3),
             cost,
@@ -65,16 +101,16 @@ pub fn text(compared: &[Compared]) -> String {
         "" => name.to_owned(),
         unit => format!("{name} [{unit}]"),
     });
-    let all: Vec<[String; 8]> = std::iter::once(heads).chain(rows(compared)).collect();
-    let widths: [usize; 8] = std::array::from_fn(|column| {
+    let all: Vec<[String; 9]> = std::iter::once(heads).chain(rows(compared)).collect();
+    let widths: [usize; 9] = std::array::from_fn(|column| {
         all.iter().map(|row| row[column].chars().count()).max().unwrap_or(0)
     });
-    let mut text = String::from("\njoints of another make\n");
+    let mut text = String::new();
     for row in &all {
         let cells = row.iter().zip(widths).map(|(cell, width)| format!("{cell:<width$}"));
         text += &format!("{}\n", cells.collect::<Vec<_>>().join("  ").trim_end());
     }
-    text + &format!("{MEANING}\n")
+    text
 }
 
 #[cfg(test)]
@@ -84,29 +120,36 @@ mod tests {
     #[test]
     fn a_variant_stands_beside_the_scene_with_what_it_saves() {
         let own = Compared {
-            name: "as it is".into(),
+            name: AS_IT_IS.into(),
+            planar: false,
             bodies: 3,
             elements: 12,
             difference: Some(0.0),
+            stable_step: Some(1.25e-5),
             step: 1e-5,
             host_seconds: 1e-6,
             target_instructions: None,
         };
         let bushing = Compared {
             name: "bushing".into(),
+            planar: false,
             bodies: 2,
             elements: 1,
             difference: Some(2e-5),
+            stable_step: None,
             step: 4e-5,
             host_seconds: 5e-7,
             target_instructions: Some(2345.0),
         };
-        let text = text(&[own.clone(), bushing]);
-        for part in
-            ["as it is", "2.0e-5", "40us", "8 × as fast", "2345", "--set realisation=bushing"]
-        {
-            assert!(text.contains(part), "{part}: {text}");
+        let said = text(&[own.clone(), bushing.clone()]);
+        for part in ["as it is, spatial", "2.0e-5", "12.5us", "40us", "8 × as fast", "2345"] {
+            assert!(said.contains(part), "{part}: {said}");
         }
+        let meant =
+            |name: &str| meaning(&[own.clone(), Compared { name: name.into(), ..own.clone() }]);
+        assert!(meant("bushing")[0].contains("--set realisation=bushing"));
+        assert_eq!((meant("bushing").len(), meant("planar-bushing").len()), (2, 3));
+        assert!(meant("planar")[0].contains("--planar"));
         let stopped = rows(&[own.clone(), Compared { difference: None, ..own }]);
         assert_eq!(stopped[1][3], "does not run");
         assert_eq!(super::text(&[]), "");

@@ -118,8 +118,8 @@ impl Way {
 }
 
 /// All ways of stepping a scene. The paper's scheme also with a Newton iteration, Euler angles
-/// where bodies turn in space, explicit damping where there are dampers and the scheme has it beside
-/// sweeps. What is there for comparison only where this build holds it.
+/// where bodies turn in space, joint-wise and explicit damping where there are dampers and the scheme has them
+/// beside sweeps. What is there for comparison only where this build holds it.
 #[must_use]
 pub fn ways(scene: &Scene, in_space: bool) -> Vec<Way> {
     let mut ways = Vec::new();
@@ -145,10 +145,9 @@ pub fn ways(scene: &Scene, in_space: bool) -> Vec<Way> {
             {
                 add(iterated);
             }
-            if !scene.model.dampers.is_empty()
-                && let Ok(explicit) = method.with_damping(DampingName::Explicit)
-            {
-                add(explicit);
+            if !scene.model.dampers.is_empty() {
+                let others = DampingName::ALL.iter().map(|damping| method.with_damping(*damping));
+                others.flatten().for_each(&mut add);
             }
             if in_space {
                 for orientation in OrientationName::ALL {

@@ -55,6 +55,14 @@ fn check_finds_the_largest_stable_step_on_demand() {
     assert!((step * 1e3_f64.sqrt() - 1.0).abs() < 0.02, "{stability}");
     assert_eq!((&stability["scheme"], &stability["newton"]), (&"dbd".into(), &1.into()));
     assert!(call(&arguments).out.contains("largest stable step"));
+    // What tips out of the plane bears less than what stays in it.
+    let planar = ["check", "cart-pendulum", "--planar", "--stability", "--scheme", "pefrl"];
+    let check: Value =
+        serde_json::from_str(&call(&[&planar[..], &["--json"]].concat()).out).unwrap();
+    let [plane, space] = ["largest_step", "largest_step_in_space"]
+        .map(|key| check["stability"][key].as_f64().unwrap());
+    assert!(0.0 < space && space <= plane, "{space} {plane}");
+    assert!(call(&planar).out.contains("stable in space") && !done.out.contains("in_space"));
     let without = call(&["check", "spring-ball", "--json"]).out;
     assert!(!without.contains("stability"));
     let refused = call(&["check", "spring-ball", "--scheme", "dbd"]);

@@ -124,6 +124,10 @@ fn the_widest_joint_is_that_of_the_trace() {
     assert_eq!(warnings(&summary), [""; 0]);
     let scene = folder.scene(PENDULUM);
     assert_eq!(folder.summary(&scene, &[])["widest_joint"], Value::Null);
+    // Bushings have no free length of which they could open a share.
+    let bushings = ["--set", "realisation=bushing", "--duration", "20ms"];
+    let summary = folder.summary("four-bar", &bushings);
+    assert_eq!((&summary["widest_joint"], warnings(&summary)), (&Value::Null, vec![]));
 }
 
 #[test]

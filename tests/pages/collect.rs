@@ -161,8 +161,9 @@ fn a_survey_becomes_rows() {
     use dbd_study::{TradeOptions, survey};
     use dbd_tests::scene;
 
-    let options = TradeOptions { window: Some(1e-3), period: None, cache: None, shipped: true };
     let scene = scene("spring-ball");
+    let shipped = Some(scene.clone());
+    let options = TradeOptions { window: Some(1e-3), period: None, cache: None, shipped };
     let trade = survey(&scene, &options, &mut |_| ()).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let report = Report { scene: &scene, called: "spring-ball", trade: &trade };

@@ -37,7 +37,7 @@ fn the_command_leaves_its_files_and_says_how_to_run_what_it_chose() {
         "stable steps",
         "0 % of",
         "measuring times",
-        "joints of another make",
+        "other models",
     ];
     assert_eq!(errors.lines().count(), parts.len(), "{errors}");
     for (line, part) in errors.lines().zip(parts) {
@@ -47,7 +47,7 @@ fn the_command_leaves_its_files_and_says_how_to_run_what_it_chose() {
     let table = fs::read_to_string(results.join("trade.csv")).unwrap();
     let columns: Vec<&str> = table.lines().next().unwrap().split(',').collect();
     assert_eq!(columns, dbd_study::files::COLUMNS);
-    assert_eq!((columns.len(), *columns.last().unwrap()), (23, "finest_step"));
+    assert_eq!((columns.len(), *columns.last().unwrap()), (24, "stable_step_in_space"));
     for file in ["trade.svg", "trade-cortex-m4f.svg", "trade.html"] {
         assert!(results.join(file).is_file(), "{file}");
     }

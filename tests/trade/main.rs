@@ -3,6 +3,7 @@
 mod command;
 mod limits;
 mod linkage;
+mod models;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,16 +14,21 @@ use dbd_plant::{Frequencies, Method, Named as _, PrecisionName, SchemeName};
 use dbd_scene::Scene;
 use dbd_study::advice::{advice, choice, remark};
 use dbd_study::command::Command;
+use dbd_study::files::{Piece, Report};
+use dbd_study::limits::Limits;
 use dbd_study::point::Cause;
 use dbd_study::stability::MARGIN;
+use dbd_study::ways::Way;
 use dbd_study::{Machine, Point, Trade, TradeOptions, front, survey};
 use dbd_tests::scene;
 
 /// A survey of a scene's first moments; `cache` where results are kept.
 fn trade(name: &str, window: f64, cache: Option<&Path>) -> Trade {
     let cache = cache.map(Path::to_owned);
-    let options = TradeOptions { window: Some(window), period: None, cache, shipped: true };
-    survey(&scene(name), &options, &mut |_| ()).unwrap()
+    let scene = scene(name);
+    let shipped = Some(scene.clone());
+    let options = TradeOptions { window: Some(window), period: None, cache, shipped };
+    survey(&scene, &options, &mut |_| ()).unwrap()
 }
 
 /// The files of results in a folder.
@@ -87,6 +93,8 @@ fn a_survey_holds_every_way_and_says_what_is_unstable() {
         let parts = 1e-3 / point.step;
         (parts - parts.round()).abs() < 1e-9 * parts
     }));
+    // In space, whatever else it could be made into.
+    assert!(trade.points.iter().all(|point| point.step_in_space.is_none()));
     // What is advised keeps its distance from what is stable, and so does the front.
     let scene = scene("four-bar");
     let highest = Frequencies::of(&scene).estimate;
@@ -178,6 +186,31 @@ fn a_free_rotors_error_is_that_of_its_attitude() {
             assert_ne!(points[row].stepper.precision, "f32-micromath");
         }
     }
+}
+
+/// A pendulum whose motion out of its plane is faster than all in it: what the plane bears, space need not.
+#[test]
+fn a_planar_scenes_points_have_the_stable_step_in_space_beside_them() {
+    let pin = "angular_velocity = [0, 0, 3]\nvelocity = [0, 0.9, 0]\n[[joint]]\nname = \"pin\"\n\
+               type = \"revolute\"\nbetween = [\"world\", \"b\"]\nat = [-0.3, 0, 0]\naxis = [0, 0, 1]\n\
+               span = 0.2\nstiffness = 1e5\n";
+    let space = body("pendulum", pin).with("body.b.inertia=[0.02, 0.021, 0.04]").unwrap();
+    let scene = space.with("planar=true").unwrap();
+    let trade = survey_of(&scene);
+    let limits = Limits::of(&space);
+    let leapfrog = Method::default();
+    let stable = limits.limit(&Way::Kernel(leapfrog), Some(limits.found(&leapfrog))).stable;
+    for point in &trade.points {
+        match point.stepper.scheme.as_str() {
+            "leapfrog" => assert_eq!(point.step_in_space, Some(stable)),
+            _ => assert!(point.step_in_space.unwrap() > 0.0, "{}", point.stepper.label()),
+        }
+    }
+    let beyond = |point: &&Point| point.advisable && Some(point.step) > point.step_in_space;
+    assert!(trade.points.iter().filter(beyond).count() > 5);
+    let report = Report { scene: &scene, called: "pendulum", trade: &trade };
+    let said = |piece: &Piece| matches!(piece, Piece::Sentence(s) if s.contains("is planar"));
+    assert!(report.pieces().iter().any(said));
 }
 
 /// A load that begins and ends within steps leaves any scheme first order, and the choice says so; single

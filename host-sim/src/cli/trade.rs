@@ -4,6 +4,7 @@ use std::io::Write;
 
 use clap::Args;
 use dbd_plant::time::Time;
+use dbd_study::files::Piece;
 use dbd_study::{Phase, files};
 
 use crate::arguments::SceneArgument;
@@ -49,13 +50,13 @@ pub(super) fn trade_scene(
         window: arguments.window.map(Time::seconds),
         period: arguments.period.map(Time::seconds),
         out: &destination,
-        shipped: Catalogue::ships(&scene),
+        shipped: Catalogue::shipped(&scene.name),
     };
     let mut silence = std::io::sink();
     let lines = if arguments.quiet { &mut silence as &mut dyn Write } else { &mut *console.err };
     let bars = console.terminal && !arguments.quiet;
     let mut progress = Progress::of(bars, "evaluations", lines);
-    let done = trade(&scene, &request, &mut |phase| match phase {
+    let done = trade(&scene, request, &mut |phase| match phase {
         Phase::Window => progress.begin("how long before chaos"),
         Phase::Truth => progress.begin("the truth"),
         Phase::Opinion => progress.begin("the truth, a second opinion"),
@@ -63,7 +64,7 @@ pub(super) fn trade_scene(
         Phase::Runs(done, all) => progress.update(done, all),
         Phase::Times(0, _) => progress.begin("measuring times"),
         Phase::Times(..) => {}
-        Phase::Variants => progress.begin("joints of another make"),
+        Phase::Variants => progress.begin("other models of the mechanism"),
     });
     progress.finish();
     let (trade, folder) = done?;
@@ -72,7 +73,12 @@ pub(super) fn trade_scene(
         console.print(&survey_json(&report, &file))?;
     } else if !arguments.quiet {
         let written = format!("{}/trade.{{csv,svg,html,json}}", folder.display());
-        console.print(&format!("{}\nwritten  {written}\n", report.text()))?;
+        let look = console.look;
+        let text = report.pieces().into_iter().map(|piece| match piece {
+            Piece::Sentence(sentence) => look.sentence(&sentence),
+            Piece::Lines(lines) => lines,
+        });
+        console.print(&format!("{}\nwritten  {written}\n", text.collect::<String>()))?;
     }
     Ok(Exit::Done)
 }

@@ -26,7 +26,10 @@ pub struct StabilityCheck {
     pub frequency_hz: f64,
     /// \[s\] the largest stable step; `None` where nothing vibrates or no step was found stable.
     pub largest_step: Option<f64>,
-    /// ω·h of that step.
+    /// \[s\] of a planar scene, the same of its model in space, where it may tip; `None` of others, too.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_step_in_space: Option<f64>,
+    /// ω·h of the largest step.
     pub z: Option<f64>,
     /// The scheme's largest ω·h of one oscillator without damping.
     pub linear_limit: f64,
@@ -43,6 +46,10 @@ impl StabilityCheck {
         let model = &*scene.in_world();
         let found = stability(model, &State::initial(model), method)?;
         let some = found.as_ref().filter(|found| found.largest_step > 0.0);
+        let in_space = match scene.planar {
+            Some(_) => stability(&scene.model, &State::initial(&scene.model), method)?,
+            None => None,
+        };
         Ok(Self {
             scheme: method.scheme_name(),
             newton: method.newton(),
@@ -50,6 +57,7 @@ impl StabilityCheck {
             precision: method.precision_name(),
             frequency_hz: found.as_ref().map_or(0.0, |found| found.frequency / TAU),
             largest_step: some.map(|found| found.largest_step),
+            largest_step_in_space: in_space.map(|found| found.largest_step),
             z: some.map(|found| found.z()),
             linear_limit: method.stability_limit(),
             ranges: found.map_or(Vec::new(), |found| found.ranges),
@@ -78,6 +86,13 @@ impl StabilityCheck {
         };
         let about = "the pose at t = 0 without velocities: what a spin allows is not in it";
         let mut rows = vec![("largest stable step", step), ("stability about", about.into())];
+        if let Some(step) = self.largest_step_in_space {
+            let step = if step > 0.0 { approximate(step) } else { "none was found".into() };
+            let text = format!(
+                "{step}: there it may tip out of its plane, which the steps above do not know"
+            );
+            rows.push(("stable in space", text));
+        }
         let range = |[from, to]: &[f64; 2]| {
             let end = if *to < LARGEST { significant(*to, 4) } else { "the scan's end".into() };
             format!("{} to {end}", significant(*from, 4))

@@ -20,7 +20,7 @@ use crate::terminal::SceneFile;
 use crate::terminal::text;
 
 /// What a survey is asked for.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct TradeRequest<'r> {
     /// What a command line calls the scene.
     pub called: &'r str,
@@ -30,8 +30,8 @@ pub struct TradeRequest<'r> {
     pub period: Option<f64>,
     /// Where results go.
     pub out: &'r Destination,
-    /// Whether the scene is the one that ships under its name.
-    pub shipped: bool,
+    /// The scene that ships under the scene's name.
+    pub shipped: Option<Scene>,
 }
 
 /// Why a survey could not be made, or its results not be written.
@@ -57,10 +57,10 @@ pub enum TradeError {
 /// [`TradeError`].
 pub fn trade(
     scene: &Scene,
-    request: &TradeRequest<'_>,
+    request: TradeRequest<'_>,
     progress: &mut dyn FnMut(Phase),
 ) -> Result<(Trade, PathBuf), TradeError> {
-    let TradeRequest { called, window, period, out, shipped } = *request;
+    let TradeRequest { called, window, period, out, shipped } = request;
     let options = TradeOptions { window, period, cache: None, shipped };
     // Bad input leaves no folder behind.
     frame(scene, &options).map_err(SurveyError::from)?;

@@ -187,10 +187,11 @@ fn of_rounding(
 }
 
 /// What a run did that is probably not meant: joints that opened by more than [`OPENED`] of their
-/// free length.
+/// free length. Those of bushings have none, and are the same however far they open.
 #[must_use]
 pub fn of_run(scene: &Scene, openings: &[Opening]) -> Vec<String> {
-    let mut open: Vec<_> = openings.iter().filter_map(|o| Some((o, o.since?))).collect();
+    let with_length = openings.iter().filter(|opening| opening.free_length > 0.0);
+    let mut open: Vec<_> = with_length.filter_map(|o| Some((o, o.since?))).collect();
     open.sort_by(|a, b| b.0.share().total_cmp(&a.0.share()));
     let Some(((worst, since), others)) = open.split_first() else { return Vec::new() };
     let name = |opening: &Opening| format!("`{}`", scene.joints[opening.joint].name);

@@ -96,7 +96,7 @@ pub struct Summary {
     /// What was moved to close the joints of the scene, where it has a table `assemble`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub assembled: Option<String>,
-    /// The joint that opened by the largest share of its free length; `None` without joints.
+    /// The joint that opened by the largest share of its free length; `None` where none has one.
     pub widest_joint: Option<JointOpening>,
     /// The watch over the energy, where there was one.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -242,7 +242,7 @@ impl Summary {
                 significant(100.0 * extension / free_length, 3),
                 display(rounded(*time, 6)),
             ),
-            None => "– (no joints)".into(),
+            None => "– (no joint has a free length)".into(),
         };
         let mut rows = vec![
             ("scene", self.scene.clone()),

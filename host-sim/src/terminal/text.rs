@@ -23,6 +23,9 @@ const LEAST_NAME: usize = 9;
 /// Where a text begins that has a line of its own.
 const BELOW: usize = 4;
 
+/// Where the further lines of a sentence begin.
+const FURTHER: usize = 2;
+
 /// A value as JSON, indented, with a final line feed. What JSON cannot hold becomes `null`.
 #[must_use]
 pub fn json(value: &impl Serialize) -> String {
@@ -55,6 +58,14 @@ impl Look {
             }
         }
         lines
+    }
+
+    /// A sentence that stands by itself, its further lines indented.
+    #[must_use]
+    pub fn sentence(self, text: &str) -> String {
+        let pieces = self.broken(text, FURTHER);
+        let indented = pieces.join(&format!("\n{:FURTHER$}", ""));
+        indented + "\n"
     }
 
     /// A text in pieces that fit behind an indent.
@@ -223,6 +234,17 @@ mod tests {
         // What nobody should have to put together again stays whole.
         let path = format!("/{}/trace.csv", "long".repeat(20));
         assert!(NARROW.table(&[("written", path.clone())]).contains(&path));
+    }
+
+    #[test]
+    fn a_sentence_goes_on_indented() {
+        let text = NARROW
+            .sentence("for 1e-3 m choose leapfrog, f32, step 100us (20 million instructions)");
+        assert_eq!(
+            text,
+            "for 1e-3 m choose leapfrog, f32, step\n  100us (20 million instructions)\n"
+        );
+        assert_eq!(Look::PLAIN.sentence("one two"), "one two\n");
     }
 
     #[test]

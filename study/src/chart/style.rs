@@ -90,7 +90,12 @@ impl Style {
         };
         // A variant of a scheme has its colour and another mark.
         let newton = stepper.newton.unwrap_or(0) as usize;
-        let variant = newton + 3 * usize::from(stepper.damping.is_some());
+        let damping = match stepper.damping.as_deref() {
+            None => 0,
+            Some("explicit") => 3,
+            Some(_) => 5,
+        };
+        let variant = newton + damping;
         let dashes = match (stepper.precision.as_str(), stepper.orientation.as_str()) {
             ("f64", "quaternion") => "",
             ("f32", "quaternion") => "7 4",
@@ -151,23 +156,27 @@ impl Style {
 
 #[cfg(test)]
 mod tests {
-    use dbd_plant::{Named as _, SchemeName};
+    use dbd_plant::{DampingName, Method, Named as _, PrecisionName, SchemeName};
 
     use super::*;
-    use crate::point::tests::point;
+    use crate::ways::Way;
 
     #[test]
-    fn schemes_differ_in_colour_or_mark() {
+    fn schemes_and_ways_of_damping_differ_in_colour_or_mark() {
         let mut styles = Vec::new();
         for scheme in SchemeName::ALL {
             let name = scheme.name();
             assert!(KNOWN.iter().any(|(known, ..)| *known == name), "{name} has no colour");
-            let mut stepper = point(name, 1.0, 1.0, None).stepper;
-            for precision in ["f64", "f32"] {
-                stepper.precision = precision.into();
-                let style = Style::of(&stepper, 0, false);
-                assert!(!styles.contains(&style), "{name} {precision}");
-                styles.push(style);
+            let own = Method::new(*scheme, None, PrecisionName::F64).unwrap();
+            let dampings = DampingName::ALL.iter().map(|damping| own.with_damping(*damping));
+            for method in dampings.flatten() {
+                let mut stepper = Way::Kernel(method).stepper();
+                for precision in ["f64", "f32"] {
+                    stepper.precision = precision.into();
+                    let style = Style::of(&stepper, 0, false);
+                    assert!(!styles.contains(&style), "{}", stepper.label());
+                    styles.push(style);
+                }
             }
         }
     }
