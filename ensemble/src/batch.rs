@@ -132,9 +132,8 @@ impl<V: Register, S: InLanes> Members<V, S> {
             let _ = self.plants[member].advance(steps);
         }
         let running = self.running;
-        let doubted: Vec<usize> = own_lanes(&self.seats)
-            .filter(|lane| (doubted & running) >> lane & 1 != 0)
-            .collect();
+        let doubted: Vec<usize> =
+            own_lanes(&self.seats).filter(|lane| (doubted & running) >> lane & 1 != 0).collect();
         if doubted.is_empty() {
             return true;
         }

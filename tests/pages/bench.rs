@@ -29,9 +29,8 @@ fn times_of_steps_are_as_kept() {
     let kept = kept();
     let line = |system: &Value| {
         let time = &system["f64_s"];
-        let over = |way: &str| {
-            cell(&system[way]["over_kernel"]["median"], |ratio| format!("{ratio:.2}"))
-        };
+        let over =
+            |way: &str| cell(&system[way]["over_kernel"]["median"], |ratio| format!("{ratio:.2}"));
         vec![
             format!("`{}`", text(system, "name")),
             grouped(&system["bodies"].to_string()),
@@ -99,9 +98,8 @@ fn looking_at_a_scene_grows_as_counted() {
             line.pop();
         }
         line.push(format!("{} M", figure(point.1 / 1e6, 3)));
-        let exponent = |(bodies, count): (f64, f64)| {
-            (point.1 / count).ln() / (point.0 / bodies).ln()
-        };
+        let exponent =
+            |(bodies, count): (f64, f64)| (point.1 / count).ln() / (point.0 / bodies).ln();
         line.push(before.map_or("–".into(), |before| format!("{:.3}", exponent(before))));
         before = Some(point);
     }
@@ -109,7 +107,11 @@ fn looking_at_a_scene_grows_as_counted() {
     let first = counted[0].text("way");
     let sizes: Vec<String> =
         counted.iter().filter(|row| row.text("way") == first).map(bodies).collect();
-    let head = [&["instructions"], &sizes.iter().map(String::as_str).collect::<Vec<_>>()[..], &["last exponent"]];
+    let head = [
+        &["instructions"],
+        &sizes.iter().map(String::as_str).collect::<Vec<_>>()[..],
+        &["last exponent"],
+    ];
     block(SPEED, "growth", &table(&head.concat(), &lines));
 }
 
@@ -127,12 +129,8 @@ fn ensembles_are_as_measured() {
         }
         seen.push(of);
         let found = |set: &str, threads: &str| {
-            let wanted = [
-                ("scene", of.0),
-                ("precision", of.1),
-                ("instructions", set),
-                ("threads", threads),
-            ];
+            let wanted =
+                [("scene", of.0), ("precision", of.1), ("instructions", set), ("threads", threads)];
             all.iter().find(|row| row.is(&wanted))
         };
         let ratio = |set: &str, column: &str, threads: &str| {
@@ -145,12 +143,10 @@ fn ensembles_are_as_measured() {
             Some(_) => "not met",
             None => "–",
         };
-        let scatter = found("avx2", "1").map_or("–".into(), |row| {
-            figure(100.0 * row.number("spread"), 2)
-        });
-        let two = found("avx2", "2").map_or("–".into(), |row| {
-            format!("{:.2}", row.number("over_one_thread"))
-        });
+        let scatter =
+            found("avx2", "1").map_or("–".into(), |row| figure(100.0 * row.number("spread"), 2));
+        let two = found("avx2", "2")
+            .map_or("–".into(), |row| format!("{:.2}", row.number("over_one_thread")));
         lines.push(vec![
             format!("`{}`", of.0),
             of.1.to_owned(),
@@ -165,4 +161,25 @@ fn ensembles_are_as_measured() {
     let head =
         ["scene", "numbers", "baseline", "AVX2", "±%", "goal", "AVX-512", "two threads over one"];
     block("docs/ensembles.md", "ratios", &table(&head, &lines));
+}
+
+#[test]
+fn lanes_across_one_model_are_as_tried() {
+    let all = rows("docs/results/large.csv");
+    let line = |bodies: &Row| {
+        let found = |way: &str| {
+            let wanted = [("bodies", bodies.text("bodies")), ("way", way)];
+            all.iter().find(|row| row.is(&wanted)).unwrap()
+        };
+        let [kernel, lanes] = ["kernel", "lanes"].map(found);
+        let number = |row: &Row, column: &str| row.text(column).parse::<f64>().ok();
+        let ratio = |column: &str| {
+            let ratio = number(kernel, column).zip(number(lanes, column)).map(|(a, b)| a / b);
+            ratio.map_or("–".into(), |ratio| figure(ratio, 2))
+        };
+        vec![grouped(bodies.text("bodies")), ratio("instructions"), ratio("least_us")]
+    };
+    let lines = all.iter().filter(|row| row.text("way") == "kernel").map(line).collect::<Vec<_>>();
+    let head = ["bodies", "kernel's instructions over lanes'", "kernel's least time over lanes'"];
+    block("docs/ensembles.md", "large", &table(&head, &lines));
 }

@@ -5,9 +5,7 @@
 
 use std::time::{Duration, Instant};
 
-use dbd_ensemble::{
-    AnyEnsemble, EnsembleError, ensemble_in_f32, ensemble_in_f64, lanes_in_f64,
-};
+use dbd_ensemble::{AnyEnsemble, EnsembleError, ensemble_in_f32, ensemble_in_f64, lanes_in_f64};
 use dbd_plant::{Method, Plan, PrecisionName};
 use dbd_scene::Scene;
 
@@ -90,9 +88,8 @@ pub fn simulate_together(
 /// same times, so that all evaluate forces as often.
 fn alike(method: &Method, members: &[Member<'_>]) -> Vec<usize> {
     let Some(first) = members.first().filter(|_| lanes(method) > 1) else { return Vec::new() };
-    let goes = |scene: &Scene| {
-        scene.planar.is_none() && scene.model.knots == first.scene.model.knots
-    };
+    let goes =
+        |scene: &Scene| scene.planar.is_none() && scene.model.knots == first.scene.model.knots;
     (0..members.len()).filter(|row| goes(members[*row].scene)).collect()
 }
 

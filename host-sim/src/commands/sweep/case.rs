@@ -121,9 +121,8 @@ impl Case {
     fn row(&self, ending: &Ending, recorder: Recorder) -> Row {
         let Self { scene, plan, .. } = self;
         let Recorder { figures, statistics, .. } = recorder;
-        let failure = ending
-            .trouble
-            .map(|trouble| FailedRun::untried(scene, plan, ending, trouble));
+        let failure =
+            ending.trouble.map(|trouble| FailedRun::untried(scene, plan, ending, trouble));
         let time = match &failure {
             Some(failure) => failure.time,
             None => plan.duration,
