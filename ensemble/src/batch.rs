@@ -2,8 +2,8 @@
 //!
 //! `(members, steps) => members`. Steps are made in blocks, without the guards of a step. What a lane
 //! does in a block is doubted where it turned too far in a step or is not finite at the end: its own
-//! plant then does the block anew, one instance by itself, and tells what failed where. A lane whose
-//! instance has failed, or that never had one, runs the twin of another.
+//! plant then does the block anew, one instance by itself, and tells what failed where. A lane that
+//! never had an instance runs the twin of another; one whose instance has failed goes on without meaning.
 
 use dbd_kernel::geometry::Named;
 use dbd_kernel::{Plant, Real, State};
@@ -36,6 +36,8 @@ where
     fn member(&mut self, member: usize) -> &PlantOf<R, S>;
     /// An instance, to be changed.
     fn member_mut(&mut self, member: usize) -> &mut PlantOf<R, S>;
+    /// The force evaluations of an instance that has gone in its lane from t = 0 on; `None` of others.
+    fn evaluations(&self, member: usize) -> Option<u64>;
 }
 
 /// Where the present state of the instances is.
@@ -57,12 +59,18 @@ pub(crate) struct Members<V: Register, S: InLanes> {
     /// The lanes' plant, once any member runs.
     lanes: Option<LanesPlant<V, S>>,
     present: Present,
+    /// The lanes whose instances run, lane 0 lowest; those of twins do not count.
+    running: u32,
+    /// Whether the lanes have gone from t = 0 on.
+    from_start: bool,
 }
 
 impl<V: Register, S: InLanes> Members<V, S> {
     /// A batch of at most as many plants as the register has lanes, of one structure, scheme and step.
     pub(crate) fn new(plants: Vec<PlantOf<V::Number, S>>) -> Self {
-        Self { plants, seats: Vec::new(), lanes: None, present: Present::Members }
+        let seats = Vec::new();
+        let (lanes, present) = (None, Present::Members);
+        Self { plants, seats, lanes, present, running: 0, from_start: false }
     }
 
     /// Brings the members' states into the lanes; `None` where none of them runs. All lanes are at one
@@ -85,7 +93,10 @@ impl<V: Register, S: InLanes> Members<V, S> {
             }
             let states: Vec<_> = plants.iter().map(|plant| plant.state()).collect();
             let state = gather::state::<V>(&states);
-            self.lanes.as_mut()?.resume(state);
+            let lanes = self.lanes.as_mut()?;
+            self.from_start = state.step == 0 && lanes.evaluations() == 0;
+            lanes.resume(state);
+            self.running = own_lanes(&seats).fold(0, |running, lane| running | 1 << lane);
             self.seats = seats;
             self.present = Present::Both;
         }
@@ -95,7 +106,7 @@ impl<V: Register, S: InLanes> Members<V, S> {
     /// Brings the lanes' states into the members' plants.
     fn leave(&mut self) {
         if let (Present::Lanes, Some(lanes)) = (self.present, &self.lanes) {
-            for lane in own_lanes(&self.seats) {
+            for lane in own_lanes(&self.seats).filter(|lane| self.running >> lane & 1 != 0) {
                 let state = gather::lane(lanes.state(), lane);
                 self.plants[self.seats[lane]].resume(state);
             }
@@ -112,25 +123,35 @@ impl<V: Register, S: InLanes> Members<V, S> {
             return false;
         };
         let before = lanes.state().clone();
-        let far = before.step.checked_add(steps + 1).is_none() || near_an_end(&before, steps);
+        let far = before.step.checked_add(steps + 1).is_none()
+            || near_an_end(&before, steps, self.running);
         let doubted = if far { u32::MAX } else { V::enter(Block { lanes, steps }) };
         self.present = Present::Lanes;
         // Those at another step, and those that failed, which stay as they are.
         for member in apart {
             let _ = self.plants[member].advance(steps);
         }
+        let running = self.running;
         let doubted: Vec<usize> =
-            own_lanes(&self.seats).filter(|lane| doubted >> lane & 1 != 0).collect();
+            own_lanes(&self.seats).filter(|lane| (doubted & running) >> lane & 1 != 0).collect();
         if doubted.is_empty() {
             return true;
         }
         self.leave();
         for lane in doubted {
             let plant = &mut self.plants[self.seats[lane]];
+            let made = plant.hash();
             plant.resume(gather::lane(&before, lane));
-            let _ = plant.advance(steps);
+            if !plant.advance(steps).is_running() {
+                self.running &= !(1 << lane);
+            } else if plant.hash() != made {
+                self.present = Present::Members;
+            }
         }
-        self.present = Present::Members;
+        // Those that were at another step may still run: they take the lanes.
+        if self.running == 0 {
+            self.present = Present::Members;
+        }
         true
     }
 }
@@ -140,10 +161,12 @@ fn own_lanes(seats: &[usize]) -> impl Iterator<Item = usize> {
     (0..seats.len()).filter(|&lane| !seats[..lane].contains(&seats[lane]))
 }
 
-/// Whether any turn count may come to its end within so many steps.
-fn near_an_end<V: Register>(state: &State<LanesModel<V>>, steps: u64) -> bool {
+/// Whether any turn count of a running lane may come to its end within so many steps.
+fn near_an_end<V: Register>(state: &State<LanesModel<V>>, steps: u64, running: u32) -> bool {
     let most = u64::from(u32::MAX / 2) - 1 - steps;
-    state.turns.iter().any(|&turns| u64::from(turns.unsigned_abs()) > most)
+    let counts = state.turns.iter().enumerate();
+    let mut counts = counts.filter(|(row, _)| running >> (row % V::LANES) & 1 != 0);
+    counts.any(|(_, &turns)| u64::from(turns.unsigned_abs()) > most)
 }
 
 impl<V: Register, S: InLanes + Send> Batch<V::Number, S> for Members<V, S> {
@@ -167,6 +190,12 @@ impl<V: Register, S: InLanes + Send> Batch<V::Number, S> for Members<V, S> {
         self.leave();
         self.present = Present::Members;
         &mut self.plants[member]
+    }
+
+    fn evaluations(&self, member: usize) -> Option<u64> {
+        let lane = own_lanes(&self.seats).find(|&lane| self.seats[lane] == member)?;
+        let steady = self.from_start && self.running >> lane & 1 != 0;
+        Some(self.lanes.as_ref()?.evaluations()).filter(|_| steady)
     }
 }
 

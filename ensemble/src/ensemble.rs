@@ -176,6 +176,17 @@ impl<R: Number, S: InLanes + Send + 'static> Ensemble<R, S> {
         self.plant(instance).state()
     }
 
+    /// The force evaluations that an instance alone would have made, where it has gone in its lane from t = 0
+    /// on; `None` where it was changed on the way, or went by itself.
+    ///
+    /// # Panics
+    /// Where there is no such instance.
+    #[must_use]
+    pub fn evaluations(&self, instance: usize) -> Option<u64> {
+        let lanes = self.lanes();
+        self.batches[instance / lanes].evaluations(instance % lanes)
+    }
+
     /// Lets an instance go on from `state`, a failure forgotten. Instances of a batch that are at
     /// another step than the first of it go by themselves, and slower.
     ///

@@ -1,12 +1,87 @@
-//! How fast leapfrog's ensembles are, compiled here once for all that ask.
+//! Leapfrog's ensembles and how fast they are, compiled here once for all that ask.
 //!
-//! `(model, h, instruction set, threads) => steps per second of both`, see [`crate::pace()`].
+//! `(models, h) => ensemble of whatever precision; (model, h, instruction set, threads) => steps per second of both`,
+//! see [`crate::pace()`].
 
-use dbd_kernel::{F32, F64, Leapfrog};
-use dbd_scene::SceneModel;
+use dbd_kernel::{F32, F64, Leapfrog, State, Status};
+use dbd_scene::{SceneModel, widen};
 
-use crate::ensemble::EnsembleError;
+use crate::ensemble::{Ensemble, EnsembleError};
+use crate::instructions::InstructionSet;
+use crate::number::Number;
 use crate::pace::{Course, Pace, pace};
+
+/// An ensemble whose precision is known when the program runs. What it shows is in double precision, the
+/// stored words widened exactly.
+pub trait AnyEnsemble: Send {
+    /// `steps` steps of every instance, or as many as succeed, on this thread.
+    fn advance(&mut self, steps: u64);
+
+    /// The status of an instance.
+    ///
+    /// # Panics
+    /// Where there is no such instance.
+    fn status(&mut self, instance: usize) -> Status;
+
+    /// The state of an instance.
+    ///
+    /// # Panics
+    /// Where there is no such instance.
+    fn state(&mut self, instance: usize) -> State<SceneModel<F64>>;
+
+    /// As [`Ensemble::evaluations`].
+    ///
+    /// # Panics
+    /// Where there is no such instance.
+    fn evaluations(&self, instance: usize) -> Option<u64>;
+}
+
+impl<R: Number> AnyEnsemble for Ensemble<R, Leapfrog> {
+    fn advance(&mut self, steps: u64) {
+        self.advance(steps);
+    }
+
+    fn status(&mut self, instance: usize) -> Status {
+        self.status(instance)
+    }
+
+    fn state(&mut self, instance: usize) -> State<SceneModel<F64>> {
+        widen(self.state(instance))
+    }
+
+    fn evaluations(&self, instance: usize) -> Option<u64> {
+        self.evaluations(instance)
+    }
+}
+
+/// Instances in double precision, on the best instruction set of this machine.
+///
+/// # Errors
+/// As [`Ensemble::new`].
+pub fn ensemble_in_f64(
+    models: Vec<SceneModel<F64>>,
+    step_size: f64,
+) -> Result<Box<dyn AnyEnsemble>, EnsembleError> {
+    Ok(Box::new(Ensemble::new(models, Leapfrog, step_size)?))
+}
+
+/// Instances that are rounded to single precision, likewise.
+///
+/// # Errors
+/// As [`Ensemble::new`].
+pub fn ensemble_in_f32(
+    models: Vec<SceneModel<F64>>,
+    step_size: f64,
+) -> Result<Box<dyn AnyEnsemble>, EnsembleError> {
+    let models = models.iter().map(|model| model.convert::<F32>()).collect();
+    Ok(Box::new(Ensemble::new(models, Leapfrog, step_size)?))
+}
+
+/// How many instances in double precision go in lockstep on this machine; twice as many do in single.
+#[must_use]
+pub fn lanes_in_f64() -> usize {
+    f64::lanes(InstructionSet::best())
+}
 
 /// Of a model in double precision.
 ///

@@ -8,7 +8,7 @@
 //! - `alike`, `gather`: models of one structure become the model of lanes, states likewise and back.
 //! - `in_lanes`, `batch`: which schemes lanes step; as many instances as a register has lanes, stepped as one.
 //! - `instructions`, `number`: what a machine has, and which batches a number has there.
-//! - `ensemble`, `pace`, `leapfrog`: many instances, how fast they are, and leapfrog compiled once.
+//! - `ensemble`, `pace`, `leapfrog`: many instances, how fast they are, and leapfrog's compiled once.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod alike;
@@ -31,6 +31,8 @@ pub use ensemble::{Ensemble, EnsembleError};
 pub use in_lanes::InLanes;
 pub use instructions::InstructionSet;
 #[cfg(not(test))]
-pub use leapfrog::{pace_in_f32, pace_in_f64};
+pub use leapfrog::{
+    AnyEnsemble, ensemble_in_f32, ensemble_in_f64, lanes_in_f64, pace_in_f32, pace_in_f64,
+};
 pub use number::Number;
 pub use pace::{Course, Pace, pace};

@@ -44,17 +44,27 @@ impl Pace {
     /// How many times faster the ensemble is: the median of the rounds' ratios.
     #[must_use]
     pub fn ratio(&self) -> f64 {
-        let mut ratios: Vec<f64> = self
-            .together
-            .iter()
-            .zip(&self.alone)
-            .map(|(together, alone)| together / alone)
-            .collect();
-        ratios.sort_by(f64::total_cmp);
+        let ratios = self.ratios();
         ratios.get(ratios.len() / 2).copied().unwrap_or(f64::NAN)
     }
 
-    /// The same of the fastest rounds of each: what other programs took least from.
+    /// How far the middle half of the rounds' ratios lies apart, half of it over the median.
+    #[must_use]
+    pub fn spread(&self) -> f64 {
+        let ratios = self.ratios();
+        let at = |quarters: usize| ratios.get(quarters * ratios.len() / 4).copied();
+        at(1).zip(at(3)).map_or(f64::NAN, |(low, high)| 0.5 * (high - low) / self.ratio())
+    }
+
+    /// The rounds' ratios, the least first.
+    fn ratios(&self) -> Vec<f64> {
+        let rounds = self.together.iter().zip(&self.alone);
+        let mut ratios: Vec<f64> = rounds.map(|(together, alone)| together / alone).collect();
+        ratios.sort_by(f64::total_cmp);
+        ratios
+    }
+
+    /// The ratio of the fastest rounds of each: what other programs took least from.
     #[must_use]
     pub fn best_ratio(&self) -> f64 {
         let most = |rates: &[f64]| rates.iter().copied().fold(f64::NAN, f64::max);

@@ -16,6 +16,8 @@ use dbd_scene::Scene;
 
 /// \[s\].
 const STEP: f64 = 2e-5;
+/// Every so many links have springs of their own.
+const SOME: usize = 4;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -40,7 +42,8 @@ fn run(way: &str, links: usize) -> Result<usize, String> {
     let text = chain(links);
     let parse = || Scene::parse(&text, "chain.toml").map_err(|why| why.to_string());
     if way == "load" {
-        return Ok(counted_work(&|| parse().map_or(0, |scene| scene.joints.len())));
+        let joints = counted_work(&|| parse().map_or(0, |scene| scene.joints.len()));
+        return if joints == links { Ok(joints) } else { parse().map(|scene| scene.joints.len()) };
     }
     let scene = parse()?;
     let state = State::initial(&scene.model);
@@ -91,13 +94,14 @@ fn chain(links: usize) -> String {
         let x = 0.1 * i as f64;
         add(i, "joint", format!("name = \"pin {i}\"\nat = [{x:.3}, 0, 0]\n"));
     }
-    for i in 0..links {
+    // Springs of their own at some links: a model counts elements and dampers in 16 bits, and joints have six each.
+    for i in (0..links).step_by(SOME) {
         let from = if i == 0 { -0.03 } else { 0.02 };
         let points = format!("points = [[{from}, 0, 0.01], [-0.02, 0, 0.01]]\n");
         let spring = "stiffness = 100\nfree_length = 0.05\ndamping = 1\n";
         add(i, "tsda", points + spring);
     }
-    for i in 0..links {
+    for i in (0..links).step_by(SOME) {
         add(i, "torsion_spring", "axis = [0, 1, 0]\nstiffness = 1\ndamping = 0.1\n".to_owned());
     }
     for i in 0..links {

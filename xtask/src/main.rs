@@ -6,6 +6,7 @@
 mod attended;
 mod audit;
 mod baseline;
+mod bench;
 mod bits;
 mod boards;
 mod built;
@@ -95,6 +96,9 @@ enum Command {
     /// Counts how the work of reading and looking at a scene grows with its bodies, by valgrind's
     /// callgrind; writes docs/results/growth.csv, fails where it grows faster than the bodies.
     Growth,
+    /// Times steps and ensembles on this machine, which should do nothing else; writes docs/results/bench.json and
+    /// docs/results/ensembles.csv.
+    Bench,
     /// Gives random input to the reader of scenes, to snapshots, to steps and to the command line, on
     /// all cores; fails where anything fails.
     Fuzz(fuzz::Campaign),
@@ -149,6 +153,7 @@ fn main() -> ExitCode {
         Command::Cost { scenes, compare, .. } => cost::run(&scenes, compare),
         Command::Instructions { baseline } => instructions::run(baseline),
         Command::Growth => growth::run(),
+        Command::Bench => bench::run(),
         Command::Fuzz(campaign) => fuzz::run(&campaign),
         Command::Bits { names } => bits::machines::run(&names),
         Command::Prove { names } => prove::run(&names),

@@ -92,6 +92,8 @@ fn compare<V: Register, S: InLanes + Send>(
             let what = format!("{name}, {}, {}, instance {i}", S::NAME, V::Number::NAME);
             assert_eq!(lane.status(), plant.status(), "{what}");
             assert_eq!(lane.hash(), plant.hash(), "{what}");
+            let counted = batch.evaluations(i);
+            assert!(counted.is_none_or(|counted| counted == plant.evaluations()), "{what}");
         }
     }
     alone
@@ -248,6 +250,12 @@ fn a_failed_lane_stops_alone_with_the_bits_of_its_failure() {
     let alone = compare::<Eight, _>("gripper", &models, Leapfrog, step);
     let failed: Vec<bool> = alone.iter().map(|plant| !plant.status().is_running()).collect();
     assert_eq!(failed, [false, true, true, false]);
+    // Those that did not fail have gone on in their lanes.
+    let mut batch = Members::<Eight, _>::new(plants::<f32, _>(&models, Leapfrog, step));
+    batch.advance(165);
+    let counted = [0, 1, 2, 3].map(|member| batch.evaluations(member));
+    let own = |member: usize| Some(alone[member].evaluations());
+    assert_eq!(counted, [own(0), None, None, own(3)]);
     assert!(matches!(
         alone[2].status(),
         Status::Failed(failure) if failure.step == 1 && matches!(failure.cause, Cause::Spin { .. })

@@ -1,13 +1,16 @@
 //! A planned run, and what there is to say where it fails.
 //!
 //! - [`run`]: sample by sample.
+//! - [`together`]: alike runs in lockstep.
 //! - [`watch`]: over its energy.
 //! - [`failure`]: where it failed and which step works.
 
 pub mod failure;
 pub mod run;
+pub mod together;
 pub mod watch;
 
 pub use failure::FailedRun;
 pub use run::{Ending, Observer, Sample, SimulationError, simulate};
+pub use together::{Member, lanes, simulate_together};
 pub use watch::{EnergyLimit, EnergyStop, EnergyWatch};

@@ -99,42 +99,101 @@ pub fn simulate(
     plan: &Plan,
     observer: &mut dyn Observer,
 ) -> Result<Ending, SimulationError> {
-    let mut plant = plant(scene, method, plan.step)?;
-    let mut judge = Judge::new(scene, plant.as_ref());
-    let mut readings = Vec::new();
-    let stride = (plan.steps / LOOKS).clamp(1, MOST_STEPS_UNSEEN);
+    let mut course = Course::new(scene, method, plan)?;
     let mut wall = Duration::ZERO;
-    let mut next_sample = 0;
     let trouble = loop {
-        let state = plant.state();
-        let verdict = match judge.judge(&state) {
-            Ok(verdict) => verdict,
+        let steps = match course.look(observer)? {
+            Ok(0) => break None,
+            Ok(steps) => steps,
             Err(trouble) => break Some(trouble),
         };
-        let done = state.step;
-        observer.progress(done);
-        if done == next_sample {
-            read(scene, plant.as_ref(), &mut readings);
-            let sample = Sample {
-                extensions: judge.extensions(),
-                ..Sample::new(plant.as_ref(), &state, &readings, &verdict)
-            };
-            observer.sample(&sample).map_err(SimulationError::Observer)?;
-            next_sample = plan.steps.min(next_sample + plan.stride);
-        }
-        if done == plan.steps || !observer.goes_on() {
-            break None;
-        }
         let start = Instant::now();
-        let status = plant.advance(next_sample.min(done + stride) - done);
+        let status = course.plant.advance(steps);
         wall += start.elapsed();
         if let Status::Failed(failure) = status {
             break Some(Trouble::Step(failure.cause));
         }
     };
-    let (steps, evaluations) = (plant.steps(), plant.evaluations());
-    let (openings, turning) = (judge.openings().to_vec(), judge.turning());
-    Ok(Ending { steps, evaluations, wall, trouble, openings, turning })
+    let evaluations = course.plant.evaluations();
+    Ok(course.ending(evaluations, wall, trouble))
+}
+
+/// A run under way, from look to look.
+pub(super) struct Course<'c> {
+    scene: &'c Scene,
+    plan: &'c Plan,
+    /// What is looked at.
+    pub(super) plant: Box<dyn AnyPlant>,
+    judge: Judge,
+    readings: Vec<f64>,
+    /// Steps between two looks at most.
+    stride: u64,
+    next_sample: u64,
+}
+
+impl<'c> Course<'c> {
+    /// A run at its start.
+    ///
+    /// # Errors
+    /// Where there is no plant of the method with the plan's step.
+    pub(super) fn new(
+        scene: &'c Scene,
+        method: &Method,
+        plan: &'c Plan,
+    ) -> Result<Self, PlantError> {
+        let plant = plant(scene, method, plan.step)?;
+        let judge = Judge::new(scene, plant.as_ref());
+        let stride = (plan.steps / LOOKS).clamp(1, MOST_STEPS_UNSEEN);
+        Ok(Self { scene, plan, plant, judge, readings: Vec::new(), stride, next_sample: 0 })
+    }
+
+    /// Looks at the plant; the observer hears of a sample where one is due. Steps to the next look, none where
+    /// the run is at its end.
+    ///
+    /// # Errors
+    /// Where the observer fails; inside, where the run cannot go on.
+    pub(super) fn look(
+        &mut self,
+        observer: &mut dyn Observer,
+    ) -> Result<Result<u64, Trouble>, SimulationError> {
+        let state = self.plant.state();
+        let verdict = match self.judge.judge(&state) {
+            Ok(verdict) => verdict,
+            Err(trouble) => return Ok(Err(trouble)),
+        };
+        let done = state.step;
+        observer.progress(done);
+        if done == self.next_sample {
+            read(self.scene, self.plant.as_ref(), &mut self.readings);
+            let sample = Sample {
+                extensions: self.judge.extensions(),
+                ..Sample::new(self.plant.as_ref(), &state, &self.readings, &verdict)
+            };
+            observer.sample(&sample).map_err(SimulationError::Observer)?;
+            self.next_sample = self.plan.steps.min(self.next_sample + self.plan.stride);
+        }
+        if done == self.plan.steps || !observer.goes_on() {
+            return Ok(Ok(0));
+        }
+        Ok(Ok(self.next_sample.min(done + self.stride) - done))
+    }
+
+    /// How it ended.
+    pub(super) fn ending(
+        self,
+        evaluations: u64,
+        wall: Duration,
+        trouble: Option<Trouble>,
+    ) -> Ending {
+        Ending {
+            steps: self.plant.steps(),
+            evaluations,
+            wall,
+            trouble,
+            openings: self.judge.openings().to_vec(),
+            turning: self.judge.turning(),
+        }
+    }
 }
 
 /// The scene's read-outs now, one number per column of the trace.

@@ -1,9 +1,10 @@
-//! One case of a sweep: a scene with changes, run by a method, becomes a row.
+//! Cases of a sweep: a scene with changes, run by a method, becomes a row.
 //!
 //! `(scene's text, changes, method) => samples => row`. A case that is refused or fails is a row, too; no step
-//! that works is looked for, which would take further runs.
+//! that works is looked for, which would take further runs. Cases that are alike run in lockstep, and have the rows
+//! that they have alone.
 
-use std::io;
+use std::{io, iter};
 
 use dbd_plant::plant::{check_inputs, check_step};
 use dbd_plant::{Frequencies, Method, Plan};
@@ -15,7 +16,9 @@ use miette::Diagnostic;
 
 use crate::commands::run::{RunOptions, plan_within};
 use crate::report::{Figures, Statistics};
-use crate::simulate::{FailedRun, Observer, Sample, simulate};
+use crate::simulate::{
+    Ending, FailedRun, Member, Observer, Sample, lanes, simulate, simulate_together,
+};
 
 /// What the cases of a sweep have in common.
 #[derive(Clone, Copy, Debug)]
@@ -37,32 +40,89 @@ impl Trial for Bench<'_> {
 }
 
 impl Bench<'_> {
-    /// The row of a case.
+    /// The rows of cases, each with its method: those that have one plan and are alike run in lockstep, a row is
+    /// the same as alone.
+    pub fn run(&self, cases: &[(Vec<String>, Method)], columns: &[Column]) -> Vec<Row> {
+        let prepared = |(changes, method): &(Vec<String>, Method)| {
+            Case::new(self, changes, *method).map_err(|why| Row::refused(why, columns.len()))
+        };
+        let cases: Vec<Result<Case, Row>> = cases.iter().map(prepared).collect();
+        let mut rows: Vec<Option<Row>> = vec![None; cases.len()];
+        for first in 0..cases.len() {
+            let Ok(case) = &cases[first] else { continue };
+            let with = |row: &usize| {
+                let other = cases[*row].as_ref().ok();
+                rows[*row].is_none() && other.is_some_and(|other| other.goes_with(case))
+            };
+            let group: Vec<usize> = (first..cases.len()).filter(with).collect();
+            let together: Vec<&Case> =
+                group.iter().filter_map(|row| cases[*row].as_ref().ok()).collect();
+            if together.len() > 1 {
+                for (row, made) in group.iter().zip(Case::run_together(&together, columns)) {
+                    rows[*row] = made;
+                }
+            }
+        }
+        let alone = |(case, row): (Result<Case, Row>, Option<Row>)| match (case, row) {
+            (Ok(case), row) => row.unwrap_or_else(|| case.run(columns)),
+            (Err(refused), _) => refused,
+        };
+        cases.into_iter().zip(rows).map(alone).collect()
+    }
+}
+
+/// A case that may begin.
+struct Case {
+    scene: Scene,
+    method: Method,
+    plan: Plan,
+}
+
+impl Case {
+    /// A case.
     ///
     /// # Errors
-    /// Never for what the case does; where samples cannot be taken in.
-    pub fn run(&self, changes: &[String], method: &Method, columns: &[Column]) -> Row {
-        let refused = |message: String| Row::refused(format!("refused: {message}"), columns.len());
-        let scene = match self.scene(changes) {
-            Ok(scene) => scene,
-            Err(error) => return refused(error.message()),
-        };
-        let plan = match planned(&scene, method) {
-            Ok(plan) => plan,
-            Err(misfit) => return refused(misfit.message),
-        };
-        let mut recorder = Recorder {
-            places: places(&scene, columns),
-            figures: vec![Figures::default(); columns.len()],
-            statistics: Statistics::default(),
-        };
-        let ending = match simulate(&scene, method, &plan, &mut recorder) {
-            Ok(ending) => ending,
-            Err(error) => return refused(error.to_string()),
-        };
+    /// Why it is refused.
+    fn new(bench: &Bench<'_>, changes: &[String], method: Method) -> Result<Self, String> {
+        let scene = bench.scene(changes).map_err(|error| refused(error.message()))?;
+        let plan = planned(&scene, &method).map_err(|misfit| refused(misfit.message))?;
+        Ok(Self { scene, method, plan })
+    }
+
+    /// Whether lanes may step both.
+    fn goes_with(&self, other: &Self) -> bool {
+        (self.method, self.plan) == (other.method, other.plan) && lanes(&self.method) > 1
+    }
+
+    /// Its row.
+    fn run(&self, columns: &[Column]) -> Row {
+        let mut recorder = Recorder::new(&self.scene, columns);
+        match simulate(&self.scene, &self.method, &self.plan, &mut recorder) {
+            Ok(ending) => self.row(&ending, recorder),
+            Err(error) => Row::refused(refused(error.to_string()), columns.len()),
+        }
+    }
+
+    /// The rows of cases of one method and plan; `None` for one that has to run by itself.
+    fn run_together(cases: &[&Self], columns: &[Column]) -> Vec<Option<Row>> {
+        let recorder = |case: &&Self| Recorder::new(&case.scene, columns);
+        let mut recorders: Vec<Recorder> = cases.iter().map(recorder).collect();
+        let members = cases.iter().zip(&mut recorders);
+        let mut members: Vec<Member<'_>> =
+            members.map(|(case, observer)| Member { scene: &case.scene, observer }).collect();
+        let endings = simulate_together(&cases[0].method, &cases[0].plan, &mut members);
+        // Where there is none, each says so itself.
+        let endings = endings.unwrap_or_default().into_iter().chain(iter::repeat(None));
+        let rows = cases.iter().zip(recorders).zip(endings);
+        rows.map(|((case, recorder), ending)| Some(case.row(&ending?, recorder))).collect()
+    }
+
+    /// What it came to.
+    fn row(&self, ending: &Ending, recorder: Recorder) -> Row {
+        let Self { scene, plan, .. } = self;
         let Recorder { figures, statistics, .. } = recorder;
         let failure =
-            ending.trouble.map(|trouble| FailedRun::untried(&scene, &plan, &ending, trouble));
+            ending.trouble.map(|trouble| FailedRun::untried(scene, plan, ending, trouble));
         let time = match &failure {
             Some(failure) => failure.time,
             None => plan.duration,
@@ -79,6 +139,11 @@ impl Bench<'_> {
             figures: figures.iter().map(Figures::all).collect(),
         }
     }
+}
+
+/// The status of a case that is refused.
+fn refused(why: String) -> String {
+    format!("refused: {why}")
 }
 
 /// The plan of a case, as `run` would make it.
@@ -124,6 +189,16 @@ struct Recorder {
     places: Vec<Option<Place>>,
     figures: Vec<Figures>,
     statistics: Statistics,
+}
+
+impl Recorder {
+    fn new(scene: &Scene, columns: &[Column]) -> Self {
+        Self {
+            places: places(scene, columns),
+            figures: vec![Figures::default(); columns.len()],
+            statistics: Statistics::default(),
+        }
+    }
 }
 
 impl Observer for Recorder {

@@ -2,8 +2,10 @@
 //!
 //! `(SPEC.toml, case) => row, key, report, command lines`. Nothing is written but reports.
 
+use std::collections::HashMap;
 use std::path::Path;
 
+use dbd_plant::Method;
 use dbd_study::command::quoted;
 use dbd_sweep::Spec;
 use dbd_sweep::cases::Cases;
@@ -16,11 +18,15 @@ use crate::commands::folder::Destination;
 use crate::commands::run::{RunError, RunOptions, run};
 use crate::commands::sweep::case::Bench;
 use crate::commands::sweep::error::SweepError;
+use crate::simulate::lanes;
 use crate::terminal::catalogue::is_path;
 use crate::terminal::{Catalogue, Found, SceneFile};
 
 /// What of the program makes other rows: its version and, where it was built in its repository, its sources.
 pub const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), env!("DBD_SOURCES"));
+
+/// The changes that say when a case is looked at and ends.
+const PLAN: [&str; 3] = ["step=", "duration=", "every="];
 
 /// A sweep that may begin: its file is read and every axis checked.
 pub struct Sweep {
@@ -82,14 +88,41 @@ impl Sweep {
         cells.len() == row::length(self.columns.len())
     }
 
-    /// The row of a case.
+    /// The rows of cases, as many at once as [`Self::parts`] puts together.
     #[must_use]
-    pub fn run(&self, case: usize) -> Row {
-        let cases = Cases::new(&self.spec);
+    pub fn run(&self, cases: &[usize]) -> Vec<Row> {
+        let all = Cases::new(&self.spec);
         let bench = Bench { text: &self.found.text, file: &self.name };
         // Every combination was looked at.
-        let method = cases.method(case).unwrap_or_default();
-        bench.run(&cases.changes(case), &method, &self.columns)
+        let case = |case: &usize| (all.changes(*case), all.method(*case).unwrap_or_default());
+        bench.run(&cases.iter().map(case).collect::<Vec<_>>(), &self.columns)
+    }
+
+    /// Cases in parts that run at once, so that those of one method and step can go in lockstep: as many as lanes
+    /// step, fewer where some of so many threads would have nothing to do.
+    #[must_use]
+    pub fn parts(&self, cases: &[usize], threads: usize) -> Vec<Vec<usize>> {
+        let all = Cases::new(&self.spec);
+        let fair = cases.len().div_ceil(threads.max(1));
+        let mut parts: Vec<Vec<usize>> = Vec::new();
+        // The part of each kind that is not full.
+        let mut open: HashMap<Vec<String>, usize> = HashMap::new();
+        for case in cases {
+            let method = all.method(*case).unwrap_or_default();
+            let most = lanes(&method).min(fair).max(1);
+            let of_plan = |change: &String| PLAN.iter().any(|key| change.starts_with(key));
+            let changes = all.changes(*case).into_iter().filter(of_plan);
+            let kind: Vec<String> = words(&method).into_iter().chain(changes).collect();
+            let part = *open.entry(kind.clone()).or_insert(parts.len());
+            if part == parts.len() {
+                parts.push(Vec::with_capacity(most));
+            }
+            parts[part].push(*case);
+            if parts[part].len() >= most {
+                open.remove(&kind);
+            }
+        }
+        parts
     }
 
     /// Writes what `run` writes of a case below a folder; one that is refused has none.
@@ -141,15 +174,15 @@ impl Sweep {
     pub fn key(&self, case: usize) -> Key {
         let cases = Cases::new(&self.spec);
         let method = cases.method(case).unwrap_or_default();
-        let newton = method.newton().map_or(String::new(), |newton| newton.to_string());
-        let method = [
-            method.scheme_name(),
-            &newton,
-            method.damping().name(),
-            method.precision_name(),
-            method.orientation_name(),
-        ];
-        let key = method.iter().fold(self.base, |key, word| key.with(word));
+        let key = words(&method).iter().fold(self.base, |key, word| key.with(word));
         Key(cases.changes(case).iter().fold(key, |key, change| key.with(change)).bits())
     }
+}
+
+/// A method in words.
+fn words(method: &Method) -> [String; 5] {
+    let newton = method.newton().map_or(String::new(), |newton| newton.to_string());
+    let [scheme, precision] = [method.scheme_name(), method.precision_name()].map(String::from);
+    let damping = method.damping().name().to_owned();
+    [scheme, newton, damping, precision, method.orientation_name().to_owned()]
 }

@@ -1,7 +1,8 @@
 //! `host-sim sweep`: many values of one scene, a row per case.
 //!
 //! `SPEC.toml => cases => OUT/SPEC/cases/*.rows => OUT/SPEC/sweep.{csv,html,json}`. Every axis is checked
-//! before anything is written; finished cases are kept as they come and never run again.
+//! before anything is written; finished cases are kept as they come and never run again. Alike cases run in
+//! lockstep.
 
 pub mod case;
 pub mod error;
@@ -93,13 +94,18 @@ pub fn sweep(
         pending.retain(|case| !store.holds(keys[*case]) && begun.insert(keys[*case]));
         let all = pending.len() as u64;
         progress(0, all);
-        let mut take = |case: usize, row: Row| {
-            store.add(keys[case], &row.cells())?;
-            ran += 1;
-            progress(ran, all);
+        let parts = sweep.parts(&pending, threads);
+        let mut take = |part: usize, rows: Vec<Row>| {
+            for (case, row) in parts[part].iter().zip(rows) {
+                store.add(keys[*case], &row.cells())?;
+                ran += 1;
+                progress(ran, all);
+            }
             Ok(())
         };
-        on_all(&pending, threads, &|case| sweep.run(case), &mut take).map_err(SweepError::Write)?;
+        let numbers: Vec<usize> = (0..parts.len()).collect();
+        on_all(&numbers, threads, &|part| sweep.run(&parts[part]), &mut take)
+            .map_err(SweepError::Write)?;
     }
     if arguments.reports {
         let mut take = |_, written: Result<(), RunError>| written;
