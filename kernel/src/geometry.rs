@@ -101,6 +101,12 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     fn moment_to_world(frame: &Self::Frame, m: Self::Moment) -> Self::Moment;
     /// A moment's world axes to body axes.
     fn moment_to_body(frame: &Self::Frame, m: Self::Moment) -> Self::Moment;
+    /// The axes of a body's moments, a moment's world axes; as many as it has components.
+    #[inline(always)]
+    fn moment_axes(frame: &Self::Frame) -> [Self::Moment; 3] {
+        let [x, y, z] = Self::Moment::axes();
+        [x, y, z].map(|axis| Self::moment_to_world(frame, axis))
+    }
     /// The value of a stored position \[m\].
     fn position(stored: &Self::Position) -> Self::Vector;
     /// The value of a stored velocity.
@@ -242,6 +248,11 @@ impl<R: Real + Named, A: Attitude<Real = R, Turn = Quaternion<R>>> Geometry for 
     #[inline(always)]
     fn moment_to_body(frame: &Pose<R>, m: Vec3<R>) -> Vec3<R> {
         frame.rotation.to_body(m)
+    }
+    #[inline(always)]
+    fn moment_axes(frame: &Pose<R>) -> [Vec3<R>; 3] {
+        let Rotation { x, y, z } = frame.rotation;
+        [Vec3::new(x.x, y.x, z.x), Vec3::new(x.y, y.y, z.y), Vec3::new(x.z, y.z, z.z)]
     }
     #[inline(always)]
     fn position(stored: &Vec3<R>) -> Vec3<R> {

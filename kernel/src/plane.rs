@@ -236,6 +236,10 @@ impl<R: Real> Moment for Axial<R> {
     fn root(self) -> Self {
         Self::new(self.z.sqrt())
     }
+    #[inline(always)]
+    fn of_columns(self, [z, ..]: [Self; 3]) -> Self {
+        z * self.z
+    }
 }
 
 /// A turn about z: the quaternion of unit length `w + z·k`, cosine and sine of the half angle.

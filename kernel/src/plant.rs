@@ -91,13 +91,14 @@ where
         let mut frames = owner.per_body(FrameOf::<H::Target>::default());
         let mut shares = owner.per_damper(Share::ALONE);
         let mut levers = S::Levers::memory(owner);
+        let mut ledger = Ledger::default();
         if <H::Target as ModelOwner>::Terms::DAMPERS && S::DAMPING != Damping::Explicit {
             let (bodies, signals) = (state.bodies.as_ref(), state.signals.as_ref());
             place_bodies(bodies, frames.as_mut());
             let places = Places { frames: frames.as_ref(), signals };
             let half = RealOf::<H::Target>::HALF * h;
             if S::DAMPING == Damping::JointWise {
-                find(&view, places, half, levers.as_mut());
+                ledger.stops = find(&view, places, half, levers.as_mut());
             }
             let (mut held, shares) = (owner.per_body(Held::default()), shares.as_mut());
             let others = (state.turns.as_ref(), levers.as_ref());
@@ -122,7 +123,7 @@ where
             wrenches,
             memory,
             in_line,
-            ledger: Ledger::default(),
+            ledger,
             status: Status::Running,
         };
         plant.sample();

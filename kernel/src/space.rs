@@ -89,6 +89,8 @@ pub trait Moment: Linear {
     fn under(self, number: Self::Real) -> Self;
     /// The square root of each component.
     fn root(self) -> Self;
+    /// So many times each column as its component says: a matrix of columns times itself.
+    fn of_columns(self, columns: [Self; 3]) -> Self;
 }
 
 /// How one orientation stands to another, as half angles: what torsion springs measure.
@@ -219,6 +221,10 @@ impl<R: Real> Moment for Vec3<R> {
     #[inline]
     fn root(self) -> Self {
         Vec3::new(self.x.sqrt(), self.y.sqrt(), self.z.sqrt())
+    }
+    #[inline(always)]
+    fn of_columns(self, [x, y, z]: [Self; 3]) -> Self {
+        x * self.x + y * self.y + z * self.z
     }
 }
 

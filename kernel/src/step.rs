@@ -32,6 +32,8 @@ pub(crate) struct Ledger {
     pub(crate) fresh: bool,
     /// Whether the joints' levers are those of the present pose.
     pub(crate) ready: bool,
+    /// At how many places a sweep of levers stops.
+    pub(crate) stops: u16,
 }
 
 /// Model, state and scratch of one plant, lent for one step, with the scheme's memory `S` per body.
@@ -326,10 +328,12 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
         let kick = HalfKick { wrenches: &*self.wrenches, diagonals: self.diagonals };
         let sweep = Sweep { h, places, turns: &*self.turns, shares: self.shares, kick };
         if !self.ledger.ready {
-            damping::prepare::<P, T, _>(&self.model, &sweep, self.bodies, self.levers);
+            let levers = (&mut *self.levers, self.ledger.stops);
+            damping::prepare::<P, T, _>(&self.model, &sweep, self.bodies, levers);
             self.ledger.ready = true;
         }
-        damping::sweep_joints::<P, T, _, REVERSE>(&self.model, &sweep, self.levers, self.bodies);
+        let levers = (&*self.levers, self.ledger.stops);
+        damping::sweep_joints::<P, T, _, REVERSE>(&self.model, &sweep, levers, self.bodies);
     }
 
     /// Half a step of the dampers by themselves in ascending order; frames are those of the

@@ -14,7 +14,8 @@ use crate::space::Linear as _;
 /// One lever of a joint, and what it does in half a step at a pose.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lever<P: Geometry> {
-    /// \[√(N·s/m)\] force on the body that sees it at rest, that body's axes.
+    /// \[√(N·s/m)\] force on the body that sees it at rest, that body's axes; of a raw spring world
+    /// axes.
     pub(super) along: P::Vector,
     /// Moment about that body's centre of mass, its axes.
     pub(super) moment: P::Moment,
@@ -24,35 +25,57 @@ pub struct Lever<P: Geometry> {
     pub(super) rate: P::Real,
     /// \[s\] impulse per rate.
     pub(super) impulse: P::Real,
-    /// \[s\] impulse less per rate that the kick gave: ascending, descending.
-    pub(super) told: [P::Real; 2],
-    /// The impulse less, for what the kick and moved ground gave: ascending, descending.
+    /// The impulse less, ascending, descending: to the ground per rate that the kick gave, else for
+    /// what the kick and moved ground gave.
     pub(super) less: [P::Real; 2],
-    /// What the levers from here on are, in the first of a group.
-    pub(super) seat: Seat,
+    /// \[1/s\] rate per impulse along each of the levers before it, of joints between two bodies; and
+    /// without the other body's turning.
+    pub(super) linked: [P::Real; LINKED],
+    pub(super) still: [P::Real; LINKED],
+    /// A stop of the sweeps: of the whole model's in order the one of this row's number.
+    pub(super) stop: Stop,
 }
 
-/// Whose a group's levers are.
+/// Levers before the last of six.
+pub(super) const LINKED: usize = 5;
+
+/// Where a sweep stops, and what acts there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Seat {
-    /// The body that sees them at rest and the other one.
+pub(super) struct Stop {
+    /// The body that sees the levers at rest and the other one.
     pub(super) ends: [u16; 2],
-    /// How many there are.
+    /// The row of the group or of the torsion spring.
+    pub(super) of: u16,
+    /// The row of the first lever.
+    pub(super) row: u16,
+    /// How many levers there are; whether dampers act.
     pub(super) count: u8,
     /// What acts there.
     pub(super) kind: Kind,
 }
 
-/// What acts in a group's place.
+/// What acts at a stop.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// The group's dampers, one by one.
+    /// A group's dampers, one by one.
     #[default]
     Dampers,
-    /// The levers of a joint.
+    /// The levers of a joint to the ground.
+    Ground,
+    /// The levers of a joint between two bodies.
     Joint,
     /// The lever of a raw spring.
-    Turning,
+    Raw,
+    /// The lever of a torsion spring.
+    Torsion,
+}
+
+impl Stop {
+    /// A stop with its rows: what acts, its first lever, and how many levers.
+    pub(super) fn new(kind: Kind, ends: [BodyIndex; 2], [of, row, count]: [usize; 3]) -> Self {
+        let ends = ends.map(|end| end.0);
+        Self { ends, of: of as u16, row: row as u16, count: count as u8, kind }
+    }
 }
 
 impl<P: Geometry> Lever<P> {
@@ -73,24 +96,26 @@ impl<P: Geometry> Lever<P> {
     }
 
     /// What it does in half a step `h` \[s\], times its coefficient, with 1/μ = `rate`: of the rate it
-    /// takes `1 − 1/(1 + x + x²/2)`, `x = h·rate`, and is told of a kick as any damper
-    /// (`damping::pair::Damper`).
+    /// takes `1 − 1/(1 + x + x²/2)`, `x = h·rate`, and is told as any damper (`damping::pair::Damper`)
+    /// of the rate that the kick gave, `kicked`.
     #[inline(always)]
-    pub(super) fn weigh(&mut self, share: &Share<P::Real>, h: P::Real, rate: P::Real) {
+    pub(super) fn weigh(
+        &mut self,
+        share: &Share<P::Real>,
+        h: P::Real,
+        rate: P::Real,
+        kicked: P::Real,
+    ) {
         let (half, one) = (P::Real::HALF, P::Real::ONE);
         let x = h * rate;
         let y = one + half * x;
         let part = h / (one + x * y);
         let Share { own, later } = *share;
-        self.impulse = part * y;
+        let impulse = part * y;
         let given = own * half * part;
-        self.told = [given + later * self.impulse, given + (one - (own + later)) * self.impulse];
-    }
-
-    /// Tells it the rate that the kick gave.
-    #[inline(always)]
-    pub(super) fn tell(&mut self, kicked: P::Real) {
-        self.less = self.told.map(|told| told * kicked);
+        let told = [given + later * impulse, given + (one - (own + later)) * impulse];
+        self.impulse = impulse;
+        self.less = told.map(|told| told * kicked);
     }
 
     /// `c` parts of it and `s` of another.
@@ -131,7 +156,7 @@ impl Keep for NoLevers {
     }
 }
 
-/// Levers: sixteen words per damper in space, eleven in the plane.
+/// Levers: twenty-six words per damper in space, twenty-one in the plane.
 #[derive(Clone, Copy, Debug)]
 pub struct Levers;
 

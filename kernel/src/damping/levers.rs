@@ -9,14 +9,14 @@
 //! right angles for ever; between two bodies as far as the bodies' inertias do not turn.
 
 use crate::damping::each_direction;
-use crate::damping::lever::{Kind, Lever, Seat};
+use crate::damping::lever::{Kind, Lever, Stop};
 use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelRef, Terms};
 use crate::pose::{Places, placed};
 use crate::real::Real;
-use crate::space::{Linear as _, Moment as _};
+use crate::space::{Linear as _, Moment as _, Space as _};
 
 /// The body that sees a group's points at rest and the other one, `None` where none does: raw
 /// elements turn and slide, what has a clearance is not always there, moved ground moves them.
@@ -27,21 +27,36 @@ pub(super) fn fixed<P: Geometry, T: Terms>(group: &Group) -> Option<[BodyIndex; 
     if !whole::<T>(group) || moved(a) || moved(b) {
         return None;
     }
-    // As many levers as a wrench has components always have room.
-    let room = P::Vector::DIMENSION + P::Moment::DIMENSION;
+    let [few, _, all] = counts::<P>();
+    let elements = group.elements();
     match law {
-        Law::Tsda if T::TSDAS && arms > 1 => Some(seen(a, b)),
-        // On a line that turns it is no wrench of both bodies.
-        Law::PointOnLine if T::LINES && a.is_world() && group.elements() >= room => Some([b, a]),
+        Law::Tsda if T::TSDAS && arms > 1 && (elements == few || elements >= all) => {
+            Some(seen(a, b))
+        }
+        // Along its line the second body slides with its points.
+        Law::PointOnLine if T::LINES && !b.is_world() && elements >= all => Some([b, a]),
         _ => None,
     }
 }
 
-/// The ends of a raw spring, whose one lever turns: a body first.
-#[inline(always)]
-pub(super) fn turning<T: Terms>(group: &Group) -> Option<[BodyIndex; 2]> {
-    let raw = T::TSDAS && group.law == Law::Tsda && group.elements() == 1;
-    (raw && whole::<T>(group)).then(|| seen(group.a, group.b))
+/// How many levers a joint between two bodies has: as few as a spherical joint, as a revolute, or as
+/// many as a wrench has components, which always have room.
+pub(super) const fn counts<P: Geometry>() -> [usize; 3] {
+    if P::Space::PLANAR { [2, 2, 3] } else { [3, 5, 6] }
+}
+
+/// What acts at a group's stop, and on which bodies.
+fn kind<P: Geometry, T: Terms>(group: &Group) -> (Kind, [BodyIndex; 2]) {
+    match fixed::<P, T>(group) {
+        Some(ends) if ends[1].is_world() => (Kind::Ground, ends),
+        Some(ends) => (Kind::Joint, ends),
+        None => {
+            let ends = seen(group.a, group.b);
+            let raw = T::TSDAS && group.law == Law::Tsda && group.elements() == 1;
+            let raw = raw && whole::<T>(group) && !ends[0].is_world();
+            (if raw { Kind::Raw } else { Kind::Dampers }, ends)
+        }
+    }
 }
 
 /// Whether all of a group's dampers act always.
@@ -59,7 +74,7 @@ fn seen(a: BodyIndex, b: BodyIndex) -> [BodyIndex; 2] {
 /// The levers of a joint.
 pub(super) fn held<'l, P: Geometry>(group: &Group, levers: &'l [Lever<P>]) -> &'l [Lever<P>] {
     let levers = levers.get(rows(group)).unwrap_or_default();
-    let count = levers.first().map_or(0, |first| first.seat.count.into());
+    let count = levers.iter().take_while(|lever| lever.rate > P::Real::ZERO).count();
     levers.get(..count).unwrap_or_default()
 }
 
@@ -74,8 +89,9 @@ pub(crate) fn weigh<P: Geometry, T: Terms>(
         if let (Some(levers), Some(shares)) = (levers.get_mut(rows(group)), shares.get(rows(group)))
             && fixed::<P, T>(group).is_some()
         {
-            for (lever, share) in levers.iter_mut().zip(shares) {
-                lever.weigh(share, h, lever.rate);
+            let held = levers.iter_mut().take_while(|lever| lever.rate > P::Real::ZERO);
+            for (lever, share) in held.zip(shares) {
+                lever.weigh(share, h, lever.rate, P::Real::ONE);
             }
         }
     }
@@ -91,22 +107,16 @@ pub(super) fn rows(group: &Group) -> core::ops::Range<usize> {
 /// Joints that are further apart in the model share no levers: the search stays short.
 const NEAR: usize = 64;
 
-/// Finds the levers of all joints at a pose, for half a step `h` \[s\].
+/// Finds the levers of all joints at a pose, for half a step `h` \[s\], and where a sweep stops: so
+/// many times.
 pub(crate) fn find<P: Geometry, T: Terms>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     h: P::Real,
     levers: &mut [Lever<P>],
-) {
+) -> u16 {
     for (row, group) in model.groups.iter().enumerate() {
-        let Some(ends) = fixed::<P, T>(group) else {
-            if let Some(ends) = turning::<T>(group)
-                && let Some(lever) = levers.get_mut(rows(group).start)
-            {
-                lever.seat = Seat { ends: ends.map(|end| end.0), count: 1, kind: Kind::Turning };
-            }
-            continue;
-        };
+        let Some(ends) = fixed::<P, T>(group) else { continue };
         let metric = Metric::new(model, ends);
         let own = rows(group);
         let Some((before, here)) = levers.split_at_mut_checked(own.start) else { continue };
@@ -132,9 +142,45 @@ pub(crate) fn find<P: Geometry, T: Terms>(
                 metric.insert(shared, here, lever.scaled(root));
             });
         }
-        metric.finish(shared, ends, h);
-        metric.finish(here, ends, h);
+        metric.finish(shared, h);
+        metric.finish(here, h);
     }
+    stops(model, levers)
+}
+
+/// Writes the stops of all that has dampers, groups before torsion springs; how many there are. A joint
+/// whose levers are all another's has none.
+fn stops<P: Geometry, T: Terms>(model: &ModelRef<'_, P, T>, levers: &mut [Lever<P>]) -> u16 {
+    let mut number = 0;
+    for (of, group) in model.groups.iter().enumerate() {
+        let Some(row) = group.damper.row() else { continue };
+        let (kind, ends) = kind::<P, T>(group);
+        let count = match kind {
+            Kind::Ground => held(group, levers).len(),
+            Kind::Joint => match held(group, levers).len() {
+                0 => 0,
+                count => counts::<P>().into_iter().find(|&whole| whole >= count).unwrap_or(count),
+            },
+            _ => 1,
+        };
+        if count > 0 {
+            number = add(levers, number, Stop::new(kind, ends, [of, row, count]));
+        }
+    }
+    for (of, spring) in model.torsions.iter().enumerate() {
+        if let (true, Some(row)) = (T::TORSIONS, spring.damper.row()) {
+            let ends = seen(spring.a, spring.b);
+            number = add(levers, number, Stop::new(Kind::Torsion, ends, [of, row, 1]));
+        }
+    }
+    number
+}
+
+/// Writes one more stop.
+fn add<P: Geometry>(levers: &mut [Lever<P>], number: u16, stop: Stop) -> u16 {
+    let Some(lever) = levers.get_mut(usize::from(number)) else { return number };
+    lever.stop = stop;
+    number + 1
 }
 
 /// What the masses of a pair make of levers.
@@ -218,22 +264,21 @@ impl<P: Geometry> Metric<P> {
         }
     }
 
-    /// Brings levers to the front, and takes the part of 1/μ that no pose changes. Beyond `LARGEST`
+    /// Takes the parts of rates that no pose changes. Beyond `LARGEST`
     /// of h/μ nothing changes any more.
-    fn finish(&self, levers: &mut [Lever<P>], ends: [BodyIndex; 2], h: P::Real) {
+    fn finish(&self, levers: &mut [Lever<P>], h: P::Real) {
         let largest = P::Real::from_f64(LARGEST);
-        let mut count = 0;
-        for lever in levers.iter_mut() {
+        for i in 0..levers.len() {
+            let Some((before, [lever, ..])) = levers.split_at_mut_checked(i) else { break };
             let x = h * self.rate(lever, lever);
             if x > largest {
                 *lever = lever.scaled((largest / x).sqrt());
             }
             let still = Lever { other: P::Moment::ZERO, ..*lever };
             lever.rate = self.rate(&still, &still);
-            count += u8::from(lever.rate > P::Real::ZERO);
-        }
-        if let Some(first) = levers.first_mut() {
-            first.seat = Seat { ends: ends.map(|end| end.0), count, kind: Kind::Joint };
+            for (rate, earlier) in lever.still.iter_mut().zip(before) {
+                *rate = self.rate(&still, earlier);
+            }
         }
     }
 }

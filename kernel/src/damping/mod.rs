@@ -27,15 +27,17 @@ mod levers;
 mod motion;
 mod near;
 mod pair;
+mod prepare;
 mod shares;
 mod strength;
 
 pub use crate::elements::share::Share;
-pub(crate) use joints::{prepare, sweep_joints};
+pub(crate) use joints::sweep_joints;
 pub use lever::{Keep, Lever, Levers, NoLevers};
 pub(crate) use levers::{find, weigh};
 pub(crate) use near::Held;
 pub(crate) use pair::{HalfKick, Kick, NoKick};
+pub(crate) use prepare::prepare;
 pub(crate) use shares::share;
 pub use strength::{DampersOf, Strength, strengths};
 

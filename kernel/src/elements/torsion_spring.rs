@@ -76,6 +76,13 @@ impl<S: Space> SinceStart<S> {
         let zero = S::Real::ZERO;
         S::Real::recount(turns, w.less_than(zero), zero.less_than(s))
     }
+
+    /// \[1\] The gradient of the twist about `axis` with respect to a rotation of B, A's axes.
+    #[inline(always)]
+    #[must_use]
+    pub fn gradient(&self, axis: S::Moment) -> S::Moment {
+        self.turn.gradient(axis, self.s, self.norm)
+    }
 }
 
 impl<S: Space> TorsionSpring<S> {
@@ -116,7 +123,7 @@ impl<S: Space> TorsionSpring<S> {
             principal,
             S::Real::from_count(turns) * (two * S::Real::PI) + principal
         );
-        Twist { angle, gradient: since.turn.gradient(self.axis, since.s, since.norm) }
+        Twist { angle, gradient: since.gradient(self.axis) }
     }
 
     /// Torque on B \[N·m\] in A's axes without damping.

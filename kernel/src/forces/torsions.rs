@@ -9,7 +9,7 @@ use crate::geometry::Geometry;
 use crate::index::TorsionIndex;
 use crate::model::{ModelRef, Terms};
 use crate::pose::{End, Places};
-use crate::real::Real as _;
+use crate::real::{Real as _, Truth as _};
 use crate::space::Linear as _;
 use crate::status::Cause;
 
@@ -33,6 +33,12 @@ pub(super) fn torsions<P: Geometry, T: Terms, D: Dampers>(
         };
         if settle {
             *turns = since.settled(*turns);
+        }
+        // A damper alone: it acts elsewhere.
+        let zero = P::Real::ZERO;
+        let slack = spring.stiffness.equals(zero) & spring.preload.equals(zero);
+        if !D::ACT && slack.all() {
+            continue;
         }
         let twist = spring.twist(&since, *turns);
         let end_a = End::new(model, places, spring.a, Some(bodies));

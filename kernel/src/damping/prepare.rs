@@ -1,0 +1,243 @@
+//! Makes levers ready for a pose and a kick.
+//!
+//! `(pose, wrenches, torsion springs' turns) => moments on the other body, impulse per rate, impulse
+//! less`. Once per pose: for the sweep before a step's end and the one at the start of the next.
+//! Those of joints to the ground are always ready.
+
+use crate::attitude::Attitude as _;
+use crate::body::BodyState;
+use crate::damping::lever::{Kind, Lever, Stop};
+use crate::damping::levers::{LARGEST, counts};
+use crate::damping::pair::Kick;
+use crate::damping::{Share, Sweep, engaged};
+use crate::geometry::Geometry;
+use crate::index::BodyIndex;
+use crate::model::{Group, ModelRef, Terms};
+use crate::pose::{End, placed};
+use crate::real::Real;
+use crate::space::{Linear as _, Moment as _, Space as _, Vector as _};
+
+/// Makes all levers ready: for this pose and for the kick of `sweep`.
+pub(crate) fn prepare<P: Geometry, T: Terms, K: Kick<P>>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    bodies: &[BodyState<P>],
+    (levers, stops): (&mut [Lever<P>], u16),
+) {
+    for number in 0..usize::from(stops) {
+        let Some(&Lever { stop, .. }) = levers.get(number) else { break };
+        let row = usize::from(stop.row);
+        let (Some(own), Some(shares)) = (levers.get_mut(row..), sweep.shares.get(row..)) else {
+            break;
+        };
+        match stop.kind {
+            Kind::Ground => {}
+            Kind::Joint => {
+                let [few, more, _] = counts::<P>();
+                let count = usize::from(stop.count);
+                let own = (own, shares);
+                if P::Space::PLANAR {
+                    if count == few {
+                        hold::<P, T, K, 2>(model, sweep, &stop, bodies, own);
+                    } else {
+                        hold::<P, T, K, 3>(model, sweep, &stop, bodies, own);
+                    }
+                } else if count == few {
+                    hold::<P, T, K, 3>(model, sweep, &stop, bodies, own);
+                } else if count == more {
+                    hold::<P, T, K, 5>(model, sweep, &stop, bodies, own);
+                } else {
+                    hold::<P, T, K, 6>(model, sweep, &stop, bodies, own);
+                }
+            }
+            Kind::Raw => {
+                if let (Some(lever), Some(share)) = (own.first_mut(), shares.first()) {
+                    line(model, sweep, &stop, (lever, share));
+                }
+            }
+            Kind::Torsion if T::TORSIONS => {
+                if let (Some(lever), Some(share)) = (own.first_mut(), shares.first()) {
+                    twist(model, sweep, &stop, bodies, (lever, share));
+                }
+            }
+            Kind::Torsion => {}
+            Kind::Dampers => {
+                if let Some(group) = model.groups.get(usize::from(stop.of))
+                    && T::CLEARANCES
+                    && group.clearance.row().is_some()
+                    && let Some(lever) = levers.get_mut(number)
+                {
+                    lever.stop.count = u8::from(touches(model, sweep, group));
+                }
+            }
+        }
+    }
+}
+
+/// Whether any damper of a group acts beyond its clearance.
+#[inline(always)]
+fn touches<P: Geometry, T: Terms, K: Kick<P>>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    group: &Group,
+) -> bool {
+    (0..group.elements()).any(|i| {
+        placed(model, sweep.places, (0, group), i)
+            .is_some_and(|element| engaged(model, &element, P::Real::ONE) > P::Real::ZERO)
+    })
+}
+
+/// The `N` levers of a joint between two bodies.
+#[inline(always)]
+fn hold<P: Geometry, T: Terms, K: Kick<P>, const N: usize>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    stop: &Stop,
+    bodies: &[BodyState<P>],
+    (levers, shares): (&mut [Lever<P>], &[Share<P::Real>]),
+) {
+    let [row, other_row] = stop.ends.map(usize::from);
+    let frames = sweep.places.frames;
+    let (Some(frame), Some(state), Some(partner), Some(partner_state), Some(partner_frame)) = (
+        frames.get(row),
+        bodies.get(row),
+        model.bodies.get(other_row),
+        bodies.get(other_row),
+        frames.get(other_row),
+    ) else {
+        return;
+    };
+    let (Some(levers), Some(shares)) = (levers.first_chunk_mut::<N>(), shares.first_chunk::<N>())
+    else {
+        return;
+    };
+    let kick = sweep.kick.of(row);
+    let partner_kick = sweep.kick.of(other_row);
+    let pushed = P::to_body(frame, kick.linear - partner_kick.linear);
+    let apart = P::position(&state.position) - P::position(&partner_state.position);
+    let apart = P::to_body(frame, apart);
+    // The body's axes as its partner sees them.
+    let mut axes = P::moment_axes(frame);
+    for axis in &mut axes {
+        *axis = P::moment_to_body(partner_frame, *axis);
+    }
+    let mut others = [P::Moment::ZERO; N];
+    for i in 0..N {
+        let lever = &mut levers[i];
+        let other = (lever.moment + apart.cross(lever.along)).of_columns(axes);
+        let turn = other.scale(partner.inverse_inertia);
+        let rate = lever.rate + other.dot(turn);
+        let kicked = lever.along.dot(pushed) + lever.moment.dot(kick.angular)
+            - other.dot(partner_kick.angular);
+        lever.other = other;
+        others[i] = other;
+        for j in 0..i {
+            lever.linked[j] = lever.still[j] + others[j].dot(turn);
+        }
+        lever.weigh(&shares[i], sweep.h, rate, kicked);
+    }
+}
+
+/// The lever of a raw spring, world axes.
+#[inline(always)]
+fn line<P: Geometry, T: Terms, K: Kick<P>>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    stop: &Stop,
+    (lever, share): (&mut Lever<P>, &Share<P::Real>),
+) {
+    let ends = stop.ends.map(BodyIndex);
+    let Some(group) = model.groups.get(usize::from(stop.of)) else { return };
+    let first = group.point as usize;
+    let [a, b] = if ends[0] == group.a { [first, first + 1] } else { [first + 1, first] };
+    let (Some(a), Some(b), Some(&coefficient), Some(body)) = (
+        model.points.get(a),
+        model.points.get(b),
+        model.dampers.get(usize::from(stop.row)),
+        model.bodies.get(ends[0].row()),
+    ) else {
+        return;
+    };
+    let [own, other] = ends.map(|end| End::new(model, sweep.places, end, None));
+    let ((a, arm), (b, other_arm)) = (own.place(a), other.place(b));
+    let d = P::displacement(&a, &b);
+    let along = d * d.dot(d).sqrt().reciprocal_or_zero();
+    let kick = sweep.kick.of(ends[0].row());
+    lever.along = along;
+    lever.moment = own.moment_to_axes(arm.cross(along));
+    let mut inverse_mass = body.inverse_mass;
+    let mut rate = lever.moment.dot(lever.moment.scale(body.inverse_inertia));
+    let mut kicked = lever.moment.dot(kick.angular);
+    let mut pushed = kick.linear;
+    if let Some(partner) = model.bodies.get(ends[1].row()) {
+        let kick = sweep.kick.of(ends[1].row());
+        lever.other = other.moment_to_axes(other_arm.cross(along));
+        inverse_mass = inverse_mass + partner.inverse_mass;
+        rate = rate + lever.other.dot(lever.other.scale(partner.inverse_inertia));
+        kicked = kicked - lever.other.dot(kick.angular);
+        pushed = pushed - kick.linear;
+    }
+    rate = rate + along.dot(along) * inverse_mass;
+    weigh(sweep, (lever, share), coefficient, rate, kicked + along.dot(pushed));
+    if T::INPUTS {
+        let ground = lever.impulse * along.dot(other.velocity);
+        lever.less = lever.less.map(|less| less + ground);
+    }
+}
+
+/// The lever of a torsion spring: moments along the gradient of its twist.
+#[inline(always)]
+fn twist<P: Geometry, T: Terms, K: Kick<P>>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    stop: &Stop,
+    bodies: &[BodyState<P>],
+    (lever, share): (&mut Lever<P>, &Share<P::Real>),
+) {
+    let row = usize::from(stop.row);
+    let (Some(spring), Some(&coefficient)) =
+        (model.torsions.get(usize::from(stop.of)), model.dampers.get(row))
+    else {
+        return;
+    };
+    let orientation = |row: usize| bodies.get(row).map(|state| &state.orientation);
+    let relative =
+        P::Orientation::relative(orientation(spring.a.row()), orientation(spring.b.row()));
+    let gradient = match spring.since_start(relative) {
+        Some(since) => since.gradient(spring.axis),
+        // Left to the next evaluation, which reports it.
+        None => P::Moment::ZERO,
+    };
+    let world = match sweep.places.frames.get(spring.a.row()) {
+        Some(frame) => P::moment_to_world(frame, gradient),
+        None => gradient,
+    };
+    let [own, other] = stop.ends.map(|end| {
+        let end = BodyIndex(end);
+        let moment = match sweep.places.frames.get(end.row()) {
+            Some(_) if end == spring.a => gradient,
+            Some(frame) => P::moment_to_body(frame, world),
+            None => P::Moment::ZERO,
+        };
+        let inverse = model.bodies.get(end.row()).map(|body| body.inverse_inertia);
+        let turn = moment.scale(inverse.unwrap_or(P::Moment::ZERO));
+        (moment, moment.dot(turn), moment.dot(sweep.kick.of(end.row()).angular))
+    });
+    lever.moment = own.0;
+    lever.other = other.0;
+    weigh(sweep, (lever, share), coefficient, own.1 + other.1, own.2 - other.2);
+}
+
+/// Weighs the one lever of a spring with its coefficient. Without a direction, 1/μ = 0, it does nothing.
+#[inline(always)]
+fn weigh<P: Geometry, K: Kick<P>>(
+    sweep: &Sweep<'_, P, K>,
+    (lever, share): (&mut Lever<P>, &Share<P::Real>),
+    coefficient: P::Real,
+    rate: P::Real,
+    kicked: P::Real,
+) {
+    let (strength, largest) = (sweep.h * coefficient, P::Real::from_f64(LARGEST));
+    let h = if strength * rate < largest { strength } else { largest / rate };
+    lever.weigh(share, h, rate, kicked);
+}
