@@ -75,9 +75,9 @@ struct Hashing<'c, C> {
 
 impl<C: InstructionCounter> Visitor for Hashing<'_, C> {
     fn visit<M: ModelOwner, S: Scheme>(&mut self, shipped: Shipped<M, S>) {
-        let precision = M::Precision::NAME;
+        let (precision, variant) = (M::Precision::NAME, shipped.variant);
         let Ok(mut plant) = Plant::new(shipped.model, shipped.scheme, shipped.step) else {
-            say!("hash {} {} {} refused its step", shipped.scene, S::NAME, precision);
+            say!("hash {} {}{} {} refused its step", shipped.scene, S::NAME, variant, precision);
             self.well = false;
             return;
         };
@@ -97,14 +97,16 @@ impl<C: InstructionCounter> Visitor for Hashing<'_, C> {
             while plant.state().step < next {
                 if let Status::Failed(failure) = plant.step() {
                     let step = failure.step;
-                    say!("hash {} {} {} failed at {}", shipped.scene, S::NAME, precision, step);
+                    let scene = shipped.scene;
+                    say!("hash {} {}{} {} failed at {}", scene, S::NAME, variant, precision, step);
                     self.well = false;
                     return;
                 }
                 self.counter.count();
             }
             let hash = plant.hash();
-            say!("hash {} {} {} {} {:016x}", shipped.scene, S::NAME, precision, next, hash);
+            let scene = shipped.scene;
+            say!("hash {} {}{} {} {} {:016x}", scene, S::NAME, variant, precision, next, hash);
             if next == steps {
                 return;
             }

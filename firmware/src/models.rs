@@ -6,7 +6,9 @@
 //! [`for_each`] shows pairs of model and scheme to a visitor, which is generic as the step is.
 
 use dbd_kernel::model::ModelOwner;
-use dbd_kernel::{BlanesMoanS6, Dbd, DbdP1, Leapfrog, Pefrl, Rk4, Scheme, SemiImplicitEuler};
+use dbd_kernel::{
+    BlanesMoanS6, Dbd, DbdP1, JointWise, Leapfrog, Pefrl, Rk4, Scheme, SemiImplicitEuler,
+};
 
 include!(concat!(env!("OUT_DIR"), "/models.rs"));
 
@@ -107,7 +109,7 @@ pub fn for_each_relayed(visitor: &mut impl Visitor) {
 
 /// Shows the further schemes: all of them with the four-bar in single precision, and those of
 /// fourth order with a mechanism that has points on lines and, for few steps, with one that has
-/// dampers, with one in space and in double precision.
+/// dampers, with one in space and in double precision; and dampers joint by joint.
 pub fn for_each_further(visitor: &mut impl Visitor) {
     show! { visitor:
         "four-bar" four_bar::FOUR_BAR_F32 FOUR_BAR_STEP SHORT, DbdP1::default();
@@ -122,4 +124,28 @@ pub fn for_each_further(visitor: &mut impl Visitor) {
         "four-bar" four_bar::FOUR_BAR_F64 FOUR_BAR_STEP 20, Pefrl;
         "four-bar" four_bar::FOUR_BAR_F64 FOUR_BAR_STEP 20, Rk4;
     }
+    joint_wise(
+        visitor,
+        "cart-pendulum",
+        &cart_pendulum::CART_PENDULUM_F32,
+        cart_pendulum::CART_PENDULUM_STEP,
+    );
+    joint_wise(
+        visitor,
+        "double-wishbone",
+        &double_wishbone::DOUBLE_WISHBONE_F32,
+        double_wishbone::DOUBLE_WISHBONE_STEP,
+    );
+    joint_wise(visitor, "gripper", &gripper::GRIPPER_F32, gripper::GRIPPER_STEP);
+}
+
+/// Shows a model with leapfrog and its dampers joint by joint.
+fn joint_wise<M: ModelOwner>(
+    visitor: &mut impl Visitor,
+    scene: &'static str,
+    model: &'static M,
+    step: f64,
+) {
+    let (scheme, variant) = (JointWise(Leapfrog), "-joint-wise");
+    visitor.visit(Shipped { scene, model, scheme, variant, step, steps: SHORT });
 }

@@ -197,9 +197,12 @@ fn dampers_too_strong_for_a_step_are_warned_of() {
              inertia = [0.01, 0.01, 0.01]\nposition = [0, 0, 0]\n{mount}"
         ))
     };
-    let said = |scene: &str, scheme: &str, step: &str| -> Vec<String> {
-        let all = warnings(&folder.summary(scene, &["--scheme", scheme, "--step", step]));
+    let strong = |summary: &Value| -> Vec<String> {
+        let all = warnings(summary);
         all.into_iter().filter(|warning| warning.contains("h·c/μ")).collect()
+    };
+    let said = |scene: &str, scheme: &str, step: &str| {
+        strong(&folder.summary(scene, &["--scheme", scheme, "--step", step]))
     };
     let tsda = scene(
         "[[tsda]]\nname = \"dashpot\"\nbetween = [\"world\", \"b\"]\npoints = [[0, 0, 1], [0, 0, 0]]\n\
@@ -229,6 +232,24 @@ fn dampers_too_strong_for_a_step_are_warned_of() {
     assert!((100.0..200.0).contains(&advised), "{advice}");
     assert_eq!(said(&revolute, "leapfrog", "100us"), [""; 0]);
     assert_eq!(said(&revolute, "leapfrog", "200us").len(), 1);
+    // Joint by joint nothing crosses in a joint, nor do its two dampers in the plane.
+    let options = ["--damping", "joint-wise", "--step", "1ms"];
+    assert_eq!(strong(&folder.summary(&revolute, &options)), [""; 0]);
+    let options = ["--set", "planar=true", "--step", "1ms"];
+    assert_eq!(strong(&folder.summary(&revolute, &options)), [""; 0]);
+    // A damper that leans against the joint's crosses its levers, in space and in the plane.
+    let leaning = scene(
+        "[[joint]]\nname = \"hinge\"\ntype = \"revolute\"\nbetween = [\"world\", \"b\"]\n\
+         at = [0, 0, 0]\naxis = [0, 0, 1]\nspan = 0.1\nstiffness = 1e5\ndamping = 1e4\n\
+         [[tsda]]\nname = \"dashpot\"\nbetween = [\"world\", \"b\"]\n\
+         points = [[1, 2, 0], [0.1, 0, 0]]\nstiffness = 1e3\ndamping = 1e4\nfree_length = 1\n",
+    );
+    for plane in ["planar=false", "planar=true"] {
+        let options = ["--damping", "joint-wise", "--step", "1ms", "--set", plane];
+        let [warning] = &strong(&folder.summary(&leaning, &options))[..] else { panic!("{plane}") };
+        let both = warning.contains("joint `hinge`") && warning.contains("dashpot");
+        assert!(both && warning.contains("where dampers cross"), "{warning}");
+    }
     let checked: Value = serde_json::from_str(&call(&["check", &revolute, "--json"]).out).unwrap();
     let checked = warnings(&checked);
     let theirs = warning.strip_prefix("the step").unwrap();

@@ -1,7 +1,7 @@
 //! Golden bits: the state's hash per scene, scheme, precision, step and number of steps.
 //!
 //! The table `hashes.csv` is part of the interface, `orientations.csv` holds those of Euler angles,
-//! `planar.csv` those of scenes in their plane.
+//! `planar.csv` those of scenes in their plane, `joint-wise.csv` those of damping joint by joint.
 //! `DBD_BLESS=bits cargo test -p dbd-bits` writes the present hashes; a changed one needs its
 //! reason in the commit.
 
@@ -11,8 +11,8 @@ use std::path::PathBuf;
 use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
 use dbd_kernel::geometry::{F32, F64, Geometry};
 use dbd_kernel::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Leapfrog, Pefrl, Planar32, Planar64, Plant, Rk4, Scheme,
-    SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, JointWise, Leapfrog, Pefrl, Planar32, Planar64, Plant, Rk4,
+    Scheme, SemiImplicitEuler,
 };
 use dbd_scene::{Scene, SceneModel};
 use dbd_tests::{scene, scene_names};
@@ -104,6 +104,34 @@ fn states_have_their_golden_hashes() {
         );
     }
     compare("hashes.csv", &present);
+}
+
+/// Of scenes with damped joints, in space and in the plane: joints to the ground and between bodies, raw
+/// springs, torsion springs, clearances.
+#[test]
+fn states_of_joint_wise_damping_have_their_golden_hashes() {
+    const NAME: &str = "leapfrog-joint-wise";
+    let mut present = format!("{HEADER}\n");
+    for name in
+        ["cart-pendulum", "delta-pick-and-place", "double-wishbone", "gripper", "macpherson"]
+    {
+        let scene = scene(name);
+        for row in [
+            row_of::<F64, _>(&scene, NAME, JointWise(Leapfrog), STEPS),
+            row_of::<F32, _>(&scene, NAME, JointWise(Leapfrog), STEPS),
+        ] {
+            writeln!(present, "{row}").unwrap();
+        }
+    }
+    let scene = scene("cart-pendulum");
+    let planar = scene.reduced().unwrap_or_else(|found| panic!("{found:?}"));
+    for row in [
+        row_of_model::<Planar64, _>(&scene, &planar.model, NAME, JointWise(Leapfrog), STEPS),
+        row_of_model::<Planar32, _>(&scene, &planar.model, NAME, JointWise(Leapfrog), STEPS),
+    ] {
+        writeln!(present, "{row}").unwrap();
+    }
+    compare("joint-wise.csv", &present);
 }
 
 /// Of scenes in their plane: pins, a spherical and a universal joint with a guide, dampers.

@@ -123,7 +123,7 @@ pub fn of_step(
 }
 
 /// Dampers so strong that what they slow down moves too fast: of all for a composition, whose sweeps
-/// lie around the step, of those that cross for the others.
+/// lie around the step, of those that cross for the others; within a joint joint-wise damping has none.
 fn of_damping(scene: &Scene, method: &Method, step: f64, whose: &str) -> Option<String> {
     if method.damping() == Damping::Explicit {
         return None;
@@ -131,7 +131,10 @@ fn of_damping(scene: &Scene, method: &Method, step: f64, whose: &str) -> Option<
     let composed = COMPOSED.contains(&method.scheme_name());
     let most = if composed { STRONGEST_COMPOSED } else { STRONGEST_CROSSED };
     let rate = |element: &ElementDamping| if composed { element.rate } else { element.crossed };
-    let mut strong = scene.element_dampings();
+    let mut strong = match method.damping() {
+        Damping::JointWise => scene.joint_dampings(),
+        _ => scene.element_dampings(),
+    };
     strong.retain(|element| rate(element) * step > most);
     strong.sort_by(|a, b| rate(b).total_cmp(&rate(a)));
     let (worst, others) = strong.split_first()?;

@@ -127,6 +127,8 @@ fn ground<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
 }
 
 /// The `N` levers of a joint between two bodies, one after the other.
+// No lever reads the last one's impulse.
+#[allow(unused_assignments)]
 #[inline(always)]
 fn joint<P: Geometry, T: Terms, const REVERSE: bool, const N: usize>(
     model: &ModelRef<'_, P, T>,
@@ -153,25 +155,37 @@ fn joint<P: Geometry, T: Terms, const REVERSE: bool, const N: usize>(
         lever.along.dot(velocity) + lever.moment.dot(spin) - lever.other.dot(partner_spin)
     };
     let mut impulses = [P::Real::ZERO; N];
-    for n in 0..N {
-        let i = if REVERSE { N - 1 - n } else { n };
-        let lever = &levers[i];
-        let mut rate = rate(lever);
-        for j in 0..n {
-            let (before, linked) = if REVERSE { (N - 1 - j, i) } else { (j, j) };
-            let later = if REVERSE { &levers[before] } else { lever };
-            rate = rate + later.linked[linked] * impulses[before];
-        }
-        impulses[i] = lever.less[usize::from(REVERSE)] - lever.impulse * rate;
+    let mut push = P::Vector::ZERO;
+    let mut turn = P::Moment::ZERO;
+    let mut partner_turn = P::Moment::ZERO;
+    // Written out: of a loop the impulses would be in memory.
+    macro_rules! act {
+        ($n:literal: $($j:literal)*) => {
+            if $n < N {
+                let i = if REVERSE { N - 1 - $n } else { $n };
+                let lever = &levers[i];
+                let rate = rate(lever);
+                $(let rate = if REVERSE {
+                    rate + levers[N - 1 - $j].linked[i] * impulses[N - 1 - $j]
+                } else {
+                    rate + lever.linked[$j] * impulses[$j]
+                };)*
+                let impulse = lever.less[usize::from(REVERSE)] - lever.impulse * rate;
+                impulses[i] = impulse;
+                let (along, moment) = (lever.along * impulse, lever.moment * impulse);
+                let other = lever.other * impulse;
+                push = if $n == 0 { along } else { push + along };
+                turn = if $n == 0 { moment } else { turn + moment };
+                partner_turn = if $n == 0 { other } else { partner_turn + other };
+            }
+        };
     }
-    let mut push = levers[0].along * impulses[0];
-    let mut turn = levers[0].moment * impulses[0];
-    let mut partner_turn = levers[0].other * impulses[0];
-    for (lever, &impulse) in levers.iter().zip(&impulses).skip(1) {
-        push = push + lever.along * impulse;
-        turn = turn + lever.moment * impulse;
-        partner_turn = partner_turn + lever.other * impulse;
-    }
+    act!(0:);
+    act!(1: 0);
+    act!(2: 0 1);
+    act!(3: 0 1 2);
+    act!(4: 0 1 2 3);
+    act!(5: 0 1 2 3 4);
     let push = P::to_world(frame, push);
     P::accelerate(&mut state.velocity, push * body.inverse_mass);
     P::spin_up(&mut state.angular_velocity, turn.scale(body.inverse_inertia));

@@ -39,7 +39,7 @@ pub(crate) use near::Held;
 pub(crate) use pair::{HalfKick, Kick, NoKick};
 pub(crate) use prepare::prepare;
 pub(crate) use shares::share;
-pub use strength::{DampersOf, Strength, strengths};
+pub use strength::{DampersOf, Strength, strengths, strengths_of_joints};
 
 use crate::body::BodyState;
 use crate::damping::pair::{Damper, Direction, Pair};

@@ -26,6 +26,9 @@ pub(crate) fn prepare<P: Geometry, T: Terms, K: Kick<P>>(
 ) {
     for number in 0..usize::from(stops) {
         let Some(&Lever { stop, .. }) = levers.get(number) else { break };
+        if stop.kind == Kind::Ground {
+            continue;
+        }
         let row = usize::from(stop.row);
         let (Some(own), Some(shares)) = (levers.get_mut(row..), sweep.shares.get(row..)) else {
             break;
@@ -122,20 +125,29 @@ fn hold<P: Geometry, T: Terms, K: Kick<P>, const N: usize>(
         *axis = P::moment_to_body(partner_frame, *axis);
     }
     let mut others = [P::Moment::ZERO; N];
-    for i in 0..N {
-        let lever = &mut levers[i];
-        let other = (lever.moment + apart.cross(lever.along)).of_columns(axes);
-        let turn = other.scale(partner.inverse_inertia);
-        let rate = lever.rate + other.dot(turn);
-        let kicked = lever.along.dot(pushed) + lever.moment.dot(kick.angular)
-            - other.dot(partner_kick.angular);
-        lever.other = other;
-        others[i] = other;
-        for j in 0..i {
-            lever.linked[j] = lever.still[j] + others[j].dot(turn);
-        }
-        lever.weigh(&shares[i], sweep.h, rate, kicked);
+    // Written out: of a loop the moments would be in memory.
+    macro_rules! ready {
+        ($i:literal: $($j:literal)*) => {
+            if $i < N {
+                let lever = &mut levers[$i];
+                let other = (lever.moment + apart.cross(lever.along)).of_columns(axes);
+                let turn = other.scale(partner.inverse_inertia);
+                let rate = lever.rate + other.dot(turn);
+                let kicked = lever.along.dot(pushed) + lever.moment.dot(kick.angular)
+                    - other.dot(partner_kick.angular);
+                lever.other = other;
+                others[$i] = other;
+                $(lever.linked[$j] = lever.still[$j] + others[$j].dot(turn);)*
+                lever.weigh(&shares[$i], sweep.h, rate, kicked);
+            }
+        };
     }
+    ready!(0:);
+    ready!(1: 0);
+    ready!(2: 0 1);
+    ready!(3: 0 1 2);
+    ready!(4: 0 1 2 3);
+    ready!(5: 0 1 2 3 4);
 }
 
 /// The lever of a raw spring, world axes.

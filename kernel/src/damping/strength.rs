@@ -3,6 +3,8 @@
 //! `(model, state) => c/μ per group and torsion spring` \[1/s\], the rate at which a damper alone
 //! would stop its two bodies. For those who choose a step: nothing of a step needs it.
 
+use crate::damping::lever::Lever;
+use crate::damping::levers::find;
 use crate::damping::motion::{Motion, Mount, Pose};
 use crate::damping::near::Held;
 use crate::model::{FrameOf, ModelOwner, RealOf};
@@ -37,13 +39,38 @@ pub struct Strength {
 const CROSSING: f64 = 0.02;
 
 /// Visits all that has dampers at the pose of `state`, groups first.
-pub fn strengths<M: ModelOwner>(model: &M, state: &State<M>, mut visit: impl FnMut(Strength)) {
+pub fn strengths<M: ModelOwner>(model: &M, state: &State<M>, visit: impl FnMut(Strength)) {
+    look(model, state, false, visit);
+}
+
+/// [`strengths`] as [`Damping::JointWise`](crate::damping::Damping::JointWise) has them: a joint's
+/// dampers are levers that do not cross one another, and those of joints between the same two bodies
+/// are the first one's.
+pub fn strengths_of_joints<M: ModelOwner>(
+    model: &M,
+    state: &State<M>,
+    visit: impl FnMut(Strength),
+) {
+    look(model, state, true, visit);
+}
+
+fn look<M: ModelOwner>(
+    model: &M,
+    state: &State<M>,
+    joint_wise: bool,
+    mut visit: impl FnMut(Strength),
+) {
     let view = model.view();
     let bodies = state.bodies.as_ref();
     let mut frames = model.per_body(FrameOf::<M>::default());
     place_bodies::<M::Precision>(bodies, frames.as_mut());
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
-    let pose = Pose { model: &view, places, bodies, turns: state.turns.as_ref(), levers: &[] };
+    let mut levers = model.per_damper(Lever::default());
+    if joint_wise {
+        find(&view, places, RealOf::<M>::ZERO, levers.as_mut());
+    }
+    let levers = if joint_wise { levers.as_ref() } else { &[] };
+    let pose = Pose { model: &view, places, bodies, turns: state.turns.as_ref(), levers };
     let one = RealOf::<M>::ONE;
     let crossing = RealOf::<M>::from_f64(0.25 * CROSSING);
     let mut held = model.per_body(Held::default());

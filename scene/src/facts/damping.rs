@@ -1,9 +1,9 @@
 //! How strong the dampers of each element are beside the masses they act on.
 
-use dbd_kernel::State;
-use dbd_kernel::damping::{DampersOf, strengths};
+use dbd_kernel::damping::{DampersOf, Strength, strengths, strengths_of_joints};
+use dbd_kernel::{Geometry, Planar64, State};
 
-use crate::Scene;
+use crate::{Scene, SceneModel};
 
 /// How strong the dampers of a joint, of a raw element or of a torsion spring are at t = 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,15 +19,16 @@ pub struct ElementDamping {
     pub crossed: f64,
 }
 
-/// Joints, raw elements and torsion springs that have dampers, in scene order.
-pub(super) fn dampings(scene: &Scene) -> Vec<ElementDamping> {
+/// Joints, raw elements and torsion springs that have dampers, in scene order, as they step: in its
+/// plane where the scene is planar; `joint_wise` as joint-wise damping has them.
+pub(super) fn dampings(scene: &Scene, joint_wise: bool) -> Vec<ElementDamping> {
     let raw = scene.joints.last().map_or(0, |joint| joint.groups.end);
     let springs = scene.joints.len() + scene.raw_names.len();
     let owners = scene.joints.iter().enumerate();
     let owners = owners.flat_map(|(row, joint)| joint.groups.clone().map(move |_| row));
     let owners: Vec<usize> = owners.collect();
     let mut found: Vec<ElementDamping> = Vec::new();
-    strengths(&scene.model, &State::initial(&scene.model), |strength| {
+    let visit = |strength: Strength| {
         let (row, name) = match strength.of {
             DampersOf::Group(group) if group < raw => {
                 let Some(&row) = owners.get(group) else { return };
@@ -48,6 +49,19 @@ pub(super) fn dampings(scene: &Scene) -> Vec<ElementDamping> {
                 found.push(ElementDamping { name, row, rate, crossed });
             }
         }
-    });
+    };
+    match &scene.planar {
+        Some(planar) => each::<Planar64>(&planar.model.convert(), joint_wise, visit),
+        None => each(&scene.model, joint_wise, visit),
+    }
     found
+}
+
+fn each<P: Geometry>(model: &SceneModel<P>, joint_wise: bool, visit: impl FnMut(Strength)) {
+    let state = State::initial(model);
+    if joint_wise {
+        strengths_of_joints(model, &state, visit);
+    } else {
+        strengths(model, &state, visit);
+    }
 }

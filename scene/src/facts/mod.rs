@@ -95,7 +95,14 @@ impl Scene {
     /// are at the initial pose.
     #[must_use]
     pub fn element_dampings(&self) -> Vec<ElementDamping> {
-        damping::dampings(self)
+        damping::dampings(self, false)
+    }
+
+    /// [`Self::element_dampings`] as joint-wise damping has them: the dampers of a joint do not cross one
+    /// another.
+    #[must_use]
+    pub fn joint_dampings(&self) -> Vec<ElementDamping> {
+        damping::dampings(self, true)
     }
 
     /// The line of the scene file, from 1, on which a joint begins.

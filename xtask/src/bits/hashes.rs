@@ -20,6 +20,8 @@ const UNLIMITED: &str = "1000000000";
 
 /// Rows `scene,scheme,precision,step,steps,hash`.
 pub const GOLDEN: &str = "tests/golden/hashes.csv";
+/// The same of damping joint by joint.
+const JOINT_WISE: &str = "tests/golden/joint-wise.csv";
 
 /// Runs the program everywhere and compares.
 ///
@@ -72,15 +74,17 @@ pub fn compare(toolchain: &Toolchain, host: &Host, long: bool) -> Result<()> {
 /// # Errors
 /// Where it cannot be read.
 pub fn golden() -> Result<Hashes> {
-    let text = std::fs::read_to_string(root().join(GOLDEN));
-    let text = text.with_context(|| format!("cannot read {GOLDEN}"))?;
     let mut golden = Hashes::new();
-    for line in text.lines().skip(1) {
-        let columns: Vec<&str> = line.split(',').collect();
-        if let [scene, scheme, precision, _step, steps, hash] = columns[..]
-            && let Ok(steps) = steps.parse()
-        {
-            golden.insert((format!("{scene} {scheme} {precision}"), steps), hash.to_owned());
+    for table in [GOLDEN, JOINT_WISE] {
+        let text = std::fs::read_to_string(root().join(table));
+        let text = text.with_context(|| format!("cannot read {table}"))?;
+        for line in text.lines().skip(1) {
+            let columns: Vec<&str> = line.split(',').collect();
+            if let [scene, scheme, precision, _step, steps, hash] = columns[..]
+                && let Ok(steps) = steps.parse()
+            {
+                golden.insert((format!("{scene} {scheme} {precision}"), steps), hash.to_owned());
+            }
         }
     }
     Ok(golden)
