@@ -247,8 +247,8 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
     pub(crate) fn kick_drift_and_place(&mut self, scale: P::Real, time: P::Real) {
         // Of a few bodies in the plane each of two loops is short enough to be unrolled, one is not.
         if P::Space::PLANAR {
-            self.kick_and_drift(scale, time);
-            return place_bodies(self.bodies, self.frames);
+            self.kick(scale);
+            return self.drift_and_place(time);
         }
         self.ledger.fresh = false;
         self.ledger.ready = false;

@@ -2,7 +2,9 @@
 //!
 //! `(group, ends) => record`, star by star: a point of A and its own of B each.
 
+use crate::elements::point_bushing::PointBushing;
 use crate::forces::record::{Dampers, Record};
+use crate::forces::two_points::TwoPoints;
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::End;
@@ -50,21 +52,35 @@ fn star<P: Geometry, T: Terms, D: Dampers>(
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
 ) -> Option<Record<P::Space>> {
-    let (a, arm_a) = end_a.place(model.points.get(group.centre(star))?);
-    let (b, arm_b) = end_b.place(model.points.get(group.tips(star))?);
+    let a = model.points.get(group.centre(star))?;
+    let b = model.points.get(group.tips(star))?;
     let bushing = model.bushings.get(group.element as usize + star)?;
-    let d = P::displacement(&a, &b);
     let damper = match group.damper.row() {
         Some(row) if D::ACT && T::DAMPERS => model.dampers.get(row + star),
         _ => None,
     };
-    let force = match damper {
-        Some(&damping) => {
-            let v_rel = end_b.point_velocity(arm_b) - end_a.point_velocity(arm_a);
-            bushing.damped_force(damping, d, v_rel)
-        }
-        None => bushing.force(d),
-    };
-    let (torque_a, torque_b) = (end_a.moment(arm_a, force), end_b.moment(arm_b, force));
-    Some(Record { force, torque_a, torque_b })
+    Some(bushing.record(&[*a, *b], damper, end_a, end_b))
+}
+
+impl<P: Geometry> TwoPoints<P> for PointBushing<P::Real> {
+    #[inline(always)]
+    fn record(
+        &self,
+        [a, b]: &[P::Local; 2],
+        damping: Option<&P::Real>,
+        end_a: &End<'_, P>,
+        end_b: &End<'_, P>,
+    ) -> Record<P::Space> {
+        let ((a, arm_a), (b, arm_b)) = (end_a.place(a), end_b.place(b));
+        let d = P::displacement(&a, &b);
+        let force = match damping {
+            Some(&damping) => {
+                let v_rel = end_b.point_velocity(arm_b) - end_a.point_velocity(arm_a);
+                self.damped_force(damping, d, v_rel)
+            }
+            None => self.force(d),
+        };
+        let (torque_a, torque_b) = (end_a.moment(arm_a, force), end_b.moment(arm_b, force));
+        Record { force, torque_a, torque_b }
+    }
 }

@@ -9,21 +9,24 @@
 //! axes once, at the end.
 
 mod bushing;
+mod in_line;
 mod inputs;
 mod lines;
 mod record;
 mod revolute;
 mod stars;
 mod torsions;
+mod two_points;
 mod universal;
 
 use crate::body::BodyState;
+pub(crate) use in_line::are_in_line;
 pub use record::{At, Dampers, DampersLeft, DampersOfJoints, ExplicitDampers, Wrench};
 pub(crate) use record::{Record, Turns, apply};
-pub(crate) use stars::are_in_line;
 
 use crate::elements::gravity;
 use crate::elements::load::LoadFrame;
+use crate::forces::two_points::two_points;
 use crate::geometry::Geometry;
 use crate::model::{FrameOf, Group, Law, ModelOwner, ModelRef, SpaceOf, Terms};
 use crate::pose::{End, Places, place_bodies};
@@ -112,8 +115,8 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, D: Dampers>(
     if T::INPUTS {
         inputs::push(model, places, wrenches);
     }
-    if in_line && stars::may_be_in_line::<T>() {
-        stars::in_line::<P, T, D>(model, places, bodies, wrenches);
+    if in_line && in_line::may_be::<P, T>() {
+        in_line::add::<P, T, D>(model, places, bodies, wrenches);
     } else if T::TSDAS || T::BUSHINGS || T::LINES || T::REVOLUTES || T::UNIVERSALS {
         for group in model.groups {
             if let Some(record) = record::<P, T, D>(model, places, bodies, group) {
@@ -149,10 +152,10 @@ pub(crate) fn record<P: Geometry, T: Terms, D: Dampers>(
         }
         Law::PointOnLine if T::LINES => Some(lines::lines::<P, T, D>(model, group, &end_a, &end_b)),
         Law::Revolute if T::REVOLUTES => {
-            revolute::revolute::<P, T, D>(model, group, &end_a, &end_b)
+            two_points::<P, T, D, _>(model, model.revolutes, group, &end_a, &end_b)
         }
         Law::Universal if T::UNIVERSALS => {
-            universal::universal::<P, T, D>(model, group, &end_a, &end_b)
+            two_points::<P, T, D, _>(model, model.universals, group, &end_a, &end_b)
         }
         _ => None,
     }

@@ -8,13 +8,11 @@
 //! straight line of [`block`]: its counts are known to the compiler, so that nothing is left of
 //! loops, bounds and lists. [`many`] takes the rest.
 
-use crate::body::BodyState;
-use crate::elements::element::Law;
 use crate::elements::tsda::Tsda;
-use crate::forces::record::{Dampers, Record, Wrench, apply};
+use crate::forces::record::{Dampers, Record};
 use crate::geometry::{Geometry, Reach};
 use crate::model::{Group, ModelRef, Terms};
-use crate::pose::{End, MOST_ARMS, Places};
+use crate::pose::{End, MOST_ARMS};
 use crate::real::Real;
 use crate::space::{Linear, Space, Vector as _};
 
@@ -52,76 +50,6 @@ fn straight<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: u
     }
 }
 
-/// Whether a model may be [`are_in_line`], as far as its kinds of element tell.
-pub(super) const fn may_be_in_line<T: Terms>() -> bool {
-    let others = T::BUSHINGS || T::LINES || T::REVOLUTES || T::UNIVERSALS;
-    T::TSDAS && !(others || T::CLEARANCES || T::INPUTS)
-}
-
-/// Whether all groups of a model are revolutes of TSDAs, their points and springs in the order of the
-/// groups: then none is asked what it is and where its parts lie.
-pub(crate) fn are_in_line<P: Geometry, T: Terms>(model: &ModelRef<'_, P, T>) -> bool {
-    let (stars, arms) = if P::Space::PLANAR { (1, 2) } else { (2, 3) };
-    let is_next = |(i, group): (usize, &Group)| {
-        let (point, element) = (i * (stars + arms), i * stars * arms);
-        group.law == Law::Tsda
-            && (group.stars as usize, group.arms as usize) == (stars, arms)
-            && group.shared == (stars > 1)
-            && (group.point as usize, group.element as usize) == (point, element)
-            && !group.b.is_world()
-    };
-    may_be_in_line::<T>() && model.groups.iter().enumerate().all(is_next)
-}
-
-/// The revolutes of a model whose groups [`are_in_line`].
-#[inline(always)]
-pub(super) fn in_line<P: Geometry, T: Terms, D: Dampers>(
-    model: &ModelRef<'_, P, T>,
-    places: Places<'_, P>,
-    bodies: &[BodyState<P>],
-    wrenches: &mut [Wrench<P::Space>],
-) {
-    if P::Space::PLANAR {
-        each::<P, T, D, 1, 2, 3, 2>(model, places, bodies, wrenches);
-    } else {
-        each::<P, T, D, 2, 3, 5, 6>(model, places, bodies, wrenches);
-    }
-}
-
-#[inline(always)]
-fn each<
-    P: Geometry,
-    T: Terms,
-    D: Dampers,
-    const STARS: usize,
-    const ARMS: usize,
-    const POINTS: usize,
-    const SPRINGS: usize,
->(
-    model: &ModelRef<'_, P, T>,
-    places: Places<'_, P>,
-    bodies: &[BodyState<P>],
-    wrenches: &mut [Wrench<P::Space>],
-) {
-    let points = model.points.as_chunks::<POINTS>().0;
-    let springs = model.tsdas.as_chunks::<SPRINGS>().0;
-    for (group, (points, springs)) in model.groups.iter().zip(points.iter().zip(springs)) {
-        let moving = D::ACT && T::DAMPERS && group.damper.row().is_some();
-        let moving = if moving { Some(bodies) } else { None };
-        let end_a = End::new(model, places, group.a, moving);
-        let Some(b) = End::new(model, places, group.b, moving).body() else { continue };
-        let Some(springs) = grid(springs, 0) else { continue };
-        let parts = (points.as_slice(), springs);
-        let record = match end_a.body() {
-            Some(a) => pull::<P, T, D, STARS, ARMS>(model, group, parts, &a, &b),
-            None => pull::<P, T, D, STARS, ARMS>(model, group, parts, &end_a.ground(), &b),
-        };
-        if let Some(record) = record {
-            apply(wrenches, group.a.row(), group.b.row(), &record);
-        }
-    }
-}
-
 /// `STARS` stars that share `ARMS` points of B. `None` where the model lacks them.
 #[inline(always)]
 fn block<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usize>(
@@ -138,7 +66,7 @@ fn block<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usiz
 /// What `STARS` stars that share `ARMS` points of B pull: written out, each sum from its first term.
 /// `None` where the model lacks some of it.
 #[inline(always)]
-fn pull<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usize>(
+pub(super) fn pull<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usize>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     (points, springs): (&[P::Local], &[[Tsda<P::Real>; ARMS]; STARS]),
@@ -260,7 +188,10 @@ impl<R: Real, const STARS: usize, const ARMS: usize> Springs<'_, R, STARS, ARMS>
 
 /// `M` times `N` rows from `first` on.
 #[inline(always)]
-fn grid<V, const N: usize, const M: usize>(all: &[V], first: usize) -> Option<&[[V; N]; M]> {
+pub(super) fn grid<V, const N: usize, const M: usize>(
+    all: &[V],
+    first: usize,
+) -> Option<&[[V; N]; M]> {
     all.get(first..first + N * M)?.as_chunks().0.first_chunk()
 }
 
@@ -312,11 +243,13 @@ fn many<P: Geometry, T: Terms, D: Dampers>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::Body;
+    use crate::body::{Body, BodyState};
+    use crate::elements::element::Law;
     use crate::forces::record::{DampersLeft, ExplicitDampers};
     use crate::geometry::F64;
     use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
     use crate::model::{Model, ModelOwner as _};
+    use crate::pose::Places;
     use crate::vector::Vec3;
 
     const WORLD: BodyIndex = BodyIndex::WORLD;
