@@ -200,7 +200,7 @@ fn the_bound_of_the_frequency_is_above_the_estimate() {
 fn apart(own: &Scene) -> f64 {
     let other = own.with("realisation=bushing").unwrap();
     assert!(other.model.tsda_count() < own.model.tsda_count() / 2);
-    let step = 0.25 / frequency::bound(&own.model, &State::initial(&own.model));
+    let step = 0.5 / frequency::bound(&own.model, &State::initial(&own.model));
     let mut plants = [own, &other].map(|scene| Plant::new(&scene.model, Pefrl, step).unwrap());
     let place = |name| own.body_names.iter().position(|known| known == name).unwrap();
     let rows: Vec<usize> = other.body_names.iter().map(place).collect();

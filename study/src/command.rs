@@ -37,7 +37,12 @@ impl Command {
 /// A scene that the user calls by a name or a path, with the changes of its values.
 #[must_use]
 pub fn with_changes(scene: &Scene, called: &str) -> String {
-    let set = scene.changes.iter().map(|change| format!(" --set {}", quoted(change)));
+    let last = scene.changes.len().saturating_sub(1);
+    let set = scene.changes.iter().enumerate().map(|(row, change)| match change.as_str() {
+        // It goes before all others, wherever it stands.
+        "planar=true" if row == last => " --planar".into(),
+        change => format!(" --set {}", quoted(change)),
+    });
     [quoted(called)].into_iter().chain(set).collect()
 }
 
@@ -52,6 +57,16 @@ pub fn quoted(word: &str) -> String {
 mod tests {
     use super::*;
     use crate::point::tests::point;
+
+    #[test]
+    fn changes_are_given_as_they_were() {
+        let text = "name = \"a\"\nduration = 1\n[[body]]\nname = \"b\"\nmass = 1\n\
+                    inertia = [1, 1, 1]\nposition = [0, 0, 0]\n";
+        let scene = Scene::parse_with(text, "a.toml", &["body.b.mass=2", "planar=true"]).unwrap();
+        assert_eq!(with_changes(&scene, "a.toml"), "a.toml --set 'body.b.mass=2' --planar");
+        let back = scene.with("planar=false").unwrap();
+        assert!(with_changes(&back, "a").ends_with("--set 'planar=true' --set 'planar=false'"));
+    }
 
     #[test]
     fn a_line_is_what_a_shell_takes() {

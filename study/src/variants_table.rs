@@ -7,16 +7,16 @@ use dbd_plant::digits::significant;
 use crate::variants::{AS_IT_IS, Compared};
 use crate::words::{shown, times};
 
-/// The columns, each with its unit.
+/// The columns, each with what stands beneath: its unit.
 pub const HEADINGS: [(&str, &str); 9] = [
     ("model", ""),
     ("bodies", ""),
     ("elements", ""),
-    ("differs by", "m"),
-    ("stable step", ""),
-    ("advised step", ""),
+    ("differs", "m"),
+    ("stable", "step"),
+    ("advised", "step"),
     ("PC", "ns/step"),
-    ("PC", "core s/s"),
+    ("PC", "times as fast"),
     ("Cortex-M4F", "instr/step"),
 ];
 
@@ -25,10 +25,10 @@ pub const TITLE: &str = "other models of the mechanism";
 
 /// What its figures are.
 const FIGURES: &str = "the difference is root mean square over the bodies that both have and all samples; steps \
-     are of leapfrog, the largest stable one about the pose at t = 0 of the model in its row; the times are of \
-     the advised one";
+     are of leapfrog: the largest stable one about the pose at t = 0 of the model in its row, and the advised \
+     one, at which a second is simulated so many times as fast";
 
-/// What a make is, and how to run it: by the end of its name.
+/// What a make is, and how to run it: by a part of its name.
 const MAKES: [(&str, &str); 3] = [
     (
         "bushing",
@@ -60,14 +60,10 @@ pub fn rows(compared: &[Compared]) -> Vec<[String; 9]> {
     let dash = || "–".to_owned();
     let first = compared.first().map_or(0.0, |own| own.host_seconds / own.step);
     let row = |one: &Compared| {
-        let cost = one.host_seconds / one.step;
-        let faster = first / cost;
+        let faster = first * one.step / one.host_seconds;
         let own = one.name == AS_IT_IS;
-        let cost = match (cost.is_finite(), own) {
-            (false, _) => dash(),
-            (true, true) => significant(cost, 3),
-            (true, false) => format!("{}: {} × as fast", significant(cost, 3), times(faster)),
-        };
+        let faster =
+            if own || !(faster.is_finite() && faster > 0.0) { dash() } else { times(faster) };
         [
             match (own, one.planar) {
                 (true, true) => format!("{AS_IT_IS}, planar"),
@@ -84,7 +80,7 @@ pub fn rows(compared: &[Compared]) -> Vec<[String; 9]> {
             one.stable_step.map_or_else(dash, shown),
             shown(one.step),
             significant(1e9 * one.host_seconds, 3),
-            cost,
+            faster,
             one.target_instructions.map_or_else(dash, |count| significant(count, 5)),
         ]
     };
@@ -97,17 +93,19 @@ pub fn text(compared: &[Compared]) -> String {
     if compared.is_empty() {
         return String::new();
     }
-    let heads = HEADINGS.map(|(name, unit)| match unit {
-        "" => name.to_owned(),
-        unit => format!("{name} [{unit}]"),
-    });
-    let all: Vec<[String; 9]> = std::iter::once(heads).chain(rows(compared)).collect();
+    let heads = [HEADINGS.map(|(name, _)| name), HEADINGS.map(|(_, unit)| unit)];
+    let heads = heads.map(|line| line.map(str::to_owned));
+    let all: Vec<[String; 9]> = heads.into_iter().chain(rows(compared)).collect();
     let widths: [usize; 9] = std::array::from_fn(|column| {
         all.iter().map(|row| row[column].chars().count()).max().unwrap_or(0)
     });
     let mut text = String::new();
     for row in &all {
-        let cells = row.iter().zip(widths).map(|(cell, width)| format!("{cell:<width$}"));
+        let cells =
+            row.iter().zip(widths).enumerate().map(|(column, (cell, width))| match column {
+                0 => format!("{cell:<width$}"),
+                _ => format!("{cell:>width$}"),
+            });
         text += &format!("{}\n", cells.collect::<Vec<_>>().join("  ").trim_end());
     }
     text
@@ -142,7 +140,7 @@ mod tests {
             target_instructions: Some(2345.0),
         };
         let said = text(&[own.clone(), bushing.clone()]);
-        for part in ["as it is, spatial", "2.0e-5", "12.5us", "40us", "8 × as fast", "2345"] {
+        for part in ["as it is, spatial", "2.0e-5", "12.5us", "40us", " 8  ", "2345"] {
             assert!(said.contains(part), "{part}: {said}");
         }
         let meant =

@@ -170,7 +170,9 @@ proptest! {
         let most = (1.0 - MARGIN) * checked;
         prop_assert!(limit.advised <= most, "{:?}: {:?}, checked {:e}", method, limit, checked);
         let sure = method.stability_limit() / Frequencies::of(&scene).bound;
-        prop_assert!(limit.advised > 0.93 * most.min(sure), "{:?}: {:?}, checked {:e}", method, limit, checked);
+        // Dampers may lengthen a stable step: what they add is not advised.
+        let undamped = (1.0 - MARGIN) * method.stability_limit() / limits.highest();
+        prop_assert!(limit.advised > 0.93 * most.min(sure).min(undamped), "{:?}: {:?}, checked {:e}", method, limit, checked);
         prop_assert!(!limit.advises(checked) && limit.is_beyond(1.02 * checked));
     }
 }

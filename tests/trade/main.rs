@@ -193,7 +193,7 @@ fn a_free_rotors_error_is_that_of_its_attitude() {
 fn a_planar_scenes_points_have_the_stable_step_in_space_beside_them() {
     let pin = "angular_velocity = [0, 0, 3]\nvelocity = [0, 0.9, 0]\n[[joint]]\nname = \"pin\"\n\
                type = \"revolute\"\nbetween = [\"world\", \"b\"]\nat = [-0.3, 0, 0]\naxis = [0, 0, 1]\n\
-               span = 0.2\nstiffness = 1e5\n";
+               span = 0.2\nstiffness = 1e7\n";
     let space = body("pendulum", pin).with("body.b.inertia=[0.02, 0.021, 0.04]").unwrap();
     let scene = space.with("planar=true").unwrap();
     let trade = survey_of(&scene);
