@@ -17,7 +17,7 @@ pub use turn::FixedTurn;
 
 use crate::compensated::{CompensatedF32, Kept};
 use crate::fixed::number::{
-    exact_product, from_f32, from_f64, nearest_f32, squared, to_f32, to_f64,
+    exact_product, from_f32, from_f64, nearest_f32, square_of, squared, to_f32, to_f64,
 };
 use crate::fixed::turn::in_single;
 use crate::geometry::{Geometry, Limits, Reach};
@@ -159,15 +159,13 @@ impl Geometry for Fixed {
     #[inline(always)]
     fn place(frame: &FixedPose, local: &FixedPoint) -> (FixedPlace, Vec3<f32>) {
         let point = local.at.map(|c| i64::from(c as i32));
-        let row = |position: i64, row: [i32; 3]| {
+        let turned = frame.rotation.map(|row| {
             let [x, y, z] = row.map(i64::from);
             let [px, py, pz] = point;
-            position.wrapping_add(x * px).wrapping_add(y * py).wrapping_add(z * pz)
-        };
-        let ([x, y, z], [rx, ry, rz]) = (frame.position, frame.rotation);
-        let at = [row(x, rx), row(y, ry), row(z, rz)];
-        let [x, y, z] = local.at.map(|c| c as i32 as f32 * const { 1.0 / (1_u32 << POINT) as f32 });
-        (FixedPlace { at }, frame.single.to_world(Vec3::new(x, y, z)))
+            (x * px).wrapping_add(y * py).wrapping_add(z * pz)
+        });
+        // An arm rounded in its parts would turn bodies by forces that pass it by.
+        (FixedPlace { at: sum(frame.position, turned) }, nearest::<PLACE>(turned))
     }
     #[inline(always)]
     fn ground(local: &FixedPoint) -> FixedPlace {
@@ -189,8 +187,7 @@ impl Geometry for Fixed {
         if way.dot(way) > 256.0 || free_length > 16.0 {
             return Reach { way, more: Some(way.dot(way) - free_length * free_length) };
         }
-        let free = from_f32::<27, 30>(free_length);
-        let more = squared(&d).wrapping_sub(squared(&[free]));
+        let more = squared(&d).wrapping_sub(square_of(free_length));
         Reach { way, more: Some(to_f32::<{ 2 * (PLACE - 32) }>(more)) }
     }
     #[inline(always)]
@@ -231,22 +228,9 @@ impl Geometry for Fixed {
     }
     #[inline(always)]
     fn translate(position: &mut FixedPlace, displacement: Vec3<f32>) {
-        let Vec3 { x, y, z } = displacement;
-        let within = |c: f32| c.abs() <= const { LIMITS.drift as f32 };
-        position.at = if within(x) && within(y) && within(z) {
-            sum(position.at, fixed(displacement))
-        } else {
-            [LOST; 3]
-        };
-    }
-    #[inline(always)]
-    fn drift(position: &mut FixedPlace, velocity: &Kept, time: f32) {
-        let Kept { sum: v, lost } = velocity;
-        let [x, y, z] = [(v.x, lost.x), (v.y, lost.y), (v.z, lost.z)]
-            .map(|(sum, lost)| exact_product(sum, lost, time));
-        let (whole, rest) = (Vec3::new(x.0, y.0, z.0), Vec3::new(x.1, y.1, z.1));
-        Self::translate(position, whole);
-        position.at = sum(position.at, fixed(rest));
+        let most = const { (LIMITS.drift * LIMITS.drift) as f32 };
+        let within = displacement.dot(displacement) <= most;
+        position.at = if within { sum(position.at, fixed(displacement)) } else { [LOST; 3] };
     }
     #[inline(always)]
     fn turn_about<const AXIS: usize>(

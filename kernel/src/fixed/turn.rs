@@ -5,7 +5,7 @@
 //! its own. A turn that is no rotation, one of several radians, leaves zero, which stays zero.
 
 use crate::attitude::Attitude;
-use crate::fixed::number::{from_f32, from_f64, product, to_f32, to_f64};
+use crate::fixed::number::{from_f32, from_f64, product, squared, to_f32, to_f64};
 use crate::real::Real as _;
 use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::{Word, WordSource, WordVisitor, Words};
@@ -102,14 +102,6 @@ impl FixedTurn {
         }
     }
 
-    /// The square of its length, 60 bits after the point.
-    #[inline(always)]
-    fn square(&self) -> i64 {
-        let [x, y, z] = self.v;
-        let [w, x, y, z] = [self.w, x, y, z].map(|c| product(c, c));
-        w.wrapping_add(x).wrapping_add(y.wrapping_add(z))
-    }
-
     /// The matrix, 30 bits after the point, to the nearest.
     #[inline(always)]
     pub(crate) fn matrix(&self) -> [[i32; 3]; 3] {
@@ -187,10 +179,16 @@ impl Attitude for FixedTurn {
     /// One Newton step towards unit length.
     #[inline(always)]
     fn renormalise(&mut self) {
+        let [x, y, z] = self.v;
         // Half of what is missing, 62 bits after the point.
-        let missing = ONE.wrapping_sub(self.square()) << 1;
-        let more = |c: i64| c.wrapping_add(product(c, missing) << 2);
-        *self = Self { w: more(self.w), v: self.v.map(more) };
+        let missing = ONE.wrapping_sub(squared(&[self.w, x, y, z])) << 1;
+        if let Ok(little) = i32::try_from(missing) {
+            let more = |c: i64| c.wrapping_add(((c >> 32) * i64::from(little)) >> 30);
+            *self = Self { w: more(self.w), v: self.v.map(more) };
+        } else {
+            let more = |c: i64| c.wrapping_add(product(c, missing) << 2);
+            *self = Self { w: more(self.w), v: self.v.map(more) };
+        }
     }
     #[inline(always)]
     fn is_lost(&self) -> bool {
