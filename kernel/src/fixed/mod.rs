@@ -19,9 +19,9 @@ use crate::compensated::{CompensatedF32, Kept};
 use crate::fixed::number::{
     exact_product, from_f32, from_f64, nearest_f32, square_of, squared, to_f32, to_f64,
 };
-use crate::fixed::turn::in_single;
+use crate::fixed::turn::{UNIT, in_whole};
 use crate::geometry::{Geometry, Limits, Reach};
-use crate::vector::{Rotation, Vec3};
+use crate::vector::Vec3;
 use crate::words::{Word, WordSource, WordVisitor, Words};
 
 /// Bits after the point of a position and of a place, metres.
@@ -57,13 +57,13 @@ pub struct FixedPoint {
     pub at: [i64; 3],
 }
 
-/// The pose of a body in fixed point, and its rotation in single precision.
+/// The pose of a body in fixed point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FixedPose {
     position: [i64; 3],
+    /// \[2^-30\] rows in world axes.
     rotation: [[i32; 3]; 3],
-    single: Rotation<f32>,
 }
 
 impl FixedPlace {
@@ -153,8 +153,7 @@ impl Geometry for Fixed {
 
     #[inline(always)]
     fn frame(position: &FixedPlace, orientation: &FixedTurn) -> FixedPose {
-        let rotation = orientation.matrix();
-        FixedPose { position: position.at, rotation, single: in_single(&rotation) }
+        FixedPose { position: position.at, rotation: orientation.matrix() }
     }
     #[inline(always)]
     fn place(frame: &FixedPose, local: &FixedPoint) -> (FixedPlace, Vec3<f32>) {
@@ -192,19 +191,19 @@ impl Geometry for Fixed {
     }
     #[inline(always)]
     fn to_world(frame: &FixedPose, v: Vec3<f32>) -> Vec3<f32> {
-        frame.single.to_world(v)
+        in_whole(&frame.rotation).to_world(v * UNIT)
     }
     #[inline(always)]
     fn to_body(frame: &FixedPose, v: Vec3<f32>) -> Vec3<f32> {
-        frame.single.to_body(v)
+        in_whole(&frame.rotation).to_body(v * UNIT)
     }
     #[inline(always)]
     fn moment_to_world(frame: &FixedPose, m: Vec3<f32>) -> Vec3<f32> {
-        frame.single.to_world(m)
+        in_whole(&frame.rotation).to_world(m * UNIT)
     }
     #[inline(always)]
     fn moment_to_body(frame: &FixedPose, m: Vec3<f32>) -> Vec3<f32> {
-        frame.single.to_body(m)
+        in_whole(&frame.rotation).to_body(m * UNIT)
     }
     #[inline(always)]
     fn position(stored: &FixedPlace) -> Vec3<f32> {
@@ -250,7 +249,11 @@ impl Geometry for Fixed {
     #[inline(always)]
     fn is_within(position: &FixedPlace) -> bool {
         const EXTENT: i32 = (LIMITS.extent as i32) << (PLACE - 32);
-        position.at.iter().all(|c| (-EXTENT..=EXTENT).contains(&((c >> 32) as i32)))
+        // One comparison for both sides.
+        let is_within =
+            |c: i64| ((c >> 32) as i32).wrapping_add(EXTENT) as u32 <= 2 * EXTENT as u32;
+        let [x, y, z] = position.at;
+        is_within(x) & is_within(y) & is_within(z)
     }
     #[inline(always)]
     fn bears_shift(displacement: f32) -> bool {
