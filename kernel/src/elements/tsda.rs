@@ -74,8 +74,12 @@ impl<R: Real> Tsda<R> {
         let lengths = R::roots(squares);
         let mut pulls = [V::ZERO; N];
         for i in 0..N {
-            let tension = springs[i].stiffness * springs[i].extended(lengths[i], &reaches[i]);
-            pulls[i] = reaches[i].way * (tension * (R::ONE / lengths[i]));
+            // One division either way.
+            let (beyond, divisor) = match reaches[i].more {
+                None => (lengths[i] - springs[i].free_length, lengths[i]),
+                Some(more) => (more, lengths[i] * (lengths[i] + springs[i].free_length)),
+            };
+            pulls[i] = reaches[i].way * (springs[i].stiffness * beyond * (R::ONE / divisor));
         }
         pulls
     }
