@@ -19,6 +19,7 @@ use crate::command::Command;
 use crate::front_table::table as table_of;
 use crate::page::html;
 use crate::point::{Machine, Point, front};
+use crate::precisions::of_precisions;
 use crate::stability::MARGIN;
 use crate::survey::Trade;
 use crate::timing::{CALM, ROUNDS};
@@ -163,6 +164,11 @@ impl<'r> Report<'r> {
                 if let Some(line) = command.line(&points[advice.row]) {
                     text += &format!("    {line}\n");
                 }
+            }
+            if machine == Machine::Target
+                && let Some(sentence) = of_precisions(points, trade.head.uncertainty)
+            {
+                text += &format!("{sentence}\n");
             }
         }
         text + &variants_text(&trade.variants)
