@@ -11,7 +11,7 @@ use core::marker::PhantomData;
 
 use crate::attitude::Attitude;
 use crate::real::Real;
-use crate::space::{Moment, Space, Vector};
+use crate::space::{Linear, Moment, Space, Vector};
 use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::Words;
 
@@ -27,6 +27,15 @@ pub struct Limits {
     pub drift: f64,
     /// \[m\] the ground that an input moves.
     pub shift: f64,
+}
+
+/// The way from one point to another, and what is known of its length beside a free one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reach<V: Linear> {
+    /// \[m\] world axes.
+    pub way: V,
+    /// \[m²\] by how much its square is more than that of the free length, `None` where the way tells as well.
+    pub more: Option<V::Real>,
 }
 
 /// How a precision stores and combines positions and velocities, and which attitude goes with them.
@@ -73,6 +82,17 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     fn shift(location: &Self::Location, by: Self::Vector) -> Self::Location;
     /// `to − from` \[m\], world axes.
     fn displacement(from: &Self::Location, to: &Self::Location) -> Self::Vector;
+    /// [`Self::displacement`] beside a free length \[m\]: a precision may know the difference of the lengths
+    /// better than the way.
+    #[inline(always)]
+    fn reach(
+        from: &Self::Location,
+        to: &Self::Location,
+        free_length: Self::Real,
+    ) -> Reach<Self::Vector> {
+        let _ = free_length;
+        Reach { way: Self::displacement(from, to), more: None }
+    }
     /// Body axes to world axes.
     fn to_world(frame: &Self::Frame, v: Self::Vector) -> Self::Vector;
     /// World axes to body axes.
@@ -94,6 +114,22 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     /// Adds a displacement to a stored position.
     fn translate(position: &mut Self::Position, displacement: Self::Vector);
 
+    /// Moves a position by `velocity` for `time` \[s\].
+    #[inline(always)]
+    fn drift(position: &mut Self::Position, velocity: &Self::Velocity, time: Self::Real) {
+        Self::translate(position, Self::velocity(velocity) * time);
+    }
+    /// Turns about body axis `AXIS` by its `rate` for `time` \[s\], given cosine and sine of half the angle.
+    #[inline(always)]
+    fn turn_about<const AXIS: usize>(
+        orientation: &mut Self::Orientation,
+        rate: &Self::Spin,
+        time: Self::Real,
+        (cos, sin): (Self::Real, Self::Real),
+    ) {
+        let _ = (rate, time);
+        Self::Orientation::turn_about::<AXIS>(orientation, cos, sin);
+    }
     /// Whether a position is within the limits, and no drift before it was beyond them.
     #[inline(always)]
     fn is_within(_position: &Self::Position) -> bool {

@@ -14,7 +14,7 @@ use crate::status::{Cause, MOST_TURN};
 use crate::words::is_finite;
 
 /// The first body with a number in its state that is infinite or NaN or that turns too far in a
-/// step or is beyond what is stored, else the first turn count at its end.
+/// step, else the first turn count at its end.
 #[inline]
 pub(crate) fn first_fault<P: Geometry, T: Terms>(
     bodies: &[BodyState<P>],
@@ -30,16 +30,29 @@ pub(crate) fn first_fault<P: Geometry, T: Terms>(
         if !is_finite(state) {
             return Some(Cause::NonFinite { body });
         }
-        if !slow || state.orientation.is_lost() {
+        if !slow {
             return Some(Cause::Spin { body });
-        }
-        if !P::is_within(&state.position) {
-            return Some(Cause::Extent { body });
         }
     }
     if T::TORSIONS {
         let ended = turns.iter().position(|turns| matches!(*turns, i32::MIN | i32::MAX))?;
         return Some(Cause::Turns { spring: TorsionIndex(ended as u16) });
+    }
+    None
+}
+
+/// The first body whose orientation or place a precision of fixed point could not store.
+#[inline]
+pub(crate) fn first_beyond<P: Geometry>(bodies: &[BodyState<P>]) -> Option<Cause> {
+    P::LIMITS?;
+    for (row, state) in bodies.iter().enumerate() {
+        let body = BodyIndex(row as u16);
+        if state.orientation.is_lost() {
+            return Some(Cause::Spin { body });
+        }
+        if !P::is_within(&state.position) {
+            return Some(Cause::Extent { body });
+        }
     }
     None
 }

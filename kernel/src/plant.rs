@@ -12,7 +12,7 @@ use crate::elements::input::{Input, InputKind};
 use crate::extents::first_excess;
 use crate::forces::Wrench;
 use crate::geometry::Geometry;
-use crate::guards::first_fault;
+use crate::guards::{first_beyond, first_fault};
 use crate::index::{BodyIndex, InputIndex};
 use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, SpaceOf, Terms};
 use crate::pose::{Places, place_bodies};
@@ -230,6 +230,7 @@ where
     pub fn fault(&self) -> Option<Cause> {
         let (bodies, turns) = (self.state.bodies.as_ref(), self.state.turns.as_ref());
         first_fault::<_, <H::Target as ModelOwner>::Terms>(bodies, turns, self.h)
+            .or_else(|| first_beyond(bodies))
     }
 
     /// Forgets a failure and leaves the state as it failed. What is not finite, spins too fast or is

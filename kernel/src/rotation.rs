@@ -50,7 +50,8 @@ pub fn free_rotor<P: Geometry>(
         if w.z != zero {
             let turn = Turn::by(time * w.z);
             P::spin_up(rate, P::Moment::ZERO);
-            P::Orientation::turn_about::<2>(orientation, turn.half_cos, turn.half_sin);
+            let half = (turn.half_cos, turn.half_sin);
+            P::turn_about::<2>(orientation, rate, time, half);
         }
         return P::Orientation::renormalise(orientation);
     }
@@ -191,15 +192,17 @@ pub(crate) fn turn_unless<P: Geometry>(
     P::Orientation::keep(orientation, resting, &start);
 }
 
-/// Turns about an axis, by cosine and sine of half the angle, all but the resting lanes.
+/// Turns about an axis, with cosine and sine of half the angle, all but the resting lanes.
 #[inline(always)]
 fn turn_about<P: Geometry, const AXIS: usize>(
     orientation: &mut P::Orientation,
-    (cos, sin): (P::Real, P::Real),
+    rate: &P::Spin,
+    time: P::Real,
+    half: (P::Real, P::Real),
     resting: TruthOf<P>,
 ) {
     let start = *orientation;
-    P::Orientation::turn_about::<AXIS>(orientation, cos, sin);
+    P::turn_about::<AXIS>(orientation, rate, time, half);
     P::Orientation::keep(orientation, resting, &start);
 }
 
@@ -222,7 +225,7 @@ pub(crate) fn about_x<P: Geometry>(
     let y = t.sine * (body.ratio.in_space().x * w.z) - t.versine * w.y;
     let z = -(t.sine * (body.inverse_ratio.in_space().x * w.y)) - t.versine * w.z;
     P::spin_up(rate, P::Moment::of_space(Vec3::new(zero, y, z)).unless(resting));
-    turn_about::<P, 0>(orientation, (t.half_cos, t.half_sin), resting);
+    turn_about::<P, 0>(orientation, rate, time, (t.half_cos, t.half_sin), resting);
 }
 
 #[inline(always)]
@@ -243,7 +246,7 @@ pub(crate) fn about_y<P: Geometry>(
     let z = t.sine * (body.ratio.in_space().y * w.x) - t.versine * w.z;
     let x = -(t.sine * (body.inverse_ratio.in_space().y * w.z)) - t.versine * w.x;
     P::spin_up(rate, P::Moment::of_space(Vec3::new(x, zero, z)).unless(resting));
-    turn_about::<P, 1>(orientation, (t.half_cos, t.half_sin), resting);
+    turn_about::<P, 1>(orientation, rate, time, (t.half_cos, t.half_sin), resting);
 }
 
 #[inline(always)]
@@ -264,7 +267,7 @@ pub(crate) fn about_z<P: Geometry>(
     let x = t.sine * (body.ratio.in_space().z * w.y) - t.versine * w.x;
     let y = -(t.sine * (body.inverse_ratio.in_space().z * w.x)) - t.versine * w.y;
     P::spin_up(rate, P::Moment::of_space(Vec3::new(x, y, zero)).unless(resting));
-    turn_about::<P, 2>(orientation, (t.half_cos, t.half_sin), resting);
+    turn_about::<P, 2>(orientation, rate, time, (t.half_cos, t.half_sin), resting);
 }
 
 #[cfg(test)]

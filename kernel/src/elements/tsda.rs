@@ -7,6 +7,7 @@
 
 use crate::elements::clearance::{beyond, engaged};
 use crate::elements::point_law::{PointLaw, Stretch, taut};
+use crate::geometry::Reach;
 use crate::real::Real;
 use crate::space::{Linear, Vector};
 
@@ -34,29 +35,47 @@ impl<R: Real> Tsda<R> {
     /// Force on A \[N\] without damping, beyond a clearance \[m\] if there is one.
     #[inline(always)]
     pub fn force<V: Linear<Real = R>>(&self, d: V, clearance: Option<R>) -> V {
+        self.pull(&Reach { way: d, more: None }, clearance)
+    }
+
+    /// [`Self::force`] at a reach.
+    #[inline(always)]
+    pub(crate) fn pull<V: Linear<Real = R>>(&self, reach: &Reach<V>, clearance: Option<R>) -> V {
+        let d = reach.way;
         let length = d.dot(d).sqrt();
         let inverse = length.reciprocal_or_zero();
-        let tension = self.stiffness * beyond(length - self.free_length, clearance);
+        let tension = self.stiffness * beyond(self.extended(length, reach), clearance);
         d * (tension * inverse)
     }
 
-    /// [`Self::force`] of several without clearance: whether any has no length is asked once.
+    /// [`Self::pull`] of several without clearance: whether any has no length is asked once.
     #[inline(always)]
-    pub(crate) fn forces<V: Linear<Real = R>, const N: usize>(
+    pub(crate) fn pulls<V: Linear<Real = R>, const N: usize>(
         springs: &[Self; N],
-        d: &[V; N],
+        reaches: &[Reach<V>; N],
     ) -> [V; N] {
         let mut lengths = [R::ZERO; N];
         for i in 0..N {
-            lengths[i] = d[i].dot(d[i]).sqrt();
+            let d = reaches[i].way;
+            lengths[i] = d.dot(d).sqrt();
         }
         let inverses = R::reciprocals_or_zero(lengths);
-        let mut forces = *d;
+        let mut pulls = [V::ZERO; N];
         for i in 0..N {
-            let tension = springs[i].stiffness * (lengths[i] - springs[i].free_length);
-            forces[i] = d[i] * (tension * inverses[i]);
+            let tension = springs[i].stiffness * springs[i].extended(lengths[i], &reaches[i]);
+            pulls[i] = reaches[i].way * (tension * inverses[i]);
         }
-        forces
+        pulls
+    }
+
+    /// \[m\] how much longer than its free length a reach of this `length` is.
+    #[inline(always)]
+    fn extended<V: Linear<Real = R>>(&self, length: R, reach: &Reach<V>) -> R {
+        match reach.more {
+            None => length - self.free_length,
+            // L² − L0² = (L − L0)·(L + L0).
+            Some(more) => more * (length + self.free_length).reciprocal_or_zero(),
+        }
     }
 
     /// Force on A \[N\] with the damper's share, `damping` in N·s/m.
@@ -68,9 +87,22 @@ impl<R: Real> Tsda<R> {
         v_rel: V,
         clearance: Option<R>,
     ) -> V {
+        self.damped_pull(damping, &Reach { way: d, more: None }, v_rel, clearance)
+    }
+
+    /// [`Self::damped_force`] at a reach.
+    #[inline(always)]
+    pub(crate) fn damped_pull<V: Linear<Real = R>>(
+        &self,
+        damping: R,
+        reach: &Reach<V>,
+        v_rel: V,
+        clearance: Option<R>,
+    ) -> V {
+        let d = reach.way;
         let length = d.dot(d).sqrt();
         let inverse = length.reciprocal_or_zero();
-        let extension = length - self.free_length;
+        let extension = self.extended(length, reach);
         let damping = engaged(damping, extension, clearance);
         let tension =
             self.stiffness * beyond(extension, clearance) + damping * (d.dot(v_rel) * inverse);

@@ -16,9 +16,11 @@ mod turn;
 pub use turn::FixedTurn;
 
 use crate::compensated::{CompensatedF32, Kept};
-use crate::fixed::number::{from_f32, from_f64, to_f32, to_f64};
+use crate::fixed::number::{
+    exact_product, from_f32, from_f64, nearest_f32, squared, to_f32, to_f64,
+};
 use crate::fixed::turn::in_single;
-use crate::geometry::{Geometry, Limits};
+use crate::geometry::{Geometry, Limits, Reach};
 use crate::vector::{Rotation, Vec3};
 use crate::words::{Word, WordSource, WordVisitor, Words};
 
@@ -110,6 +112,13 @@ fn single<const BITS: i32>(at: [i64; 3]) -> Vec3<f32> {
     Vec3::new(x, y, z)
 }
 
+/// The same near zero, from both sides.
+#[inline(always)]
+fn nearest<const BITS: i32>(at: [i64; 3]) -> Vec3<f32> {
+    let [x, y, z] = at.map(nearest_f32::<BITS>);
+    Vec3::new(x, y, z)
+}
+
 #[inline(always)]
 fn sum(a: [i64; 3], b: [i64; 3]) -> [i64; 3] {
     [a[0].wrapping_add(b[0]), a[1].wrapping_add(b[1]), a[2].wrapping_add(b[2])]
@@ -173,6 +182,18 @@ impl Geometry for Fixed {
         single::<PLACE>(difference(to.at, from.at))
     }
     #[inline(always)]
+    fn reach(from: &FixedPlace, to: &FixedPlace, free_length: f32) -> Reach<Vec3<f32>> {
+        let d = difference(to.at, from.at);
+        let way = nearest::<PLACE>(d);
+        // Beyond this the sums of squares end, and the way tells as well as theirs would.
+        if way.dot(way) > 256.0 || free_length > 16.0 {
+            return Reach { way, more: Some(way.dot(way) - free_length * free_length) };
+        }
+        let free = from_f32::<27, 30>(free_length);
+        let more = squared(&d).wrapping_sub(squared(&[free]));
+        Reach { way, more: Some(to_f32::<{ 2 * (PLACE - 32) }>(more)) }
+    }
+    #[inline(always)]
     fn to_world(frame: &FixedPose, v: Vec3<f32>) -> Vec3<f32> {
         frame.single.to_world(v)
     }
@@ -217,6 +238,30 @@ impl Geometry for Fixed {
         } else {
             [LOST; 3]
         };
+    }
+    #[inline(always)]
+    fn drift(position: &mut FixedPlace, velocity: &Kept, time: f32) {
+        let Kept { sum: v, lost } = velocity;
+        let [x, y, z] = [(v.x, lost.x), (v.y, lost.y), (v.z, lost.z)]
+            .map(|(sum, lost)| exact_product(sum, lost, time));
+        let (whole, rest) = (Vec3::new(x.0, y.0, z.0), Vec3::new(x.1, y.1, z.1));
+        Self::translate(position, whole);
+        position.at = sum(position.at, fixed(rest));
+    }
+    #[inline(always)]
+    fn turn_about<const AXIS: usize>(
+        orientation: &mut FixedTurn,
+        rate: &Kept,
+        time: f32,
+        _: (f32, f32),
+    ) {
+        let Kept { sum, lost } = rate;
+        let (sum, lost) = match AXIS {
+            0 => (sum.x, lost.x),
+            1 => (sum.y, lost.y),
+            _ => (sum.z, lost.z),
+        };
+        orientation.turn_exactly::<AXIS>(exact_product(sum, lost, 0.5 * time));
     }
     #[inline(always)]
     fn is_within(position: &FixedPlace) -> bool {

@@ -53,6 +53,48 @@ pub(crate) fn to_f32<const BITS: i32>(value: i64) -> f32 {
     high as f32 * const { single_power(32 - BITS) } + low as f32 * const { single_power(-BITS) }
 }
 
+/// The upper half of a number's digits, and the lower.
+#[inline(always)]
+fn digits(value: f32) -> (f32, f32) {
+    let upper = f32::from_bits(value.to_bits() & 0xffff_f000);
+    (upper, value - upper)
+}
+
+/// `(sum − lost)·factor` as two numbers that add up to it, to 2^-35 of it: the product of the upper halves of
+/// their digits, which is exact, and all else (Dekker 1971).
+#[inline(always)]
+pub(crate) fn exact_product(sum: f32, lost: f32, factor: f32) -> (f32, f32) {
+    let ((a, b), (p, q)) = (digits(sum), digits(factor));
+    (a * p, a * q + (b - lost) * factor)
+}
+
+/// The nearest multiple of 2^32, over it, and what is left.
+#[inline(always)]
+fn halves(value: i64) -> (i32, i32) {
+    let low = value as i32;
+    (((value >> 32) as i32).wrapping_add(i32::from(low < 0)), low)
+}
+
+/// [`to_f32`], as near on both sides of zero.
+#[inline(always)]
+pub(crate) fn nearest_f32<const BITS: i32>(value: i64) -> f32 {
+    let (high, low) = halves(value);
+    high as f32 * const { single_power(32 - BITS) } + low as f32 * const { single_power(-BITS) }
+}
+
+/// The sum of squares, in units of 2^64: within 3 of them. For components below 2^61.
+#[inline(always)]
+pub(crate) fn squared<const N: usize>(components: &[i64; N]) -> i64 {
+    let (mut upper, mut across) = (0_i64, 0_i64);
+    for &c in components {
+        let (high, low) = halves(c);
+        let (high, low) = (i64::from(high), i64::from(low));
+        upper += high * high;
+        across += high * low;
+    }
+    upper + (across >> 31)
+}
+
 /// `a·b` of two numbers of 62 bits after the point, in 60 bits: from 3 below it to 1 above, without the
 /// product of both lower halves. For magnitudes up to 1.99.
 #[inline(always)]
@@ -118,6 +160,20 @@ pub(super) mod tests {
             let off = i128::from(value) - back as i128;
             let bound = (value.unsigned_abs() >> 23).max(256);
             assert!(off.unsigned_abs() <= u128::from(bound), "{value}: {off}");
+        }
+    }
+
+    #[test]
+    fn sums_of_squares_are_within_their_bounds_of_the_exact_ones() {
+        let mut all = words(6);
+        for _ in 0..100_000 {
+            let v: [i64; 3] = core::array::from_fn(|_| {
+                let word = all.next().unwrap();
+                (word as i64 >> 2) >> (word & 31)
+            });
+            let exact: i128 = v.iter().map(|&c| i128::from(c) * i128::from(c)).sum();
+            let off = (i128::from(squared(&v)) << 64) - exact;
+            assert!(off.abs() < 3 << 64, "{v:?}: {off}");
         }
     }
 

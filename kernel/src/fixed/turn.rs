@@ -6,6 +6,7 @@
 
 use crate::attitude::Attitude;
 use crate::fixed::number::{from_f32, from_f64, product, to_f32, to_f64};
+use crate::real::Real as _;
 use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::{Word, WordSource, WordVisitor, Words};
 
@@ -43,6 +44,42 @@ impl FixedTurn {
     #[inline(always)]
     fn conjugate(&self) -> Self {
         Self { w: self.w, v: self.v.map(i64::wrapping_neg) }
+    }
+
+    /// Turns about a body axis by half the angle in two numbers, to 2^-35 of it.
+    #[inline(always)]
+    pub(crate) fn turn_exactly<const AXIS: usize>(&mut self, (whole, rest): (f32, f32)) {
+        let half = whole + rest;
+        if !(half.abs() <= 1.0) {
+            *self = Self { w: 0, v: [0; 3] };
+            return;
+        }
+        let fixed = from_f32::<30, 30>;
+        // What cosine and sine are beside 1 and the angle: Taylor polynomials.
+        let square = half * half;
+        let cosine = square.polynomial(&[-0.5, 1.0 / 24.0, -1.0 / 720.0]) * square;
+        let sine = square.polynomial(&[-1.0 / 6.0, 1.0 / 120.0, -1.0 / 5_040.0]) * square * half;
+        let sine = fixed(whole).wrapping_add(fixed(rest)).wrapping_add(fixed(sine)) << 2;
+        let cosine = fixed(cosine) << 2;
+        let (w, [x, y, z]) = (self.w, self.v);
+        // With its sign, what an axis beside a component does to another.
+        let turned = |c: i64, across: i64| {
+            c.wrapping_add(product(c, cosine).wrapping_add(product(across, sine)) << 2)
+        };
+        *self = match AXIS {
+            0 => Self {
+                w: turned(w, x.wrapping_neg()),
+                v: [turned(x, w), turned(y, z), turned(z, y.wrapping_neg())],
+            },
+            1 => Self {
+                w: turned(w, y.wrapping_neg()),
+                v: [turned(x, z.wrapping_neg()), turned(y, w), turned(z, x)],
+            },
+            _ => Self {
+                w: turned(w, z.wrapping_neg()),
+                v: [turned(x, y), turned(y, x.wrapping_neg()), turned(z, w)],
+            },
+        };
     }
 
     /// The Hamilton product, to a few units of 2^-60.

@@ -10,7 +10,7 @@
 
 use crate::elements::tsda::Tsda;
 use crate::forces::record::{Dampers, Record};
-use crate::geometry::Geometry;
+use crate::geometry::{Geometry, Reach};
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::{End, MOST_ARMS};
 use crate::real::Real;
@@ -78,11 +78,11 @@ fn block<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usiz
     // A point of B at a time, for all stars: what it takes is in registers, and forgotten with it.
     for (arm, tip) in tips.iter().enumerate() {
         let (tip, tip_arm) = end_b.place(tip);
-        let mut stretches = [P::Vector::ZERO; STARS];
-        for (stretch, (centre, _)) in stretches.iter_mut().zip(&spots) {
-            *stretch = P::displacement(centre, &tip);
+        let mut reaches = [Reach::default(); STARS];
+        for (star, (reach, (centre, _))) in reaches.iter_mut().zip(&spots).enumerate() {
+            *reach = P::reach(centre, &tip, springs.springs[star][arm].free_length);
         }
-        let pulls = springs.pulls(arm, &stretches, |star| {
+        let pulls = springs.pulls(arm, &reaches, |star| {
             end_b.point_velocity(tip_arm) - end_a.point_velocity(spots[star].1)
         });
         for (pull_a, pull) in pulls_a.iter_mut().zip(pulls) {
@@ -114,30 +114,31 @@ struct Springs<'m, R, const STARS: usize, const ARMS: usize> {
 }
 
 impl<R: Real, const STARS: usize, const ARMS: usize> Springs<'_, R, STARS, ARMS> {
-    /// The stars' pulls on the point `arm` of B, at their stretches and, where dampers act, rates.
+    /// The stars' pulls on the point `arm` of B, at their reaches and, where dampers act, rates.
     #[inline(always)]
     fn pulls<V: Linear<Real = R>>(
         &self,
         arm: usize,
-        stretches: &[V; STARS],
+        reaches: &[Reach<V>; STARS],
         rate: impl Fn(usize) -> V,
     ) -> [V; STARS] {
         let mut springs = [Tsda::default(); STARS];
         for (spring, arms) in springs.iter_mut().zip(self.springs) {
             *spring = arms[arm];
         }
-        let mut pulls = *stretches;
+        let mut pulls = [V::ZERO; STARS];
+        let elements = pulls.iter_mut().zip(reaches.iter().zip(&springs));
         match (self.dampers, self.clearance) {
-            (None, None) => pulls = Tsda::forces(&springs, stretches),
+            (None, None) => pulls = Tsda::pulls(&springs, reaches),
             (None, clearance) => {
-                for (pull, spring) in pulls.iter_mut().zip(&springs) {
-                    *pull = spring.force(*pull, clearance);
+                for (pull, (reach, spring)) in elements {
+                    *pull = spring.pull(reach, clearance);
                 }
             }
             (Some(dampers), clearance) => {
-                for (star, (pull, spring)) in pulls.iter_mut().zip(&springs).enumerate() {
+                for (star, (pull, (reach, spring))) in elements.enumerate() {
                     let damping = dampers[star][arm];
-                    *pull = spring.damped_force(damping, *pull, rate(star), clearance);
+                    *pull = spring.damped_pull(damping, reach, rate(star), clearance);
                 }
             }
         }
@@ -181,13 +182,13 @@ fn many<P: Geometry, T: Terms, D: Dampers>(
             let element = star * arms + arm;
             let spring = springs.get(element)?;
             let (tip, arm_b) = end_b.place(model.points.get(group.tips(star) + arm)?);
-            let d = P::displacement(&centre, &tip);
+            let reach = P::reach(&centre, &tip, spring.free_length);
             let pull = match dampers.and_then(|dampers| dampers.get(element)) {
                 Some(&damping) => {
                     let v_rel = end_b.point_velocity(arm_b) - end_a.point_velocity(arm_a);
-                    spring.damped_force(damping, d, v_rel, clearance)
+                    spring.damped_pull(damping, &reach, v_rel, clearance)
                 }
-                None => spring.force(d, clearance),
+                None => spring.pull(&reach, clearance),
             };
             pull_a = pull_a + pull;
             *pull_b = *pull_b + pull;
