@@ -105,15 +105,21 @@ pub fn for_each_charted(visitor: &mut impl Visitor) {
             )*
         };
     }
-    // In fixed point all schemes; those of [`models::for_each`] are shipped.
+    // In fixed point the paper's scheme and those that are advised; the four-bar's first two are shipped.
     macro_rules! in_fixed_point {
         ($($module:ident $scene:literal $step:ident, $fixed:ident: $model:ident;)*) => {
             $(
                 if $scene != "four-bar" {
-                    chart! { $scene $module::$fixed: $model $step, Leapfrog => Leapfrog, ""; }
-                    chart! { $scene $module::$fixed: $model $step, Dbd { newton: 0 } => Dbd, ""; }
+                    chart! { $scene $module::$fixed: $model $step,
+                        Leapfrog => Leapfrog, "";
+                        Dbd { newton: 0 } => Dbd, "";
+                    }
                 }
-                others! { $scene $module::$fixed: $model $step }
+                chart! { $scene $module::$fixed: $model $step,
+                    SemiImplicitEuler => SemiImplicitEuler, "";
+                    Pefrl => Pefrl, "";
+                    BlanesMoanS6 => BlanesMoanS6, "";
+                }
             )*
         };
     }
@@ -135,7 +141,7 @@ pub fn for_each_charted(visitor: &mut impl Visitor) {
     double_wishbone::DOUBLE_WISHBONE_F32: DoubleWishboneF32 DOUBLE_WISHBONE_STEP }
     damped! { "double-wishbone"
     double_wishbone::DOUBLE_WISHBONE_F64: DoubleWishboneF64 DOUBLE_WISHBONE_STEP }
-    damped! { "double-wishbone"
+    joint_wise! { "double-wishbone"
     double_wishbone::DOUBLE_WISHBONE_FIXED: DoubleWishboneFixed DOUBLE_WISHBONE_STEP }
     joint_wise! { "cart-pendulum"
     cart_pendulum::CART_PENDULUM_F32: CartPendulumF32 CART_PENDULUM_STEP }
