@@ -5,8 +5,8 @@ use dbd_kernel::euler::{EulerF32, SingleEulerF64};
 use dbd_kernel::snapshot::SnapshotError;
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
-    BlanesMoanS6, BodyIndex, Dbd, DbdP2, Explicit, F32, F64, Geometry, JointWise, Leapfrog, Load,
-    LoadFrame, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler,
+    BlanesMoanS6, BodyIndex, Dbd, DbdP2, Explicit, F32, F64, Fixed, Geometry, JointWise, Leapfrog,
+    Load, LoadFrame, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler,
 };
 use dbd_tests::{Bench, at, hung_ring};
 
@@ -58,6 +58,9 @@ fn a_restored_plant_goes_on_with_the_same_bits() {
     resumes::<F64, _>(Pefrl);
     resumes::<F32, _>(BlanesMoanS6);
     resumes::<F64, _>(Rk4);
+    resumes::<Fixed, _>(Leapfrog);
+    resumes::<Fixed, _>(JointWise(Leapfrog));
+    resumes::<Fixed, _>(Rk4);
     resumes::<EulerF32, _>(Pefrl);
     resumes::<SingleEulerF64, _>(Leapfrog);
 }

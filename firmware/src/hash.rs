@@ -4,8 +4,10 @@
 //! 10, 20, … and the last one asked for. A line that two machines print for the same model,
 //! scheme, precision and count must be the same line; the first that differs tells when.
 
+use core::str::FromStr;
+
 use dbd_kernel::model::ModelOwner;
-use dbd_kernel::{Geometry, Plant, Scheme, Status};
+use dbd_kernel::{Fixed, Geometry, Plant, Scheme, Status};
 
 use crate::models::{Shipped, Visitor, for_each, for_each_further};
 use crate::say;
@@ -18,6 +20,32 @@ pub struct Limits {
     /// Most instructions of the program. What is left is shared out as a combination's turn comes,
     /// more to schemes of fewer evaluations; a count that would exceed a share is not begun.
     pub instructions: u64,
+    /// Which combinations.
+    pub which: Which,
+}
+
+/// Combinations by their precision.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Which {
+    /// All of them.
+    #[default]
+    All,
+    /// Those of fixed point.
+    Fixed,
+}
+
+impl Which {
+    fn holds<M: ModelOwner>(self) -> bool {
+        self == Self::All || M::Precision::NAME == Fixed::NAME
+    }
+}
+
+impl FromStr for Which {
+    type Err = ();
+
+    fn from_str(name: &str) -> Result<Self, ()> {
+        if name == Fixed::NAME { Ok(Self::Fixed) } else { Err(()) }
+    }
 }
 
 /// Instructions executed since the program began; 0 for ever where nobody counts.
@@ -38,10 +66,10 @@ impl InstructionCounter for Uncounted {
 
 /// Prints all lines; `false` where a model did not step.
 pub fn run(limits: Limits, counter: &mut impl InstructionCounter) -> bool {
-    let mut all = Weights(0);
+    let mut all = Weights { sum: 0, which: limits.which };
     for_each(&mut all);
     for_each_further(&mut all);
-    let mut hashing = Hashing { limits, counter, waiting: all.0, well: true };
+    let mut hashing = Hashing { limits, counter, waiting: all.sum, well: true };
     // Cheap ones first: what they leave of their shares goes to the others.
     for_each_further(&mut hashing);
     for_each(&mut hashing);
@@ -49,11 +77,16 @@ pub fn run(limits: Limits, counter: &mut impl InstructionCounter) -> bool {
 }
 
 /// Adds up the combinations' weights.
-struct Weights(u64);
+struct Weights {
+    sum: u64,
+    which: Which,
+}
 
 impl Visitor for Weights {
     fn visit<M: ModelOwner, S: Scheme>(&mut self, shipped: Shipped<M, S>) {
-        self.0 += weight(&shipped);
+        if self.which.holds::<M>() {
+            self.sum += weight(&shipped);
+        }
     }
 }
 
@@ -75,6 +108,9 @@ struct Hashing<'c, C> {
 
 impl<C: InstructionCounter> Visitor for Hashing<'_, C> {
     fn visit<M: ModelOwner, S: Scheme>(&mut self, shipped: Shipped<M, S>) {
+        if !self.limits.which.holds::<M>() {
+            return;
+        }
         let (precision, variant) = (M::Precision::NAME, shipped.variant);
         let Ok(mut plant) = Plant::new(shipped.model, shipped.scheme, shipped.step) else {
             say!("hash {} {}{} {} refused its step", shipped.scene, S::NAME, variant, precision);
@@ -144,7 +180,8 @@ mod tests {
 
     #[test]
     fn every_shipped_model_steps() {
-        let limits = Limits { steps: 30, instructions: u64::MAX };
+        let limits = Limits { steps: 30, instructions: u64::MAX, which: Which::All };
         assert!(run(limits, &mut Uncounted));
+        assert!(run(Limits { which: Which::Fixed, ..limits }, &mut Uncounted));
     }
 }

@@ -1,8 +1,8 @@
 //! The shipped models: const, in flash, stepped alike on the target and on a host.
 //!
 //! The build script makes them from the scene files that it lists, and the macros
-//! [`shipped`](crate::shipped), [`shipped_f32`](crate::shipped_f32), [`charted`](crate::charted) and
-//! [`varied`](crate::varied) from the same lists.
+//! [`shipped`](crate::shipped), [`shipped_f32`](crate::shipped_f32), [`charted`](crate::charted),
+//! [`fixed`](crate::fixed), [`compensated`](crate::compensated) and [`varied`](crate::varied) from the same lists.
 //! [`for_each`] shows pairs of model and scheme to a visitor, which is generic as the step is.
 
 use dbd_kernel::model::ModelOwner;
@@ -63,6 +63,7 @@ pub fn for_each(visitor: &mut impl Visitor) {
         ($($module:ident $scene:literal $step:ident,
             $f32:ident: $model32:ident, $f64:ident: $model64:ident;)*) => {
             $(both(visitor, $scene, &$module::$f32, $module::$step);)*
+            both(visitor, "four-bar", &four_bar::FOUR_BAR_FIXED, four_bar::FOUR_BAR_STEP);
             shipped_f32!(visit_f32);
             $(both(visitor, $scene, &$module::$f64, $module::$step);)*
         };
@@ -103,6 +104,7 @@ pub fn for_each_relayed(visitor: &mut impl Visitor) {
         "crank-slider" crank_slider::CRANK_SLIDER_F32 CRANK_SLIDER_STEP LONG, Pefrl;
         "cart-pendulum" cart_pendulum::CART_PENDULUM_F32 CART_PENDULUM_STEP LONG, Leapfrog;
         "double-wishbone" double_wishbone::DOUBLE_WISHBONE_F32 DOUBLE_WISHBONE_STEP LONG, Leapfrog;
+        "double-wishbone" double_wishbone::DOUBLE_WISHBONE_FIXED DOUBLE_WISHBONE_STEP LONG, Leapfrog;
         "four-bar" four_bar::FOUR_BAR_F64 FOUR_BAR_STEP SHORT, Leapfrog;
     }
 }
@@ -121,6 +123,9 @@ pub fn for_each_further(visitor: &mut impl Visitor) {
         "double-wishbone" double_wishbone::DOUBLE_WISHBONE_F32 DOUBLE_WISHBONE_STEP 200, Pefrl;
         "3ruu" _3ruu::_3RUU_F32 _3RUU_STEP 100, BlanesMoanS6;
         "3ruu" _3ruu::_3RUU_F32 _3RUU_STEP 100, Rk4;
+        "four-bar" four_bar::FOUR_BAR_FIXED FOUR_BAR_STEP SHORT, Pefrl;
+        "3ruu" _3ruu::_3RUU_FIXED _3RUU_STEP 100, Rk4;
+        "double-wishbone" double_wishbone::DOUBLE_WISHBONE_FIXED DOUBLE_WISHBONE_STEP 200, Leapfrog;
         "four-bar" four_bar::FOUR_BAR_F64 FOUR_BAR_STEP 20, Pefrl;
         "four-bar" four_bar::FOUR_BAR_F64 FOUR_BAR_STEP 20, Rk4;
     }

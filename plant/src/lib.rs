@@ -41,7 +41,7 @@
 //!
 //! | feature | brings |
 //! |---|---|
-//! | `comparison` | what is there for comparison only, micromath's square root and Euler angles: seven of nine precisions, which take as much longer to compile |
+//! | `comparison` | what is there for comparison only, compensated sums, micromath's square root and Euler angles: eight of eleven precisions, which take as much longer to compile |
 
 pub mod any;
 mod budget;

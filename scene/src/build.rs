@@ -99,7 +99,7 @@ impl Build {
         self
     }
 
-    /// `f32` or `f64`; called twice, both. Without it `f32`.
+    /// `f32`, `f64`, `fixed` or `f32-compensated`; called twice, both. Without it `f32`.
     pub fn precision(mut self, name: &str) -> Self {
         self.precisions.push(name.to_owned());
         self

@@ -19,6 +19,7 @@ use crate::command::Command;
 use crate::front_table::table as table_of;
 use crate::page::html;
 use crate::point::{Machine, Point, front};
+use crate::precisions::of_precisions;
 use crate::stability::MARGIN;
 use crate::survey::Trade;
 use crate::timing::{CALM, ROUNDS};
@@ -170,6 +171,11 @@ impl<'r> Report<'r> {
                 pieces.push(Piece::Sentence(advice.sentence));
                 let line = command.line(&points[advice.row]);
                 pieces.extend(line.map(|line| Piece::Lines(format!("    {line}\n"))));
+            }
+            if machine == Machine::Target
+                && let Some(sentence) = of_precisions(points, trade.head.uncertainty)
+            {
+                text += &format!("{sentence}\n");
             }
         }
         if !trade.variants.is_empty() {

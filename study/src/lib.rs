@@ -20,6 +20,7 @@
 //! - [`need`]: what the paper's scheme costs at an accuracy.
 //! - [`words`]: steps, costs and steppers as people read them.
 //! - [`advice`]: what to choose, in sentences.
+//! - [`precisions`]: what rounding costs on the target, in a sentence.
 //! - [`variants_table`]: the scene beside its variants, as a table.
 //! - [`front_table`]: what nothing beats, as a table.
 //! - [`command`]: how to run it.
@@ -42,6 +43,7 @@ pub mod need;
 pub mod order;
 pub mod page;
 pub mod point;
+pub mod precisions;
 pub mod stability;
 pub mod survey;
 pub mod timing;

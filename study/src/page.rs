@@ -12,6 +12,7 @@ use crate::advice::{advice, remark};
 use crate::chart::{Chart, narrow_svg, steppers, svg};
 use crate::front_table::{headings, rows};
 use crate::point::{Machine, Point};
+use crate::precisions::of_precisions;
 use crate::stability::MARGIN;
 use crate::variants_table;
 use crate::words::{capital, percent, shown};
@@ -66,6 +67,11 @@ fn machine(page: &mut String, chart: &Chart<'_>, machine: Machine, title: &str) 
             let _ = writeln!(page, "<li>{sentence}.<br><code>{}</code></li>", escape(&line));
         }
         page.push_str("</ul>\n");
+    }
+    if machine == Machine::Target
+        && let Some(sentence) = of_precisions(chart.points, chart.uncertainty)
+    {
+        let _ = writeln!(page, "<p>{}.</p>", escape(&capital(&sentence)));
     }
     let (wide, narrow) = (svg(chart, machine), narrow_svg(chart, machine));
     let _ = writeln!(

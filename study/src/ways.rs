@@ -3,6 +3,7 @@
 //! `scene => ways; way, frequency bound, interval => steps per interval`. A further scheme,
 //! precision or orientation of [`dbd_plant::method`] joins by itself.
 
+use dbd_plant::plant::{check_extents, check_inputs};
 use dbd_plant::{DampingName, Method, Named as _, OrientationName, PrecisionName, SchemeName};
 use dbd_reference::State;
 use dbd_scene::Scene;
@@ -119,12 +120,13 @@ impl Way {
 
 /// All ways of stepping a scene. The paper's scheme also with a Newton iteration, Euler angles
 /// where bodies turn in space, joint-wise and explicit damping where there are dampers and the scheme has them
-/// beside sweeps. What is there for comparison only where this build holds it.
+/// beside sweeps. What is there for comparison only where this build holds it, no precision that cannot hold
+/// the scene.
 #[must_use]
 pub fn ways(scene: &Scene, in_space: bool) -> Vec<Way> {
     let mut ways = Vec::new();
     let mut add = |method: Method| {
-        if method.check_built().is_ok() && !ways.contains(&Way::Kernel(method)) {
+        if holds(scene, &method) && !ways.contains(&Way::Kernel(method)) {
             ways.push(Way::Kernel(method));
         }
     };
@@ -137,6 +139,11 @@ pub fn ways(scene: &Scene, in_space: bool) -> Vec<Way> {
                     add(method);
                     add(method.with_orientation(OrientationName::Euler321));
                 }
+                continue;
+            }
+            if *precision == PrecisionName::F32Compensated
+                && !matches!(scheme, SchemeName::Leapfrog | SchemeName::Pefrl)
+            {
                 continue;
             }
             add(method);
@@ -158,6 +165,13 @@ pub fn ways(scene: &Scene, in_space: bool) -> Vec<Way> {
     }
     ways.extend([Way::NaiveSemiImplicitEuler, Way::NaiveLeapfrog, Way::LinearlyImplicitEuler]);
     ways
+}
+
+/// Whether this build holds a method, and its precision the scene at rest.
+fn holds(scene: &Scene, method: &Method) -> bool {
+    method.check_built().is_ok()
+        && check_inputs(scene, method).is_ok()
+        && check_extents(scene, method, 0.0).is_ok()
 }
 
 /// Whether a body turns about more than one of its axes.

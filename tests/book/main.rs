@@ -5,4 +5,5 @@ mod contents;
 mod engines;
 mod figures;
 mod measures;
+mod rounding;
 mod units;

@@ -14,7 +14,7 @@ fn bad_input_ends_with_2_and_writes_nothing() {
     let bad = folder.path("bad.toml");
     fs::write(&bad, PENDULUM.replace("mass = 0.5", "mass = -0.5")).unwrap();
     let bad = bad.to_str().unwrap();
-    let cases: [(&str, &[&str], &str); 19] = [
+    let cases: [(&str, &[&str], &str); 20] = [
         ("fuor-bar", &[], "did you mean four-bar?"),
         ("no-such-thing", &[], "four-bar"),
         ("no/such/file.toml", &[], "no/such/file.toml"),
@@ -33,6 +33,7 @@ fn bad_input_ends_with_2_and_writes_nothing() {
         (&good, &["--scheme", "dbd", "--damping", "sweeps"], "--damping"),
         (&good, &["--scheme", "simplectic"], "leapfrog"),
         (&good, &["--precision", "f16"], "f32"),
+        (&good, &["--precision", "fixed", "--orientation", "euler-321"], "quaternions"),
         (&good, &["--hurry"], "--hurry"),
     ];
     for (scene, options, named) in cases {
@@ -46,6 +47,27 @@ fn bad_input_ends_with_2_and_writes_nothing() {
     let done = folder.run(&good, &tiny);
     assert_eq!(done.exit, Exit::Refused);
     assert!(done.err.contains("--precision f64") && !folder.path("out").exists(), "{}", done.err);
+}
+
+/// What fixed point does not hold is named with the numbers, and with what would be right.
+#[test]
+fn what_fixed_point_does_not_hold_is_refused() {
+    let folder = Folder::new();
+    let scene = folder.scene(PENDULUM);
+    let fixed = ["--precision", "fixed"];
+    for (change, said) in [
+        ("body.bob.position=[0, 30, 0]", "`bob` lies 30 m from the origin along an axis"),
+        ("planar=true", "a planar scene does not run in fixed"),
+    ] {
+        let done = folder.run(&scene, &[&fixed[..], &["--set", change]].concat());
+        assert_eq!(done.exit, Exit::Refused, "{change}: {}", done.out);
+        for part in [said, "--precision f64"] {
+            assert!(done.err.contains(part), "{change}: {}", done.err);
+        }
+        assert!(!folder.path("out").exists(), "{change}");
+    }
+    let done = folder.run(&scene, &fixed);
+    assert_eq!((done.exit, done.err.as_str()), (Exit::Done, ""));
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! Golden bits: the state's hash per scene, scheme, precision, step and number of steps.
 //!
 //! The table `hashes.csv` is part of the interface, `orientations.csv` holds those of Euler angles,
-//! `planar.csv` those of scenes in their plane, `joint-wise.csv` those of damping joint by joint.
+//! `planar.csv` those of scenes in their plane, `joint-wise.csv` those of damping joint by joint,
+//! `fixed.csv` those of fixed point.
 //! `DBD_BLESS=bits cargo test -p dbd-bits` writes the present hashes; a changed one needs its
 //! reason in the commit.
 
@@ -11,8 +12,8 @@ use std::path::PathBuf;
 use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
 use dbd_kernel::geometry::{F32, F64, Geometry};
 use dbd_kernel::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, JointWise, Leapfrog, Pefrl, Planar32, Planar64, Plant, Rk4,
-    Scheme, SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, Fixed, JointWise, Leapfrog, Pefrl, Planar32,
+    Planar64, Plant, Rk4, Scheme, SemiImplicitEuler,
 };
 use dbd_scene::{Scene, SceneModel};
 use dbd_tests::{scene, scene_names};
@@ -132,6 +133,44 @@ fn states_of_joint_wise_damping_have_their_golden_hashes() {
         writeln!(present, "{row}").unwrap();
     }
     compare("joint-wise.csv", &present);
+}
+
+/// Of all scenes, and of those of all schemes, of the damped one with its dampers in all ways.
+#[test]
+fn states_in_fixed_point_have_their_golden_hashes() {
+    let mut present = format!("{HEADER}\n");
+    let mut runs = vec![(LONG.0.to_owned(), LONG.1)];
+    runs.extend(scene_names().into_iter().map(|name| (name, STEPS)));
+    for (name, steps) in runs {
+        let scene = scene(&name);
+        writeln!(present, "{}", row::<Fixed, _>(&scene, Dbd::default(), steps)).unwrap();
+        writeln!(present, "{}", row::<Fixed, _>(&scene, Leapfrog, steps)).unwrap();
+    }
+    for name in ALL_SCHEMES {
+        let scene = scene(name);
+        macro_rules! rows {
+            ($($name:expr => $scheme:expr),*) => {$(
+                let row = row_of::<Fixed, _>(&scene, $name, $scheme, STEPS);
+                writeln!(present, "{row}").unwrap();
+            )*};
+        }
+        rows!(
+            "dbd-newton-1" => Dbd { newton: 1 },
+            DbdP1::NAME => DbdP1::default(),
+            DbdP2::NAME => DbdP2::default(),
+            SemiImplicitEuler::NAME => SemiImplicitEuler,
+            Pefrl::NAME => Pefrl,
+            BlanesMoanS6::NAME => BlanesMoanS6,
+            Rk4::NAME => Rk4
+        );
+        if !scene.model.dampers.is_empty() {
+            rows!(
+                "leapfrog-explicit" => Explicit(Leapfrog),
+                "leapfrog-joint-wise" => JointWise(Leapfrog)
+            );
+        }
+    }
+    compare("fixed.csv", &present);
 }
 
 /// Of scenes in their plane: pins, a spherical and a universal joint with a guide, dampers.

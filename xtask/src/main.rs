@@ -17,6 +17,7 @@ mod fuzz;
 mod growth;
 mod instructions;
 mod packages;
+mod precisions;
 mod prove;
 mod semver;
 mod steps;
@@ -102,6 +103,12 @@ enum Command {
     /// Gives random input to the reader of scenes, to snapshots, to steps and to the command line, on
     /// all cores; fails where anything fails.
     Fuzz(fuzz::Campaign),
+    /// Steps scenes long in every precision and looks at what rounding does to their energy; writes
+    /// docs/results/precisions.csv.
+    Precisions {
+        /// Scenes of that file, all of them where none is named.
+        scenes: Vec<String>,
+    },
     /// Tries all inputs where the tests try a sample: roots, arctangents, long runs; writes
     /// docs/results/proof.csv.
     Prove {
@@ -156,6 +163,7 @@ fn main() -> ExitCode {
         Command::Bench => bench::run(),
         Command::Fuzz(campaign) => fuzz::run(&campaign),
         Command::Bits { names } => bits::machines::run(&names),
+        Command::Precisions { scenes } => precisions::run(&scenes),
         Command::Prove { names } => prove::run(&names),
         Command::Plant { ticks } => bits::closed_loop::run(ticks),
         Command::Boards { names } => boards::run(&names),

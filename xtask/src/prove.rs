@@ -35,7 +35,7 @@ pub fn run(names: &[String]) -> Result<()> {
     }
     let path = root().join(FILE);
     let present = std::fs::read_to_string(&path).unwrap_or_default();
-    std::fs::write(&path, merged(&present, &table))
+    std::fs::write(&path, merged(HEAD, &present, &table))
         .with_context(|| format!("cannot write {FILE}"))?;
     println!("written: {FILE}");
     if !output.status.success() {
@@ -44,8 +44,8 @@ pub fn run(names: &[String]) -> Result<()> {
     Ok(())
 }
 
-/// The file with the rows of this table in place of those of the same proofs.
-fn merged(present: &str, table: &str) -> String {
+/// The file with the rows of this table in place of those of the same proofs, by the first column.
+pub fn merged(head: &str, present: &str, table: &str) -> String {
     let proof = |row: &str| row.split(',').next().unwrap_or_default().to_owned();
     let mut lines = table.lines();
     let header = lines.next().unwrap_or_default();
@@ -55,7 +55,7 @@ fn merged(present: &str, table: &str) -> String {
     rows.extend(kept.filter(|line| !new.contains(&proof(line))));
     // By proof, the rows of each as they were told.
     rows.sort_by_key(|row| proof(row));
-    format!("{HEAD}{header}\n{}\n", rows.join("\n"))
+    format!("{head}{header}\n{}\n", rows.join("\n"))
 }
 
 #[cfg(test)]
@@ -64,8 +64,8 @@ mod tests {
 
     #[test]
     fn rows_take_the_place_of_those_of_the_same_proof() {
-        let first = merged("", "proof,of\nroot,2\nroot,1\nangle,1\n");
-        let both = merged(&first, "proof,of\nroot,3\n");
+        let first = merged(HEAD, "", "proof,of\nroot,2\nroot,1\nangle,1\n");
+        let both = merged(HEAD, &first, "proof,of\nroot,3\n");
         let rows: Vec<&str> = both.lines().skip(1).collect();
         assert_eq!(rows, ["proof,of", "angle,1", "root,3"]);
         assert!(first.ends_with("proof,of\nangle,1\nroot,2\nroot,1\n"), "{first}");

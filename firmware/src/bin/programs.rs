@@ -1,7 +1,8 @@
 //! `PROGRAM [NUMBER…]`: one image for all programs, told apart by their name.
 //!
 //! - `board`: every driver once, against the emulated hardware (target only).
-//! - `hash [STEPS [MILLION_INSTRUCTIONS]]`: hashes of all shipped models, see [`firmware::hash`].
+//! - `hash [STEPS [MILLION_INSTRUCTIONS [fixed]]]`: hashes of all shipped models, or of those in fixed point, see
+//!   [`firmware::hash`].
 //!   Without limits: 10,000 steps, 3,000 million instructions.
 //! - `relay [PART]`: 0 whole runs, 1 their first halves, 2 their second halves, see
 //!   [`firmware::relay`].
@@ -69,6 +70,7 @@ fn limits() -> Limits {
     Limits {
         steps: argument(1).unwrap_or(10_000),
         instructions: millions.saturating_mul(1_000_000),
+        which: argument(3).unwrap_or_default(),
     }
 }
 

@@ -167,7 +167,7 @@ impl Drawing<'_> {
         };
         let beneath = [
             "Each mark is a step; hollow at the top: unstable, hollow elsewhere: lost, or too near \
-             the limit. Lines: solid f64, dashed f32, dash-dotted or dotted other orientations."
+             the limit. Lines: solid f64, dashed f32, long dashes fixed, dash-dotted or dotted other orientations."
                 .to_owned(),
             format!(
                 "{paper} Grey: references in plain Rust. Faint: variants without a point on the \

@@ -99,6 +99,8 @@ impl Style {
         let dashes = match (stepper.precision.as_str(), stepper.orientation.as_str()) {
             ("f64", "quaternion") => "",
             ("f32", "quaternion") => "7 4",
+            ("fixed", _) => "14 3",
+            ("f32-compensated", _) => "7 2 2 2 2 2",
             ("f64", _) => "11 3 2 3",
             ("f32", _) => "2 3",
             _ => "4 2 1 2",

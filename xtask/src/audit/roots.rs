@@ -61,7 +61,7 @@ pub struct Root {
     pub model: String,
     /// The scheme's name, with `-` and another damping than its own.
     pub scheme: String,
-    /// `f32` or `f64`.
+    /// `f32`, `f64` or `fixed`.
     pub precision: String,
 }
 
@@ -100,7 +100,7 @@ impl Root {
     /// Whether it is of single precision throughout: a step, or an end.
     pub fn is_single(&self) -> bool {
         let is_end = ENDS.contains(&self.what.as_str());
-        (self.what == "step" || is_end) && self.precision == "f32"
+        (self.what == "step" || is_end) && matches!(self.precision.as_str(), "f32" | "fixed")
     }
 }
 
@@ -118,6 +118,7 @@ mod tests {
         let root = Root::step("3rrr", "blanes-moan-s6", "f64");
         assert_eq!(Root::parse(&root.symbol()), Some(root.clone()));
         assert!(!root.is_single());
+        assert!(Root::step("3rrr", "dbd", "fixed").is_single());
         assert!(Root::step("3rrr", "dbd", "f32").is_single() && Root::end("duty").is_single());
         assert!(!Root::end("node_step").is_single());
         assert_eq!(Root::parse(&planted("panic")), None);

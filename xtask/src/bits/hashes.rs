@@ -13,6 +13,8 @@ use crate::target::{Toolchain, firmware};
 
 /// Steps per combination.
 const STEPS: &str = "10000";
+/// Steps of those in fixed point that are stepped at length.
+const LONG_STEPS: &str = "1000000";
 /// Million instructions of the whole program on the target without `--long`.
 const INSTRUCTIONS: &str = "3000";
 /// Million instructions that no run reaches.
@@ -22,16 +24,24 @@ const UNLIMITED: &str = "1000000000";
 pub const GOLDEN: &str = "tests/golden/hashes.csv";
 /// The same of damping joint by joint.
 const JOINT_WISE: &str = "tests/golden/joint-wise.csv";
+/// The same of fixed point.
+pub const FIXED: &str = "tests/golden/fixed.csv";
 
-/// Runs the program everywhere and compares.
+/// Runs the program everywhere and compares; at length also many more steps in fixed point.
 ///
 /// # Errors
 /// Where a hash differs, a combination is missing, or a program fails.
 pub fn compare(toolchain: &Toolchain, host: &Host, long: bool) -> Result<()> {
-    let unoptimised = parse(&host.unoptimised(&["hash", STEPS])?);
-    let release = parse(&host.released(&["hash", STEPS])?);
     let budget = if long { UNLIMITED } else { INSTRUCTIONS };
-    let arguments = [STEPS.to_owned(), budget.to_owned()];
+    compare_of(toolchain, host, long, &[STEPS, budget])?;
+    if long { compare_of(toolchain, host, long, &[LONG_STEPS, UNLIMITED, "fixed"]) } else { Ok(()) }
+}
+
+fn compare_of(toolchain: &Toolchain, host: &Host, long: bool, limits: &[&str]) -> Result<()> {
+    let arguments = [&["hash"], limits].concat();
+    let unoptimised = parse(&host.unoptimised(&arguments)?);
+    let release = parse(&host.released(&arguments)?);
+    let arguments: Vec<String> = limits.iter().map(|&limit| limit.to_owned()).collect();
     let target = parse(&firmware::execute(toolchain, "hash", long, &arguments)?);
     if unoptimised != release {
         let difference = first_difference(&unoptimised, &release);
@@ -51,7 +61,11 @@ pub fn compare(toolchain: &Toolchain, host: &Host, long: bool) -> Result<()> {
     for (key, hash) in &golden {
         match release.get(key) {
             Some(found) if found != hash => {
-                bail!("{} after {} steps: {found}, but {GOLDEN} has {hash}", key.0, key.1)
+                bail!(
+                    "{} after {} steps: {found}, but {GOLDEN} or {FIXED} has {hash}",
+                    key.0,
+                    key.1
+                )
             }
             Some(_) => blessed += 1,
             None => {}
@@ -69,22 +83,23 @@ pub fn compare(toolchain: &Toolchain, host: &Host, long: bool) -> Result<()> {
     Ok(())
 }
 
-/// The golden table.
+/// The golden tables.
 ///
 /// # Errors
 /// Where it cannot be read.
 pub fn golden() -> Result<Hashes> {
+    let read = |file: &str| {
+        let text = std::fs::read_to_string(root().join(file));
+        text.with_context(|| format!("cannot read {file}"))
+    };
+    let tables = [read(GOLDEN)?, read(JOINT_WISE)?, read(FIXED)?];
     let mut golden = Hashes::new();
-    for table in [GOLDEN, JOINT_WISE] {
-        let text = std::fs::read_to_string(root().join(table));
-        let text = text.with_context(|| format!("cannot read {table}"))?;
-        for line in text.lines().skip(1) {
-            let columns: Vec<&str> = line.split(',').collect();
-            if let [scene, scheme, precision, _step, steps, hash] = columns[..]
-                && let Ok(steps) = steps.parse()
-            {
-                golden.insert((format!("{scene} {scheme} {precision}"), steps), hash.to_owned());
-            }
+    for line in tables.iter().flat_map(|text| text.lines().skip(1)) {
+        let columns: Vec<&str> = line.split(',').collect();
+        if let [scene, scheme, precision, _step, steps, hash] = columns[..]
+            && let Ok(steps) = steps.parse()
+        {
+            golden.insert((format!("{scene} {scheme} {precision}"), steps), hash.to_owned());
         }
     }
     Ok(golden)

@@ -1,11 +1,11 @@
 //! Roots `audit.step.MODEL.SCHEME.PRECISION`: steps of all schemes.
 //!
-//! All schemes with the four-bar and with a model that has every kind of element, in both
-//! precisions; every other shipped model with leapfrog in single precision.
+//! All schemes with the four-bar and with a model that has every kind of element, in all
+//! precisions; every other shipped model with leapfrog in single precision, some in fixed point.
 
 use dbd_kernel::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, F32, F64, JointWise, Leapfrog, Model, Pefrl, Plant,
-    Rk4, SemiImplicitEuler, Status,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Fixed, JointWise, Leapfrog, Model, Pefrl,
+    Plant, Rk4, SemiImplicitEuler, Status,
 };
 use firmware::alone::Alone;
 use firmware::models::{self, four_bar::FourBarF32, four_bar::FourBarF64};
@@ -58,10 +58,17 @@ pub fn keep(keep: Keep) {
             $(
                 step!(keep, "every-kind" EveryKind<F32>, $name $scheme, "f32");
                 step!(keep, "every-kind" EveryKind<F64>, $name $scheme, "f64");
+                step!(keep, "every-kind" EveryKind<Fixed>, $name $scheme, "fixed");
             )*
         };
     }
+    macro_rules! fixed {
+        ($($module:ident $scene:literal $step:ident, $fixed:ident: $model:ident;)*) => {
+            $(step!(keep, $scene models::$module::$model, "leapfrog" Leapfrog, "fixed");)*
+        };
+    }
     firmware::shipped!(shipped);
+    firmware::fixed!(fixed);
     firmware::shipped_f32!(shipped_f32);
     // What a controller drives, without the scene's tables.
     step!(keep, "delta-pick-and-place" models::delta_pick_and_place::DeltaPickAndPlaceF32,
