@@ -175,7 +175,7 @@ impl<'r> Report<'r> {
             if machine == Machine::Target
                 && let Some(sentence) = of_precisions(points, trade.head.uncertainty)
             {
-                text += &format!("{sentence}\n");
+                pieces.push(Piece::Sentence(sentence));
             }
         }
         if !trade.variants.is_empty() {

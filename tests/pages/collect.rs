@@ -82,6 +82,7 @@ fn points(text: &str) -> Vec<Point> {
             host_spread: row.number("host_spread"),
             target_instructions: number("target_instructions_per_second"),
             fall: Fall::default(),
+            step_in_space: None,
         }
     };
     rows_of(text).iter().map(point).collect()
