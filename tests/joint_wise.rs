@@ -39,8 +39,8 @@ const JOINTS: [&str; 5] = [
     "type = \"cylindrical\"\naxis = [1, 0, 0]\nspan = 0.1\noffset = 0.01",
 ];
 
-/// Two bodies of equal inertias about all axes in no field, joined to each other and, by `grounded`,
-/// to the ground.
+/// Two bodies of equal inertias about all axes in no field, joined to each other, with friction against
+/// turning, and, by `grounded`, to the ground.
 fn pair(joint: &str, grounded: Option<&str>) -> Scene {
     let mut text = "name = \"pair\"\nduration = 1\n".to_owned();
     for (name, mass, position) in [("a", 2.0, [0.1, 0.2, 0.0]), ("b", 0.7, [0.5, -0.1, 0.2])] {
@@ -58,6 +58,9 @@ fn pair(joint: &str, grounded: Option<&str>) -> Scene {
             );
         }
     }
+    // The damper of a hinge's friction: a moment alone.
+    text += "[[torsion_spring]]\nbetween = [\"a\", \"b\"]\naxis = [0, 0.6, 0.8]\nstiffness = 0\n\
+             damping = 1\n";
     Scene::parse(&text, "pair.toml").unwrap()
 }
 
