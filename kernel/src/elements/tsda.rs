@@ -52,21 +52,46 @@ impl<R: Real> Tsda<R> {
         d * (tension * inverse)
     }
 
+    /// The lengths of several \[m\].
+    #[inline(always)]
+    fn lengths<V: Linear<Real = R>, const N: usize>(d: &[V; N]) -> [R; N] {
+        let mut squares = [R::ZERO; N];
+        for (square, d) in squares.iter_mut().zip(d) {
+            *square = d.dot(*d) + R::constant(LEAST_SQUARE);
+        }
+        R::roots(squares)
+    }
+
     /// [`Self::force`] of several without clearance.
     #[inline(always)]
     pub(crate) fn forces<V: Linear<Real = R>, const N: usize>(
         springs: &[Self; N],
         d: &[V; N],
     ) -> [V; N] {
-        let mut squares = [R::ZERO; N];
-        for i in 0..N {
-            squares[i] = d[i].dot(d[i]) + R::constant(LEAST_SQUARE);
-        }
-        let lengths = R::roots(squares);
+        let lengths = Self::lengths(d);
         let mut forces = *d;
         for i in 0..N {
             let tension = springs[i].stiffness * (lengths[i] - springs[i].free_length);
             forces[i] = d[i] * (tension * (R::ONE / lengths[i]));
+        }
+        forces
+    }
+
+    /// [`Self::damped_force`] of several without clearance.
+    #[inline(always)]
+    pub(crate) fn damped_forces<V: Linear<Real = R>, const N: usize>(
+        springs: &[Self; N],
+        dampings: &[R; N],
+        d: &[V; N],
+        rates: &[V; N],
+    ) -> [V; N] {
+        let lengths = Self::lengths(d);
+        let mut forces = *d;
+        for i in 0..N {
+            let inverse = R::ONE / lengths[i];
+            let tension = springs[i].stiffness * (lengths[i] - springs[i].free_length)
+                + dampings[i] * (d[i].dot(rates[i]) * inverse);
+            forces[i] = d[i] * (tension * inverse);
         }
         forces
     }

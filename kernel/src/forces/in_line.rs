@@ -94,16 +94,20 @@ fn add_stars<
         let moving = D::ACT && T::DAMPERS && group.damper.row().is_some();
         let moving = if moving { Some(bodies) } else { None };
         let end_a = End::new(model, places, group.a, moving);
-        let Some(b) = End::new(model, places, group.b, moving).body() else { continue };
-        let Some(springs) = grid(springs, 0) else { continue };
+        let Some(b) = End::new(model, places, group.b, moving).body() else {
+            if P::Space::PLANAR {
+                break;
+            }
+            continue;
+        };
+        let Some(springs) = grid(springs, 0) else { break };
         let parts = (points.as_slice(), springs);
         let record: Option<Record<_>> = match end_a.body() {
             Some(a) => pull::<P, T, D, STARS, ARMS>(model, group, parts, &a, &b),
             None => pull::<P, T, D, STARS, ARMS>(model, group, parts, &end_a.ground(), &b),
         };
-        if let Some(record) = record {
-            apply(wrenches, group.a.row(), group.b.row(), &record);
-        }
+        let Some(record) = record else { break };
+        apply(wrenches, group.a.row(), group.b.row(), &record);
     }
 }
 

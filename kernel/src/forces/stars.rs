@@ -12,7 +12,7 @@ use crate::elements::tsda::Tsda;
 use crate::forces::record::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
-use crate::pose::{End, MOST_ARMS};
+use crate::pose::{End, MOST_ARMS, Spot};
 use crate::real::Real;
 use crate::space::{Linear, Space, Vector as _};
 
@@ -75,64 +75,15 @@ pub(super) fn pull<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const 
 ) -> Option<Record<P::Space>> {
     let (centres, tips) = points.split_first_chunk::<STARS>()?;
     let tips: &[_; ARMS] = tips.first_chunk()?;
-    let springs = Springs::<_, STARS, ARMS> {
-        springs,
-        dampers: match group.damper.row() {
-            Some(row) if D::ACT && T::DAMPERS => Some(grid(model.dampers, row)?),
-            _ => None,
-        },
-        clearance: model.clearance(group),
-    };
-    let mut spots = [(P::Location::default(), P::Vector::ZERO); STARS];
-    for (spot, centre) in spots.iter_mut().zip(centres) {
-        *spot = end_a.place(centre);
-    }
-    let mut pulls_a = [P::Vector::ZERO; STARS];
-    let mut torque_b = P::Moment::ZERO;
-    if STARS == 1 && P::Space::PLANAR {
-        // Few enough for the registers to hold all.
-        let (mut at, mut arms) = ([(0, 0); ARMS], [P::Vector::ZERO; ARMS]);
-        let mut stretches = arms;
-        for (arm, tip) in tips.iter().enumerate() {
-            let (tip, tip_arm) = end_b.place(tip);
-            (at[arm].1, arms[arm]) = (arm, tip_arm);
-            stretches[arm] = P::displacement(&spots[0].0, &tip);
+    let clearance = model.clearance(group);
+    Some(match group.damper.row() {
+        // Apart: what has dampers is not asked for each spring.
+        Some(row) if D::ACT && T::DAMPERS => {
+            let springs = Springs { springs, dampers: Some(grid(model.dampers, row)?), clearance };
+            springs.record::<P>(centres, tips, end_a, end_b)
         }
-        let pulls = springs.pulls(at, &stretches, |arm| {
-            end_b.point_velocity(arms[arm]) - end_a.point_velocity(spots[0].1)
-        });
-        pulls_a[0] = sum(&pulls);
-        for (arm, pull) in pulls.into_iter().enumerate() {
-            let torque = end_b.moment(arms[arm], pull);
-            torque_b = if arm == 0 { torque } else { torque_b + torque };
-        }
-    } else {
-        // A point of B at a time, for all stars: what it takes is in registers, and forgotten with it.
-        for (arm, tip) in tips.iter().enumerate() {
-            let (tip, tip_arm) = end_b.place(tip);
-            let mut stretches = [P::Vector::ZERO; STARS];
-            for (stretch, (centre, _)) in stretches.iter_mut().zip(&spots) {
-                *stretch = P::displacement(centre, &tip);
-            }
-            let mut at = [(0, arm); STARS];
-            for (star, at) in at.iter_mut().enumerate() {
-                at.0 = star;
-            }
-            let pulls = springs.pulls(at, &stretches, |star| {
-                end_b.point_velocity(tip_arm) - end_a.point_velocity(spots[star].1)
-            });
-            for (pull_a, pull) in pulls_a.iter_mut().zip(pulls) {
-                *pull_a = if arm == 0 { pull } else { *pull_a + pull };
-            }
-            let torque = end_b.moment(tip_arm, sum(&pulls));
-            torque_b = if arm == 0 { torque } else { torque_b + torque };
-        }
-    }
-    let mut torques_a = [P::Moment::ZERO; STARS];
-    for (torque, (pull, (_, arm))) in torques_a.iter_mut().zip(pulls_a.iter().zip(&spots)) {
-        *torque = end_a.moment(*arm, *pull);
-    }
-    Some(Record { force: sum(&pulls_a), torque_a: sum(&torques_a), torque_b })
+        _ => Springs { springs, dampers: None, clearance }.record::<P>(centres, tips, end_a, end_b),
+    })
 }
 
 /// The sum in ascending order. From the first term on: a start from 0 would cost an addition, and
@@ -151,6 +102,93 @@ struct Springs<'m, R, const STARS: usize, const ARMS: usize> {
 }
 
 impl<R: Real, const STARS: usize, const ARMS: usize> Springs<'_, R, STARS, ARMS> {
+    #[inline(always)]
+    fn record<P: Geometry<Real = R>>(
+        &self,
+        centres: &[P::Local; STARS],
+        tips: &[P::Local; ARMS],
+        end_a: &End<'_, P>,
+        end_b: &End<'_, P>,
+    ) -> Record<P::Space> {
+        let mut spots = [(P::Location::default(), P::Vector::ZERO); STARS];
+        for (spot, centre) in spots.iter_mut().zip(centres) {
+            *spot = end_a.place(centre);
+        }
+        let (pulls_a, torque_b) = if STARS == 1 && P::Space::PLANAR {
+            self.all_arms(&spots, tips, end_a, end_b)
+        } else {
+            // A point of B at a time, for all stars: what it takes is in registers, and forgotten with it.
+            let (mut pulls_a, mut torque_b) = self.arm(0, &tips[0], &spots, end_a, end_b);
+            for (arm, tip) in tips.iter().enumerate().skip(1) {
+                let (pulls, torque) = self.arm(arm, tip, &spots, end_a, end_b);
+                for (pull_a, pull) in pulls_a.iter_mut().zip(pulls) {
+                    *pull_a = *pull_a + pull;
+                }
+                torque_b = torque_b + torque;
+            }
+            (pulls_a, torque_b)
+        };
+        let mut torques_a = [P::Moment::ZERO; STARS];
+        for (torque, (pull, (_, arm))) in torques_a.iter_mut().zip(pulls_a.iter().zip(&spots)) {
+            *torque = end_a.moment(*arm, *pull);
+        }
+        Record { force: sum(&pulls_a), torque_a: sum(&torques_a), torque_b }
+    }
+
+    /// The pulls of all stars at a point of B, and the torque on it.
+    #[inline(always)]
+    fn arm<P: Geometry<Real = R>>(
+        &self,
+        arm: usize,
+        tip: &P::Local,
+        spots: &[Spot<P>; STARS],
+        end_a: &End<'_, P>,
+        end_b: &End<'_, P>,
+    ) -> ([P::Vector; STARS], P::Moment) {
+        let (tip, tip_arm) = end_b.place(tip);
+        let mut stretches = [P::Vector::ZERO; STARS];
+        let (mut at, mut rates) = ([(0, arm); STARS], stretches);
+        for (star, (centre, _)) in spots.iter().enumerate() {
+            stretches[star] = P::displacement(centre, &tip);
+            at[star].0 = star;
+        }
+        if self.dampers.is_some() {
+            let velocity = end_b.point_velocity(tip_arm);
+            for (rate, (_, arm_a)) in rates.iter_mut().zip(spots) {
+                *rate = velocity - end_a.point_velocity(*arm_a);
+            }
+        }
+        let pulls = self.pulls(at, &stretches, &rates);
+        (pulls, end_b.moment(tip_arm, sum(&pulls)))
+    }
+
+    /// The same at all points of B: in the plane they are few enough for the registers to hold.
+    #[inline(always)]
+    fn all_arms<P: Geometry<Real = R>>(
+        &self,
+        spots: &[Spot<P>; STARS],
+        tips: &[P::Local; ARMS],
+        end_a: &End<'_, P>,
+        end_b: &End<'_, P>,
+    ) -> ([P::Vector; STARS], P::Moment) {
+        let (mut at, mut arms) = ([(0, 0); ARMS], [P::Vector::ZERO; ARMS]);
+        let (mut stretches, mut rates) = (arms, arms);
+        for (arm, tip) in tips.iter().enumerate() {
+            let (tip, tip_arm) = end_b.place(tip);
+            (at[arm].1, arms[arm]) = (arm, tip_arm);
+            stretches[arm] = P::displacement(&spots[0].0, &tip);
+            if self.dampers.is_some() {
+                rates[arm] = end_b.point_velocity(tip_arm) - end_a.point_velocity(spots[0].1);
+            }
+        }
+        let pulls = self.pulls(at, &stretches, &rates);
+        let mut torques = [P::Moment::ZERO; ARMS];
+        for (torque, (arm, pull)) in torques.iter_mut().zip(arms.iter().zip(pulls)) {
+            *torque = end_b.moment(*arm, pull);
+        }
+        ([sum(&pulls); STARS], sum(&torques))
+    }
+
     /// The pulls of springs, each a star's at a point of B, at their stretches and, where dampers act,
     /// rates.
     #[inline(always)]
@@ -158,7 +196,7 @@ impl<R: Real, const STARS: usize, const ARMS: usize> Springs<'_, R, STARS, ARMS>
         &self,
         at: [(usize, usize); N],
         stretches: &[V; N],
-        rate: impl Fn(usize) -> V,
+        rates: &[V; N],
     ) -> [V; N] {
         let mut springs = [Tsda::default(); N];
         for (spring, (star, arm)) in springs.iter_mut().zip(at) {
@@ -172,10 +210,17 @@ impl<R: Real, const STARS: usize, const ARMS: usize> Springs<'_, R, STARS, ARMS>
                     *pull = spring.force(*pull, clearance);
                 }
             }
+            (Some(dampers), None) => {
+                let mut dampings = [R::ZERO; N];
+                for (damping, (star, arm)) in dampings.iter_mut().zip(at) {
+                    *damping = dampers[star][arm];
+                }
+                pulls = Tsda::damped_forces(&springs, &dampings, stretches, rates);
+            }
             (Some(dampers), clearance) => {
                 for (i, (pull, (star, arm))) in pulls.iter_mut().zip(at).enumerate() {
                     let damping = dampers[star][arm];
-                    *pull = springs[i].damped_force(damping, *pull, rate(i), clearance);
+                    *pull = springs[i].damped_force(damping, *pull, rates[i], clearance);
                 }
             }
         }
