@@ -63,7 +63,7 @@ pub struct Stepper<'s, 'm, P: Geometry, T, S> {
     pub(crate) frames: &'s mut [P::Frame],
     /// The bodies' wrenches.
     pub(crate) wrenches: &'s mut [Wrench<P::Space>],
-    /// Whether the groups are revolutes one after the other, see [`forces::are_in_line`].
+    /// Whether the groups are in line, see [`forces::are_in_line`].
     pub(crate) in_line: bool,
     /// The scheme's memory per body.
     pub(crate) memory: &'s mut [S],
