@@ -1,7 +1,7 @@
 //! What schemes are made of: evaluation, kick, drift, on the memory of one plant.
 //!
 //! [`Stepper`] borrows model, state and scratch for one step. A kick changes velocities by
-//! `(h·D⁻¹)·Q`, a drift changes poses; the diagonal h·D⁻¹ is computed once per (model, step),
+//! `(h·D⁻¹)·Q`, a drift changes poses; the diagonal ½·h·D⁻¹ is computed once per (model, step),
 //! D the diagonal of masses and principal inertias (Franco & Degani 2026, eq. 7–8).
 
 pub use crate::body::Diagonal;

@@ -63,13 +63,17 @@ fn block<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usiz
     pull::<P, T, D, STARS, ARMS>(model, group, (points, springs), end_a, end_b)
 }
 
+/// The points of stars and their springs.
+type Parts<'m, P, const STARS: usize, const ARMS: usize> =
+    (&'m [<P as Geometry>::Local], &'m [[Tsda<<P as Geometry>::Real>; ARMS]; STARS]);
+
 /// What `STARS` stars that share `ARMS` points of B pull: written out, each sum from its first term.
 /// `None` where the model lacks some of it.
 #[inline(always)]
 pub(super) fn pull<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usize>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
-    (points, springs): (&[P::Local], &[[Tsda<P::Real>; ARMS]; STARS]),
+    (points, springs): Parts<'_, P, STARS, ARMS>,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
 ) -> Option<Record<P::Space>> {
