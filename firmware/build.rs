@@ -52,8 +52,13 @@ const CHARTED: &[&str] = &[
 const COMPENSATED: &str = "hexagon";
 /// Scenes whose steps are counted with other values, too, in single precision: the scene, what its name
 /// gets behind it, the changes.
-const VARIED: &[(&str, &str, &[&str])] =
-    &[("hexagon", "damped", &["joint.*.damping=30"]), ("hexagon", "planar", &["planar=true"])];
+const VARIED: &[(&str, &str, &[&str])] = &[
+    ("3ruu", "bushing", &["realisation=bushing"]),
+    ("hexagon", "bushing", &["realisation=bushing"]),
+    ("hexagon", "damped", &["joint.*.damping=30"]),
+    ("hexagon", "planar", &["planar=true"]),
+    ("hexagon", "planar-bushing", &["planar=true", "realisation=bushing"]),
+];
 /// Linked from its own entry without start-up code: see its head.
 const AUDIT: &str = "audit";
 

@@ -65,7 +65,8 @@ fn roots_of_pair(pair: [f32; 2]) -> [f32; 2] {
 #[inline(always)]
 fn roots_of_pair([a, b]: [f32; 2]) -> [f32; 2] {
     let (root_a, root_b): (u32, u32);
-    // SAFETY: as above.
+    // SAFETY: as above. It touches no memory, but may not say so: loads that follow then stay behind it,
+    // where the registers would not hold what the next springs take.
     unsafe {
         core::arch::asm!(
             "vmov s0, s1, {a}, {b}",

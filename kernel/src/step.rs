@@ -1,7 +1,7 @@
 //! What schemes are made of: evaluation, kick, drift, on the memory of one plant.
 //!
 //! [`Workspace`] borrows model, state and scratch for one step. A kick changes velocities by
-//! `(h·D⁻¹)·Q`, a drift changes poses; the diagonal h·D⁻¹ is computed once per (model, step),
+//! `(h·D⁻¹)·Q`, a drift changes poses; the diagonal ½·h·D⁻¹ is computed once per (model, step),
 //! D the diagonal of masses and principal inertias (Franco & Degani 2026, eq. 7–8).
 
 use core::ops::{Deref, DerefMut};
@@ -93,7 +93,7 @@ pub struct Workspace<'s, 'm, P: Geometry, T> {
     pub(crate) frames: &'s mut [P::Frame],
     /// The bodies' wrenches.
     pub(crate) wrenches: &'s mut [Wrench<P::Space>],
-    /// Whether the groups are revolutes one after the other, see [`forces::are_in_line`].
+    /// Whether the groups are in line, see [`forces::are_in_line`].
     pub(crate) in_line: bool,
     /// Evaluations and the freshness of the wrenches.
     pub(crate) ledger: &'s mut Ledger,

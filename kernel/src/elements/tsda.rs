@@ -60,18 +60,23 @@ impl<R: Real> Tsda<R> {
         d * (tension * inverse)
     }
 
+    /// The lengths of several \[m\].
+    #[inline(always)]
+    fn lengths<V: Linear<Real = R>, const N: usize>(reaches: &[Reach<V>; N]) -> [R; N] {
+        let mut squares = [R::ZERO; N];
+        for (square, Reach { way, .. }) in squares.iter_mut().zip(reaches) {
+            *square = way.dot(*way) + R::constant(LEAST_SQUARE);
+        }
+        R::roots(squares)
+    }
+
     /// [`Self::pull`] of several without clearance.
     #[inline(always)]
     pub(crate) fn pulls<V: Linear<Real = R>, const N: usize>(
         springs: &[Self; N],
         reaches: &[Reach<V>; N],
     ) -> [V; N] {
-        let mut squares = [R::ZERO; N];
-        for i in 0..N {
-            let d = reaches[i].way;
-            squares[i] = d.dot(d) + R::constant(LEAST_SQUARE);
-        }
-        let lengths = R::roots(squares);
+        let lengths = Self::lengths(reaches);
         let mut pulls = [V::ZERO; N];
         for i in 0..N {
             // One division either way.
@@ -92,6 +97,25 @@ impl<R: Real> Tsda<R> {
             // L² − L0² = (L − L0)·(L + L0).
             Some(more) => more * (R::ONE / (length + self.free_length)),
         }
+    }
+
+    /// [`Self::damped_pull`] of several without clearance.
+    #[inline(always)]
+    pub(crate) fn damped_pulls<V: Linear<Real = R>, const N: usize>(
+        springs: &[Self; N],
+        dampings: &[R; N],
+        reaches: &[Reach<V>; N],
+        rates: &[V; N],
+    ) -> [V; N] {
+        let lengths = Self::lengths(reaches);
+        let mut pulls = [V::ZERO; N];
+        for i in 0..N {
+            let (d, inverse) = (reaches[i].way, R::ONE / lengths[i]);
+            let tension = springs[i].stiffness * springs[i].extended(lengths[i], &reaches[i])
+                + dampings[i] * (d.dot(rates[i]) * inverse);
+            pulls[i] = d * (tension * inverse);
+        }
+        pulls
     }
 
     /// Force on A \[N\] with the damper's share, `damping` in N·s/m.

@@ -94,16 +94,20 @@ fn add_stars<
         let moving = D::ACT && T::DAMPERS && group.damper.row().is_some();
         let moving = if moving { Some(bodies) } else { None };
         let end_a = End::new(model, places, group.a, moving);
-        let Some(b) = End::new(model, places, group.b, moving).body() else { continue };
-        let Some(springs) = grid(springs, 0) else { continue };
+        let Some(b) = End::new(model, places, group.b, moving).body() else {
+            if P::Space::PLANAR {
+                break;
+            }
+            continue;
+        };
+        let Some(springs) = grid(springs, 0) else { break };
         let parts = (points.as_slice(), springs);
         let record: Option<Record<_>> = match end_a.body() {
             Some(a) => pull::<P, T, D, STARS, ARMS>(model, group, parts, &a, &b),
             None => pull::<P, T, D, STARS, ARMS>(model, group, parts, &end_a.ground(), &b),
         };
-        if let Some(record) = record {
-            apply(wrenches, group.a.row(), group.b.row(), &record);
-        }
+        let Some(record) = record else { break };
+        apply(wrenches, group.a.row(), group.b.row(), &record);
     }
 }
 
@@ -131,5 +135,108 @@ fn add_pairs<P: Geometry, T: Terms, D: Dampers, L: TwoPoints<P>>(
             None => element.record(points, damping, &end_a.ground(), &b),
         };
         apply(wrenches, group.a.row(), group.b.row(), &record);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::Body;
+    use crate::elements::point_bushing::PointBushing;
+    use crate::elements::revolute::Revolute;
+    use crate::elements::tsda::Tsda;
+    use crate::forces::record::{At, ExplicitDampers, Turns};
+    use crate::forces::{Evaluation, Instant, evaluate};
+    use crate::geometry::F64;
+    use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
+    use crate::model::{Model, ModelOwner, SpaceOf};
+    use crate::planar::Planar64;
+    use crate::space::Linear as _;
+
+    /// The wrenches of a model in line, and the long way.
+    fn both_ways<M: ModelOwner>(model: &M) -> [M::PerBody<Wrench<SpaceOf<M>>>; 2] {
+        let view = model.view();
+        [true, false].map(|in_line| {
+            let mut frames = model.per_body(Default::default());
+            let mut wrenches = model.per_body(Wrench::default());
+            let instant = Instant {
+                step: 0,
+                windows: &[],
+                signals: &[],
+                bodies: model.initial(),
+                in_line,
+                placed: false,
+            };
+            let out = Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() };
+            let turns = Turns { counts: &mut [], at: At::Stage };
+            evaluate::<_, _, ExplicitDampers>(&view, instant, turns, out).unwrap();
+            wrenches
+        })
+    }
+
+    /// A body on the ground and one on it, with the elements of a kind between them.
+    macro_rules! assert_same {
+        ($geometry:ident, $model:ty, $kind:expr, $tsdas:expr, $bushings:expr, $revolutes:expr) => {{
+            let (law, stars, arms) = $kind;
+            let group = |i: u8, a| Group {
+                law,
+                a,
+                b: BodyIndex(u16::from(i)),
+                stars,
+                arms,
+                shared: stars > 1,
+                point: u16::from(i * (stars + arms)),
+                element: u16::from(i * stars * arms),
+                damper: if i == 0 { DamperIndex::NONE } else { DamperIndex(0) },
+                clearance: ClearanceIndex::NONE,
+            };
+            let state = |at: f64| {
+                let (x, turn) = ([0.3 + at, -0.2 * at, 0.0], [0.8, 0.0, 0.0, 0.6]);
+                BodyState::<$geometry>::from_f64(x, turn, [1.0, at, 0.0], [0.0, 0.0, 0.7 - at])
+            };
+            let mut model: $model = Model {
+                bodies: [Body::from_f64(1.0, [1.0; 3]); 2],
+                initial: [state(0.0), state(0.4)],
+                gravity: [],
+                groups: [group(0, BodyIndex::WORLD), group(1, BodyIndex(0))],
+                points: core::array::from_fn(|i| {
+                    let i = i as f64;
+                    $geometry::local_from_f64([0.1 * i, 0.03 * i * i, 0.02 * i])
+                }),
+                tsdas: $tsdas,
+                bushings: $bushings,
+                dampers: [3.0; 6],
+                torsions: [],
+                loads: [],
+                lines: [],
+                inputs: [],
+                knots: [],
+                clearances: [],
+                revolutes: $revolutes,
+                universals: [],
+            };
+            assert!(are_in_line(&model.view()));
+            let [short, long] = both_ways(&model);
+            assert_eq!(short, long);
+            assert!(short.iter().all(|wrench| wrench.force.dot(wrench.force) > 1.0));
+            model.groups.swap(0, 1);
+            assert!(!are_in_line(&model.view()));
+        }};
+    }
+
+    #[test]
+    fn groups_in_line_pull_as_the_long_way_does() {
+        let spring = |i: usize| Tsda { stiffness: 100.0 + i as f64, free_length: 0.2 };
+        let bushings = [40.0, 50.0].map(|stiffness| PointBushing { stiffness });
+        let revolutes =
+            [40.0, 50.0].map(|k| Revolute::from_f64(k, 0.3, [[0.0, 0.1, 0.3], [0.1, 0.0, 0.3]]));
+        assert_same!(F64, Model<F64, 2, 2, 10, 12, 0, 6>, (Law::Tsda, 2, 3),
+            core::array::from_fn(spring), [], []);
+        assert_same!(Planar64, Model<Planar64, 2, 2, 6, 4, 0, 6>, (Law::Tsda, 1, 2),
+            core::array::from_fn(spring), [], []);
+        assert_same!(Planar64, Model<Planar64, 2, 2, 4, 0, 2, 6>, (Law::PointBushing, 1, 1),
+            [], bushings, []);
+        assert_same!(F64, Model<F64, 2, 2, 4, 0, 0, 6, 0, 0, 0, 0, 0, 0, 0, 2>, (Law::Revolute, 1, 1),
+            [], [], revolutes);
     }
 }

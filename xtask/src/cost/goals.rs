@@ -20,8 +20,10 @@ enum Figure {
 /// Scene, scheme and precision; the figure; the most that it is to be.
 const GOALS: &[(&str, Figure, u64)] = &[
     ("hexagon leapfrog f32", Figure::Instructions, 4_500),
+    ("hexagon-bushing leapfrog f32", Figure::Instructions, 2_800),
     ("hexagon-planar leapfrog f32", Figure::Instructions, 1_100),
     ("hexagon-damped semi-implicit-euler-explicit f32", Figure::Instructions, 5_000),
+    ("3ruu-bushing leapfrog f32", Figure::Instructions, 9_000),
     ("double-wishbone leapfrog f32", Figure::Instructions, 12_000),
     ("cart-pendulum leapfrog f32", Figure::Instructions, 6_000),
     ("gripper leapfrog f32", Figure::Instructions, 24_000),
