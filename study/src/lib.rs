@@ -13,7 +13,7 @@
 //! - [`limits`]: how long a step of each may be.
 //! - [`measure`]: how far off a way is at a step.
 //! - [`timing`]: what a step costs a host.
-//! - [`variants`](mod@variants): the scene with joints of another make, and how its motion differs.
+//! - [`variants`](mod@variants): other models of the mechanism, and how their motion differs.
 //! - [`cache`]: results, kept as they come.
 //! - [`order`]: how errors fall with the step, and what keeps them from it.
 //! - [`survey`](mod@survey): all points, in parallel.

@@ -81,6 +81,7 @@ fn points(text: &str) -> Vec<Point> {
             host_seconds: row.number("host_seconds_per_second"),
             host_spread: row.number("host_spread"),
             target_instructions: number("target_instructions_per_second"),
+            step_in_space: number("stable_step_in_space"),
             fall: Fall::default(),
             step_in_space: None,
         }

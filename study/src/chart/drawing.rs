@@ -58,29 +58,33 @@ pub fn narrow_svg(chart: &Chart<'_>, machine: Machine) -> String {
     drawn(chart, machine, &NARROW)
 }
 
+/// [pixels] free beneath the last line of the legend.
+const BELOW_LEGEND: f64 = 15.0;
+
 fn drawn(chart: &Chart<'_>, machine: Machine, layout: &Layout) -> String {
-    let Layout { width, height, left, .. } = *layout;
+    let Layout { width, left, .. } = *layout;
     let title = escape(&title(chart, machine));
-    let mut text = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\" \
-         font-family=\"system-ui, 'DejaVu Sans', sans-serif\" font-size=\"{LABEL}\" fill=\"{INK}\">\n\
-         <rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n"
-    );
+    let (mut drawn, mut height) = (String::new(), layout.height);
     if layout.wide {
         let _ = writeln!(
-            text,
+            drawn,
             "<text x=\"{left}\" y=\"34\" font-size=\"21\" font-weight=\"600\">{title}</text>"
         );
     }
     match Drawing::new(chart, machine, layout) {
-        Some(drawing) => drawing.draw(&mut text),
+        // A long legend makes it higher.
+        Some(drawing) => height = height.max(drawing.draw(&mut drawn) + BELOW_LEGEND),
         None => {
             let why = remark(chart.points, machine).unwrap_or("nothing to draw");
-            label(&mut text, (left, 90.0), "start", INK, &format!("Nothing to draw: {why}."));
+            label(&mut drawn, (left, 90.0), "start", INK, &format!("Nothing to draw: {why}."));
         }
     }
-    text.push_str("</svg>\n");
+    let text = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\" \
+         font-family=\"system-ui, 'DejaVu Sans', sans-serif\" font-size=\"{LABEL}\" fill=\"{INK}\">\n\
+         <rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n{drawn}</svg>\n"
+    );
     adapted(&text)
 }
 
@@ -209,7 +213,8 @@ impl<'d> Drawing<'d> {
         (self.x.at(cost), self.y.at(error))
     }
 
-    fn draw(&self, text: &mut String) {
+    /// Draws it all; the last line of the legend.
+    fn draw(&self, text: &mut String) -> f64 {
         self.floor(text);
         self.grid(text);
         self.real_time(text);
@@ -244,7 +249,7 @@ impl<'d> Drawing<'d> {
         if wide {
             self.key(text);
         }
-        self.legend(text);
+        self.legend(text)
     }
 
     /// The front as steps: at each cost the least error that it buys.

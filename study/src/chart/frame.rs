@@ -180,8 +180,8 @@ impl Drawing<'_> {
         }
     }
 
-    /// Mark and name of every scheme.
-    pub(super) fn legend(&self, text: &mut String) {
+    /// Mark and name of every scheme; where the last line of them stands.
+    pub(super) fn legend(&self, text: &mut String) -> f64 {
         let Layout { width: whole, left, bottom, legend, .. } = *self.layout;
         let mut known: Vec<(String, &Line<'_>)> = Vec::new();
         let mut lines: Vec<&Line<'_>> = self.lines.iter().collect();
@@ -213,5 +213,6 @@ impl Drawing<'_> {
             label(text, (x + 16.0, y), "start", line.style.text, &name);
             x += width;
         }
+        y
     }
 }

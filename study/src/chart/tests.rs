@@ -130,6 +130,28 @@ fn every_point_is_drawn_once_with_its_numbers() {
     }
 }
 
+/// A scene with many ways has a legend of many lines: the drawing is as high as they need.
+#[test]
+fn a_long_legend_has_room() {
+    let mut points = ladders();
+    let first = points[0].clone();
+    for way in 0..40 {
+        let mut point = first.clone();
+        point.stepper.scheme = format!("another scheme {way}");
+        points.push(point);
+    }
+    let chart = chart(&points);
+    for (drawing, least) in [
+        (svg(&chart, Machine::Host), WIDE.height),
+        (narrow_svg(&chart, Machine::Host), NARROW.height),
+    ] {
+        let height: f64 = attributes(&drawing, "height")[0].parse().unwrap();
+        let lowest = attributes(&drawing, "y").into_iter().map(|y| y.parse::<f64>().unwrap());
+        let lowest = lowest.fold(0.0, f64::max);
+        assert!(height > least && lowest + 8.0 < height, "{lowest} {height}");
+    }
+}
+
 /// For each power of ten that the kernel reaches: its line is labelled, its choice named and numbered.
 fn choices_are_named(points: &[Point], drawing: &str, machine: Machine) {
     for exponent in -9..=-4 {

@@ -6,7 +6,7 @@ use super::cases::Case;
 const LIMIT: f64 = 3.0;
 
 /// Program and test, each longer than [`LIMIT`].
-pub const LONG: [(&str, &str); 19] = [
+pub const LONG: [(&str, &str); 20] = [
     ("tests::command_line", "tutorial::the_tutorial_does_what_it_says"),
     ("tests::frequency", "the_bound_holds_along_the_run_of_every_scene::test"),
     ("tests::frequency", "written_in_the_page"),
@@ -27,6 +27,7 @@ pub const LONG: [(&str, &str); 19] = [
         "two_surveys_give_the_same_accuracy_to_the_last_bit_however_they_are_interrupted",
     ),
     ("tests::trade", "every_step_of_a_survey_is_one_that_a_run_accepts"),
+    ("tests::trade", "a_planar_scenes_points_have_the_stable_step_in_space_beside_them"),
     ("tests::trade", "models::the_page_says_what_other_models_of_a_mechanism_come_to"),
     ("tests::trade", "a_survey_holds_every_way_and_says_what_is_unstable"),
 ];
