@@ -158,7 +158,7 @@ mod tests {
     fn a_run_in_lockstep_is_the_run_alone() {
         let (undamped, table) = (
             "joint.*.damping=0",
-            "input.1.table=[[0, 0], [0.1, 1], [0.15, 60], [0.7, 60], [0.75, 0]]",
+            "input.close.table=[[0, 0], [0.1, 1], [0.15, 60], [0.7, 60], [0.75, 0]]",
         );
         for (name, other, precision) in [
             ("cart-pendulum", undamped, PrecisionName::F64),
