@@ -194,7 +194,7 @@ fn squares_of_ways_beside_free_lengths_are_exact_to_their_units() {
         let reach = Fixed::reach(&from, &to, free);
         let exact = way_beside(difference(to.at, from.at), free);
         let beyond = f64::from(reach.more.unwrap()) / (length + f64::from(free));
-        let bound = if length < 16.0 { 2.1e-10 + 1e-6 * exact.abs() } else { 3e-7 * length };
+        let bound = if length < 15.9 { 2.1e-10 + 1e-6 * exact.abs() } else { 3e-7 * length };
         assert!((beyond - exact).abs() < bound, "{d:?}: {beyond:e} {exact:e}");
         for (way, d) in reach.way.to_f64().into_iter().zip(d) {
             assert!((way - d).abs() < 1.2e-10 + 1.2e-7 * d.abs(), "{way} {d}");
