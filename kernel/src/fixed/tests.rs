@@ -179,3 +179,33 @@ fn a_turn_that_is_none_latches() {
         assert!(q.is_lost());
     }
 }
+
+#[test]
+fn squares_of_ways_beside_free_lengths_are_exact_to_their_units() {
+    let mut numbers = units(16);
+    for i in 0..30_000 {
+        // Below 0.2 m, around it, and up to 50 m.
+        let scale = [0.19, 0.3, 12.0, 50.0][i % 4];
+        let d: [f64; 3] = core::array::from_fn(|_| numbers.next().unwrap() * scale);
+        let from = FixedPlace::new(core::array::from_fn(|_| numbers.next().unwrap() * 10.0));
+        let to = FixedPlace { at: sum(from.at, FixedPlace::new(d).at) };
+        let length = libm::sqrt(d.iter().map(|c| c * c).sum::<f64>());
+        let free = (length * (1.0 + 1e-4 * numbers.next().unwrap())) as f32;
+        let reach = Fixed::reach(&from, &to, free);
+        let exact = way_beside(difference(to.at, from.at), free);
+        let beyond = f64::from(reach.more.unwrap()) / (length + f64::from(free));
+        let bound = if length < 15.9 { 2.1e-10 + 1e-6 * exact.abs() } else { 3e-7 * length };
+        assert!((beyond - exact).abs() < bound, "{d:?}: {beyond:e} {exact:e}");
+        for (way, d) in reach.way.to_f64().into_iter().zip(d) {
+            assert!((way - d).abs() < 1.2e-10 + 1.2e-7 * d.abs(), "{way} {d}");
+        }
+    }
+}
+
+/// L − L0 \[m\] from the exact squares, by 2^114.
+fn way_beside(d: [i64; 3], free: f32) -> f64 {
+    let square: i128 = d.iter().map(|&c| i128::from(c) * i128::from(c)).sum();
+    let exact_free = (f64::from(free) * 57.0_f64.exp2()) as i128;
+    let more = (square - exact_free * exact_free) as f64 * (-114.0_f64).exp2();
+    more / (libm::sqrt(square as f64 * (-114.0_f64).exp2()) + f64::from(free))
+}
