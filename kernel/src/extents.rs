@@ -39,7 +39,7 @@ pub enum Part {
         /// The point's group.
         group: u16,
     },
-    /// This body in a step, along an axis, at its initial velocity.
+    /// This body in a step, at its initial velocity.
     Drift(BodyIndex),
     /// The ground that this input moves.
     Signal(InputIndex),
@@ -76,7 +76,7 @@ pub fn first_excess<P: Geometry, Q: Geometry, T>(
         if let Some(excess) = beyond(Part::Body(body), away, extent) {
             return Some(excess);
         }
-        let moved = farthest(Q::velocity_to_f64(&state.velocity)) * step;
+        let moved = length(Q::velocity_to_f64(&state.velocity)) * step;
         if let Some(excess) = beyond(Part::Drift(body), moved, drift) {
             return Some(excess);
         }

@@ -23,7 +23,7 @@ pub struct Limits {
     pub extent: f64,
     /// \[m\] a point of a body from its centre of mass.
     pub reach: f64,
-    /// \[m\] a centre of mass in one drift, along each axis.
+    /// \[m\] a centre of mass in one drift.
     pub drift: f64,
     /// \[m\] the ground that an input moves.
     pub shift: f64,
@@ -114,11 +114,6 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     /// Adds a displacement to a stored position.
     fn translate(position: &mut Self::Position, displacement: Self::Vector);
 
-    /// Moves a position by `velocity` for `time` \[s\].
-    #[inline(always)]
-    fn drift(position: &mut Self::Position, velocity: &Self::Velocity, time: Self::Real) {
-        Self::translate(position, Self::velocity(velocity) * time);
-    }
     /// Turns about body axis `AXIS` by its `rate` for `time` \[s\], given cosine and sine of half the angle.
     #[inline(always)]
     fn turn_about<const AXIS: usize>(

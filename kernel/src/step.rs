@@ -198,7 +198,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
         self.ledger.fresh = false;
         self.ledger.ready = false;
         for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
-            P::drift(&mut state.position, &state.velocity, time);
+            P::translate(&mut state.position, P::velocity(&state.velocity) * time);
             let (q, w) = (&mut state.orientation, &mut state.angular_velocity);
             if P::Real::LANES == 1 {
                 rotation::free_rotor_of_order_four::<P>(body, q, w, time);
@@ -336,6 +336,6 @@ fn kick_body<P: Geometry>(
 /// One body straight on, and as a free rotor of second order.
 #[inline(always)]
 fn drift_body<P: Geometry>(state: &mut BodyState<P>, body: &Body<P::Space>, time: P::Real) {
-    P::drift(&mut state.position, &state.velocity, time);
+    P::translate(&mut state.position, P::velocity(&state.velocity) * time);
     rotation::free_rotor::<P>(body, &mut state.orientation, &mut state.angular_velocity, time);
 }

@@ -54,16 +54,23 @@ impl<R: Real> Tsda<R> {
         springs: &[Self; N],
         reaches: &[Reach<V>; N],
     ) -> [V; N] {
-        let mut lengths = [R::ZERO; N];
+        let (mut lengths, mut divisors) = ([R::ZERO; N], [R::ZERO; N]);
         for i in 0..N {
             let d = reaches[i].way;
             lengths[i] = d.dot(d).sqrt();
+            divisors[i] = match reaches[i].more {
+                None => lengths[i],
+                Some(_) => lengths[i] * (lengths[i] + springs[i].free_length),
+            };
         }
-        let inverses = R::reciprocals_or_zero(lengths);
+        let inverses = R::reciprocals_or_zero(divisors);
         let mut pulls = [V::ZERO; N];
         for i in 0..N {
-            let tension = springs[i].stiffness * springs[i].extended(lengths[i], &reaches[i]);
-            pulls[i] = reaches[i].way * (tension * inverses[i]);
+            let beyond = match reaches[i].more {
+                None => lengths[i] - springs[i].free_length,
+                Some(more) => more,
+            };
+            pulls[i] = reaches[i].way * (springs[i].stiffness * beyond * inverses[i]);
         }
         pulls
     }

@@ -17,11 +17,11 @@ pub use turn::FixedTurn;
 
 use crate::compensated::{CompensatedF32, Kept};
 use crate::fixed::number::{
-    exact_product, from_f32, from_f64, nearest_f32, squared, to_f32, to_f64,
+    exact_product, from_f32, from_f64, nearest_f32, square_of, squared, to_f32, to_f64,
 };
-use crate::fixed::turn::in_single;
+use crate::fixed::turn::{UNIT, in_whole};
 use crate::geometry::{Geometry, Limits, Reach};
-use crate::vector::{Rotation, Vec3};
+use crate::vector::Vec3;
 use crate::words::{Word, WordSource, WordVisitor, Words};
 
 /// Bits after the point of a position and of a place, metres.
@@ -57,13 +57,13 @@ pub struct FixedPoint {
     pub at: [i64; 3],
 }
 
-/// The pose of a body in fixed point, and its rotation in single precision.
+/// The pose of a body in fixed point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FixedPose {
     position: [i64; 3],
+    /// \[2^-30\] rows in world axes.
     rotation: [[i32; 3]; 3],
-    single: Rotation<f32>,
 }
 
 impl FixedPlace {
@@ -153,21 +153,18 @@ impl Geometry for Fixed {
 
     #[inline(always)]
     fn frame(position: &FixedPlace, orientation: &FixedTurn) -> FixedPose {
-        let rotation = orientation.matrix();
-        FixedPose { position: position.at, rotation, single: in_single(&rotation) }
+        FixedPose { position: position.at, rotation: orientation.matrix() }
     }
     #[inline(always)]
     fn place(frame: &FixedPose, local: &FixedPoint) -> (FixedPlace, Vec3<f32>) {
         let point = local.at.map(|c| i64::from(c as i32));
-        let row = |position: i64, row: [i32; 3]| {
+        let turned = frame.rotation.map(|row| {
             let [x, y, z] = row.map(i64::from);
             let [px, py, pz] = point;
-            position.wrapping_add(x * px).wrapping_add(y * py).wrapping_add(z * pz)
-        };
-        let ([x, y, z], [rx, ry, rz]) = (frame.position, frame.rotation);
-        let at = [row(x, rx), row(y, ry), row(z, rz)];
-        let [x, y, z] = local.at.map(|c| c as i32 as f32 * const { 1.0 / (1_u32 << POINT) as f32 });
-        (FixedPlace { at }, frame.single.to_world(Vec3::new(x, y, z)))
+            (x * px).wrapping_add(y * py).wrapping_add(z * pz)
+        });
+        // An arm rounded in its parts would turn bodies by forces that pass it by.
+        (FixedPlace { at: sum(frame.position, turned) }, nearest::<PLACE>(turned))
     }
     #[inline(always)]
     fn ground(local: &FixedPoint) -> FixedPlace {
@@ -189,25 +186,24 @@ impl Geometry for Fixed {
         if way.dot(way) > 256.0 || free_length > 16.0 {
             return Reach { way, more: Some(way.dot(way) - free_length * free_length) };
         }
-        let free = from_f32::<27, 30>(free_length);
-        let more = squared(&d).wrapping_sub(squared(&[free]));
+        let more = squared(&d).wrapping_sub(square_of(free_length));
         Reach { way, more: Some(to_f32::<{ 2 * (PLACE - 32) }>(more)) }
     }
     #[inline(always)]
     fn to_world(frame: &FixedPose, v: Vec3<f32>) -> Vec3<f32> {
-        frame.single.to_world(v)
+        in_whole(&frame.rotation).to_world(v * UNIT)
     }
     #[inline(always)]
     fn to_body(frame: &FixedPose, v: Vec3<f32>) -> Vec3<f32> {
-        frame.single.to_body(v)
+        in_whole(&frame.rotation).to_body(v * UNIT)
     }
     #[inline(always)]
     fn moment_to_world(frame: &FixedPose, m: Vec3<f32>) -> Vec3<f32> {
-        frame.single.to_world(m)
+        in_whole(&frame.rotation).to_world(m * UNIT)
     }
     #[inline(always)]
     fn moment_to_body(frame: &FixedPose, m: Vec3<f32>) -> Vec3<f32> {
-        frame.single.to_body(m)
+        in_whole(&frame.rotation).to_body(m * UNIT)
     }
     #[inline(always)]
     fn position(stored: &FixedPlace) -> Vec3<f32> {
@@ -231,22 +227,9 @@ impl Geometry for Fixed {
     }
     #[inline(always)]
     fn translate(position: &mut FixedPlace, displacement: Vec3<f32>) {
-        let Vec3 { x, y, z } = displacement;
-        let within = |c: f32| c.abs() <= const { LIMITS.drift as f32 };
-        position.at = if within(x) && within(y) && within(z) {
-            sum(position.at, fixed(displacement))
-        } else {
-            [LOST; 3]
-        };
-    }
-    #[inline(always)]
-    fn drift(position: &mut FixedPlace, velocity: &Kept, time: f32) {
-        let Kept { sum: v, lost } = velocity;
-        let [x, y, z] = [(v.x, lost.x), (v.y, lost.y), (v.z, lost.z)]
-            .map(|(sum, lost)| exact_product(sum, lost, time));
-        let (whole, rest) = (Vec3::new(x.0, y.0, z.0), Vec3::new(x.1, y.1, z.1));
-        Self::translate(position, whole);
-        position.at = sum(position.at, fixed(rest));
+        let most = const { (LIMITS.drift * LIMITS.drift) as f32 };
+        let within = displacement.dot(displacement) <= most;
+        position.at = if within { sum(position.at, fixed(displacement)) } else { [LOST; 3] };
     }
     #[inline(always)]
     fn turn_about<const AXIS: usize>(
@@ -266,7 +249,11 @@ impl Geometry for Fixed {
     #[inline(always)]
     fn is_within(position: &FixedPlace) -> bool {
         const EXTENT: i32 = (LIMITS.extent as i32) << (PLACE - 32);
-        position.at.iter().all(|c| (-EXTENT..=EXTENT).contains(&((c >> 32) as i32)))
+        // One comparison for both sides.
+        let is_within =
+            |c: i64| ((c >> 32) as i32).wrapping_add(EXTENT) as u32 <= 2 * EXTENT as u32;
+        let [x, y, z] = position.at;
+        is_within(x) & is_within(y) & is_within(z)
     }
     #[inline(always)]
     fn bears_shift(displacement: f32) -> bool {

@@ -95,6 +95,20 @@ pub(crate) fn squared<const N: usize>(components: &[i64; N]) -> i64 {
     upper + (across >> 31)
 }
 
+/// The square of a length below 32 m that single precision holds, in the units of [`squared`] of places:
+/// 50 bits after the point, cut off.
+#[inline(always)]
+pub(crate) fn square_of(length: f32) -> i64 {
+    // Exact from 4 mm on, where the digits of single precision end at 2^-31; below cut off there.
+    if length < 1.0 {
+        let whole = i64::from((length * const { single_power(31) }) as i32);
+        (whole * whole) >> 12
+    } else {
+        let whole = i64::from((length * const { single_power(26) }) as i32);
+        (whole * whole) >> 2
+    }
+}
+
 /// `a·b` of two numbers of 62 bits after the point, in 60 bits: from 3 below it to 1 above, without the
 /// product of both lower halves. For magnitudes up to 1.99.
 #[inline(always)]
@@ -174,6 +188,18 @@ pub(super) mod tests {
             let exact: i128 = v.iter().map(|&c| i128::from(c) * i128::from(c)).sum();
             let off = (i128::from(squared(&v)) << 64) - exact;
             assert!(off.abs() < 3 << 64, "{v:?}: {off}");
+        }
+    }
+
+    #[test]
+    fn squares_of_lengths_are_cut_off() {
+        for word in words(7).take(100_000) {
+            let length = (word as f32 * single_power(-64)) * single_power((word % 10) as i32 - 5);
+            // Exact: 2^-31 and its multiples.
+            let length = (length * single_power(31)).floor() * single_power(-31);
+            let exact = (f64::from(length) * 31.0_f64.exp2()) as i128;
+            let off = (i128::from(square_of(length)) << 12) - exact * exact;
+            assert!(off <= 0 && off > -1 << 12, "{length}: {off}");
         }
     }
 

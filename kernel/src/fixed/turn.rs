@@ -5,13 +5,15 @@
 //! its own. A turn that is no rotation, one of several radians, leaves zero, which stays zero.
 
 use crate::attitude::Attitude;
-use crate::fixed::number::{from_f32, from_f64, product, to_f32, to_f64};
+use crate::fixed::number::{from_f32, from_f64, product, squared, to_f32, to_f64};
 use crate::real::Real as _;
 use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::{Word, WordSource, WordVisitor, Words};
 
 /// Bits after the point.
 const BITS: i32 = 62;
+/// What may be missing of unit length: less than a matrix shows, and no turn of a step takes more.
+const LITTLE: i64 = 1 << (BITS - 48);
 /// 1 with 60 bits after the point.
 const ONE: i64 = 1 << 60;
 
@@ -102,19 +104,11 @@ impl FixedTurn {
         }
     }
 
-    /// The square of its length, 60 bits after the point.
-    #[inline(always)]
-    fn square(&self) -> i64 {
-        let [x, y, z] = self.v;
-        let [w, x, y, z] = [self.w, x, y, z].map(|c| product(c, c));
-        w.wrapping_add(x).wrapping_add(y.wrapping_add(z))
-    }
-
     /// The matrix, 30 bits after the point, to the nearest.
     #[inline(always)]
     pub(crate) fn matrix(&self) -> [[i32; 3]; 3] {
         let (w, [x, y, z]) = (self.w, self.v);
-        let (xx, yy, zz) = (product(x, x), product(y, y), product(z, z));
+        let (xx, yy, zz) = (squared(&[x]), squared(&[y]), squared(&[z]));
         let (xy, xz, yz) = (product(x, y), product(x, z), product(y, z));
         let (wx, wy, wz) = (product(w, x), product(w, y), product(w, z));
         // Twice what is given, and a half for the nearest.
@@ -128,11 +122,13 @@ impl FixedTurn {
     }
 }
 
-/// A matrix of 30 bits after the point in single precision.
+/// What a unit of a matrix of fixed point is worth.
+pub(crate) const UNIT: f32 = 1.0 / (1 << 30) as f32;
+
+/// A matrix of fixed point in single precision, in its own units: whoever uses it scales one vector.
 #[inline(always)]
-pub(crate) fn in_single(matrix: &[[i32; 3]; 3]) -> Rotation<f32> {
-    const UNIT: f32 = 1.0 / (1 << 30) as f32;
-    let row = |[x, y, z]: [i32; 3]| Vec3::new(x as f32, y as f32, z as f32) * UNIT;
+pub(crate) fn in_whole(matrix: &[[i32; 3]; 3]) -> Rotation<f32> {
+    let row = |[x, y, z]: [i32; 3]| Vec3::new(x as f32, y as f32, z as f32);
     let [x, y, z] = *matrix;
     Rotation { x: row(x), y: row(y), z: row(z) }
 }
@@ -161,7 +157,8 @@ impl Attitude for FixedTurn {
 
     #[inline(always)]
     fn rotation(&self) -> Rotation<f32> {
-        in_single(&self.matrix())
+        let Rotation { x, y, z } = in_whole(&self.matrix());
+        Rotation { x: x * UNIT, y: y * UNIT, z: z * UNIT }
     }
     #[inline(always)]
     fn quaternion(&self) -> Quaternion<f32> {
@@ -184,18 +181,28 @@ impl Attitude for FixedTurn {
         let [w, x, y, z] = [turn.w, x, y, z].map(|c| fixed(c) << 2);
         *self = self.product(&Self { w, v: [x, y, z] });
     }
-    /// One Newton step towards unit length.
+    /// One Newton step towards unit length, where it is not that to 2^-48.
     #[inline(always)]
     fn renormalise(&mut self) {
+        let [x, y, z] = self.v;
         // Half of what is missing, 62 bits after the point.
-        let missing = ONE.wrapping_sub(self.square()) << 1;
-        let more = |c: i64| c.wrapping_add(product(c, missing) << 2);
-        *self = Self { w: more(self.w), v: self.v.map(more) };
+        let missing = ONE.wrapping_sub(squared(&[self.w, x, y, z])) << 1;
+        if (-LITTLE..LITTLE).contains(&missing) {
+            return;
+        }
+        if let Ok(little) = i32::try_from(missing) {
+            let more = |c: i64| c.wrapping_add(((c >> 32) * i64::from(little)) >> 30);
+            *self = Self { w: more(self.w), v: self.v.map(more) };
+        } else {
+            let more = |c: i64| c.wrapping_add(product(c, missing) << 2);
+            *self = Self { w: more(self.w), v: self.v.map(more) };
+        }
     }
     #[inline(always)]
     fn is_lost(&self) -> bool {
         let [x, y, z] = self.v;
-        self.w | x | y | z == 0
+        // One of a unit quaternion is at least a half.
+        (self.w | x | y | z) >> 32 == 0
     }
     fn from_f64(orientation: [f64; 4]) -> Self {
         Self::new(orientation)
