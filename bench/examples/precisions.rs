@@ -34,7 +34,7 @@ const STEPS: u64 = 1_000_000;
 /// Of the hexagon's with semi-implicit Euler.
 const LONG: u64 = 10_000_000;
 /// Of a damped one, and at most of the one in double precision beside another.
-const SHORT: u64 = 100_000;
+const SHORT: u64 = 20_000;
 /// Steps between samples.
 const EACH: u64 = 1_000;
 /// \[s\] when positions are compared.

@@ -85,7 +85,7 @@ fn rounding_is_as_measured() {
         };
         let _ = write!(
             sentences,
-            "- `{scene}`: f32 changes the energy that the scheme keeps by {} J in a million steps and is {} m off \
+            "- `{scene}`: f32 changes the energy that the scheme keeps by {} J and is {} m off \
              after a second; `fixed` changes it by {} J, {}-fold less, is {} m off",
             figure(of("f32", "kept_max_j"), 2),
             figure(of("f32", "off_m"), 2),
@@ -101,6 +101,10 @@ fn rounding_is_as_measured() {
         }
         sentences += ".\n";
     }
+    let steps = |row: &Row| grouped(row.text("steps"));
+    let run = runs.of(["hexagon", "leapfrog", "9e6", "fixed"], false, "0");
+    let damped = runs.of(["hexagon", "leapfrog", "9e6", "fixed"], true, "0");
+    let over = format!("Over {} steps, damped over {}:\n\n", steps(run), steps(damped));
     let head = [
         "scene",
         "precision",
@@ -111,7 +115,7 @@ fn rounding_is_as_measured() {
         "off at 1 s [m]",
         "Cortex-M4F [instructions]",
     ];
-    block(PAGE, "rounding", &table(&head, &text));
+    block(PAGE, "rounding", &(over + &table(&head, &text)));
     block(PAGE, "rounding, scene by scene", &sentences);
 }
 
@@ -145,7 +149,9 @@ fn long_runs_are_as_measured() {
         "of it rounding [J]",
         "drift [W]",
     ];
-    block(PAGE, "long runs", &table(&head, &text));
+    let run = runs.of(["hexagon", "semi-implicit-euler", "9e6", "fixed"], false, "0");
+    let over = format!("Over {} steps:\n\n", grouped(run.text("steps")));
+    block(PAGE, "long runs", &(over + &table(&head, &text)));
 }
 
 /// Fixed point has no place where it is finer: far from the origin nothing gets worse.
