@@ -44,9 +44,10 @@ impl Bench<'_> {
     /// the same as alone.
     pub fn run(&self, cases: &[(Vec<String>, Method)], columns: &[Column]) -> Vec<Row> {
         let prepared = |(changes, method): &(Vec<String>, Method)| {
-            Case::new(self, changes, *method).map_err(|why| Row::refused(why, columns.len()))
+            let refused = |why| Box::new(Row::refused(why, columns.len()));
+            Case::new(self, changes, *method).map_err(refused)
         };
-        let cases: Vec<Result<Case, Row>> = cases.iter().map(prepared).collect();
+        let cases: Vec<Result<Case, Box<Row>>> = cases.iter().map(prepared).collect();
         let mut rows: Vec<Option<Row>> = vec![None; cases.len()];
         for first in 0..cases.len() {
             let Ok(case) = &cases[first] else { continue };
@@ -63,9 +64,9 @@ impl Bench<'_> {
                 }
             }
         }
-        let alone = |(case, row): (Result<Case, Row>, Option<Row>)| match (case, row) {
+        let alone = |(case, row): (Result<Case, Box<Row>>, Option<Row>)| match (case, row) {
             (Ok(case), row) => row.unwrap_or_else(|| case.run(columns)),
-            (Err(refused), _) => refused,
+            (Err(refused), _) => *refused,
         };
         cases.into_iter().zip(rows).map(alone).collect()
     }
