@@ -43,19 +43,20 @@ impl Bench<'_> {
     /// The rows of cases, each with its method: those that have one plan and are alike run in lockstep, a row is
     /// the same as alone.
     pub fn run(&self, cases: &[(Vec<String>, Method)], columns: &[Column]) -> Vec<Row> {
-        let prepared = |(changes, method): &(Vec<String>, Method)| {
-            let refused = |why| Box::new(Row::refused(why, columns.len()));
-            Case::new(self, changes, *method).map_err(refused)
-        };
-        let cases: Vec<Result<Case, Box<Row>>> = cases.iter().map(prepared).collect();
+        let prepared =
+            |(changes, method): &(Vec<String>, Method)| Case::new(self, changes, *method);
+        let cases: Vec<Result<Case, String>> = cases.iter().map(prepared).collect();
         let mut rows: Vec<Option<Row>> = vec![None; cases.len()];
+        // What has been tried together and has no row runs alone.
+        let mut tried = vec![false; cases.len()];
         for first in 0..cases.len() {
             let Ok(case) = &cases[first] else { continue };
             let with = |row: &usize| {
                 let other = cases[*row].as_ref().ok();
-                rows[*row].is_none() && other.is_some_and(|other| other.goes_with(case))
+                !tried[*row] && other.is_some_and(|other| other.goes_with(case))
             };
             let group: Vec<usize> = (first..cases.len()).filter(with).collect();
+            group.iter().for_each(|row| tried[*row] = true);
             let together: Vec<&Case> =
                 group.iter().filter_map(|row| cases[*row].as_ref().ok()).collect();
             if together.len() > 1 {
@@ -64,9 +65,9 @@ impl Bench<'_> {
                 }
             }
         }
-        let alone = |(case, row): (Result<Case, Box<Row>>, Option<Row>)| match (case, row) {
+        let alone = |(case, row): (Result<Case, String>, Option<Row>)| match (case, row) {
             (Ok(case), row) => row.unwrap_or_else(|| case.run(columns)),
-            (Err(refused), _) => *refused,
+            (Err(why), _) => Row::refused(why, columns.len()),
         };
         cases.into_iter().zip(rows).map(alone).collect()
     }
