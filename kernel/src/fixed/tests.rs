@@ -82,6 +82,31 @@ fn turns_are_exact_to_what_they_were_given() {
 }
 
 #[test]
+fn turns_about_axes_are_those_of_double_precision() {
+    let mut numbers = units(17);
+    for i in 0..3_000 {
+        let start = FixedTurn::from_f64(unit(&mut numbers));
+        let (half, rest) = (0.1 * numbers.next().unwrap() as f32, 1e-9);
+        let (sin, cos) = libm::sincos(f64::from(half) + f64::from(rest));
+        let mut axis = [cos, 0.0, 0.0, 0.0];
+        axis[1 + i % 3] = sin;
+        let turn = Quaternion::<f64>::from_f64(axis);
+        let expected = Quaternion::<f64>::from_f64(start.to_f64()).product(turn).to_f64();
+        let mut q = start;
+        match i % 3 {
+            0 => q.turn_exactly::<0>((half, rest)),
+            1 => q.turn_exactly::<1>((half, rest)),
+            _ => q.turn_exactly::<2>((half, rest)),
+        }
+        // Beside 1 and the angle, polynomials of single precision: three roundings of half the square.
+        let bound = 1e-15 + 1e-7 * f64::from(half * half);
+        for (c, expected) in q.to_f64().into_iter().zip(expected) {
+            assert!((c - expected).abs() < bound, "{i}: {c} {expected}");
+        }
+    }
+}
+
+#[test]
 fn places_and_ways_between_them_are_exact() {
     let mut numbers = units(13);
     let mut next =
