@@ -85,8 +85,8 @@ fn rounding_is_as_measured() {
         };
         let _ = write!(
             sentences,
-            "- `{scene}`: f32 changes the energy that the scheme keeps by {} J and is {} m off \
-             after a second; `fixed` changes it by {} J, {}-fold less, is {} m off",
+            "- `{scene}`: f32 changes the energy that the scheme keeps by {} J and \
+             gets {} m off; `fixed` changes it by {} J, {}-fold less, gets {} m off",
             figure(of("f32", "kept_max_j"), 2),
             figure(of("f32", "off_m"), 2),
             figure(of("fixed", "kept_max_j"), 2),
@@ -112,7 +112,7 @@ fn rounding_is_as_measured() {
         "of it rounding [J]",
         "10 m away [J]",
         "damped, from f64 [J]",
-        "off at 1 s [m]",
+        "off [m]",
         "Cortex-M4F [instructions]",
     ];
     block(PAGE, "rounding", &(over + &table(&head, &text)));
