@@ -14,6 +14,7 @@ mod inputs;
 mod lines;
 mod record;
 mod revolute;
+mod springs;
 mod stars;
 mod torsions;
 mod two_points;
