@@ -174,7 +174,7 @@ impl Attitude for KeptTurn {
     fn renormalise(&mut self) {
         let Quaternion { w, v } = self.sum;
         let beyond = (w * w - 1.0) + v.dot(v);
-        let share = if beyond > ROUNDING || beyond < -ROUNDING { 0.5 } else { GENTLE };
+        let share = if !(-ROUNDING..=ROUNDING).contains(&beyond) { 0.5 } else { GENTLE };
         let back = -(share * beyond);
         self.add(w * back, v * back);
     }
