@@ -82,6 +82,31 @@ fn turns_are_exact_to_what_they_were_given() {
 }
 
 #[test]
+fn turns_about_axes_are_those_of_double_precision() {
+    let mut numbers = units(17);
+    for i in 0..3_000 {
+        let start = FixedTurn::from_f64(unit(&mut numbers));
+        let (half, rest) = (0.1 * numbers.next().unwrap() as f32, 1e-9);
+        let (sin, cos) = libm::sincos(f64::from(half) + f64::from(rest));
+        let mut axis = [cos, 0.0, 0.0, 0.0];
+        axis[1 + i % 3] = sin;
+        let turn = Quaternion::<f64>::from_f64(axis);
+        let expected = Quaternion::<f64>::from_f64(start.to_f64()).product(turn).to_f64();
+        let mut q = start;
+        match i % 3 {
+            0 => q.turn_exactly::<0>((half, rest)),
+            1 => q.turn_exactly::<1>((half, rest)),
+            _ => q.turn_exactly::<2>((half, rest)),
+        }
+        // Beside 1 and the angle, polynomials of single precision: three roundings of half the square.
+        let bound = 1e-15 + 1e-7 * f64::from(half * half);
+        for (c, expected) in q.to_f64().into_iter().zip(expected) {
+            assert!((c - expected).abs() < bound, "{i}: {c} {expected}");
+        }
+    }
+}
+
+#[test]
 fn places_and_ways_between_them_are_exact() {
     let mut numbers = units(13);
     let mut next =
@@ -178,4 +203,34 @@ fn a_turn_that_is_none_latches() {
         q.renormalise();
         assert!(q.is_lost());
     }
+}
+
+#[test]
+fn squares_of_ways_beside_free_lengths_are_exact_to_their_units() {
+    let mut numbers = units(16);
+    for i in 0..30_000 {
+        // Below 0.2 m, around it, and up to 50 m.
+        let scale = [0.19, 0.3, 12.0, 50.0][i % 4];
+        let d: [f64; 3] = core::array::from_fn(|_| numbers.next().unwrap() * scale);
+        let from = FixedPlace::new(core::array::from_fn(|_| numbers.next().unwrap() * 10.0));
+        let to = FixedPlace { at: sum(from.at, FixedPlace::new(d).at) };
+        let length = libm::sqrt(d.iter().map(|c| c * c).sum::<f64>());
+        let free = (length * (1.0 + 1e-4 * numbers.next().unwrap())) as f32;
+        let reach = Fixed::reach(&from, &to, free);
+        let exact = way_beside(difference(to.at, from.at), free);
+        let beyond = f64::from(reach.more.unwrap()) / (length + f64::from(free));
+        let bound = if length < 15.9 { 2.1e-10 + 1e-6 * exact.abs() } else { 3e-7 * length };
+        assert!((beyond - exact).abs() < bound, "{d:?}: {beyond:e} {exact:e}");
+        for (way, d) in reach.way.to_f64().into_iter().zip(d) {
+            assert!((way - d).abs() < 1.2e-10 + 1.2e-7 * d.abs(), "{way} {d}");
+        }
+    }
+}
+
+/// L − L0 \[m\] from the exact squares, by 2^114.
+fn way_beside(d: [i64; 3], free: f32) -> f64 {
+    let square: i128 = d.iter().map(|&c| i128::from(c) * i128::from(c)).sum();
+    let exact_free = (f64::from(free) * 57.0_f64.exp2()) as i128;
+    let more = (square - exact_free * exact_free) as f64 * (-114.0_f64).exp2();
+    more / (libm::sqrt(square as f64 * (-114.0_f64).exp2()) + f64::from(free))
 }

@@ -52,7 +52,7 @@ impl FixedTurn {
     #[inline(always)]
     pub(crate) fn turn_exactly<const AXIS: usize>(&mut self, (whole, rest): (f32, f32)) {
         let half = whole + rest;
-        if !(half.abs() <= 1.0) {
+        if half.abs() > 1.0 || half.is_nan() {
             *self = Self { w: 0, v: [0; 3] };
             return;
         }
