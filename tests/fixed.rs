@@ -104,8 +104,8 @@ fn far_from_the_origin_every_bit_is_the_same() {
         let mut away: SceneModel<Fixed> = moved(&scene.model, [10.0, -10.0, 20.0]).convert();
         // The sum in double precision has a digit less or two.
         for (away, here) in away.initial.iter_mut().zip(&here.initial) {
-            for axis in 0..3 {
-                away.position.at[axis] = here.position.at[axis] + PLACE[axis];
+            for (axis, place) in PLACE.into_iter().enumerate() {
+                away.position.at[axis] = here.position.at[axis] + place;
             }
         }
         let step = scene.step.unwrap();
@@ -116,8 +116,8 @@ fn far_from_the_origin_every_bit_is_the_same() {
         let [here, away] = plants.each_ref().map(|plant| &plant.state().bodies);
         for (here, away) in here.iter().zip(away) {
             let mut back = *away;
-            for axis in 0..3 {
-                back.position.at[axis] -= PLACE[axis];
+            for (at, place) in back.position.at.iter_mut().zip(PLACE) {
+                *at -= place;
             }
             assert_eq!(*here, back, "{name}");
         }

@@ -83,7 +83,6 @@ fn points(text: &str) -> Vec<Point> {
             target_instructions: number("target_instructions_per_second"),
             step_in_space: number("stable_step_in_space"),
             fall: Fall::default(),
-            step_in_space: None,
         }
     };
     rows_of(text).iter().map(point).collect()

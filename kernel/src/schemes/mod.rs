@@ -51,7 +51,7 @@ pub trait Scheme: Copy {
     /// Largest stable `ω_max·h` of an undamped oscillator; all smaller ones are stable, too.
     fn stability_limit(&self) -> f64;
 
-    /// One step of the size [`Stepper::step_size`]. Ends with the state at the next step's start; the
+    /// One step of the size [`Workspace::step_size`](crate::step::Workspace::step_size). Ends with the state at the next step's start; the
     /// caller advances the counter and looks for what is not finite or spins too fast.
     ///
     /// # Errors
