@@ -19,9 +19,9 @@ pub struct CompensatedF32;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Kept {
-    /// What the additions came to.
+    /// \[m, m/s, rad/s\] what the additions came to.
     pub sum: Vec3<f32>,
-    /// What they rounded up.
+    /// \[m, m/s, rad/s\] what they rounded up.
     pub lost: Vec3<f32>,
 }
 
@@ -29,9 +29,9 @@ pub struct Kept {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct KeptTurn {
-    /// What the turns came to, unit to rounding.
+    /// \[1\] what the turns came to, unit to rounding.
     pub sum: Quaternion<f32>,
-    /// What they rounded up.
+    /// \[1\] what they rounded up.
     pub lost: Quaternion<f32>,
 }
 

@@ -142,22 +142,35 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
     #[inline(always)]
     pub fn evaluate<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
         if P::Real::LANES == 1 {
-            self.evaluate_apart::<D::Forces>(at)
+            self.evaluate_apart::<D::Forces>(at, false)
         } else {
             self.evaluate_here::<D::Forces>(at, false)
         }
     }
 
     // One body of it for all of a scheme's evaluations.
-    fn evaluate_apart<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
-        self.evaluate_here::<D>(at, false)
+    fn evaluate_apart<D: Dampers>(&mut self, at: At, placed: bool) -> Result<(), Cause> {
+        self.evaluate_here::<D>(at, placed)
+    }
+
+    /// [`Self::evaluate`] for a scheme that calls it in one place; `placed` tells whether the frames are
+    /// those of the present pose. A model of all kinds shares one body of it with all schemes: its is
+    /// large.
+    ///
+    /// # Errors
+    /// As [`Self::evaluate`].
+    #[inline(always)]
+    pub(crate) fn evaluate_once<D: Dampers>(&mut self, at: At, placed: bool) -> Result<(), Cause> {
+        if P::Real::LANES == 1 && T::ALL {
+            self.evaluate_apart::<D::Forces>(at, placed)
+        } else {
+            self.evaluate_here::<D::Forces>(at, placed)
+        }
     }
 
     // Lanes are stepped by a function that may use more instructions than its callees: it has none.
-    /// [`Self::evaluate`] with a body of its own, for a scheme that calls it in one place; `placed` tells
-    /// whether the frames are those of the present pose.
     #[inline(always)]
-    pub(crate) fn evaluate_here<D: Dampers>(&mut self, at: At, placed: bool) -> Result<(), Cause> {
+    fn evaluate_here<D: Dampers>(&mut self, at: At, placed: bool) -> Result<(), Cause> {
         self.ledger.evaluations += 1;
         self.ledger.fresh = false;
         self.ledger.ready = false;

@@ -95,8 +95,8 @@ mod tests {
         assert_eq!(
             of_precisions(&points, 1e-10).as_deref(),
             Some(
-                "in f32 nothing gets nearer than 0.000003 m here (pefrl, f32, step 100us); fixed reaches \
-                 0.00000002 m (pefrl, fixed, step 10us) at 1.5 times the instructions of a step in f32, where f64 \
+                "in f32 nothing gets nearer than 3e-6 m here (pefrl, f32, step 100us); fixed reaches \
+                 2e-8 m (pefrl, fixed, step 10us) at 1.5 times the instructions of a step in f32, where f64 \
                  takes 40 times"
             )
         );

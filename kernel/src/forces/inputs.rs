@@ -43,8 +43,8 @@ pub(crate) fn push<P: Geometry, T: Terms>(
                 apply(wrenches, body.row(), BodyIndex::WORLD.row(), &record);
             }
             InputKind::JointTorque { a, b, axis } => {
-                let torque_b = turned_axis(a, LoadFrame::Body, axis) * value;
-                let record = Record { force: P::Vector::ZERO, torque_a: -torque_b, torque_b };
+                let torque = -(turned_axis(a, LoadFrame::Body, axis) * value);
+                let record = Record { force: P::Vector::ZERO, torque_a: torque, torque_b: torque };
                 apply(wrenches, a.row(), b.row(), &record);
             }
             InputKind::Actuator { group, element } => {
@@ -57,7 +57,7 @@ pub(crate) fn push<P: Geometry, T: Terms>(
                 let d = element.stretch.displacement;
                 let force = d * (value * d.dot(d).sqrt().reciprocal_or_zero());
                 let torque_a = element.arm_a.cross(force);
-                let record = Record { force, torque_a, torque_b: -element.arm_b.cross(force) };
+                let record = Record { force, torque_a, torque_b: element.arm_b.cross(force) };
                 apply(wrenches, element.group.a.row(), element.group.b.row(), &record);
             }
             InputKind::Anchor { .. } => {}

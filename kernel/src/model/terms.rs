@@ -24,6 +24,18 @@ pub trait Terms: Copy + Default + 'static {
     const REVOLUTES: bool;
     /// Universal joints without a spider.
     const UNIVERSALS: bool;
+    /// All of these.
+    const ALL: bool = Self::GRAVITY
+        && Self::LOADS
+        && Self::TSDAS
+        && Self::BUSHINGS
+        && Self::TORSIONS
+        && Self::DAMPERS
+        && Self::LINES
+        && Self::INPUTS
+        && Self::CLEARANCES
+        && Self::REVOLUTES
+        && Self::UNIVERSALS;
 }
 
 /// Terms of a model whose sizes are known at run time only: any kind may occur.

@@ -67,7 +67,7 @@ impl Kicked for Leapfrog {
                 }
                 stepper.sample_inputs(P::Real::ONE);
             }
-            stepper.evaluate_here::<D::Forces>(At::Boundary, known)?;
+            stepper.evaluate_once::<D>(At::Boundary, known)?;
             if known {
                 break;
             }

@@ -54,7 +54,7 @@ impl Kicked for SemiImplicitEuler {
     fn step_with<P: Geometry, T: Terms, D: Dampers>(
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {
-        stepper.evaluate_here::<D>(At::Boundary, false)?;
+        stepper.evaluate_once::<D>(At::Boundary, false)?;
         if D::ACT || !stepper.has_dampers() {
             stepper.kick_and_drift(P::Real::ONE, stepper.h);
         } else {

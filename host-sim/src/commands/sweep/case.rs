@@ -6,7 +6,7 @@
 
 use std::{io, iter};
 
-use dbd_plant::plant::{check_inputs, check_step};
+use dbd_plant::plant::{check_extents, check_inputs, check_step};
 use dbd_plant::{Frequencies, Method, Plan};
 use dbd_scene::{BODY_COLUMNS, ENERGY_COLUMNS, Scene, SceneError};
 use dbd_sweep::check::{Misfit, Trial};
@@ -159,6 +159,7 @@ fn planned(scene: &Scene, method: &Method) -> Result<Plan, Misfit> {
     let plan = plan.map_err(|error| misfit(&error))?;
     check_step(method, plan.step).map_err(|error| misfit(&error))?;
     check_inputs(scene, method).map_err(|error| misfit(&error))?;
+    check_extents(scene, method, plan.step).map_err(|error| misfit(&error))?;
     Ok(plan)
 }
 
