@@ -1,8 +1,8 @@
 //! The pairs of model and scheme of a chart of speed against accuracy.
 //!
 //! `(models, schemes) => visitor`: what [`models::for_each`] leaves out, all schemes with the
-//! paper's mechanisms and a damped one, in both precisions. Each model is one [`Alone`] with its
-//! scheme.
+//! paper's mechanisms and a damped one, in every precision. Each model is one [`Alone`] with its
+//! scheme. A part for each image that they fill.
 
 use dbd_kernel::model::{ModelOwner, Terms as _};
 use dbd_kernel::{
@@ -15,107 +15,139 @@ use crate::models::{self, Shipped, Visitor};
 /// Most steps that a comparison of bits would take.
 const STEPS: u64 = 1_000;
 
-/// Shows all pairs, scene by scene.
-pub fn for_each_charted(visitor: &mut impl Visitor) {
-    // Each scheme as `VALUE => TYPE, VARIANT;`.
-    macro_rules! chart {
-        ($scene:literal $module:ident::$model:ident: $type:ident $step:ident,
-            $($scheme:expr => $scheme_type:ty, $variant:literal;)*) => {
-            $({
-                static MODEL: Alone<models::$module::$type, $scheme_type> =
-                    Alone::new(models::$module::$model);
-                visitor.visit(Shipped {
-                    scene: $scene,
-                    model: &MODEL,
-                    scheme: $scheme,
-                    variant: $variant,
-                    step: models::$module::$step,
-                    steps: STEPS,
-                });
-            })*
-        };
-    }
-    // What no shipped model has: all schemes but leapfrog and, without iterations, dbd.
-    macro_rules! others {
-        ($($of:tt)*) => {
-            chart! { $($of)*,
-                Dbd { newton: 1 } => Dbd, "+1";
-                DbdP1 { newton: 0 } => DbdP1, "";
-                DbdP2 { newton: 0 } => DbdP2, "";
-                SemiImplicitEuler => SemiImplicitEuler, "";
-                Pefrl => Pefrl, "";
-                BlanesMoanS6 => BlanesMoanS6, "";
-                Rk4 => Rk4, "";
-            }
-        };
-    }
-    // What a model lacks that is shipped with leapfrog.
-    macro_rules! all {
-        ($($of:tt)*) => {
-            chart! { $($of)*, Dbd { newton: 0 } => Dbd, ""; }
-            others! { $($of)* }
-        };
-    }
+/// Shows models and schemes, each scheme as `VALUE => TYPE, VARIANT;`.
+macro_rules! chart {
+    ($visitor:ident: $scene:literal $module:ident::$model:ident: $type:ident $step:ident,
+        $($scheme:expr => $scheme_type:ty, $variant:literal;)*) => {
+        $({
+            static MODEL: Alone<models::$module::$type, $scheme_type> =
+                Alone::new(models::$module::$model);
+            $visitor.visit(Shipped {
+                scene: $scene,
+                model: &MODEL,
+                scheme: $scheme,
+                variant: $variant,
+                step: models::$module::$step,
+                steps: STEPS,
+            });
+        })*
+    };
+}
+/// What no shipped model has: all schemes but leapfrog and, without iterations, dbd.
+macro_rules! others {
+    ($($of:tt)*) => {
+        chart! { $($of)*,
+            Dbd { newton: 1 } => Dbd, "+1";
+            DbdP1 { newton: 0 } => DbdP1, "";
+            DbdP2 { newton: 0 } => DbdP2, "";
+            SemiImplicitEuler => SemiImplicitEuler, "";
+            Pefrl => Pefrl, "";
+            BlanesMoanS6 => BlanesMoanS6, "";
+            Rk4 => Rk4, "";
+        }
+    };
+}
+/// What a model lacks that is shipped with leapfrog.
+macro_rules! all {
+    ($($of:tt)*) => {
+        chart! { $($of)*, Dbd { newton: 0 } => Dbd, ""; }
+        others! { $($of)* }
+    };
+}
+/// Dampers that act explicitly where the scheme's own way is another.
+macro_rules! damped {
+    ($($of:tt)*) => {
+        chart! { $($of)*,
+            Explicit(SemiImplicitEuler) => Explicit<SemiImplicitEuler>, "-explicit";
+            Explicit(Leapfrog) => Explicit<Leapfrog>, "-explicit";
+            JointWise(SemiImplicitEuler) => JointWise<SemiImplicitEuler>, "-joint-wise";
+        }
+        joint_wise! { $($of)* }
+    };
+}
+macro_rules! joint_wise {
+    ($($of:tt)*) => {
+        chart! { $($of)*, JointWise(Leapfrog) => JointWise<Leapfrog>, "-joint-wise"; }
+    };
+}
+
+/// Shows the pairs in single precision, scene by scene.
+pub fn for_each_single(visitor: &mut impl Visitor) {
     // Scenes shipped in both precisions have leapfrog and dbd already.
     macro_rules! shipped_in_both {
         ($($module:ident $scene:literal $step:ident,
             $f32:ident: $model32:ident, $f64:ident: $model64:ident;)*) => {
-            $(others! { $scene $module::$f32: $model32 $step })*
-            $(others! { $scene $module::$f64: $model64 $step })*
+            $(others! { visitor: $scene $module::$f32: $model32 $step })*
         };
     }
-    // Of the others, leapfrog in single precision is shipped.
+    // Of the others, leapfrog is shipped.
     macro_rules! shipped_in_single {
         ($($module:ident $scene:literal $step:ident,
             $f32:ident: $model32:ident, $f64:ident: $model64:ident;)*) => {
-            $(all! { $scene $module::$f32: $model32 $step })*
-            $(
-                chart! { $scene $module::$f64: $model64 $step, Leapfrog => Leapfrog, ""; }
-                all! { $scene $module::$f64: $model64 $step }
-            )*
-        };
-    }
-    // Dampers that act explicitly where the scheme's own way is another.
-    macro_rules! damped {
-        ($($of:tt)*) => {
-            chart! { $($of)*,
-                Explicit(SemiImplicitEuler) => Explicit<SemiImplicitEuler>, "-explicit";
-                Explicit(Leapfrog) => Explicit<Leapfrog>, "-explicit";
-                JointWise(SemiImplicitEuler) => JointWise<SemiImplicitEuler>, "-joint-wise";
-            }
-            joint_wise! { $($of)* }
-        };
-    }
-    macro_rules! joint_wise {
-        ($($of:tt)*) => {
-            chart! { $($of)*, JointWise(Leapfrog) => JointWise<Leapfrog>, "-joint-wise"; }
+            $(all! { visitor: $scene $module::$f32: $model32 $step })*
         };
     }
     // Other values of a scene; dampers both ways where they have any.
     macro_rules! with_other_values {
         ($($module:ident $scene:literal $step:ident, $f32:ident: $model32:ident;)*) => {
             $(
-                chart! { $scene $module::$f32: $model32 $step,
+                chart! { visitor: $scene $module::$f32: $model32 $step,
                     Leapfrog => Leapfrog, "";
                     SemiImplicitEuler => SemiImplicitEuler, "";
                 }
                 if <models::$module::$model32 as ModelOwner>::Terms::DAMPERS {
-                    damped! { $scene $module::$f32: $model32 $step }
+                    damped! { visitor: $scene $module::$f32: $model32 $step }
                 }
             )*
         };
     }
+    shipped!(shipped_in_both);
+    charted!(shipped_in_single);
+    varied!(with_other_values);
+    damped! { visitor: "double-wishbone"
+    double_wishbone::DOUBLE_WISHBONE_F32: DoubleWishboneF32 DOUBLE_WISHBONE_STEP }
+    joint_wise! { visitor: "cart-pendulum"
+    cart_pendulum::CART_PENDULUM_F32: CartPendulumF32 CART_PENDULUM_STEP }
+    joint_wise! { visitor: "gripper" gripper::GRIPPER_F32: GripperF32 GRIPPER_STEP }
+}
+
+/// Shows the pairs in double precision, scene by scene.
+pub fn for_each_double(visitor: &mut impl Visitor) {
+    // Leapfrog and dbd are shipped.
+    macro_rules! shipped_in_both {
+        ($($module:ident $scene:literal $step:ident,
+            $f32:ident: $model32:ident, $f64:ident: $model64:ident;)*) => {
+            $(others! { visitor: $scene $module::$f64: $model64 $step })*
+        };
+    }
+    macro_rules! shipped_in_single {
+        ($($module:ident $scene:literal $step:ident,
+            $f32:ident: $model32:ident, $f64:ident: $model64:ident;)*) => {
+            $(
+                chart! { visitor: $scene $module::$f64: $model64 $step, Leapfrog => Leapfrog, ""; }
+                all! { visitor: $scene $module::$f64: $model64 $step }
+            )*
+        };
+    }
+    shipped!(shipped_in_both);
+    charted!(shipped_in_single);
+    damped! { visitor: "double-wishbone"
+    double_wishbone::DOUBLE_WISHBONE_F64: DoubleWishboneF64 DOUBLE_WISHBONE_STEP }
+}
+
+/// Shows the pairs in fixed point and those with compensated sums.
+pub fn for_each_fixed(visitor: &mut impl Visitor) {
     // In fixed point the paper's scheme and those that are advised; the four-bar's first two are shipped.
     macro_rules! in_fixed_point {
         ($($module:ident $scene:literal $step:ident, $fixed:ident: $model:ident;)*) => {
             $(
                 if $scene != "four-bar" {
-                    chart! { $scene $module::$fixed: $model $step,
+                    chart! { visitor: $scene $module::$fixed: $model $step,
                         Leapfrog => Leapfrog, "";
                         Dbd { newton: 0 } => Dbd, "";
                     }
                 }
-                chart! { $scene $module::$fixed: $model $step,
+                chart! { visitor: $scene $module::$fixed: $model $step,
                     SemiImplicitEuler => SemiImplicitEuler, "";
                     Pefrl => Pefrl, "";
                     BlanesMoanS6 => BlanesMoanS6, "";
@@ -125,27 +157,17 @@ pub fn for_each_charted(visitor: &mut impl Visitor) {
     }
     macro_rules! with_compensated_sums {
         ($($module:ident $scene:literal $step:ident, $sums:ident: $model:ident;)*) => {
-            $(chart! { $scene $module::$sums: $model $step,
+            $(chart! { visitor: $scene $module::$sums: $model $step,
                 Leapfrog => Leapfrog, "";
                 SemiImplicitEuler => SemiImplicitEuler, "";
                 Pefrl => Pefrl, "";
             })*
         };
     }
-    shipped!(shipped_in_both);
     fixed!(in_fixed_point);
     compensated!(with_compensated_sums);
-    charted!(shipped_in_single);
-    varied!(with_other_values);
-    damped! { "double-wishbone"
-    double_wishbone::DOUBLE_WISHBONE_F32: DoubleWishboneF32 DOUBLE_WISHBONE_STEP }
-    damped! { "double-wishbone"
-    double_wishbone::DOUBLE_WISHBONE_F64: DoubleWishboneF64 DOUBLE_WISHBONE_STEP }
-    joint_wise! { "double-wishbone"
+    joint_wise! { visitor: "double-wishbone"
     double_wishbone::DOUBLE_WISHBONE_FIXED: DoubleWishboneFixed DOUBLE_WISHBONE_STEP }
-    joint_wise! { "cart-pendulum"
-    cart_pendulum::CART_PENDULUM_F32: CartPendulumF32 CART_PENDULUM_STEP }
-    joint_wise! { "gripper" gripper::GRIPPER_F32: GripperF32 GRIPPER_STEP }
 }
 
 #[cfg(test)]
@@ -181,7 +203,9 @@ mod tests {
     fn counted() -> Names {
         let mut names = Names::default();
         for_each(&mut names);
-        for_each_charted(&mut names);
+        for_each_single(&mut names);
+        for_each_double(&mut names);
+        for_each_fixed(&mut names);
         names
     }
 

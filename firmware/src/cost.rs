@@ -30,13 +30,25 @@ pub fn run(systick: &mut SysTick, show: impl FnOnce(&mut Costing<'_>)) -> bool {
     costing.well
 }
 
-/// Prints a line for every shipped and every charted pair.
+/// Prints a line for every shipped pair and every charted one in single precision.
 #[cfg(feature = "cost")]
-pub fn run_all(systick: &mut SysTick) -> bool {
+pub fn run_single(systick: &mut SysTick) -> bool {
     run(systick, |costing| {
         crate::models::for_each(costing);
-        crate::chart::for_each_charted(costing);
+        crate::chart::for_each_single(costing);
     })
+}
+
+/// Prints a line for every charted pair in double precision.
+#[cfg(feature = "cost")]
+pub fn run_double(systick: &mut SysTick) -> bool {
+    run(systick, |costing| crate::chart::for_each_double(costing))
+}
+
+/// Prints a line for every charted pair in fixed point or with compensated sums.
+#[cfg(feature = "cost")]
+pub fn run_fixed(systick: &mut SysTick) -> bool {
+    run(systick, |costing| crate::chart::for_each_fixed(costing))
 }
 
 /// Counts and prints what it is shown.

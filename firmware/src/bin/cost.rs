@@ -1,5 +1,5 @@
-//! Program `cost`: what a step of every shipped and every charted model costs, see `firmware::cost`
-//! (target only). An image of its own: nobody who runs the other programs waits for so many steps.
+//! Program `cost`: what a step of every shipped model and every charted one in single precision costs, see
+//! `firmware::cost` (target only). An image of its own: nobody who runs the other programs waits for so many steps.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 use firmware::console::exit;
@@ -7,7 +7,7 @@ use firmware::console::exit;
 #[cfg(target_os = "none")]
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    exit(firmware::cost::run_all(&mut firmware::board::Board::take().systick))
+    exit(firmware::cost::run_single(&mut firmware::board::Board::take().systick))
 }
 
 #[cfg(not(target_os = "none"))]

@@ -19,6 +19,8 @@ use super::cycles::{self, Class};
 use super::row::Cost;
 
 const FILE: &str = "docs/costs-mix.csv";
+/// Programs that count, each in an image of its own.
+const PROGRAMS: [&str; 3] = ["cost", "cost-double", "cost-fixed"];
 /// The function whose calls are marks.
 const MARK: &str = "firmware::cost::mark";
 /// Calls between two marks.
@@ -176,15 +178,20 @@ fn csv(costs: &[Cost], mixes: &[Mix]) -> String {
     text
 }
 
-/// Runs the program that counts and returns its rows with their mixes.
+/// Runs the programs that count and returns their rows with their mixes.
 ///
 /// # Errors
 /// Where building, running or reading fails.
 pub fn measure(toolchain: &Toolchain) -> Result<(Vec<Cost>, Vec<Mix>)> {
-    let plugin = Plugin::new(&firmware::build(toolchain, "cost")?)?;
-    let lines = firmware::execute_with(toolchain, "cost", false, &[], &plugin.options())?;
-    let costs = super::parse(&lines)?;
-    let mixes = plugin.mixes(&costs)?;
+    firmware::build_all(toolchain, &PROGRAMS)?;
+    let (mut costs, mut mixes) = (Vec::new(), Vec::new());
+    for program in PROGRAMS {
+        let plugin = Plugin::new(&firmware::build(toolchain, program)?)?;
+        let lines = firmware::execute_with(toolchain, program, false, &[], &plugin.options())?;
+        let counted = super::parse(&lines)?;
+        mixes.extend(plugin.mixes(&counted)?);
+        costs.extend(counted);
+    }
     Ok((costs, mixes))
 }
 

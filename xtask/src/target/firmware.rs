@@ -26,9 +26,11 @@ const AUDIT: &str = "audit";
 pub const LIBRARIES: &str = "core,alloc";
 
 /// Programs that can be run, each with the image that holds it.
-const PROGRAMS: [(&str, &str); 10] = [
+const PROGRAMS: [(&str, &str); 12] = [
     ("board", SHARED),
     ("cost", "cost"),
+    ("cost-double", "cost-double"),
+    ("cost-fixed", "cost-fixed"),
     ("guards", "guards"),
     ("hash", SHARED),
     ("plant", PLANT),
@@ -102,6 +104,17 @@ pub fn build(toolchain: &Toolchain, name: &str) -> Result<PathBuf> {
     Ok(toolchain.images(PROFILE).join(bin))
 }
 
+/// Builds several images of one feature side by side.
+///
+/// # Errors
+/// Where one does not build.
+pub fn build_all(toolchain: &Toolchain, bins: &[&str]) -> Result<()> {
+    let Some(first) = bins.first() else { return Ok(()) };
+    let mut command = toolchain.cargo("build", LIBRARIES);
+    command.args(selection(first)).args(features(first));
+    run_command(command.args(bins[1..].iter().flat_map(|bin| ["--bin", bin])))
+}
+
 /// The same as [`execute`] with further options of the emulator.
 ///
 /// # Errors
@@ -135,9 +148,10 @@ fn selection(bin: &str) -> [&str; 6] {
     ["--package", "firmware", "--profile", PROFILE, "--bin", bin]
 }
 
-/// An image that is dear to build has a feature of its name.
+/// Images that are dear to build have a feature of their name's first word.
 fn features(bin: &str) -> Vec<&str> {
-    if bin == SHARED || bin == PLANT { Vec::new() } else { vec!["--features", bin] }
+    let first = bin.split('-').next().unwrap_or(bin);
+    if bin == SHARED || bin == PLANT { Vec::new() } else { vec!["--features", first] }
 }
 
 #[cfg(test)]
