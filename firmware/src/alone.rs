@@ -53,6 +53,7 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
     type PerLoad = M::PerLoad;
     type PerInput = M::PerInput;
     type PerDamper<T: Copy> = M::PerDamper<T>;
+    type PerTsda<T: Copy> = M::PerTsda<T>;
     type PerKnot = M::PerKnot;
 
     #[inline(always)]
@@ -105,6 +106,11 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
     #[inline]
     fn per_damper<T: Copy>(&self, value: T) -> M::PerDamper<T> {
         self.model.per_damper(value)
+    }
+
+    #[inline]
+    fn per_tsda<T: Copy>(&self, value: T) -> M::PerTsda<T> {
+        self.model.per_tsda(value)
     }
 
     #[inline]

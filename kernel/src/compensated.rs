@@ -202,6 +202,7 @@ impl Geometry for CompensatedF32 {
     type Local = Vec3<f32>;
     type Location = Vec3<f32>;
     type Frame = Pose<f32>;
+    type Rest = ();
 
     const NAME: &'static str = "f32-compensated";
 

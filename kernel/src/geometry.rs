@@ -62,6 +62,8 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     type Location: Copy + Default;
     /// A body's pose, prepared for placing many points.
     type Frame: Copy + Debug + Default + Send;
+    /// What it keeps of a TSDA at rest, `()` where it keeps nothing.
+    type Rest: Copy + Debug + Default + Send;
 
     /// The name users give: `f64`, `f32`.
     const NAME: &'static str;
@@ -74,6 +76,15 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
 
     /// Prepares a pose for [`Self::place`].
     fn frame(position: &Self::Position, orientation: &Self::Orientation) -> Self::Frame;
+    /// Writes [`Self::frame`] where it is kept.
+    #[inline(always)]
+    fn set_frame(
+        frame: &mut Self::Frame,
+        position: &Self::Position,
+        orientation: &Self::Orientation,
+    ) {
+        *frame = Self::frame(position, orientation);
+    }
     /// The point's world location and its arm from the centre of mass in world axes \[m\].
     fn place(frame: &Self::Frame, local: &Self::Local) -> (Self::Location, Self::Vector);
     /// The location of a point of the ground.
@@ -92,6 +103,30 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     ) -> Reach<Self::Vector> {
         let _ = free_length;
         Reach { way: Self::displacement(from, to), more: None }
+    }
+    /// Whether TSDAs are kept at rest: how far the centre of a star is from where it rests in B is known better
+    /// than how far it is from the points of B.
+    const RESTS: bool = false;
+    /// A TSDA of a star at rest, whose centre is where `centre` is in the axes of the body of `frame`: near it,
+    /// and for all of a star where it is for the `first` of them, a point of that body and its rest.
+    fn rest(
+        _frame: &Self::Frame,
+        _centre: &Self::Location,
+        _tip: &Self::Local,
+        _first: Option<(&Self::Local, &Self::Rest)>,
+        _free_length: Self::Real,
+    ) -> Self::Rest {
+        Self::Rest::default()
+    }
+    /// Where the centre of a star rests, given a point of its body and its rest.
+    #[inline(always)]
+    fn centre(tip: &Self::Local, _rest: &Self::Rest) -> Self::Local {
+        *tip
+    }
+    /// The way of a TSDA at rest whose centre is `off` \[m\] from where it rests; all in body axes.
+    #[inline(always)]
+    fn reach_at_rest(_rest: &Self::Rest, off: Self::Vector) -> Reach<Self::Vector> {
+        Reach { way: off, more: None }
     }
     /// Body axes to world axes.
     fn to_world(frame: &Self::Frame, v: Self::Vector) -> Self::Vector;
@@ -204,6 +239,7 @@ impl<R: Real + Named, A: Attitude<Real = R, Turn = Quaternion<R>>> Geometry for 
     type Local = Vec3<R>;
     type Location = Vec3<R>;
     type Frame = Pose<R>;
+    type Rest = ();
 
     const NAME: &'static str = R::NAME;
 

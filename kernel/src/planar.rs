@@ -43,6 +43,7 @@ impl<R: Real + Named> Geometry for Planar<R> {
     type Local = Vec2<R>;
     type Location = Vec2<R>;
     type Frame = PlanarPose<R>;
+    type Rest = ();
 
     const NAME: &'static str = R::NAME;
 

@@ -10,7 +10,7 @@ use crate::attitude::Attitude as _;
 use crate::damping::{Damping, Held, Keep, Share, find, share, weigh};
 use crate::elements::input::{Input, InputKind};
 use crate::extents::first_excess;
-use crate::forces::{Wrench, are_in_line};
+use crate::forces::{Wrench, are_in_line, find_rests};
 use crate::geometry::Geometry;
 use crate::guards::{first_beyond, first_fault};
 use crate::index::{BodyIndex, InputIndex};
@@ -37,6 +37,7 @@ where
     step_size: f64,
     h: RealOf<H::Target>,
     diagonals: PerBody<H, Diagonal<SpaceOf<H::Target>>>,
+    rests: PerTsda<H>,
     shares: <H::Target as ModelOwner>::PerDamper<Share<RealOf<H::Target>>>,
     levers: <S::Levers as Keep>::Memory<H::Target>,
     windows: <H::Target as ModelOwner>::PerLoad,
@@ -50,6 +51,10 @@ where
     status: Status,
 }
 
+/// What the precision of the model that `H` points to keeps of its TSDAs.
+type PerTsda<H> = <<H as Deref>::Target as ModelOwner>::PerTsda<
+    <<<H as Deref>::Target as ModelOwner>::Precision as Geometry>::Rest,
+>;
 /// One `T` per body of the model that `H` points to.
 type PerBody<H, T> = <<H as Deref>::Target as ModelOwner>::PerBody<T>;
 
@@ -89,6 +94,11 @@ where
         }
         let state = State::initial(owner);
         let mut frames = owner.per_body(FrameOf::<H::Target>::default());
+        let mut rests = owner.per_tsda(Default::default());
+        if <H::Target as ModelOwner>::Precision::RESTS {
+            place_bodies(state.bodies.as_ref(), frames.as_mut());
+            find_rests(&view, frames.as_ref(), rests.as_mut());
+        }
         let mut shares = owner.per_damper(Share::ALONE);
         let mut levers = S::Levers::memory(owner);
         let mut ledger = Ledger::default();
@@ -114,6 +124,7 @@ where
             step_size,
             h,
             diagonals,
+            rests,
             shares,
             levers,
             windows,
@@ -188,6 +199,7 @@ where
             model,
             h: self.h,
             diagonals: self.diagonals.as_ref(),
+            rests: self.rests.as_ref(),
             shares: self.shares.as_ref(),
             levers: self.levers.as_mut(),
             windows: self.windows.as_ref(),

@@ -31,7 +31,7 @@ fn place_apart<P: Geometry>(bodies: &[BodyState<P>], frames: &mut [P::Frame]) {
 #[inline(always)]
 fn place_here<P: Geometry>(bodies: &[BodyState<P>], frames: &mut [P::Frame]) {
     for (state, frame) in bodies.iter().zip(frames) {
-        *frame = P::frame(&state.position, &state.orientation);
+        P::set_frame(frame, &state.position, &state.orientation);
     }
 }
 

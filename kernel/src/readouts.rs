@@ -188,11 +188,12 @@ pub fn read<M: ModelOwner>(
         }
         Readout::JointForce { group } => {
             let group = view.groups.get(group as usize)?;
-            let record: Record<SpaceOf<M>> =
-                forces::record::<M::Precision, M::Terms, ExplicitDampers>(
-                    &view, places, bodies, group,
-                )
-                .unwrap_or(Record::ZERO);
+            let record: Record<SpaceOf<M>> = forces::record::<
+                M::Precision,
+                M::Terms,
+                ExplicitDampers,
+            >(&view, places, (bodies, &[]), group)
+            .unwrap_or(Record::ZERO);
             Some(Reading::Vector((-record.force).in_space()))
         }
         Readout::Imu { body, point } => {
@@ -283,9 +284,13 @@ pub fn each_force<M: ModelOwner>(
     place_bodies::<M::Precision>(bodies, frames.as_mut());
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
     for (row, group) in view.groups.iter().enumerate() {
-        let record: Record<SpaceOf<M>> =
-            forces::record::<M::Precision, M::Terms, ExplicitDampers>(&view, places, bodies, group)
-                .unwrap_or(Record::ZERO);
+        let record: Record<SpaceOf<M>> = forces::record::<M::Precision, M::Terms, ExplicitDampers>(
+            &view,
+            places,
+            (bodies, &[]),
+            group,
+        )
+        .unwrap_or(Record::ZERO);
         visit(row, (-record.force).in_space());
     }
 }

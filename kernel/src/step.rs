@@ -73,6 +73,8 @@ pub struct Workspace<'s, 'm, P: Geometry, T> {
     pub(crate) h: P::Real,
     /// ½·h·D⁻¹ per body.
     pub(crate) diagonals: &'s [Diagonal<P::Space>],
+    /// The TSDAs at rest.
+    pub(crate) rests: &'s [P::Rest],
     /// The dampers' shares.
     pub(crate) shares: &'s [Share<P::Real>],
     /// The joints' levers, none where dampers act otherwise.
@@ -182,6 +184,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
                 signals: self.signals,
                 bodies: self.bodies,
                 in_line: self.in_line,
+                rests: self.rests,
                 placed,
             },
             Turns { counts: self.turns, at },
@@ -251,7 +254,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
         let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
         for ((state, body), frame) in rows {
             drift_body(state, body, time);
-            *frame = P::frame(&state.position, &state.orientation);
+            P::set_frame(frame, &state.position, &state.orientation);
         }
     }
 
@@ -270,7 +273,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
         for (((state, body), frame), (wrench, diagonal)) in rows {
             kick_body(state, wrench, diagonal, scale);
             drift_body(state, body, time);
-            *frame = P::frame(&state.position, &state.orientation);
+            P::set_frame(frame, &state.position, &state.orientation);
         }
     }
 

@@ -128,6 +128,7 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
     type PerLoad = Vec<LoadWindow>;
     type PerInput = Vec<Signal<P::Real>>;
     type PerDamper<T: Copy> = Vec<T>;
+    type PerTsda<T: Copy> = Vec<T>;
     type PerKnot = Vec<KnotStep<P::Real>>;
 
     fn view(&self) -> ModelRef<'_, P, AllTerms> {
@@ -173,6 +174,10 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
 
     fn per_damper<T: Copy>(&self, value: T) -> Vec<T> {
         vec![value; self.dampers.len()]
+    }
+
+    fn per_tsda<T: Copy>(&self, value: T) -> Vec<T> {
+        vec![value; self.tsdas.len()]
     }
 
     fn per_knot(&self) -> Self::PerKnot {

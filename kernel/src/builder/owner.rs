@@ -50,6 +50,7 @@ impl<
     type PerLoad = Vec<LoadWindow, LOADS>;
     type PerInput = Vec<Signal<P::Real>, INPUTS>;
     type PerDamper<T: Copy> = Vec<T, DAMPERS>;
+    type PerTsda<T: Copy> = Vec<T, TSDAS>;
     type PerKnot = Vec<KnotStep<P::Real>, KNOTS>;
 
     fn view(&self) -> ModelRef<'_, P, AllTerms> {
@@ -95,6 +96,10 @@ impl<
 
     fn per_damper<T: Copy>(&self, value: T) -> Vec<T, DAMPERS> {
         self.dampers.iter().map(|_| value).collect()
+    }
+
+    fn per_tsda<T: Copy>(&self, value: T) -> Vec<T, TSDAS> {
+        self.tsdas.iter().map(|_| value).collect()
     }
 
     fn per_knot(&self) -> Self::PerKnot {

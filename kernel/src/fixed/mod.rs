@@ -3,7 +3,9 @@
 //! `positions, orientations, points in integers => exact differences => single precision`. Where
 //! bodies are is stored in integers of 64 bits, metres to 2^-57 and unit quaternions to 2^-62; a rotation
 //! has 30 bits after the point, a point 27. A point's place is the exact sum of products, the way between
-//! two points their exact difference, rounded once to single precision. Forces, rates and their increments
+//! two points their exact difference, rounded once to single precision. The centre of a star is placed beside where it
+//! rested in B at the start: with u the way from there and e what it was to a point of B,
+//! L² − L0² = (e² − L0²) − u·(2e − u), whose digits are those of u. Forces, rates and their increments
 //! are `f32`, velocities compensated sums ([`crate::compensated`]): laws, sweeps, schemes are those of `f32`.
 //!
 //! Integers have ends, and [`LIMITS`] says where: a model is checked when a plant of it is made, a state after
@@ -22,7 +24,7 @@ use crate::fixed::number::{
 };
 use crate::fixed::turn::{UNIT, in_whole};
 use crate::geometry::{Geometry, Limits, Reach};
-use crate::vector::Vec3;
+use crate::vector::{Rotation, Vec3};
 use crate::words::{Word, WordSource, WordVisitor, Words};
 
 /// Bits after the point of a position and of a place, metres.
@@ -65,6 +67,18 @@ pub struct FixedPose {
     position: [i64; 3],
     /// \[2^-30\] rows in world axes.
     rotation: [[i32; 3]; 3],
+    /// The same in single precision.
+    single: Rotation<f32>,
+}
+
+/// A TSDA at rest: how far its point of B is from where the centre of its star rests in B.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Rest {
+    /// \[m\] in the axes of B. Of the first of a star a multiple of 2^-27.
+    way: Vec3<f32>,
+    /// \[m²\] by how much its square is more than that of the free length.
+    more: f32,
 }
 
 impl FixedPlace {
@@ -152,6 +166,19 @@ fn difference(a: [i64; 3], b: [i64; 3]) -> [i64; 3] {
     [a[0].wrapping_sub(b[0]), a[1].wrapping_sub(b[1]), a[2].wrapping_sub(b[2])]
 }
 
+/// A place in the axes of a body, to 2^-27 m; no further from its centre of mass than its points are.
+fn within(frame: &FixedPose, place: &FixedPlace) -> [i64; 3] {
+    let [dx, dy, dz] = difference(place.at, frame.position).map(i128::from);
+    let [x, y, z] = frame.rotation.map(|row| row.map(i128::from));
+    let along = |axis: usize| {
+        let sum = x[axis] * dx + y[axis] * dy + z[axis] * dz;
+        // 30 bits of the matrix and 57 of the place.
+        let most = (LIMITS.reach as i128) << POINT;
+        (sum >> (30 + PLACE - POINT)).clamp(-most, most) as i64
+    };
+    [along(0), along(1), along(2)]
+}
+
 /// A displacement \[m\] below 8 m, in the units of a place.
 #[inline(always)]
 fn fixed(v: Vec3<f32>) -> [i64; 3] {
@@ -170,13 +197,35 @@ impl Geometry for Fixed {
     type Local = FixedPoint;
     type Location = FixedPlace;
     type Frame = FixedPose;
+    type Rest = Rest;
 
     const NAME: &'static str = "fixed";
     const LIMITS: Option<Limits> = Some(LIMITS);
 
     #[inline(always)]
     fn frame(position: &FixedPlace, orientation: &FixedTurn) -> FixedPose {
-        FixedPose { position: position.at, rotation: orientation.matrix() }
+        let mut frame = FixedPose::default();
+        Self::set_frame(&mut frame, position, orientation);
+        frame
+    }
+    // Number by number: what is made elsewhere is copied.
+    #[inline(always)]
+    fn set_frame(frame: &mut FixedPose, position: &FixedPlace, orientation: &FixedTurn) {
+        let FixedPose { position: at, rotation: [x, y, z], single } = frame;
+        let [p, q, r] = orientation.matrix();
+        for (to, from) in at.iter_mut().zip(position.at) {
+            *to = from;
+        }
+        for (row, from) in [(x, p), (y, q), (z, r)] {
+            for (to, from) in row.iter_mut().zip(from) {
+                *to = from;
+            }
+        }
+        for (row, [x, y, z]) in [(&mut single.x, p), (&mut single.y, q), (&mut single.z, r)] {
+            row.x = x as f32 * UNIT;
+            row.y = y as f32 * UNIT;
+            row.z = z as f32 * UNIT;
+        }
     }
     #[inline(always)]
     fn place(frame: &FixedPose, local: &FixedPoint) -> (FixedPlace, Vec3<f32>) {
@@ -215,21 +264,55 @@ impl Geometry for Fixed {
         }
         far(&d, free_length)
     }
+    const RESTS: bool = true;
+    fn rest(
+        frame: &FixedPose,
+        centre: &FixedPlace,
+        tip: &FixedPoint,
+        first: Option<(&FixedPoint, &Rest)>,
+        free_length: f32,
+    ) -> Rest {
+        let beside = |rests: [i64; 3]| difference(tip.at, rests).map(|c| to_f64(c, POINT as u32));
+        let near = match first {
+            Some((tip, rest)) => Self::centre(tip, rest),
+            // Where the first's way is a number of single precision.
+            None => {
+                let way = Vec3::from_f64(beside(within(frame, centre)));
+                Self::centre(tip, &Rest { way, more: 0.0 })
+            }
+        };
+        let way = beside(near.at);
+        let [x, y, z] = way;
+        let free = f64::from(free_length);
+        Rest { way: Vec3::from_f64(way), more: (x * x + y * y + z * z - free * free) as f32 }
+    }
+    #[inline(always)]
+    fn centre(tip: &FixedPoint, rest: &Rest) -> FixedPoint {
+        // What single precision holds of a multiple of 2^-27 is one.
+        let Vec3 { x, y, z } = rest.way * const { single_power(POINT) };
+        FixedPoint { at: difference(tip.at, [x, y, z].map(|c| i64::from(c as i32))) }
+    }
+    #[inline(always)]
+    fn reach_at_rest(rest: &Rest, off: Vec3<f32>) -> Reach<Vec3<f32>> {
+        let way = rest.way - off;
+        // |a − b|² − |a|² = −b·(a + (a − b)).
+        Reach { way, more: Some(rest.more - off.dot(rest.way + way)) }
+    }
     #[inline(always)]
     fn to_world(frame: &FixedPose, v: Vec3<f32>) -> Vec3<f32> {
-        in_whole(&frame.rotation).to_world(v * UNIT)
+        frame.single.to_world(v)
     }
     #[inline(always)]
     fn to_body(frame: &FixedPose, v: Vec3<f32>) -> Vec3<f32> {
-        in_whole(&frame.rotation).to_body(v * UNIT)
+        frame.single.to_body(v)
     }
     #[inline(always)]
     fn moment_to_world(frame: &FixedPose, m: Vec3<f32>) -> Vec3<f32> {
-        in_whole(&frame.rotation).to_world(m * UNIT)
+        frame.single.to_world(m)
     }
     #[inline(always)]
     fn moment_to_body(frame: &FixedPose, m: Vec3<f32>) -> Vec3<f32> {
-        in_whole(&frame.rotation).to_body(m * UNIT)
+        frame.single.to_body(m)
     }
     #[inline(always)]
     fn position(stored: &FixedPlace) -> Vec3<f32> {

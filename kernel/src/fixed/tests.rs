@@ -234,3 +234,61 @@ fn way_beside(d: [i64; 3], free: f32) -> f64 {
     let more = (square - exact_free * exact_free) as f64 * (-114.0_f64).exp2();
     more / (libm::sqrt(square as f64 * (-114.0_f64).exp2()) + f64::from(free))
 }
+
+#[test]
+fn stars_from_where_they_rested_pull_as_their_points_do() {
+    let mut numbers = units(17);
+    for i in 0..10_000 {
+        // A stiff joint, a loose one, and parts that lie far apart.
+        let scale = [1e-7, 1e-5, 1e-2, 1.0, 20.0][i % 5];
+        let mut vector = |scale: f64| core::array::from_fn(|_| numbers.next().unwrap() * scale);
+        let (at, local, shift) = (vector(3.0), vector(0.5), vector(scale));
+        let tips: [[f64; 3]; 3] = core::array::from_fn(|_| vector(0.4));
+        let turn = FixedTurn::from_f64(unit(&mut numbers));
+        let frame = Fixed::frame(&FixedPlace::new(at), &turn);
+        let (start, _) = Fixed::place(&frame, &FixedPoint::new(local));
+        let mut first = None;
+        let rests = tips.map(|tip| {
+            let tip = FixedPoint::new(tip);
+            let rest = Fixed::rest(&frame, &start, &tip, first.as_ref().map(|(t, r)| (t, r)), 0.3);
+            first = first.or(Some((tip, rest)));
+            (tip, rest)
+        });
+        let centre = Fixed::centre(&rests[0].0, &rests[0].1);
+        let near = difference(centre.at, FixedPoint::new(local).at);
+        // As single precision holds the first way, of up to 0.9 m.
+        assert!(near.iter().all(|c| c.abs() <= 8), "{near:?}");
+        // B turned a little elsewhere, and the centre moved with it and beside it.
+        let turn = FixedTurn::from_f64(unit(&mut numbers));
+        let frame = Fixed::frame(&FixedPlace::new(at.map(|c| 0.5 - c)), &turn);
+        let (resting, _) = Fixed::place(&frame, &centre);
+        let moved = FixedPlace { at: sum(resting.at, FixedPlace::new(shift).at) };
+        let off = Fixed::to_body(&frame, Fixed::displacement(&resting, &moved));
+        let far = f64::from(off.dot(off)).sqrt();
+        for (tip, rest) in rests {
+            let reach = Fixed::reach_at_rest(&rest, off);
+            let (tip, _) = Fixed::place(&frame, &tip);
+            let way = Fixed::to_world(&frame, reach.way);
+            let exact = Fixed::displacement(&moved, &tip);
+            let apart = (way - exact).dot(way - exact).sqrt();
+            assert!(apart < 2e-7 + 3e-7 * far as f32, "{apart} {far}");
+            let length = f64::from(exact.dot(exact)).sqrt();
+            let beyond = f64::from(reach.more.unwrap()) / (length + 0.3_f32 as f64);
+            let exact = way_beside(difference(tip.at, moved.at), 0.3);
+            // What the matrix rounds, and the digits of single precision of what it is off and was apart.
+            let bound = 3e-9 + 3e-7 * (far + exact.abs());
+            assert!((beyond - exact).abs() < bound, "{far:e}: {beyond:e} {exact:e}");
+        }
+    }
+}
+
+#[test]
+fn a_star_that_lies_far_off_rests_at_a_point_that_a_body_may_have() {
+    let frame = Fixed::frame(&FixedPlace::default(), &FixedTurn::default());
+    for at in [[20.0, -20.0, 0.0], [24.0; 3], [-24.0; 3]] {
+        let tip = FixedPoint::new([0.1, 0.2, -0.3]);
+        let rest = Fixed::rest(&frame, &FixedPlace::new(at), &tip, None, 1.0);
+        let centre = Fixed::local_to_f64(&Fixed::centre(&tip, &rest));
+        assert!(centre.iter().all(|c| c.abs() <= LIMITS.reach + 1e-6), "{centre:?}");
+    }
+}

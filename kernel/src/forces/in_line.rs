@@ -52,13 +52,13 @@ pub(crate) fn are_in_line<P: Geometry, T: Terms>(model: &ModelRef<'_, P, T>) -> 
 pub(super) fn add<P: Geometry, T: Terms, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
-    bodies: &[BodyState<P>],
+    (bodies, rests): (&[BodyState<P>], &[P::Rest]),
     wrenches: &mut [Wrench<P::Space>],
 ) {
     let at = (places, bodies);
     match kind::<T>(P::Space::PLANAR) {
-        Some((Law::Tsda, 1, _)) => add_stars::<P, T, D, 1, 2, 3, 2>(model, at, wrenches),
-        Some((Law::Tsda, _, _)) => add_stars::<P, T, D, 2, 3, 5, 6>(model, at, wrenches),
+        Some((Law::Tsda, 1, _)) => add_stars::<P, T, D, 1, 2, 3, 2>(model, rests, at, wrenches),
+        Some((Law::Tsda, _, _)) => add_stars::<P, T, D, 2, 3, 5, 6>(model, rests, at, wrenches),
         Some((Law::PointBushing, _, _)) => {
             add_pairs::<P, T, D, _>(model, model.bushings, at, wrenches);
         }
@@ -84,13 +84,17 @@ fn add_stars<
     const SPRINGS: usize,
 >(
     model: &ModelRef<'_, P, T>,
+    rests: &[P::Rest],
     at: Where<'_, P>,
     wrenches: &mut [Wrench<P::Space>],
 ) {
     let (places, bodies) = at;
     let points = model.points.as_chunks::<POINTS>().0;
     let springs = model.tsdas.as_chunks::<SPRINGS>().0;
-    for (group, (points, springs)) in model.groups.iter().zip(points.iter().zip(springs)) {
+    let rests = rests.as_chunks::<SPRINGS>().0;
+    for (i, (group, (points, springs))) in
+        model.groups.iter().zip(points.iter().zip(springs)).enumerate()
+    {
         let moving = D::ACT && T::DAMPERS && group.damper.row().is_some();
         let moving = if moving { Some(bodies) } else { None };
         let end_a = End::new(model, places, group.a, moving);
@@ -101,7 +105,13 @@ fn add_stars<
             continue;
         };
         let Some(springs) = grid(springs, 0) else { break };
-        let parts = (points.as_slice(), springs);
+        let rests = if P::RESTS {
+            let Some(rests) = rests.get(i) else { break };
+            grid(rests, 0)
+        } else {
+            None
+        };
+        let parts = (points.as_slice(), springs, rests);
         let record: Option<Record<_>> = match end_a.body() {
             Some(a) => pull::<P, T, D, STARS, ARMS>(model, group, parts, &a, &b),
             None => pull::<P, T, D, STARS, ARMS>(model, group, parts, &end_a.ground(), &b),
@@ -165,6 +175,7 @@ mod tests {
                 signals: &[],
                 bodies: model.initial(),
                 in_line,
+                rests: &[],
                 placed: false,
             };
             let out = Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() };

@@ -5,7 +5,7 @@
 //! inputs and the records of its groups likewise, then its torsion springs'.
 //! Within a TSDA group each distinct point is placed once; the pulls on a point are added in
 //! the order of its elements; the record's force and torque on A add star by star, the torque
-//! on B arm by arm. Forces and torques are in world axes; a body's torque is turned into body
+//! on B arm by arm, or, where a precision keeps stars at rest, star by star as well. Forces and torques are in world axes; a body's torque is turned into body
 //! axes once, at the end.
 
 mod bushing;
@@ -24,6 +24,7 @@ use crate::body::BodyState;
 pub(crate) use in_line::are_in_line;
 pub use record::{At, Dampers, DampersLeft, DampersOfJoints, ExplicitDampers, Wrench};
 pub(crate) use record::{Record, Turns, apply};
+pub(crate) use stars::find_rests;
 
 use crate::elements::gravity;
 use crate::elements::load::LoadFrame;
@@ -46,6 +47,8 @@ pub(crate) struct Instant<'s, P: Geometry> {
     pub(crate) signals: &'s [Signal<P::Real>],
     /// One per body.
     pub(crate) bodies: &'s [BodyState<P>],
+    /// One per TSDA where the precision keeps any; groups without it go the long way.
+    pub(crate) rests: &'s [P::Rest],
     /// Whether the groups [`are_in_line`].
     pub(crate) in_line: bool,
     /// Whether the frames are those of the pose.
@@ -86,6 +89,7 @@ pub fn wrenches<M: ModelOwner>(
             signals: state.signals.as_ref(),
             bodies: state.bodies.as_ref(),
             in_line: false,
+            rests: &[],
             placed: false,
         },
         Turns { counts: turns.as_mut(), at: At::Stage },
@@ -106,7 +110,7 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, D: Dampers>(
     turns: Turns<'_>,
     out: Evaluation<'_, P>,
 ) -> Result<(), Cause> {
-    let Instant { step, windows, signals, bodies, in_line, placed } = instant;
+    let Instant { step, windows, signals, bodies, rests, in_line, placed } = instant;
     let Evaluation { frames, wrenches } = out;
     if !placed {
         place_bodies(bodies, frames);
@@ -117,10 +121,10 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, D: Dampers>(
         inputs::push(model, places, wrenches);
     }
     if in_line && in_line::may_be::<P, T>() {
-        in_line::add::<P, T, D>(model, places, bodies, wrenches);
+        in_line::add::<P, T, D>(model, places, (bodies, rests), wrenches);
     } else if T::TSDAS || T::BUSHINGS || T::LINES || T::REVOLUTES || T::UNIVERSALS {
         for group in model.groups {
-            if let Some(record) = record::<P, T, D>(model, places, bodies, group) {
+            if let Some(record) = record::<P, T, D>(model, places, (bodies, rests), group) {
                 apply(wrenches, group.a.row(), group.b.row(), &record);
             }
         }
@@ -139,7 +143,7 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, D: Dampers>(
 pub(crate) fn record<P: Geometry, T: Terms, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
-    bodies: &[BodyState<P>],
+    (bodies, rests): (&[BodyState<P>], &[P::Rest]),
     group: &Group,
 ) -> Option<Record<P::Space>> {
     let moving = D::ACT && T::DAMPERS && group.damper.row().is_some();
@@ -147,7 +151,7 @@ pub(crate) fn record<P: Geometry, T: Terms, D: Dampers>(
     let end_a = End::new(model, places, group.a, moving);
     let end_b = End::new(model, places, group.b, moving);
     match group.law {
-        Law::Tsda if T::TSDAS => stars::stars::<P, T, D>(model, group, &end_a, &end_b),
+        Law::Tsda if T::TSDAS => stars::stars::<P, T, D>(model, rests, group, &end_a, &end_b),
         Law::PointBushing if T::BUSHINGS => {
             bushing::bushings::<P, T, D>(model, group, &end_a, &end_b)
         }

@@ -12,26 +12,64 @@ use crate::elements::tsda::Tsda;
 use crate::forces::record::{Dampers, Record};
 use crate::forces::springs::Springs;
 use crate::geometry::Geometry;
-use crate::model::{Group, ModelRef, Terms};
-use crate::pose::{End, MOST_ARMS};
+use crate::model::{Group, Law, ModelRef, Terms};
+use crate::pose::{End, MOST_ARMS, Places};
 use crate::space::{Linear, Space, Vector as _};
 
 /// A group of TSDA stars.
 #[inline(always)]
 pub(super) fn stars<P: Geometry, T: Terms, D: Dampers>(
     model: &ModelRef<'_, P, T>,
+    rests: &[P::Rest],
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
 ) -> Option<Record<P::Space>> {
+    if P::RESTS && (rests.is_empty() || end_b.body().is_none()) {
+        return many::<P, T, D>(model, group, end_a, end_b);
+    }
     match (group.stars, group.arms, end_b.body()) {
         (2, 3, Some(b)) if group.shared && !P::Space::PLANAR => {
-            straight::<P, T, D, 2, 3>(model, group, end_a, &b)
+            straight::<P, T, D, 2, 3>(model, rests, group, end_a, &b)
         }
-        (1, 2, Some(b)) if P::Space::PLANAR => straight::<P, T, D, 1, 2>(model, group, end_a, &b),
-        (1, 3, _) if !P::Space::PLANAR => block::<P, T, D, 1, 3>(model, group, end_a, end_b),
-        (1, 1, _) => block::<P, T, D, 1, 1>(model, group, end_a, end_b),
+        (1, 2, Some(b)) if P::Space::PLANAR => {
+            straight::<P, T, D, 1, 2>(model, rests, group, end_a, &b)
+        }
+        (1, 3, Some(b)) if P::RESTS => block::<P, T, D, 1, 3>(model, rests, group, end_a, &b),
+        (1, 1, Some(b)) if P::RESTS => block::<P, T, D, 1, 1>(model, rests, group, end_a, &b),
+        (1, 3, _) if !P::Space::PLANAR => block::<P, T, D, 1, 3>(model, rests, group, end_a, end_b),
+        (1, 1, _) => block::<P, T, D, 1, 1>(model, rests, group, end_a, end_b),
         _ => many::<P, T, D>(model, group, end_a, end_b),
+    }
+}
+
+/// The TSDAs of a model at rest, by its bodies' frames at the start.
+pub(crate) fn find_rests<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    frames: &[P::Frame],
+    rests: &mut [P::Rest],
+) {
+    let signals = &[];
+    let places = Places { frames, signals };
+    for group in model.groups.iter().filter(|group| group.law == Law::Tsda) {
+        let Some(frame) = frames.get(group.b.row()) else { continue };
+        let end_a = End::new(model, places, group.a, None);
+        for star in 0..group.stars as usize {
+            let Some(centre) = model.points.get(group.centre(star)) else { break };
+            let (centre, _) = end_a.place(centre);
+            let mut first = None;
+            for arm in 0..group.arms as usize {
+                let element = group.element as usize + star * group.arms as usize + arm;
+                let tip = model.points.get(group.tips(star) + arm);
+                let spring = model.tsdas.get(element);
+                if let (Some(tip), Some(spring), Some(rest)) = (tip, spring, rests.get_mut(element))
+                {
+                    let nearest = first.as_ref().map(|(tip, rest)| (*tip, rest));
+                    *rest = P::rest(frame, &centre, tip, nearest, spring.free_length);
+                    first = first.or(Some((tip, *rest)));
+                }
+            }
+        }
     }
 }
 
@@ -40,13 +78,14 @@ pub(super) fn stars<P: Geometry, T: Terms, D: Dampers>(
 #[inline(always)]
 fn straight<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usize>(
     model: &ModelRef<'_, P, T>,
+    rests: &[P::Rest],
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
 ) -> Option<Record<P::Space>> {
     match end_a.body() {
-        Some(a) => block::<P, T, D, STARS, ARMS>(model, group, &a, end_b),
-        None => block::<P, T, D, STARS, ARMS>(model, group, &end_a.ground(), end_b),
+        Some(a) => block::<P, T, D, STARS, ARMS>(model, rests, group, &a, end_b),
+        None => block::<P, T, D, STARS, ARMS>(model, rests, group, &end_a.ground(), end_b),
     }
 }
 
@@ -54,18 +93,23 @@ fn straight<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: u
 #[inline(always)]
 fn block<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usize>(
     model: &ModelRef<'_, P, T>,
+    rests: &[P::Rest],
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
 ) -> Option<Record<P::Space>> {
     let points = model.points.get(group.centre(0)..group.centre(0) + STARS + ARMS)?;
     let springs = grid(model.tsdas, group.element as usize)?;
-    pull::<P, T, D, STARS, ARMS>(model, group, (points, springs), end_a, end_b)
+    let rests = if P::RESTS { Some(grid(rests, group.element as usize)?) } else { None };
+    pull::<P, T, D, STARS, ARMS>(model, group, (points, springs, rests), end_a, end_b)
 }
 
-/// The points of stars and their springs.
-type Parts<'m, P, const STARS: usize, const ARMS: usize> =
-    (&'m [<P as Geometry>::Local], &'m [[Tsda<<P as Geometry>::Real>; ARMS]; STARS]);
+/// The points of stars, their springs, and these at rest where the precision keeps any.
+type Parts<'m, P, const STARS: usize, const ARMS: usize> = (
+    &'m [<P as Geometry>::Local],
+    &'m [[Tsda<<P as Geometry>::Real>; ARMS]; STARS],
+    Option<&'m [[<P as Geometry>::Rest; ARMS]; STARS]>,
+);
 
 /// What `STARS` stars that share `ARMS` points of B pull: written out, each sum from its first term.
 /// `None` where the model lacks some of it.
@@ -73,7 +117,7 @@ type Parts<'m, P, const STARS: usize, const ARMS: usize> =
 pub(super) fn pull<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usize>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
-    (points, springs): Parts<'_, P, STARS, ARMS>,
+    (points, springs, rests): Parts<'_, P, STARS, ARMS>,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
 ) -> Option<Record<P::Space>> {
@@ -83,10 +127,14 @@ pub(super) fn pull<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const 
     Some(match group.damper.row() {
         // Apart: what has dampers is not asked for each spring.
         Some(row) if D::ACT && T::DAMPERS => {
-            let springs = Springs { springs, dampers: Some(grid(model.dampers, row)?), clearance };
-            springs.record::<P>(centres, tips, end_a, end_b)
+            let dampers = Some(grid(model.dampers, row)?);
+            let springs = Springs::<P, _, _> { springs, rests, dampers, clearance };
+            springs.record(centres, tips, end_a, end_b)
         }
-        _ => Springs { springs, dampers: None, clearance }.record::<P>(centres, tips, end_a, end_b),
+        _ => {
+            let springs = Springs::<P, _, _> { springs, rests, dampers: None, clearance };
+            springs.record(centres, tips, end_a, end_b)
+        }
     })
 }
 
@@ -226,7 +274,7 @@ mod tests {
         let places = Places { frames: &frames, signals: &[] };
         let end = |body| End::new(&view, places, body, Some(&states));
         let (a, b) = (end(group.a), end(group.b));
-        let straight = stars::<F64, _, D>(&view, &group, &a, &b).unwrap();
+        let straight = stars::<F64, _, D>(&view, &[], &group, &a, &b).unwrap();
         [straight, many::<F64, _, D>(&view, &group, &a, &b).unwrap()]
     }
 
@@ -287,7 +335,10 @@ mod tests {
         for group in lacking {
             let end = |body| End::new(&view, places, body, None);
             let (a, b) = (end(group.a), end(group.b));
-            assert!(stars::<F64, _, DampersLeft>(&view, &group, &a, &b).is_none(), "{group:?}");
+            assert!(
+                stars::<F64, _, DampersLeft>(&view, &[], &group, &a, &b).is_none(),
+                "{group:?}"
+            );
         }
     }
 }

@@ -187,6 +187,8 @@ pub trait ModelOwner {
     type PerInput: Clone + AsRef<[Signal<RealOf<Self>>]> + AsMut<[Signal<RealOf<Self>>]>;
     /// Memory of one `T` per damper.
     type PerDamper<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
+    /// Memory of one `T` per TSDA.
+    type PerTsda<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one knot in steps per knot.
     type PerKnot: Clone + AsRef<[KnotStep<RealOf<Self>>]> + AsMut<[KnotStep<RealOf<Self>>]>;
 
@@ -204,6 +206,8 @@ pub trait ModelOwner {
     fn per_input(&self) -> Self::PerInput;
     /// One `value` per damper.
     fn per_damper<T: Copy>(&self, value: T) -> Self::PerDamper<T>;
+    /// One `value` per TSDA.
+    fn per_tsda<T: Copy>(&self, value: T) -> Self::PerTsda<T>;
     /// One knot in steps per knot.
     fn per_knot(&self) -> Self::PerKnot;
 }

@@ -267,6 +267,7 @@ impl<
     type PerLoad = [LoadWindow; LOADS];
     type PerInput = [Signal<P::Real>; INPUTS];
     type PerDamper<T: Copy> = [T; DAMPERS];
+    type PerTsda<T: Copy> = [T; TSDAS];
     type PerKnot = [KnotStep<P::Real>; KNOTS];
 
     #[inline(always)]
@@ -318,6 +319,11 @@ impl<
     #[inline]
     fn per_damper<T: Copy>(&self, value: T) -> [T; DAMPERS] {
         [value; DAMPERS]
+    }
+
+    #[inline]
+    fn per_tsda<T: Copy>(&self, value: T) -> [T; TSDAS] {
+        [value; TSDAS]
     }
 
     #[inline]
