@@ -26,13 +26,11 @@ pub(crate) fn prepare<P: Geometry, T: Terms, K: Kick<P>>(
 ) {
     for number in 0..usize::from(stops) {
         let Some(&Lever { stop, .. }) = levers.get(number) else { break };
-        if stop.kind == Kind::Ground {
-            continue;
-        }
         let row = usize::from(stop.row);
         let (Some(own), Some(shares)) = (levers.get_mut(row..), sweep.shares.get(row..)) else {
             break;
         };
+        // Not sorted out before: the table of a match would have a place for what cannot come.
         match stop.kind {
             Kind::Ground => {}
             Kind::Joint => {
