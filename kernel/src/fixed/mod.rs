@@ -22,7 +22,7 @@ use crate::fixed::number::{
     exact_product, from_f32, from_f64, nearest_f32, single_power, square_of, squared, to_f32,
     to_f64,
 };
-use crate::fixed::turn::{UNIT, in_whole};
+use crate::fixed::turn::UNIT;
 use crate::geometry::{Geometry, Limits, Reach};
 use crate::vector::{Rotation, Vec3};
 use crate::words::{Word, WordSource, WordVisitor, Words};
