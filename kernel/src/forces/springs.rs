@@ -45,7 +45,7 @@ impl<P: Geometry, const STARS: usize, const ARMS: usize> Springs<'_, P, STARS, A
         end_b: &End<'_, P>,
     ) -> Record<P::Space> {
         if let Some(rests) = self.rests {
-            return self.from_rest(rests, centres, &tips[0], end_a, end_b);
+            return self.beside_rest(rests, centres, &tips[0], end_a, end_b);
         }
         let mut spots = [(P::Location::default(), P::Vector::ZERO); STARS];
         for (spot, centre) in spots.iter_mut().zip(centres) {
@@ -76,7 +76,7 @@ impl<P: Geometry, const STARS: usize, const ARMS: usize> Springs<'_, P, STARS, A
     /// [`Self::record`] by how far the stars' centres are from where they rest in B. What pulls along a line
     /// that leads to the centre turns B as if it pulled there.
     #[inline(always)]
-    fn from_rest(
+    fn beside_rest(
         &self,
         rests: &[[P::Rest; ARMS]; STARS],
         centres: &[P::Local; STARS],

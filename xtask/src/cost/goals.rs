@@ -27,6 +27,10 @@ const GOALS: &[(&str, Figure, u64)] = &[
     ("double-wishbone leapfrog f32", Figure::Instructions, 12_000),
     ("cart-pendulum leapfrog f32", Figure::Instructions, 6_000),
     ("gripper leapfrog f32", Figure::Instructions, 24_000),
+    ("double-wishbone leapfrog-joint-wise f32", Figure::Instructions, 12_000),
+    ("cart-pendulum leapfrog-joint-wise f32", Figure::Instructions, 6_000),
+    ("gripper leapfrog-joint-wise f32", Figure::Instructions, 24_000),
+    ("hexagon leapfrog fixed", Figure::Instructions, 7_625),
     ("3ruu leapfrog f32", Figure::Ram, 4 * 1024),
     ("3ruu leapfrog f32", Figure::Flash, 32 * 1024),
 ];
