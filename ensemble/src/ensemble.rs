@@ -18,6 +18,13 @@ use crate::in_lanes::InLanes;
 use crate::instructions::InstructionSet;
 use crate::number::Number;
 
+/// A step of lanes is inlined whole. Where it is not optimised, each of its values has a place of its own:
+/// megabytes of them, more than a main thread may have.
+const OPTIMISED: bool = !cfg!(debug_assertions);
+
+/// What a thread has for its stack; only what is used is taken from the machine.
+const STACK: usize = if OPTIMISED { 2 << 20 } else { 64 << 20 };
+
 /// Why there is no ensemble of some models.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum EnsembleError {
@@ -132,19 +139,28 @@ impl<R: Number, S: InLanes + Send + 'static> Ensemble<R, S> {
         R::lanes(self.set)
     }
 
-    /// `steps` steps of every instance with held inputs, or as many as succeed, on this thread.
+    /// `steps` steps of every instance with held inputs, or as many as succeed, on this thread (without
+    /// optimisation on another one, which has the stack for it).
+    ///
+    /// # Panics
+    /// Without optimisation, where the system has no thread.
     pub fn advance(&mut self, steps: u64) {
-        self.batches.iter_mut().for_each(|batch| batch.advance(steps));
+        self.advance_on(NonZeroUsize::MIN, steps);
     }
 
     /// [`Self::advance`] on so many threads, which share the batches evenly.
+    ///
+    /// # Panics
+    /// Where the system has no further thread.
     pub fn advance_on(&mut self, threads: NonZeroUsize, steps: u64) {
         let share = self.batches.len().div_ceil(threads.get()).max(1);
         let mut shares = self.batches.chunks_mut(share);
-        let own = shares.next();
+        let own = if OPTIMISED { shares.next() } else { None };
         thread::scope(|scope| {
             for batches in shares {
-                scope.spawn(move || batches.iter_mut().for_each(|batch| batch.advance(steps)));
+                let work = move || batches.iter_mut().for_each(|batch| batch.advance(steps));
+                let thread = thread::Builder::new().stack_size(STACK);
+                thread.spawn_scoped(scope, work).expect("the system has a thread");
             }
             own.into_iter().flatten().for_each(|batch| batch.advance(steps));
         });

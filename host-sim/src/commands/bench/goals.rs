@@ -105,22 +105,29 @@ fn growth(rows: &[Row]) -> Option<Goal> {
             Some((row.size.links? as f64, time.least, time.spread))
         })
         .collect();
-    let of = |scale: [f64; 2]| {
-        let last = points.len().checked_sub(1)?;
-        let scaled = points.iter().enumerate().map(|(row, (links, time, spread))| {
-            let sign = scale[0] + (scale[1] - scale[0]) * row as f64 / last.max(1) as f64;
-            (*links, time * (1.0 + sign * spread))
-        });
-        exponent(&scaled.collect::<Vec<_>>())
-    };
-    let figure = of([0.0, 0.0])?;
-    // The spreads at their worst: the short chains too fast, the long ones too slow.
-    let scatter = (of([-1.0, 1.0])? - figure).abs();
+    let (figure, scatter) = grown(&points)?;
     let links = |pick: fn(f64, f64) -> f64| {
         points.iter().map(|point| point.0).reduce(pick).unwrap_or_default()
     };
     let what = format!("time ∝ bodies^x, {} to {}", links(f64::min), links(f64::max));
     Some(Goal::new(what, figure, scatter, [Some(1.0 - GROWTH), Some(1.0 + GROWTH)]))
+}
+
+/// The exponent of points (bodies, time, spread of the time) and how far the spreads may move it.
+fn grown(points: &[(f64, f64, f64)]) -> Option<(f64, f64)> {
+    let of = |scale: [f64; 2]| {
+        let last = points.len().checked_sub(1)?;
+        let scaled = points.iter().enumerate().map(|(row, (links, time, spread))| {
+            let sign = scale[0] + (scale[1] - scale[0]) * row as f64 / last.max(1) as f64;
+            // Above zero, however far the times lie apart.
+            let factor = 1.0 + sign.abs() * spread;
+            (*links, if sign < 0.0 { time / factor } else { time * factor })
+        });
+        exponent(&scaled.collect::<Vec<_>>())
+    };
+    let figure = of([0.0, 0.0])?;
+    // The spreads at their worst: the short chains too fast, the long ones too slow.
+    Some((figure, (of([-1.0, 1.0])? - figure).abs()))
 }
 
 #[cfg(test)]
@@ -138,5 +145,13 @@ mod tests {
         assert_eq!(verdict(1.04, 0.02), Verdict::TooNoisy);
         let text = Goal::new(String::new(), 3.5, 0.1, [Some(3.2), None]).text();
         assert_eq!(text, "3.50 ± 0.10, goal at least 3.2: met");
+    }
+
+    #[test]
+    fn times_that_scatter_by_more_than_themselves_have_an_exponent_and_a_scatter() {
+        let (figure, scatter) = grown(&[(2.0, 1.0, 3.0), (4.0, 2.0, 3.0)]).unwrap();
+        // Four times too fast, four times too slow: 16 on a doubling.
+        assert!((figure - 1.0).abs() < 1e-12 && (scatter - 4.0).abs() < 1e-12);
+        assert!(grown(&[]).is_none());
     }
 }
