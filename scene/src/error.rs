@@ -6,6 +6,7 @@ use std::io;
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode, SourceSpan};
 use thiserror::Error;
 
+use crate::parameters::Log;
 use crate::quantity::Scope;
 
 /// A scene that cannot be read, or that is refused.
@@ -117,6 +118,8 @@ pub(crate) struct Source<'t> {
     pub(crate) own: usize,
     /// What names in values stand for, once it is known.
     pub(crate) scope: Option<&'t Scope>,
+    /// Where the numbers that are read are noted, where anyone asks.
+    pub(crate) log: Option<&'t Log>,
 }
 
 impl<'t> Source<'t> {
@@ -125,7 +128,7 @@ impl<'t> Source<'t> {
 
     /// The text of a file, without changes.
     pub(crate) fn of(file: &'t str, text: &'t str) -> Self {
-        Self { file, text, own: text.len(), scope: None }
+        Self { file, text, own: text.len(), scope: None, log: None }
     }
 
     /// Whether a byte is one of a change.

@@ -16,6 +16,7 @@ mod error;
 pub mod export;
 mod extents;
 mod facts;
+mod fault;
 mod file_lines;
 mod geometry;
 mod hinge;
@@ -83,7 +84,7 @@ use crate::error::Source;
 use crate::file_lines::FileLines;
 use crate::hinge::Known;
 use crate::origin::Origin;
-use crate::parameters::{Changed, Changes, Parameter};
+use crate::parameters::{Changed, Changes, Log, Parameter, SceneNumber};
 use crate::target::Elements;
 use crate::text::{Number, Numbers, Seconds, Switch, Table, Text};
 use crate::write::Writer;
@@ -195,7 +196,7 @@ impl Scene {
         file: &str,
         changes: &[impl AsRef<str>],
     ) -> Result<Self, SceneError> {
-        Self::read(text, file, changes, |_, _, _| Ok(())).map(|(scene, ())| scene)
+        Self::read(text, file, changes, None, |_, _, _| Ok(())).map(|(scene, ())| scene)
     }
 
     /// The long form of a scene: the text of one with the same bits whose every pose and place is a number in SI,
@@ -211,7 +212,22 @@ impl Scene {
         let write = |scene: &Self, root: &Table<'_>, resolved: &_| {
             Writer::new(root, scene, resolved, text).write()
         };
-        Self::read(text, file, changes, write).map(|(_, text)| text)
+        Self::read(text, file, changes, None, write).map(|(_, text)| text)
+    }
+
+    /// All numbers that the scene's file writes, with the changes, by their paths: what
+    /// [`Self::parse_with`] and [`Self::with`] can give otherwise.
+    ///
+    /// # Errors
+    /// None for a scene that was read from its text alone; else as [`Self::parse_with`].
+    pub fn numbers(&self) -> Result<Vec<SceneNumber>, SceneError> {
+        let log = Log::default();
+        let (file, text) = self.origin.file();
+        let list = |scene: &Self, root: &Table<'_>, _: &_| {
+            let named = scene.parameters.iter().map(SceneNumber::of);
+            Ok(named.chain(log.numbers(root.entries())).collect())
+        };
+        Self::read(text, file, &self.changes, Some(&log), list).map(|(_, numbers)| numbers)
     }
 
     /// Reads a scene and does something while its tables are there, knowing what values stand for.
@@ -219,6 +235,7 @@ impl Scene {
         text: &str,
         file: &str,
         changes: &[impl AsRef<str>],
+        log: Option<&Log>,
         then: impl FnOnce(&Self, &Table<'_>, &BTreeMap<usize, Resolved>) -> Result<T, SceneError>,
     ) -> Result<(Self, T), SceneError> {
         let given = changes.iter().map(|change| change.as_ref().to_owned()).collect();
@@ -233,7 +250,7 @@ impl Scene {
         let root = text::root(source, &document);
         root.only(&[KEYS])?;
         let scope = parameters::read(&root, before.as_ref())?;
-        let source = Source { scope: Some(&scope), ..source };
+        let source = Source { scope: Some(&scope), log, ..source };
         let root = text::root(source, &document);
         let name = root.required("name", Text::Name)?;
         let description = root.optional("description", Text::Any)?.unwrap_or_default();

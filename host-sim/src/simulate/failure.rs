@@ -9,7 +9,6 @@
 use std::fmt;
 use std::io;
 
-use dbd_kernel::status::{Cause, MOST_TURN};
 use dbd_plant::digits::significant;
 use dbd_plant::judge::Trouble;
 use dbd_plant::plan::{Request, StepRequest, plan};
@@ -134,39 +133,10 @@ impl Diagnostic for FailedRun {
 }
 
 fn describe(scene: &Scene, trouble: Trouble) -> String {
-    let name = |names: &[String], row: usize| names.get(row).cloned().unwrap_or_default();
     match trouble {
-        Trouble::Step(Cause::NonFinite { body }) => {
-            let body = name(&scene.body_names, body.row());
-            format!("a number of body `{body}`'s state is not finite")
-        }
-        Trouble::Step(Cause::Spin { body }) => {
-            let body = name(&scene.body_names, body.row());
-            format!("body `{body}` turns by more than {MOST_TURN} rad in a step")
-        }
-        Trouble::Step(Cause::Extent { body }) => {
-            let body = name(&scene.body_names, body.row());
-            format!("body `{body}` is farther away, or faster, than fixed-point numbers hold")
-        }
-        Trouble::Step(Cause::Turns { spring }) => {
-            let spring = name(&scene.torsion_names, usize::from(spring.0));
-            format!("the turn count of {spring} is at its end")
-        }
-        Trouble::Step(Cause::Steps) => "the step counter is at its end".to_owned(),
-        Trouble::Step(Cause::Frequency { body }) => {
-            let body = name(&scene.body_names, body.row());
-            format!("what is mounted to body `{body}` can vibrate faster than the step bears")
-        }
-        Trouble::Step(Cause::Energy { body }) => {
-            let body = name(&scene.body_names, body.row());
-            format!("the energy is beyond its limit, most of it in body `{body}`,")
-        }
-        Trouble::Step(Cause::UndefinedTwist { spring }) => {
-            let spring = name(&scene.torsion_names, usize::from(spring.0));
-            format!("the twist of {spring} is undefined: its bodies turned half a turn across it")
-        }
+        Trouble::Step(cause) => scene.fault(&cause),
         Trouble::Growth { growth, body } => {
-            let (growth, body) = (significant(growth, 2), name(&scene.body_names, body));
+            let (growth, body) = (significant(growth, 2), scene.body_name(body));
             format!("{growth} J came from nowhere, body `{body}` is the fastest,")
         }
         Trouble::Torn { joint, extension } => {
@@ -175,8 +145,7 @@ fn describe(scene: &Scene, trouble: Trouble) -> String {
             format!("joint `{joint}` is stretched by {extension} m")
         }
         Trouble::Energy { body } => {
-            let body = name(&scene.body_names, body);
-            format!("the energy of body `{body}` is not finite")
+            format!("the energy of body `{}` is not finite", scene.body_name(body))
         }
     }
 }

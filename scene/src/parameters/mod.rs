@@ -7,6 +7,7 @@
 //! does not have is added to it.
 
 mod named;
+mod numbers;
 mod path;
 mod pattern;
 
@@ -19,6 +20,8 @@ use crate::shortened::shortened;
 use crate::text;
 pub use named::Parameter;
 pub(crate) use named::{all, read};
+pub(crate) use numbers::Log;
+pub use numbers::SceneNumber;
 use path::{Placed, Step};
 pub use pattern::is_of;
 

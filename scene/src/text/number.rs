@@ -89,6 +89,9 @@ impl Kind for Number {
             };
             return Err(value.refuse(&problem, &self.expected()));
         }
+        if let Some(log) = value.source.log {
+            log.note(value.span(), number, self.unit);
+        }
         Ok(number)
     }
 }

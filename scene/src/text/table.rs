@@ -114,6 +114,11 @@ impl<'t> Table<'t> {
         None
     }
 
+    /// What it holds.
+    pub(crate) fn entries(&self) -> &'t DeTable<'t> {
+        self.entries
+    }
+
     /// What messages call it.
     pub(crate) fn label(&self) -> &str {
         &self.label
