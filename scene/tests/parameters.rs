@@ -121,3 +121,47 @@ fn what_is_wrong_with_a_change_is_shown_in_it() {
     let error = error.unwrap_err();
     assert_eq!((error.file(), error.line()), ("cart.toml", Some(13)));
 }
+
+#[test]
+fn every_number_has_a_path_that_gives_it_otherwise() {
+    let scene = Scene::parse(SCENE, "cart.toml").unwrap();
+    let numbers = scene.numbers().unwrap();
+    let find = |path: &str| {
+        let found = numbers.iter().find(|number| number.path == path);
+        found.map(|number| (number.value, number.unit.as_str()))
+    };
+    assert_eq!(find("gravity[1]"), Some((-9.81, "m/s²")));
+    assert_eq!(find("body.cart.mass"), Some((0.94, "kg")));
+    assert_eq!(find("body.\"leg.2\".mass"), Some((3.0, "kg")));
+    assert_eq!(find("body.leg 1.orientation.angle"), Some((0.5, "rad")));
+    assert_eq!(find("tsda.1.stiffness"), Some((10.0, "N/m")));
+    assert_eq!(find("joint.rail.arm"), Some((0.1, "m")));
+    let changed = scene.with("body.cart.mass=3").unwrap().numbers().unwrap();
+    assert!(changed.iter().any(|number| number.path == "body.cart.mass" && number.value == 3.0));
+}
+
+/// What is listed is what a change takes: each number given as itself leaves the model as it is.
+#[test]
+fn a_number_given_as_itself_changes_nothing() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|end| end != "toml") {
+            continue;
+        }
+        let scene = Scene::load(&path).unwrap();
+        let numbers = scene.numbers().unwrap();
+        assert!(numbers.len() > 10, "{}", path.display());
+        let mut changes = Vec::new();
+        for number in &numbers {
+            changes.push(format!("{}={:?}", number.path, number.value));
+        }
+        count += numbers.len();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let again = Scene::parse_with(&text, "again.toml", &changes).unwrap();
+        assert_eq!(again.model, scene.model, "{}", path.display());
+        assert_eq!(again.numbers().unwrap(), numbers);
+    }
+    assert!(count > 500, "{count}");
+}

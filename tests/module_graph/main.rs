@@ -21,6 +21,7 @@ const CRATES: &[&str] = &[
     "study",
     "sweep",
     "ensemble",
+    "instance",
     "output",
     "picture",
     "report",

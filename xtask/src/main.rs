@@ -19,6 +19,7 @@ mod instructions;
 mod packages;
 mod precisions;
 mod prove;
+mod python;
 mod semver;
 mod steps;
 mod target;
@@ -150,7 +151,7 @@ enum Command {
 fn main() -> ExitCode {
     let command = Cli::parse().command;
     let outcome = attended::attended("still at work", || match command {
-        Command::Setup => setup::run(),
+        Command::Setup => setup::run().and(python::set_up()),
         Command::Test { quick: true, .. } => tests::quick(),
         Command::Test { long, write_times, .. } => tests::run(long, write_times),
         Command::Tables => tests::tables(),

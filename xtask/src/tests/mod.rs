@@ -17,7 +17,7 @@ use crate::built::{Program, build};
 use crate::command::{cargo, run as run_command, succeeds};
 use crate::steps::Steps;
 use crate::target::{Toolchain, firmware, project, setup, trajectory};
-use crate::{audit, boards, cost, growth, instructions, packages};
+use crate::{audit, boards, cost, growth, instructions, packages, python};
 
 use cases::{Case, Selection};
 
@@ -58,6 +58,7 @@ pub fn run(long: bool, write_times: bool) -> Result<()> {
         bare(&mut steps);
         let host = release(&mut steps, &mut cases);
         other_targets(&mut steps);
+        python::add_steps(&mut steps, &EVERYTHING);
         host
     });
     on_target(&toolchain, host.as_ref(), long, &mut steps);

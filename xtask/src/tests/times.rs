@@ -21,7 +21,7 @@ const END: &str = "<!-- end of the times -->";
 /// Where a step failed, for then its time says nothing, or the page cannot be read or written.
 pub fn write(steps: &Steps, slowest: &[Case], toolchain: &Toolchain) -> Result<()> {
     if !steps.done().iter().all(Step::passed) {
-        bail!("a step failed: no times are written");
+        bail!("a step failed or was left out: no times are written");
     }
     let section = section(&machine(toolchain)?, steps.done(), slowest);
     let file = root().join(FILE);

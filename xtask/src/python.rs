@@ -1,0 +1,112 @@
+//! What tools of other languages say: FMUs in their importers, the Python package in its tests.
+//!
+//! `requirements => virtual environment => pytest`. The environments lie in `target/python`. Where Python or its
+//! packages cannot be had, the steps are skipped and say so, with what to install.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, Result, bail};
+
+use crate::built::build;
+use crate::command::{cargo, find, output, program, root, run, succeeds};
+use crate::steps::Steps;
+use crate::target::debian;
+
+/// The oldest Python of which the package is.
+const OLDEST: &str = "import sys; sys.exit(sys.version_info < (3, 10))";
+const PACKAGES: [&str; 2] = ["python3", "python3-venv"];
+const OTHERWISE: &str = "install Python 3.10 or later with its modules venv and pip";
+
+/// Adds the steps. `everything` is what every build of the host's takes, so that nothing is built twice.
+pub fn add_steps(steps: &mut Steps, everything: &[&str]) {
+    let importers = "FMUs in their importers";
+    match environment("importers", "fmu/judges/requirements.txt") {
+        Ok(python) => steps.step(importers, || in_importers(&python, everything)),
+        Err(error) => steps.skip(importers, &format!("{error:#}")),
+    }
+    let package = "the Python package";
+    match environment("package", "python/requirements-tests.txt") {
+        Ok(python) => steps.step(package, || package_tests(&python, everything)),
+        Err(error) => steps.skip(package, &format!("{error:#}")),
+    }
+}
+
+/// `cargo xtask setup`'s part: both environments.
+///
+/// # Errors
+/// Where one of them cannot be made; what to install is part of the message.
+pub fn set_up() -> Result<()> {
+    environment("importers", "fmu/judges/requirements.txt")?;
+    environment("package", "python/requirements-tests.txt").map(drop)
+}
+
+/// The interpreter of a virtual environment with the packages that a file requires, made where it is not there.
+fn environment(name: &str, requirements: &str) -> Result<PathBuf> {
+    let folder = root().join("target/python").join(name);
+    let (python, stamp) = (folder.join("bin/python"), folder.join("requirements.txt"));
+    let wanted = std::fs::read(root().join(requirements))
+        .with_context(|| format!("cannot read {requirements}"))?;
+    if python.is_file() && std::fs::read(&stamp).is_ok_and(|made| made == wanted) {
+        return Ok(python);
+    }
+    if find("python3").is_none() {
+        debian::install("Python", &PACKAGES, OTHERWISE)?;
+    }
+    if !succeeds(program("python3").args(["-c", OLDEST])) {
+        bail!("python3 is older than 3.10; {OTHERWISE}");
+    }
+    // Debian's interpreter comes without the module that makes environments.
+    if !succeeds(program("python3").args(["-c", "import ensurepip, venv"])) {
+        debian::install("Python's module venv", &PACKAGES, OTHERWISE)?;
+    }
+    // One that was left half made says nothing of what is in it.
+    let make = ["-m", "venv", "--clear"];
+    output(program("python3").args(make).arg(&folder)).context("no virtual environment")?;
+    let quiet = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"];
+    println!("packages of {requirements} are installed into {}", shown(&folder));
+    output(program(&python).args(quiet).arg(requirements))
+        .with_context(|| format!("the packages of {requirements} cannot be had"))?;
+    std::fs::write(&stamp, wanted).with_context(|| format!("cannot write {}", stamp.display()))?;
+    Ok(python)
+}
+
+fn shown(folder: &Path) -> String {
+    folder.strip_prefix(root()).unwrap_or(folder).display().to_string()
+}
+
+/// The command line as it was built for the tests; beside it lies the library of the FMUs.
+fn host_sim(everything: &[&str]) -> Result<PathBuf> {
+    let built = build(cargo().arg("build").args(everything).args(["--lib", "--bin", "host-sim"]))?;
+    let found = built.into_iter().find(|program| program.path.ends_with("host-sim"));
+    Ok(found.context("`host-sim` was not built")?.path)
+}
+
+fn in_importers(python: &Path, everything: &[&str]) -> Result<()> {
+    let host_sim = host_sim(everything)?;
+    let library = host_sim.with_file_name("libdbd_fmu.so");
+    let mut tests = program(python);
+    tests.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "fmu/judges"]);
+    run(tests.env("HOST_SIM", &host_sim).env("FMU_LIBRARY", library))
+}
+
+/// Builds the wheel as it is published, installs it and runs its tests.
+fn package_tests(python: &Path, everything: &[&str]) -> Result<()> {
+    let host_sim = host_sim(everything)?;
+    let wheels = root().join("target/python/wheels");
+    if wheels.exists() {
+        std::fs::remove_dir_all(&wheels).context("cannot remove the last wheels")?;
+    }
+    let mut maturin = program(python);
+    maturin.args(["-m", "maturin", "build", "--release", "--locked", "--manifest-path"]);
+    maturin.arg("python/Cargo.toml").arg("--interpreter").arg(python).arg("--out").arg(&wheels);
+    maturin.env("CARGO_TARGET_DIR", root().join("target/python/cargo"));
+    run(&mut maturin)?;
+    let wheel = std::fs::read_dir(&wheels)?.filter_map(Result::ok).map(|entry| entry.path());
+    let wheel = wheel.into_iter().find(|path| path.extension().is_some_and(|end| end == "whl"));
+    let wheel = wheel.context("no wheel was built")?;
+    let install = ["-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps"];
+    run(program(python).args(install).arg(&wheel))?;
+    let mut tests = program(python);
+    tests.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "python/tests"]);
+    run(tests.env("HOST_SIM", host_sim))
+}
