@@ -10,15 +10,18 @@
 //!   nalgebra, `Box<dyn Element>`, double precision.
 //! - [`mechanism`]: a scene of them.
 //! - [`naive`]: semi-implicit Euler and leapfrog on it, the baseline of every timing.
-//! - [`ordering`], [`implicit`]: linearly implicit Euler with a sparse solve, and its elimination.
+//! - [`ordering`], `blocks`: a sparse matrix of a block per pair of bodies, and its elimination.
+//! - [`implicit`], [`generalized_alpha`]: linearly implicit Euler and generalised-α, one sparse solve per step.
 //! - [`spectrum`]: all eigenfrequencies of a pose.
 //! - [`equations`], [`truth`]: the mechanism as a first-order system; DOP853 with a second opinion.
 //! - [`metric`], [`trajectory`]: how far a run is from the truth.
 //! - [`window`]: how long a trajectory can be told from a perturbed one.
 
+mod blocks;
 pub mod driven;
 pub mod elements;
 pub mod equations;
+pub mod generalized_alpha;
 pub mod implicit;
 pub mod instant;
 pub mod mechanism;
