@@ -80,7 +80,8 @@ impl Library {
     pub fn new(file: impl Into<String>, bytes: Vec<u8>) -> Result<Self, ArchiveError> {
         let file = file.into();
         let refuse = |reason| Err(ArchiveError::Library { file: file.clone(), reason });
-        let machine = |at: usize| bytes.get(at..at + 2).map_or(0, |m| u16::from(m[0]) | u16::from(m[1]) << 8);
+        let machine =
+            |at: usize| bytes.get(at..at + 2).map_or(0, |m| u16::from(m[0]) | u16::from(m[1]) << 8);
         let place = match bytes.get(..4) {
             Some(b"\x7fELF") if machine(18) == 62 => ("linux64", "x86_64-linux", "so"),
             Some(b"\x7fELF") if machine(18) == 183 => ("aarch64-linux", "aarch64-linux", "so"),

@@ -83,8 +83,7 @@ pub fn instantiate(
     match made {
         Ok(Ok(component)) => {
             let last_step = (OK, CString::default());
-            let held =
-                Held { component, states: BTreeMap::new(), last_step, is_broken: false };
+            let held = Held { component, states: BTreeMap::new(), last_step, is_broken: false };
             let (handle, held) = (new_handle(), Mutex::new(held));
             let entry = Arc::new(Entry { held, log });
             ENTRIES.write().unwrap_or_else(PoisonError::into_inner).insert(handle, entry);
@@ -193,7 +192,8 @@ impl Held {
     /// A handle that is none of this instance's, or a damaged state.
     pub fn go_back(&mut self, handle: usize) -> Result<(), Refusal> {
         let state = self.states.get(&handle);
-        let state = state.ok_or_else(|| Refusal::error("this is no state that the instance keeps"))?;
+        let state =
+            state.ok_or_else(|| Refusal::error("this is no state that the instance keeps"))?;
         self.component.restore(state)
     }
 

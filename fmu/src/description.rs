@@ -103,13 +103,7 @@ impl Description {
     }
 }
 
-fn listed(
-    name: &str,
-    role: Role,
-    unit: &str,
-    start: Option<f64>,
-    description: String,
-) -> Variable {
+fn listed(name: &str, role: Role, unit: &str, start: Option<f64>, description: String) -> Variable {
     Variable { name: name.into(), role, unit: unit.into(), start, description }
 }
 

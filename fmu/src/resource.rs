@@ -53,7 +53,10 @@ impl Resource {
     ///
     /// # Errors
     /// Where the scene is refused, or the settings are.
-    pub fn new(blueprint: Blueprint, settings: Settings) -> Result<(Self, Instance), InstanceError> {
+    pub fn new(
+        blueprint: Blueprint,
+        settings: Settings,
+    ) -> Result<(Self, Instance), InstanceError> {
         let instance = Instance::new(blueprint.clone(), settings.clone())?;
         let settings = Settings { step: Some(instance.step_size()), ..settings };
         let instance = Instance::new(blueprint.clone(), settings.clone())?;

@@ -12,8 +12,7 @@ use crate::token::hash;
 /// How the bytes begin; the last is the version.
 const MAGIC: &[u8; 5] = b"dbdf\x01";
 /// Modes by their numbers in a state.
-const MODES: [Mode; 4] =
-    [Mode::Instantiated, Mode::Initializing, Mode::Stepping, Mode::Terminated];
+const MODES: [Mode; 4] = [Mode::Instantiated, Mode::Initializing, Mode::Stepping, Mode::Terminated];
 
 /// What a state holds.
 struct Parts<'b> {
@@ -98,4 +97,3 @@ impl Component {
         Ok(Parts { mode, is_waiting, start_time, set, instance: rest })
     }
 }
-

@@ -123,8 +123,9 @@ fn variable_of(variable: &Variable, reference: usize, fmi: Fmi) -> String {
         }
         Role::Parameter(_) => "causality=\"parameter\" variability=\"fixed\" initial=\"exact\"",
     };
-    let head =
-        format!("name=\"{name}\" valueReference=\"{reference}\" description=\"{description}\" {kind}");
+    let head = format!(
+        "name=\"{name}\" valueReference=\"{reference}\" description=\"{description}\" {kind}"
+    );
     let mut number = String::new();
     if !unit.is_empty() {
         let _ = write!(number, " unit=\"{}\"", escaped(&modelica(unit)));

@@ -21,6 +21,8 @@ const CRATES: &[&str] = &[
     "study",
     "sweep",
     "ensemble",
+    "instance",
+    "fmu",
     "output",
     "picture",
     "report",
