@@ -29,7 +29,7 @@ def host_sim(*arguments, cwd):
 
 def scenes():
     root = Path(__file__).parent.parent.parent
-    return [scene["name"] for scene in json.loads(host_sim("list", "--json", cwd=root))["scenes"]]
+    return [scene["name"] for scene in json.loads(host_sim("list", "--json", cwd=root))]
 
 
 def plain(seconds):

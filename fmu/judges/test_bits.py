@@ -33,7 +33,7 @@ def test_outputs_equal_the_trace(made, traces, scene, version):
     fmu = made(scene, version)
     plant = Plant(fmu, version)
     # A hundred steps a sample, at most what the scene asks for: it is the bits that count.
-    every = min(plant.model.defaultExperiment.stepSize, 100 * fmu.step)
+    every = min(float(plant.model.defaultExperiment.stepSize), 100 * fmu.step)
     head, *rows = traces(fmu, every)
     names = ["time"] + plant.names("output")
     assert [name.replace("'", "") for name in names] == head
@@ -49,7 +49,7 @@ def test_outputs_equal_the_trace(made, traces, scene, version):
 def test_a_state_resumes_elsewhere_and_rolls_back(made, version):
     fmu = made("cart-pendulum", version)
     one = Plant(fmu, version)
-    every, names = one.model.defaultExperiment.stepSize, one.names("output")
+    every, names = float(one.model.defaultExperiment.stepSize), one.names("output")
     one.set("drive", 2.0)
     one.step(0.0, every)
     state = one.keep()

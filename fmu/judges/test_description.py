@@ -1,14 +1,17 @@
 """Validators are silent about every scene's FMU, and seen to complain."""
 
+import functools
 import re
 import shutil
 import subprocess
 import sys
 from pathlib import Path
 
-import pytest
+import lark
 from fmpy.validation import validate_fmu
 
+# FMPy parses every name by a slow parser of one grammar, and most names are in several FMUs.
+lark.Lark.parse = functools.lru_cache(maxsize=None)(lark.Lark.parse)
 FMUTOOL = Path(sys.executable).parent / "fmutool"
 
 

@@ -86,7 +86,10 @@ fn a_step_that_is_no_multiple_is_discarded_with_the_reason() {
         assert_eq!(host.step(0.0, 10.0 * step), OK);
         let before = host.everything();
         assert_eq!(host.step(10.0 * step, 2.5 * step), DISCARD);
-        says(&host, "is no whole number of steps of 500 us; the nearest that are: 0.006 s and 0.0065 s");
+        says(
+            &host,
+            "is no whole number of steps of 500us; the nearest that are: 0.006 s and 0.0065",
+        );
         if fmi == Fmi::Two {
             let (mut status, mut time, mut ended, mut text) = (0, 0.0, 7, null());
             // SAFETY: places for what is written; the text lives until the next step.

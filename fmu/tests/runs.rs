@@ -13,7 +13,8 @@ const BOTH: [Fmi; 2] = [Fmi::Two, Fmi::Three];
 #[test]
 fn outputs_have_the_bits_of_a_plain_plant() {
     for fmi in BOTH {
-        for (name, precision) in [("3ruu", None), ("cart-pendulum", Some("f32")), ("hexagon", None)] {
+        for (name, precision) in [("3ruu", None), ("cart-pendulum", Some("f32")), ("hexagon", None)]
+        {
             let settings = Settings { precision: precision.map(Into::into), ..Settings::default() };
             let fmu = unpacked(scene(name), settings.clone(), fmi);
             let host = fmu.stepping();
@@ -29,7 +30,8 @@ fn outputs_have_the_bits_of_a_plain_plant() {
                 assert_eq!(host.step(time, size), OK, "{}", host.said());
                 time += size;
                 plain.advance(10).unwrap();
-                let bits = |values: Vec<f64>| values.into_iter().map(f64::to_bits).collect::<Vec<_>>();
+                let bits =
+                    |values: Vec<f64>| values.into_iter().map(f64::to_bits).collect::<Vec<_>>();
                 assert!(bits(host.get_all(&outputs).unwrap()) == bits(plain.values()), "{name}");
             }
             assert_eq!(host.get("time"), plain.time());
@@ -105,7 +107,10 @@ fn parameters_are_those_of_the_scene_and_fixed_in_the_end() {
         let mut plain = Instance::new(changed, settings).unwrap();
         one.run(0, 20, 10.0 * step);
         plain.advance(200).unwrap();
-        assert_eq!(one.get("pendulum.y").to_bits(), plain.value(plain.output("pendulum.y").unwrap()).to_bits());
+        assert_eq!(
+            one.get("pendulum.y").to_bits(),
+            plain.value(plain.output("pendulum.y").unwrap()).to_bits()
+        );
         assert_eq!(one.set("body.pendulum.mass", 1.0), ERROR);
         assert!(one.said().contains("body.pendulum.mass is fixed"), "{}", one.said());
         // A reset brings all of it back.
@@ -126,7 +131,7 @@ fn what_the_scene_refuses_is_an_error_that_can_be_mended() {
         assert_eq!(one.setup(0.0), OK);
         assert_eq!(one.set("body.cart.mass", -1.0), OK);
         assert_eq!(one.exit_initialization(), ERROR);
-        assert!(one.said().contains("body.cart.mass=-1"), "{}", one.said());
+        assert!(one.said().contains("must be a finite number > 0 in kg"), "{}", one.said());
         assert_eq!(one.set("body.cart.mass", 1.0), OK);
         assert_eq!(one.exit_initialization(), OK, "{}", one.said());
         one.free();

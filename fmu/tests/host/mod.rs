@@ -110,7 +110,18 @@ impl Unpacked {
                     let (name, token, place) = (name.as_ptr(), token.as_ptr(), place.as_ptr());
                     let log: Logger3 = log3;
                     fmi3::fmi3InstantiateCoSimulation(
-                        name, token, place, 0, 1, 0, 0, null(), 0, environment, Some(log), None,
+                        name,
+                        token,
+                        place,
+                        0,
+                        1,
+                        0,
+                        0,
+                        null(),
+                        0,
+                        environment,
+                        Some(log),
+                        None,
                     )
                 }
             }
@@ -159,9 +170,7 @@ impl Host<'_> {
                     let set = fmi2::fmi2SetupExperiment(self.handle, 0, 0.0, start, 0, 0.0);
                     set.max(fmi2::fmi2EnterInitializationMode(self.handle))
                 }
-                Fmi::Three => {
-                    fmi3::fmi3EnterInitializationMode(self.handle, 0, 0.0, start, 0, 0.0)
-                }
+                Fmi::Three => fmi3::fmi3EnterInitializationMode(self.handle, 0, 0.0, start, 0, 0.0),
             }
         }
     }
@@ -229,7 +238,14 @@ impl Host<'_> {
                 Fmi::Three => {
                     let [event, terminate, early] = &mut flags;
                     let status = fmi3::fmi3DoStep(
-                        self.handle, point, size, 0, event, terminate, early, &mut last,
+                        self.handle,
+                        point,
+                        size,
+                        0,
+                        event,
+                        terminate,
+                        early,
+                        &mut last,
                     );
                     assert_eq!(flags, [0; 3]);
                     assert_eq!(last, self.get("time"));
@@ -280,11 +296,8 @@ impl Host<'_> {
 
     pub fn take(&self, bytes: &[u8]) -> Result<*mut c_void, c_int> {
         let (mut state, from, size) = (null_mut(), bytes.as_ptr(), bytes.len());
-        let status = both!(
-            self,
-            fmi2DeSerializeFMUstate,
-            fmi3DeserializeFMUState(from, size, &mut state)
-        );
+        let status =
+            both!(self, fmi2DeSerializeFMUstate, fmi3DeserializeFMUState(from, size, &mut state));
         if status == OK { Ok(state) } else { Err(status) }
     }
 }
