@@ -28,6 +28,7 @@ pages! {
     ensembles "docs/ensembles.md"
     examples "docs/examples.md"
     extremes "docs/extremes.md"
+    fmu "docs/fmu.md"
     golden "docs/golden.md"
     import "docs/import.md"
     joints "docs/joints.md"

@@ -1,5 +1,6 @@
 //! What ends a command early, and the exit code it ends with.
 
+use dbd_fmu::ArchiveError;
 use dbd_plant::{MethodError, PlantError};
 use dbd_study::SurveyError;
 use miette::Diagnostic;
@@ -8,6 +9,7 @@ use thiserror::Error;
 use crate::commands::bench::BenchError;
 use crate::commands::compare::CompareRefusal;
 use crate::commands::export::ExportError;
+use crate::commands::fmu::FmuError;
 use crate::commands::import::ImportError;
 use crate::commands::new::NewError;
 use crate::commands::picture::PictureError;
@@ -38,6 +40,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Export(#[from] ExportError),
+    /// There is no FMU.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Fmu(#[from] FmuError),
     /// Nothing was imported.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -91,10 +97,13 @@ impl Error {
         match self {
             Self::Load(_) | Self::Method(_) | Self::Plant(_) | Self::Bench(_) => Exit::Refused,
             Self::Export(ExportError::Write { .. })
+            | Self::Fmu(FmuError::Write { .. } | FmuError::Archive(ArchiveError::Archive(_)))
             | Self::Import(ImportError::Write { .. })
             | Self::New(NewError::Write { .. })
             | Self::Picture(PictureError::Write { .. }) => Exit::Failed,
-            Self::Export(_) | Self::Import(_) | Self::New(_) | Self::Picture(_) => Exit::Refused,
+            Self::Export(_) | Self::Fmu(_) | Self::Import(_) | Self::New(_) | Self::Picture(_) => {
+                Exit::Refused
+            }
             Self::LongForm(WriteError::Write { .. } | WriteError::Differs) => Exit::Failed,
             Self::LongForm(_) | Self::Watch(_) => Exit::Refused,
             Self::Output(_) => Exit::Failed,

@@ -3,6 +3,7 @@
 mod bench;
 mod check;
 mod compare;
+mod fmu;
 mod gltf;
 mod golden;
 mod modes;

@@ -61,7 +61,7 @@ fn every_command_takes_changes_and_refuses_wrong_ones_in_their_own_words() {
         assert_eq!(done.exit, Exit::Done, "{}", done.err);
         assert_ne!(done.out, call(&[command, "four-bar"]).out);
     }
-    for command in ["run", "check", "trade", "export"] {
+    for command in ["run", "check", "trade", "export", "fmu"] {
         let done = call(&[command, "four-bar", "--set", "body.crnk.mass=3"]);
         assert_eq!(done.exit, Exit::Refused, "{command}");
         for part in ["--set:1:6", "no body `crnk`", "did you mean `crank`?"] {

@@ -22,6 +22,7 @@ const CRATES: &[&str] = &[
     "sweep",
     "ensemble",
     "instance",
+    "fmu",
     "output",
     "picture",
     "report",

@@ -27,6 +27,7 @@ use crate::commands::bench::{BenchArguments, bench};
 use crate::commands::compare::CompareArguments;
 use crate::commands::completions::script;
 use crate::commands::export::{self, ExportArguments};
+use crate::commands::fmu::{FmuArguments, fmu};
 use crate::commands::import::{self, ImportArguments};
 use crate::commands::list::list;
 use crate::commands::new::{FirmwareArguments, NewCommand, SceneArguments, firmware, scene};
@@ -91,6 +92,9 @@ enum Command {
     /// Prints Rust source of a scene's const model and of its plant, for a firmware
     #[command(after_help = examples::EXPORT)]
     Export(ExportArguments),
+    /// Writes an FMU of a scene, with which other tools simulate it: FMI 2.0 or 3.0, co-simulation
+    #[command(after_help = examples::FMU)]
+    Fmu(FmuArguments),
     /// Makes a scene of MuJoCo's MJCF: each part with the line it comes from; what has no counterpart is
     /// listed with its size and refused, unless its kind is ignored
     #[command(after_help = examples::IMPORT)]
@@ -135,6 +139,7 @@ where
         Command::Sweep(arguments) => sweep_scene(&catalogue, &arguments, console),
         Command::Compare(arguments) => compare(&catalogue, &arguments, console),
         Command::Export(arguments) => export_scene(&catalogue, &arguments, console),
+        Command::Fmu(arguments) => write_fmu(&catalogue, &arguments, console),
         Command::Import(arguments) => import_file(&arguments, console),
         Command::New(NewCommand::Firmware(arguments)) => {
             new_firmware(&catalogue, &arguments, console)
@@ -225,6 +230,16 @@ fn export_scene(
         Some(file) => export::write(file, &text)?,
         None => console.print(&text)?,
     }
+    Ok(Exit::Done)
+}
+
+fn write_fmu(
+    catalogue: &Catalogue,
+    arguments: &FmuArguments,
+    console: &mut Console<'_>,
+) -> Result<Exit, Error> {
+    let written = fmu(&load(catalogue, &arguments.scene)?, arguments)?;
+    console.print(&written)?;
     Ok(Exit::Done)
 }
 

@@ -15,6 +15,7 @@
 //! - [`trade`]: speed against accuracy.
 //! - [`mod@bench`]: what a step costs this machine.
 //! - [`export`]: Rust source of a scene's const model and its plant.
+//! - [`mod@fmu`]: a scene becomes an FMU for other tools.
 //! - [`mod@import`]: another program's file becomes a scene.
 //! - [`schema`]: what a scene file may hold, for editors.
 //! - [`new`]: a project with a plant in firmware, a scene to begin with.
@@ -27,6 +28,7 @@ pub mod compare;
 pub mod completions;
 pub mod derived;
 pub mod export;
+pub mod fmu;
 pub mod folder;
 pub mod golden;
 pub mod import;

@@ -20,6 +20,8 @@ pub const COMPARE: &str = examples!("compare.txt");
 pub const COMPLETIONS: &str = examples!("completions.txt");
 /// Of `export`.
 pub const EXPORT: &str = examples!("export.txt");
+/// Of `fmu`.
+pub const FMU: &str = examples!("fmu.txt");
 /// Of `import`.
 pub const IMPORT: &str = examples!("import.txt");
 /// Of `list`.

@@ -1,0 +1,55 @@
+"""Validators are silent about every scene's FMU, and seen to complain."""
+
+import functools
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import lark
+from fmpy.validation import validate_fmu
+
+# FMPy parses every name by a slow parser of one grammar, and most names are in several FMUs.
+lark.Lark.parse = functools.lru_cache(maxsize=None)(lark.Lark.parse)
+FMUTOOL = Path(sys.executable).parent / "fmutool"
+
+
+def fmutool(path):
+    done = subprocess.run([str(FMUTOOL), "-input", path, "-check"], capture_output=True, text=True)
+    return done.stdout + done.stderr
+
+
+def complaints(text):
+    return [line for line in text.splitlines() if re.match(r"(WARNING|ERROR|FATAL|CRITICAL)", line)]
+
+
+def planted(fmu, path, before, after):
+    """A copy with another text in its model description."""
+    folder = path / "planted"
+    shutil.copytree(fmu.folder, folder)
+    description = folder / "modelDescription.xml"
+    text = description.read_text()
+    assert before in text
+    description.write_text(text.replace(before, after, 1))
+    archive = shutil.make_archive(str(path / "planted"), "zip", folder)
+    return shutil.move(archive, path / "planted.fmu")
+
+
+def test_fmpy_is_silent(made, scene, version):
+    assert validate_fmu(made(scene, version).path) == []
+
+
+def test_fmutool_is_silent(made, scene, version):
+    said = fmutool(made(scene, version).path)
+    assert complaints(said) == [] and f"FMI-{version}.0" in said, said
+
+
+def test_planted_errors_are_found(made, version, tmp_path):
+    fmu = made("cart-pendulum", version)
+    start = 'name="drive" '
+    wrong = planted(fmu, tmp_path, start, 'name="drive" initial="calculated" ')
+    assert validate_fmu(wrong) != []
+    shutil.rmtree(tmp_path / "planted")
+    wrong = planted(fmu, tmp_path, start, 'name="drive" colour="red" ')
+    assert complaints(fmutool(str(wrong))) != []

@@ -1,0 +1,58 @@
+//! SI units in terms of base units.
+//!
+//! `N·m·s/rad => name N.m.s/rad, exponents of kg, m, s, rad`: the name as Modelica writes it, which importers read.
+
+/// Base units that occur, as attributes of FMI's `BaseUnit`.
+pub const BASE: [&str; 4] = ["kg", "m", "s", "rad"];
+
+/// A unit's name as Modelica writes it.
+#[must_use]
+pub fn modelica(unit: &str) -> String {
+    unit.replace('·', ".").replace('²', "2").replace('³', "3")
+}
+
+/// A unit's exponents of [`BASE`]; `None` where it is made of something else.
+#[must_use]
+pub fn exponents(unit: &str) -> Option<[i32; 4]> {
+    let mut sum = [0; 4];
+    for (side, part) in unit.split('/').enumerate() {
+        let sign = if side == 0 { 1 } else { -1 };
+        for factor in part.split('·') {
+            let (name, power) = match factor.strip_suffix('²') {
+                Some(name) => (name, 2),
+                None => factor.strip_suffix('³').map_or((factor, 1), |name| (name, 3)),
+            };
+            let of_base = match name {
+                "kg" => [1, 0, 0, 0],
+                "m" => [0, 1, 0, 0],
+                "s" => [0, 0, 1, 0],
+                "rad" => [0, 0, 0, 1],
+                "Hz" => [0, 0, -1, 0],
+                "N" => [1, 1, -2, 0],
+                "J" => [1, 2, -2, 0],
+                "W" => [1, 2, -3, 0],
+                "Pa" => [1, -1, -2, 0],
+                "1" => [0; 4],
+                _ => return None,
+            };
+            for (sum, exponent) in sum.iter_mut().zip(of_base) {
+                *sum += sign * power * exponent;
+            }
+        }
+    }
+    Some(sum)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{exponents, modelica};
+
+    #[test]
+    fn units_are_products_of_base_units() {
+        assert_eq!(exponents("N·m·s/rad"), Some([1, 2, -1, -1]));
+        assert_eq!(exponents("kg·m²"), Some([1, 2, 0, 0]));
+        assert_eq!(exponents("m/s²"), Some([0, 1, -2, 0]));
+        assert_eq!(exponents("furlong"), None);
+        assert_eq!(modelica("kg·m²"), "kg.m2");
+    }
+}
