@@ -4,7 +4,10 @@
 
 use dbd_instance::{Instance, InstanceError};
 use dbd_scene::TIME_COLUMN;
-use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArrayLikeDyn, PyArrayMethods as _, PyUntypedArrayMethods as _};
+use numpy::{
+    AllowTypeChange, PyArray1, PyArray2, PyArrayLikeDyn, PyArrayMethods as _,
+    PyUntypedArrayMethods as _,
+};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 

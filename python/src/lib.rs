@@ -9,9 +9,11 @@
 //! - `arguments`: what Python hands over, and what it gets back as arrays.
 //! - `states`: the bodies' states as arrays.
 //! - `jacobian`: how a plant's motion answers to small changes.
-//! - `plant`: the class `Plant`.
+//! - `plant`: the class `Plant`, its names and parameters.
+//! - `motion`: its methods that step, set, read and save.
 
 mod error;
+
 mod rollout;
 
 mod arguments;
@@ -20,6 +22,8 @@ mod states;
 mod jacobian;
 
 mod plant;
+
+mod motion;
 
 use numpy::{PyArray1, PyArray3, PyArrayMethods as _};
 use pyo3::exceptions::PyValueError;
@@ -33,7 +37,7 @@ use crate::plant::Plant;
 /// Args:
 ///     plants: Plants that have the same inputs and outputs by name, each once.
 ///     u: plants × samples × inputs, or plants × samples where there is one input: what inputs are held
-///         at \[their units\]; or an int, so many samples with the inputs as they are.
+///         at [their units]; or an int, so many samples with the inputs as they are.
 ///     every: Steps of each sample.
 ///     outputs: Names of the columns, ``"time"`` among them is the time; all outputs if not said.
 ///     inputs: Names of the columns of `u`; all inputs, in scene order, if not said.
