@@ -164,17 +164,17 @@ def test_many_on_threads_have_the_bits_of_one() -> None:
 
 def test_a_plant_at_work_says_so() -> None:
     plant = cart()
-    seen: list[BaseException] = []
-    worker = threading.Thread(target=lambda: plant.advance(300_000))
+    seen = ""
+    worker = threading.Thread(target=lambda: plant.advance(30_000))
     worker.start()
-    while worker.is_alive():
+    while worker.is_alive() and not seen:
         try:
             _ = plant.time
         except dbd.BusyError as error:
-            seen.append(error)
+            seen = str(error)
     worker.join()
-    assert plant.steps == 300_000
-    assert seen and "another thread" in str(seen[0])
+    assert plant.steps == 30_000
+    assert "another thread" in seen
     twice = cart()
     with pytest.raises(ValueError, match="plant 1 is there twice"):
         dbd.rollouts([twice, twice], 1)
@@ -224,9 +224,9 @@ REFUSED = [
     (lambda: cart().rollout([[1.0, 2.0]]), ValueError, r"samples × 1 is its shape"),
     (lambda: cart().rollout(np.zeros((2, 2, 2))), ValueError, "shape"),
     (lambda: cart().rollout("abc"), TypeError, "array of numbers"),
-    (lambda: cart().rollout(-1), (TypeError, ValueError), ""),
+    (lambda: cart().rollout(-1), (TypeError, ValueError), "shape"),
     (lambda: cart().rollout(2**60), ValueError, "too many"),
-    (lambda: cart().advance(-1), OverflowError, ""),
+    (lambda: cart().advance(-1), OverflowError, "negative"),
     (lambda: cart().advance_to(0.0007), dbd.TimeError, "no whole number of steps"),
     (lambda: cart().advance_to(float("nan")), dbd.TimeError, "finite"),
     (lambda: cart().set_parameters({"body.cart.mas": 1.0}), dbd.SceneError, "mas"),
