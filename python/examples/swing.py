@@ -57,8 +57,11 @@ def main() -> None:
 
     rows = swing()
     figure, (above, below) = pyplot.subplots(2, 1, sharex=True, figsize=(8, 5), layout="constrained")
-    above.plot(rows[:, 0], np.degrees(rows[:, 2]), color="tab:blue")
-    above.set(ylabel="pendulum from upright [°]", yticks=range(-180, 181, 90), title="Swing-up of the cart's pendulum")
+    angle = np.degrees(np.unwrap(rows[:, 2]))
+    angle -= 360.0 * np.round(angle[-1] / 360.0)
+    above.plot(rows[:, 0], angle, color="tab:blue")
+    above.axhline(0.0, color="gray", linewidth=0.8)
+    above.set(ylabel="pendulum from upright [°]", title="Swing-up of the cart's pendulum")
     above.grid(alpha=0.3)
     below.plot(rows[:, 0], rows[:, 1], color="tab:orange")
     below.set(xlabel="time [s]", ylabel="cart [m]")
