@@ -2,6 +2,8 @@
 //!
 //! `(inputs, steps) => outputs, states` as numbers and numpy arrays.
 
+use std::sync::atomic::AtomicBool;
+
 use dbd_instance::Instance;
 use numpy::{
     AllowTypeChange, PyArray1, PyArray2, PyArrayLikeDyn, PyUntypedArrayMethods as _, ToPyArray as _,
@@ -30,7 +32,8 @@ impl Plant {
         let mut instance = self.held(py)?;
         let steps = steps(&instance).map_err(raise(py))?;
         let instance: &mut Instance = &mut instance;
-        py.detach(|| Watch::new().advance(instance, steps)).map_err(|stop| stop.raised(py))
+        py.detach(|| Watch::new(&AtomicBool::new(false)).advance(instance, steps))
+            .map_err(|stop| stop.raised(py))
     }
 }
 
@@ -219,7 +222,9 @@ impl Plant {
         let mut instance = self.held(py)?;
         let (course, held) = arguments::course(py, &instance, u, every, outputs, inputs, None)?;
         let instance: &mut Instance = &mut instance;
-        let rows = py.detach(|| course.run(instance, &held)).map_err(|stop| stop.raised(py))?;
+        let rows = py
+            .detach(|| course.run(instance, &held, Watch::new(&AtomicBool::new(false))))
+            .map_err(|stop| stop.raised(py))?;
         arguments::shaped(py, rows, course.samples, course.columns.len())
     }
 

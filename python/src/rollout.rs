@@ -4,10 +4,12 @@
 //! tenth of a second a run looks whether it was interrupted.
 
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use dbd_instance::Instance;
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 
 use crate::error::Refusal;
@@ -42,12 +44,21 @@ impl From<dbd_instance::InstanceError> for Stop {
     }
 }
 
-/// When a run looked last for an interrupt.
-pub(crate) struct Watch(Instant);
+/// Whether there was an interrupt; only the main thread is told.
+fn interrupted() -> Result<(), Stop> {
+    Python::attach(|py| py.check_signals()).map_err(Stop::Interrupted)
+}
 
-impl Watch {
-    pub(crate) fn new() -> Self {
-        Self(Instant::now())
+/// When a run looked last for an interrupt, and whether another thread has seen one.
+pub(crate) struct Watch<'s> {
+    looked: Instant,
+    ended: &'s AtomicBool,
+}
+
+impl<'s> Watch<'s> {
+    /// A run that ends where `ended` says so.
+    pub(crate) fn new(ended: &'s AtomicBool) -> Self {
+        Self { looked: Instant::now(), ended }
     }
 
     /// So many steps; interrupts end them.
@@ -57,9 +68,12 @@ impl Watch {
             let now = left.min(STRIDE);
             instance.advance(now)?;
             left -= now;
-            if self.0.elapsed() >= LOOK {
-                Python::attach(|py| py.check_signals()).map_err(Stop::Interrupted)?;
-                self.0 = Instant::now();
+            if self.looked.elapsed() >= LOOK {
+                if self.ended.load(Ordering::Relaxed) {
+                    return Err(Stop::Interrupted(PyKeyboardInterrupt::new_err(())));
+                }
+                interrupted().inspect_err(|_| self.ended.store(true, Ordering::Relaxed))?;
+                self.looked = Instant::now();
             }
         }
         Ok(())
@@ -80,9 +94,13 @@ pub(crate) struct Course {
 
 impl Course {
     /// The outputs after each hold, one after another; `held` is samples × inputs.
-    pub(crate) fn run(&self, instance: &mut Instance, held: &[f64]) -> Result<Vec<f64>, Stop> {
+    pub(crate) fn run(
+        &self,
+        instance: &mut Instance,
+        held: &[f64],
+        mut watch: Watch<'_>,
+    ) -> Result<Vec<f64>, Stop> {
         let mut rows = Vec::with_capacity(self.samples * self.columns.len());
-        let mut watch = Watch::new();
         for sample in 0..self.samples {
             let values = held.iter().skip(sample * self.inputs.len());
             for (input, value) in self.inputs.iter().zip(values) {
@@ -103,24 +121,45 @@ impl Course {
         threads: usize,
     ) -> Result<Vec<f64>, (usize, Stop)> {
         let share = self.samples * self.inputs.len();
-        let next = AtomicUsize::new(0);
+        let (next, ended) = (AtomicUsize::new(0), AtomicBool::new(false));
         let work = || {
             let mut done = Vec::new();
-            loop {
+            while !ended.load(Ordering::Relaxed) {
                 let row = next.fetch_add(1, Ordering::Relaxed);
-                let Some(plant) = plants.get(row) else { return done };
+                let Some(plant) = plants.get(row) else { break };
                 let held = held.get(row * share..(row + 1) * share).unwrap_or_default();
                 let rows = match plant.try_lock() {
-                    Ok(mut instance) => self.run(&mut instance, held),
+                    Ok(mut instance) => self.run(&mut instance, held, Watch::new(&ended)),
                     Err(_) => Err(Stop::Refused(Refusal::busy())),
                 };
                 done.push((row, rows));
             }
+            done
         };
-        let mut results: Vec<_> = std::thread::scope(|scope| {
-            let others: Vec<_> =
-                (1..threads.min(plants.len())).map(|_| scope.spawn(work)).collect();
+        let (caller, working) =
+            (thread::current(), AtomicUsize::new(threads.min(plants.len()).saturating_sub(1)));
+        let mut stopped = None;
+        let mut results: Vec<_> = thread::scope(|scope| {
+            let others = (1..threads.min(plants.len())).map(|_| {
+                scope.spawn(|| {
+                    let done = work();
+                    working.fetch_sub(1, Ordering::Release);
+                    caller.unpark();
+                    done
+                })
+            });
+            let others: Vec<_> = others.collect();
             let mut results = work();
+            // Only this thread learns of interrupts, also while it only waits.
+            while working.load(Ordering::Acquire) > 0
+                && !others.iter().all(thread::ScopedJoinHandle::is_finished)
+            {
+                thread::park_timeout(LOOK);
+                if let Err(stop) = interrupted() {
+                    ended.store(true, Ordering::Relaxed);
+                    stopped = Some(stop);
+                }
+            }
             for other in others {
                 match other.join() {
                     Ok(done) => results.extend(done),
@@ -129,6 +168,9 @@ impl Course {
             }
             results
         });
+        if let Some(stop) = stopped {
+            return Err((0, stop));
+        }
         results.sort_by_key(|(row, _)| *row);
         let mut all = Vec::with_capacity(plants.len() * self.samples * self.columns.len());
         for (row, rows) in results {

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import copy
+import os
 import pickle
+import signal
 import threading
 from pathlib import Path
 
@@ -182,6 +184,23 @@ def test_a_plant_at_work_says_so() -> None:
         dbd.rollouts([cart(), spring()], 1)
     with pytest.raises(ValueError, match="no plant"):
         dbd.rollouts([], 1)
+
+
+def test_an_interrupt_ends_what_would_last_for_ever() -> None:
+    spinning = cart()
+    spinning.set_state(angular_velocity=np.full((2, 3), 1e4))
+    for work in (
+        lambda: cart().advance(10**15),
+        lambda: cart().rollout(10, 10**15),
+        lambda: dbd.rollouts([cart() for _ in range(4)], 10, 10**15, threads=2),
+        # The caller has no plant left while the other thread works on.
+        lambda: dbd.rollouts([spinning, cart()], 10, 10**15, threads=2),
+    ):
+        timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))
+        timer.start()
+        with pytest.raises(KeyboardInterrupt):
+            work()
+        timer.join()
 
 
 def test_a_failed_step_is_told_and_latches() -> None:
