@@ -171,6 +171,13 @@ impl Course {
         if let Some(stop) = stopped {
             return Err((0, stop));
         }
+        // An interrupt goes before what was refused.
+        let cut = |(_, rows): &(usize, Result<_, Stop>)| matches!(rows, Err(Stop::Interrupted(_)));
+        if let Some(place) = results.iter().position(cut)
+            && let (row, Err(stop)) = results.swap_remove(place)
+        {
+            return Err((row, stop));
+        }
         results.sort_by_key(|(row, _)| *row);
         let mut all = Vec::with_capacity(plants.len() * self.samples * self.columns.len());
         for (row, rows) in results {
