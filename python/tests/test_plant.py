@@ -7,7 +7,6 @@ import os
 import pickle
 import signal
 import threading
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -140,7 +139,7 @@ def test_rollouts_are_steps() -> None:
     # As integers and in Fortran's order, too; and with the inputs as they are.
     forces = np.asfortranarray(np.arange(6).reshape(6, 1))
     assert cart().rollout(forces, 2).shape == (6, len(plant.outputs))
-    assert plant.rollout(3, 2, ["drive_is_none"][:0]).shape == (3, 0)
+    assert plant.rollout(3, 2, []).shape == (3, 0)
     assert plant.rollout(0).shape == (0, len(plant.outputs))
 
 
@@ -219,7 +218,9 @@ def test_a_failed_step_is_told_and_latches() -> None:
     assert (str(again), again.step) == (str(told.value), 1)
     plant.reset()
     plant.advance(10)
-    assert plant.hash == [one := spring(), one.advance(10)][0].hash
+    fresh = spring()
+    fresh.advance(10)
+    assert plant.hash == fresh.hash
 
 
 REFUSED = [
@@ -273,7 +274,7 @@ def test_bad_input_is_an_exception_with_words(act, error, words: str) -> None:  
         assert not str(told.value).startswith("'")
 
 
-def test_a_refusal_changes_nothing(tmp_path: Path) -> None:
+def test_a_refusal_changes_nothing() -> None:
     plant = cart()
     plant["drive"] = 1.0
     plant.advance(10)
