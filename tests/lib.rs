@@ -37,6 +37,7 @@ pages! {
     planar "docs/planar.md"
     precision "docs/precision.md"
     proof "docs/proof.md"
+    python "docs/python.md"
     real_time "docs/real-time.md"
     reference_solvers "docs/reference-solvers.md"
     scene_reference "docs/scene-reference.md"
@@ -270,7 +271,8 @@ mod tests {
         };
         for page in pages.iter().map(String::as_str).chain(["README.md"]) {
             for opening in fences(page).iter().step_by(2) {
-                let known = ["```rust", "```rust,no_run", "```sh", "```toml", "```text"];
+                let known =
+                    ["```python", "```rust", "```rust,no_run", "```sh", "```toml", "```text"];
                 assert!(known.contains(&opening.as_str()), "{page}: {opening}");
             }
         }

@@ -85,6 +85,12 @@ impl Instance {
         &self.settings
     }
 
+    /// Parameters that were set, by their paths.
+    #[must_use]
+    pub fn set(&self) -> &BTreeMap<String, f64> {
+        &self.set
+    }
+
     /// The scene with the parameters in place.
     #[must_use]
     pub fn scene(&self) -> &Scene {

@@ -1,0 +1,48 @@
+"""Discrete Body Dynamics: multibody plants with the bits of the firmware.
+
+A `Plant` is a scene that is stepped. Numbers are in SI units; arrays are numpy's, a row per time or per body.
+
+>>> import dbd
+>>> plant = dbd.Plant.from_text(dbd.CART_PENDULUM)
+>>> plant["drive"] = 1.0
+>>> plant.advance_to(0.1)
+>>> plant.time
+0.1
+
+A run has the bits of `host-sim run` with the same scheme, precision and step.
+"""
+
+from ._dbd import CART_PENDULUM, Plant, __version__, rollouts
+from ._errors import (
+    BusyError,
+    Error,
+    InputError,
+    LinearisationError,
+    MethodError,
+    SceneError,
+    StateError,
+    StepFailed,
+    TimeError,
+    UnknownName,
+)
+from ._linear import Linear
+from ._state import State
+
+__all__ = [
+    "CART_PENDULUM",
+    "BusyError",
+    "Error",
+    "InputError",
+    "Linear",
+    "LinearisationError",
+    "MethodError",
+    "Plant",
+    "SceneError",
+    "State",
+    "StateError",
+    "StepFailed",
+    "TimeError",
+    "UnknownName",
+    "__version__",
+    "rollouts",
+]

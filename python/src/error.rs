@@ -1,0 +1,70 @@
+//! What went wrong, as the exceptions of `dbd`.
+//!
+//! `InstanceError => exception with its sentence`. The classes are written in Python, in `dbd/_errors.py`, for
+//! each has two bases: `dbd.Error` and the built-in one that it is a case of.
+
+use dbd_instance::InstanceError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// An exception of a class of `dbd/_errors.py`, to be raised once the interpreter is held.
+pub(crate) struct Refusal {
+    class: &'static str,
+    sentence: String,
+    /// Where a step failed: time \[s\] and step.
+    failed: Option<(f64, u64)>,
+}
+
+impl Refusal {
+    /// An exception of a class with its text.
+    pub(crate) fn new(class: &'static str, sentence: impl Into<String>) -> Self {
+        Self { class, sentence: sentence.into(), failed: None }
+    }
+
+    /// The plant is at work in another thread.
+    pub(crate) fn busy() -> Self {
+        Self::new(
+            "BusyError",
+            "the plant is at work in another thread; each thread needs its own, see copy()",
+        )
+    }
+
+    /// Python's exception; where its class cannot be had, why.
+    pub(crate) fn raised(self, py: Python<'_>) -> PyErr {
+        self.exception(py).unwrap_or_else(|error| error)
+    }
+
+    fn exception(self, py: Python<'_>) -> PyResult<PyErr> {
+        let class = py.import("dbd._errors")?.getattr(self.class)?;
+        let keywords = PyDict::new(py);
+        if let Some((time, step)) = self.failed {
+            keywords.set_item("time", time)?;
+            keywords.set_item("step", step)?;
+        }
+        Ok(PyErr::from_value(class.call((self.sentence,), Some(&keywords))?))
+    }
+}
+
+impl From<InstanceError> for Refusal {
+    fn from(error: InstanceError) -> Self {
+        let sentence = error.sentence();
+        let (class, failed) = match error {
+            InstanceError::Scene(_) => ("SceneError", None),
+            InstanceError::Choice { .. }
+            | InstanceError::Method(_)
+            | InstanceError::Plan(_)
+            | InstanceError::Plant(_) => ("MethodError", None),
+            InstanceError::Unknown { .. } => ("UnknownName", None),
+            InstanceError::Input { .. } | InstanceError::Parameter { .. } => ("InputError", None),
+            InstanceError::Multiple { .. } | InstanceError::Past { .. } => ("TimeError", None),
+            InstanceError::Failed { time, step, .. } => ("StepFailed", Some((time, step))),
+            InstanceError::State(_) => ("StateError", None),
+        };
+        Self { class, sentence, failed }
+    }
+}
+
+/// What an instance refuses, raised.
+pub(crate) fn raise(py: Python<'_>) -> impl Fn(InstanceError) -> PyErr + '_ {
+    move |error| Refusal::from(error).raised(py)
+}

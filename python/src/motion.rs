@@ -1,0 +1,286 @@
+//! What a plant does: the methods of `Plant` that step, set, read and save.
+//!
+//! `(inputs, steps) => outputs, states` as numbers and numpy arrays.
+
+use std::sync::atomic::AtomicBool;
+
+use dbd_instance::Instance;
+use numpy::{
+    AllowTypeChange, PyArray1, PyArray2, PyArrayLikeDyn, PyUntypedArrayMethods as _, ToPyArray as _,
+};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyTuple};
+
+use crate::arguments::{self, Held};
+use crate::error::{Refusal, raise};
+use crate::jacobian::Probe;
+use crate::plant::Plant;
+use crate::rollout::{Watch, read};
+use crate::states;
+
+/// ẋ, and A, B, C, D.
+type Matrices<'py> = (Bound<'py, PyArray1<f64>>, [Bound<'py, PyArray2<f64>>; 4]);
+
+impl Plant {
+    /// Steps without holding the interpreter.
+    fn advanced(
+        &self,
+        py: Python<'_>,
+        steps: impl FnOnce(&Instance) -> Result<u64, dbd_instance::InstanceError>,
+    ) -> PyResult<()> {
+        let mut instance = self.held(py)?;
+        let steps = steps(&instance).map_err(raise(py))?;
+        let instance: &mut Instance = &mut instance;
+        py.detach(|| Watch::new(&AtomicBool::new(false)).advance(instance, steps))
+            .map_err(|stop| stop.raised(py))
+    }
+}
+
+#[pymethods]
+impl Plant {
+    /// One step.
+    ///
+    /// Raises:
+    ///     StepFailed: The step failed, or one has before.
+    fn step(&self, py: Python<'_>) -> PyResult<()> {
+        self.held(py)?.advance(1).map_err(raise(py))
+    }
+
+    /// So many steps with held inputs. Other threads run meanwhile.
+    ///
+    /// Raises:
+    ///     StepFailed: A step failed, or one has before.
+    fn advance(&self, py: Python<'_>, steps: u64) -> PyResult<()> {
+        self.advanced(py, |_| Ok(steps))
+    }
+
+    /// On to a time [s], within a hundredth of a step a whole number of steps. Other threads run meanwhile.
+    ///
+    /// Raises:
+    ///     TimeError: It is no whole number of steps, has passed, or is not finite; nothing is changed then.
+    ///     StepFailed: A step failed, or one has before.
+    fn advance_to(&self, py: Python<'_>, time: f64) -> PyResult<()> {
+        self.advanced(py, |instance| instance.steps_to(time))
+    }
+
+    /// Back to t = 0 with the parameters as they are; inputs have their first values.
+    fn reset(&self, py: Python<'_>) -> PyResult<()> {
+        self.held(py)?.reset();
+        Ok(())
+    }
+
+    /// Holds an input at a value [its unit] until it is set again. The same as ``plant[name] = value``.
+    ///
+    /// Raises:
+    ///     UnknownName: There is no such input.
+    ///     InputError: The value is not finite in the precision; nothing is changed then.
+    fn set(&self, py: Python<'_>, name: &str, value: f64) -> PyResult<()> {
+        let mut instance = self.held(py)?;
+        let input = instance.input(name).map_err(raise(py))?;
+        instance.set_input(input, value).map_err(raise(py))
+    }
+
+    /// An output as it is now, or what an input is held at [its unit]; NaN where it is undefined. The same as
+    /// ``plant[name]``.
+    ///
+    /// Raises:
+    ///     UnknownName: There is no such output or input.
+    fn get(&self, py: Python<'_>, name: &str) -> PyResult<f64> {
+        let instance = self.held(py)?;
+        if let Ok(input) = instance.input(name) {
+            return Ok(instance.input_value(input).unwrap_or(f64::NAN));
+        }
+        let columns =
+            arguments::columns(&instance, Some(vec![name.to_owned()])).map_err(raise(py))?;
+        let mut value = Vec::with_capacity(1);
+        read(&instance, &columns, &mut value);
+        Ok(value[0])
+    }
+
+    fn __setitem__(&self, py: Python<'_>, name: &str, value: f64) -> PyResult<()> {
+        self.set(py, name, value)
+    }
+
+    fn __getitem__(&self, py: Python<'_>, name: &str) -> PyResult<f64> {
+        self.get(py, name)
+    }
+
+    /// Outputs as they are now: all, or those of the names, in their order; ``"time"`` is the time. An array of floats.
+    ///
+    /// Raises:
+    ///     UnknownName: There is no such output.
+    #[pyo3(signature = (names=None))]
+    fn read<'py>(
+        &self,
+        py: Python<'py>,
+        names: Option<Vec<String>>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let instance = self.held(py)?;
+        let columns = arguments::columns(&instance, names).map_err(raise(py))?;
+        let mut values = Vec::with_capacity(columns.len());
+        read(&instance, &columns, &mut values);
+        Ok(PyArray1::from_vec(py, values))
+    }
+
+    /// The bodies' positions, orientations, velocities and angular velocities: a `State` of copies.
+    #[getter]
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let all = states::arrays(self.held(py)?.plant());
+        let arrays = all.into_iter().zip(states::PARTS).map(|(part, (_, width))| {
+            let bodies = part.len() / width;
+            arguments::shaped(py, part, bodies, width)
+        });
+        let arrays = arrays.collect::<PyResult<Vec<_>>>()?;
+        py.import("dbd._state")?.getattr("State")?.call1(PyTuple::new(py, arrays)?)
+    }
+
+    /// Gives the bodies other states; what is `None` stays. The time, inputs and the turns that are counted at
+    /// joints stay, so a joint's angle should be within half a turn of the present one. A failure is forgotten.
+    ///
+    /// Args:
+    ///     state: A `State`, or `None`; what the others give goes before it.
+    ///     position: [m] bodies × 3, centres of mass in the world.
+    ///     orientation: bodies × 4, unit quaternions, scalar first, body to world.
+    ///     velocity: [m/s] bodies × 3, of the centres of mass in the world.
+    ///     angular_velocity: [rad/s] bodies × 3, in body axes.
+    ///
+    /// Raises:
+    ///     StateError: It is of another shape, not finite, a quaternion is not of unit length within 1e-3,
+    ///         or the precision cannot hold it; nothing is changed then.
+    #[pyo3(signature = (state=None, *, position=None, orientation=None, velocity=None, angular_velocity=None))]
+    fn set_state<'py>(
+        &self,
+        py: Python<'py>,
+        state: Option<Bound<'py, PyAny>>,
+        position: Option<Bound<'py, PyAny>>,
+        orientation: Option<Bound<'py, PyAny>>,
+        velocity: Option<Bound<'py, PyAny>>,
+        angular_velocity: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<()> {
+        let given = [position, orientation, velocity, angular_velocity];
+        let mut parts: [Option<Vec<f64>>; 4] = Default::default();
+        let mut instance = self.held(py)?;
+        let bodies = instance.scene().body_names.len();
+        for ((part, given), (name, width)) in parts.iter_mut().zip(given).zip(states::PARTS) {
+            let of_state = || state.as_ref().map(|state| state.getattr(name)).transpose();
+            if let Some(array) = given.map_or_else(of_state, |array| Ok(Some(array)))? {
+                let array: PyArrayLikeDyn<'_, f64, AllowTypeChange> = array.extract()?;
+                if array.shape() != [bodies, width] {
+                    let shape = format!(
+                        "{name} is an array of {:?}; {bodies} × {width} is its shape here",
+                        array.shape()
+                    );
+                    return Err(Refusal::new("StateError", shape).raised(py));
+                }
+                *part = Some(array.as_array().iter().copied().collect());
+            }
+        }
+        states::set(&mut instance, &parts).map_err(|refusal| refusal.raised(py))
+    }
+
+    /// The state, inputs and set parameters included, as bytes that a plant of the same scene, scheme,
+    /// precision and step takes up on any machine.
+    ///
+    /// Raises:
+    ///     StateError: The plant has failed.
+    fn save<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        Ok(PyBytes::new(py, &self.held(py)?.save().map_err(raise(py))?))
+    }
+
+    /// Goes on from a saved state, bit for bit; a failure is forgotten.
+    ///
+    /// Raises:
+    ///     StateError: The bytes are damaged, or of another scene or method; nothing is changed then.
+    fn restore(&self, py: Python<'_>, saved: &[u8]) -> PyResult<()> {
+        self.held(py)?.restore(saved).map_err(raise(py))
+    }
+
+    /// Runs with inputs that are held for `every` steps each. Other threads run meanwhile.
+    ///
+    /// Args:
+    ///     u: samples × inputs, or samples where there is one input: what inputs are held at [their units]; or
+    ///         an int, so many samples with the inputs as they are.
+    ///     every: Steps of each sample.
+    ///     outputs: Names of the columns, ``"time"`` among them is the time; all outputs if not said.
+    ///     inputs: Names of the columns of `u`; all inputs, in scene order, if not said.
+    ///
+    /// Returns:
+    ///     An array of samples × outputs: what they are after each hold. The state at the beginning is not in it.
+    ///
+    /// Raises:
+    ///     UnknownName, InputError, StepFailed: as `set` and `advance`; the plant stays where it was refused.
+    #[pyo3(signature = (u, every=1, outputs=None, *, inputs=None))]
+    fn rollout<'py>(
+        &self,
+        py: Python<'py>,
+        u: Held<'py>,
+        every: u64,
+        outputs: Option<Vec<String>>,
+        inputs: Option<Vec<String>>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let mut instance = self.held(py)?;
+        let (course, held) = arguments::course(py, &instance, u, every, outputs, inputs, None)?;
+        let instance: &mut Instance = &mut instance;
+        let rows = py
+            .detach(|| course.run(instance, &held, Watch::new(&AtomicBool::new(false))))
+            .map_err(|stop| stop.raised(py))?;
+        arguments::shaped(py, rows, course.samples, course.columns.len())
+    }
+
+    /// The plant as a linear system near its present state. See `dbd.Linear` for what it is.
+    ///
+    /// Args:
+    ///     states: Names of outputs that are the states of the linear system. `None`: twelve coordinates per body.
+    ///     inputs: Names; all inputs if not said.
+    ///     outputs: Names; the states if not said, without states all read-outs.
+    ///     perturb: [m, rad, m/s, rad/s] of the differences, which are of fourth order.
+    ///
+    /// Raises:
+    ///     LinearisationError: The states are not those of the slow motions, or something is undefined here.
+    ///     UnknownName: There is no such output or input.
+    #[pyo3(signature = (states=None, inputs=None, outputs=None, *, perturb=1e-5))]
+    fn linearise<'py>(
+        slf: &Bound<'py, Self>,
+        states: Option<Vec<String>>,
+        inputs: Option<Vec<String>>,
+        outputs: Option<Vec<String>>,
+        perturb: f64,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let linear = slf.py().import("dbd._linear")?;
+        linear.call_method1("linearise", (slf, states, inputs, outputs, perturb))
+    }
+
+    /// The Jacobians that `linearise` stands on, `shift` away from the present state: ẋ, (A, B, C, D).
+    fn _jacobians<'py>(
+        &self,
+        py: Python<'py>,
+        inputs: Vec<String>,
+        outputs: Vec<String>,
+        shift: Vec<f64>,
+        perturb: f64,
+    ) -> PyResult<Matrices<'py>> {
+        if !(perturb.is_finite() && perturb > 0.0 && perturb < 0.1) {
+            return Err(PyValueError::new_err(format!(
+                "perturb cannot be {perturb:?}; between 0 and 0.1"
+            )));
+        }
+        let instance = self.held(py)?;
+        let inputs = arguments::inputs(&instance, Some(inputs)).map_err(raise(py))?;
+        let names = outputs.iter().map(|name| instance.output(name));
+        let outputs = names.collect::<Result<Vec<_>, _>>().map_err(raise(py))?;
+        let mut probe = Probe::new(&instance).map_err(raise(py))?;
+        let refused = |refusal: Refusal| refusal.raised(py);
+        probe.shift(&shift);
+        let all = py.detach(|| probe.jacobians(&inputs, &outputs, perturb)).map_err(refused)?;
+        let matrix = |values, rows, columns| arguments::shaped(py, values, rows, columns);
+        let (count, width) = (all.count, inputs.len());
+        let matrices = [
+            matrix(all.a, count, count)?,
+            matrix(all.b, count, width)?,
+            matrix(all.c, outputs.len(), count)?,
+            matrix(all.d, outputs.len(), width)?,
+        ];
+        Ok((all.rate.to_pyarray(py), matrices))
+    }
+}

@@ -1,0 +1,84 @@
+//! The bodies' states as arrays.
+//!
+//! `plant <=> positions, orientations, velocities, angular velocities`, a row per body.
+
+use dbd_instance::Instance;
+use dbd_kernel::plant::StateError;
+use dbd_kernel::{BodyState, F64};
+use dbd_plant::AnyPlant;
+
+use crate::error::Refusal;
+
+/// What a body's state consists of, and how many numbers each has.
+pub(crate) const PARTS: [(&str, usize); 4] =
+    [("position", 3), ("orientation", 4), ("velocity", 3), ("angular_velocity", 3)];
+
+/// The parts of a body's state.
+fn parts(body: &BodyState<F64>) -> [Vec<f64>; 4] {
+    [
+        body.position.to_f64().to_vec(),
+        body.orientation.to_f64().to_vec(),
+        body.velocity.to_f64().to_vec(),
+        body.angular_velocity.to_f64().to_vec(),
+    ]
+}
+
+/// Each part of all bodies, one body after another.
+pub(crate) fn arrays(plant: &dyn AnyPlant) -> [Vec<f64>; 4] {
+    let mut all: [Vec<f64>; 4] = Default::default();
+    for body in &plant.state().bodies {
+        for (all, part) in all.iter_mut().zip(parts(body)) {
+            all.extend(part);
+        }
+    }
+    all
+}
+
+/// Gives the bodies the parts that are there: each of bodies × its width.
+pub(crate) fn set(instance: &mut Instance, given: &[Option<Vec<f64>>; 4]) -> Result<(), Refusal> {
+    let mut state = instance.plant().state();
+    for (row, body) in state.bodies.iter_mut().enumerate() {
+        let mut now = parts(body);
+        for ((now, given), (_, width)) in now.iter_mut().zip(given).zip(PARTS) {
+            if let Some(given) =
+                given.as_ref().and_then(|all| all.get(row * width..(row + 1) * width))
+            {
+                now.copy_from_slice(given);
+            }
+        }
+        let [position, orientation, velocity, spin] = now;
+        let three = |part: &[f64]| std::array::from_fn(|i| part[i]);
+        *body = BodyState::from_f64(
+            three(&position),
+            std::array::from_fn(|i| orientation[i]),
+            three(&velocity),
+            three(&spin),
+        );
+    }
+    let refused = instance.plant_mut().set_state(&state);
+    refused.map_err(|error| Refusal::new("StateError", sentence(instance, &error)))
+}
+
+/// What is wrong with a state, the body by its name.
+fn sentence(instance: &Instance, error: &StateError) -> String {
+    let name = |row: u16| {
+        let names = &instance.scene().body_names;
+        names.get(usize::from(row)).map_or_else(String::new, Clone::clone)
+    };
+    match error {
+        StateError::NotFinite(body) => format!("the state of `{}` is not finite", name(body.0)),
+        StateError::Extent(body) => {
+            format!("`{}` is farther away than fixed-point numbers hold", name(body.0))
+        }
+        StateError::Orientation(body) => {
+            format!(
+                "the orientation of `{}` is no unit quaternion; scalar first, of length 1",
+                name(body.0)
+            )
+        }
+        StateError::OffPlane(body) => {
+            format!("the state of `{}` leaves the plane of the scene", name(body.0))
+        }
+        StateError::Count | StateError::Signal(_) => error.to_string(),
+    }
+}

@@ -1,0 +1,68 @@
+"""The examples run, the programs of the pages too; what needs a heavy package runs where it is there."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import REPOSITORY
+
+EXAMPLES = REPOSITORY / "python" / "examples"
+
+
+def run(folder: Path, *command: str) -> str:
+    environment = {**os.environ, "DBD_BLESS": ""}
+    done = subprocess.run(
+        [sys.executable, *command], cwd=folder, env=environment, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def test_the_regulator_balances(tmp_path: Path) -> None:
+    out = run(tmp_path, str(EXAMPLES / "lqr.py"))
+    gains = [float(number) for number in re.findall(r"-?\d+\.\d*", out.splitlines()[0])]
+    assert np.allclose(gains, [-20.0, 88.97, -18.33, 17.54], rtol=0.01)
+    assert re.search(r"after 5.0 s: cart \S+e-0[3-9] m, pendulum \S+e-0[3-9] rad", out), out
+
+
+def test_the_swing_ends_upright(tmp_path: Path) -> None:
+    out = run(tmp_path, str(EXAMPLES / "swing.py"), "out.png")
+    assert float(re.search(r"within (\S+) rad", out)[1]) < 1e-2, out  # type: ignore[index]
+    assert (tmp_path / "out.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_rollouts_are_told(tmp_path: Path) -> None:
+    out = run(tmp_path, str(EXAMPLES / "rollouts.py"), "100")
+    assert out.count("push of") == 8 and "falls after" in out
+
+
+def test_the_golden_test_passes(tmp_path: Path) -> None:
+    out = run(tmp_path, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(EXAMPLES / "test_golden.py"))
+    assert "1 passed" in out
+
+
+@pytest.mark.skipif(importlib.util.find_spec("mujoco") is None, reason="pip install mujoco")
+def test_mujoco_is_near(tmp_path: Path) -> None:
+    out = run(tmp_path, str(EXAMPLES / "compare_mujoco.py"))
+    apart = [float(number) for number in re.findall(r"(\S+) mm ", out)]
+    # Ideal joints are ten times as near with ten times the stiffness.
+    assert len(apart) == 3 and apart[0] < 0.05 and apart[2] < apart[1] < apart[0], out
+
+
+@pytest.mark.parametrize("page", ["docs/python.md", "python/README.md"])
+def test_the_pages_programs_run(page: str, tmp_path: Path) -> None:
+    text = (REPOSITORY / page).read_text()
+    programs = re.findall(r"^```python\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
+    assert programs
+    (tmp_path / "scene.toml").write_bytes((REPOSITORY / "scenes" / "3ruu.toml").read_bytes())
+    # One after another, as they are read.
+    program = "\n".join(programs)
+    (tmp_path / "page.py").write_text(program)
+    run(tmp_path, "page.py")
