@@ -86,11 +86,13 @@ fn in_importers(python: &Path, everything: &[&str]) -> Result<()> {
     let library = host_sim.with_file_name("libdbd_fmu.so");
     let mut tests = program(python);
     tests.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "fmu/judges"]);
-    run(tests.env("HOST_SIM", &host_sim).env("FMU_LIBRARY", library))
+    tests.env("HOST_SIM", &host_sim).env("FMU_LIBRARY", library);
+    run(tests.env_remove("PYTHONPATH"))
 }
 
 /// Builds the wheel as it is published, installs it and runs its tests.
 fn package_tests(python: &Path, everything: &[&str]) -> Result<()> {
+    run(cargo().args(["fmt", "--check", "--manifest-path", "python/Cargo.toml"]))?;
     let host_sim = host_sim(everything)?;
     let wheels = root().join("target/python/wheels");
     if wheels.exists() {
@@ -108,5 +110,5 @@ fn package_tests(python: &Path, everything: &[&str]) -> Result<()> {
     run(program(python).args(install).arg(&wheel))?;
     let mut tests = program(python);
     tests.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "python/tests"]);
-    run(tests.env("HOST_SIM", host_sim))
+    run(tests.env("HOST_SIM", host_sim).env_remove("PYTHONPATH"))
 }
