@@ -12,7 +12,7 @@
 //! - [`xml`]: the model description.
 //! - [`token`]: the key between a model description and the resources beside it.
 //! - [`page`]: the page of an FMU's `documentation/`.
-//! - [`archive`]: the FMU as a file.
+//! - [`archive`](mod@archive): the FMU as a file.
 //! - [`component`]: an instance as FMI sees it.
 //! - `saved`: its state as bytes.
 //! - [`foreign`]: what a caller in C hands over.

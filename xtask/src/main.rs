@@ -16,6 +16,7 @@ mod cost;
 mod fuzz;
 mod growth;
 mod instructions;
+mod libraries;
 mod packages;
 mod precisions;
 mod prove;
@@ -137,6 +138,8 @@ enum Command {
     },
     /// Writes a new firmware project, runs it in QEMU and tests it on the host.
     Project,
+    /// Builds the library of the FMUs for an older Linux and for Windows, and compares their bits under Wine.
+    Libraries,
     /// Looks whether the crates that are published can be packaged, and what their metadata lacks.
     Packages,
     /// Compares the published crates' interfaces with those of a revision, by cargo-semver-checks.
@@ -171,6 +174,7 @@ fn main() -> ExitCode {
         Command::Project => {
             setup::complete().and_then(|toolchain| project::check(&toolchain, true))
         }
+        Command::Libraries => libraries::build(),
         Command::Packages => packages::check(),
         Command::Semver { revision } => semver::run_against(&revision),
         Command::Audit => audit::run(),

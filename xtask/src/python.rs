@@ -41,7 +41,10 @@ pub fn set_up() -> Result<()> {
 }
 
 /// The interpreter of a virtual environment with the packages that a file requires, made where it is not there.
-fn environment(name: &str, requirements: &str) -> Result<PathBuf> {
+///
+/// # Errors
+/// Where Python or its packages cannot be had; what to install is part of the message.
+pub fn environment(name: &str, requirements: &str) -> Result<PathBuf> {
     let folder = root().join("target/python").join(name);
     let (python, stamp) = (folder.join("bin/python"), folder.join("requirements.txt"));
     let wanted = std::fs::read(root().join(requirements))
