@@ -52,7 +52,7 @@ pub fn build() -> Result<()> {
 /// What is handed to others holds no lines and no names of ours.
 fn bare(command: &mut Command) -> &mut Command {
     command
-        .args(["--release", "--package", "dbd-fmu", "--lib"])
+        .args(["--release", "--package", "dbd-fmu", "--lib", "--crate-type", "cdylib"])
         .env("CARGO_PROFILE_RELEASE_DEBUG", "0")
         .env("CARGO_PROFILE_RELEASE_STRIP", "symbols")
 }
@@ -61,9 +61,11 @@ fn for_linux(folder: &Path) -> Result<PathBuf> {
     let python = python::environment("libraries", "fmu/requirements-libraries.txt")?;
     let tools = python.parent().context("an interpreter lies in a folder")?.to_owned();
     let path = std::env::var_os("PATH").unwrap_or_default();
-    let path = std::env::join_paths(std::iter::once(tools).chain(std::env::split_paths(&path)))?;
-    let mut command = cargo();
-    bare(command.arg("zigbuild")).args(["--target", &format!("{LINUX}.{GLIBC}")]);
+    let path =
+        std::env::join_paths(std::iter::once(tools.clone()).chain(std::env::split_paths(&path)))?;
+    let mut command = program(tools.join("cargo-zigbuild"));
+    command.arg("rustc");
+    bare(&mut command).args(["--target", &format!("{LINUX}.{GLIBC}")]);
     run(command.env("PATH", path).env("CARGO_TARGET_DIR", folder.join("zig")))?;
     Ok(folder.join("zig").join(LINUX).join("release/libdbd_fmu.so"))
 }
@@ -75,7 +77,7 @@ fn for_windows() -> Result<PathBuf> {
     }
     let toolchain = Toolchain::with_linker(WINDOWS, Some(MINGW.into()))?;
     println!("{}", toolchain.describe()?);
-    run(bare(&mut toolchain.cargo("build", "std,panic_unwind")))?;
+    run(bare(&mut toolchain.cargo("rustc", "std,panic_unwind")))?;
     Ok(toolchain.images("release").join("dbd_fmu.dll"))
 }
 

@@ -98,7 +98,8 @@ impl Diagnostic for FmuError {
         match self {
             Self::Archive(error) => error.help(),
             Self::Library { .. } => Some(Box::new(
-                "cargo build --release -p dbd-fmu makes it beside host-sim; --library takes another place",
+                "cargo rustc --release -p dbd-fmu --lib --crate-type cdylib makes it beside host-sim; --library takes another \
+                 place",
             )),
             Self::Taken { .. } => Some(Box::new("--out takes another name, or remove that file")),
             Self::Write { .. } => None,
