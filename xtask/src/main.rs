@@ -138,6 +138,8 @@ enum Command {
     },
     /// Writes a new firmware project, runs it in QEMU and tests it on the host.
     Project,
+    /// Holds FMUs of all scenes to their importers, and builds and tests the Python package.
+    Python,
     /// Builds the library of the FMUs for an older Linux and for Windows, and compares their bits under Wine.
     Libraries,
     /// Looks whether the crates that are published can be packaged, and what their metadata lacks.
@@ -174,6 +176,7 @@ fn main() -> ExitCode {
         Command::Project => {
             setup::complete().and_then(|toolchain| project::check(&toolchain, true))
         }
+        Command::Python => python::check(),
         Command::Libraries => libraries::build(),
         Command::Packages => packages::check(),
         Command::Semver { revision } => semver::run_against(&revision),

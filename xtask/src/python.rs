@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, bail};
 
-use crate::built::build;
-use crate::command::{cargo, find, output, program, root, run, succeeds};
+use crate::built::{Program, build};
+use crate::command::{cargo, find, output, program, root, run, succeeds, target_dir};
 use crate::steps::Steps;
 use crate::target::debian;
 
@@ -18,16 +18,26 @@ const PACKAGES: [&str; 2] = ["python3", "python3-venv"];
 const LIBRARY: &str = "target/python/libdbd_fmu.so";
 const OTHERWISE: &str = "install Python 3.10 or later with its modules venv and pip";
 
-/// Adds the steps. `everything` is what every build of the host's takes, so that nothing is built twice.
-pub fn add_steps(steps: &mut Steps, everything: &[&str]) {
+/// `cargo xtask python`: the steps alone.
+///
+/// # Errors
+/// Where one of them failed.
+pub fn check() -> Result<()> {
+    let mut steps = Steps::default();
+    add_steps(&mut steps, &[]);
+    steps.finish()
+}
+
+/// Adds the steps. The command line is that of the programs that were built, else it is built.
+pub fn add_steps(steps: &mut Steps, programs: &[Program]) {
     let importers = "FMUs in their importers";
     match environment("importers", "fmu/judges/requirements.txt") {
-        Ok(python) => steps.step(importers, || in_importers(&python, everything)),
+        Ok(python) => steps.step(importers, || in_importers(&python, programs)),
         Err(error) => steps.skip(importers, &format!("{error:#}")),
     }
     let package = "the Python package";
     match environment("package", "python/requirements-tests.txt") {
-        Ok(python) => steps.step(package, || package_tests(&python, everything)),
+        Ok(python) => steps.step(package, || package_tests(&python, programs)),
         Err(error) => steps.skip(package, &format!("{error:#}")),
     }
 }
@@ -78,19 +88,23 @@ fn shown(folder: &Path) -> String {
     folder.strip_prefix(root()).unwrap_or(folder).display().to_string()
 }
 
-/// The command line as it was built for the tests.
-fn host_sim(everything: &[&str]) -> Result<PathBuf> {
-    let built = build(cargo().arg("build").args(everything).args(["--bin", "host-sim"]))?;
-    let found = built.into_iter().find(|program| program.path.ends_with("host-sim"));
-    Ok(found.context("`host-sim` was not built")?.path)
+/// The command line.
+fn host_sim(programs: &[Program]) -> Result<PathBuf> {
+    let is_it = |program: &&Program| program.name == "host-sim::host-sim" && !program.tests;
+    if let Some(program) = programs.iter().find(is_it) {
+        return Ok(program.path.clone());
+    }
+    let built = build(cargo().args(["build", "--package", "host-sim", "--bin", "host-sim"]))?;
+    let found = built.iter().find(is_it).context("`host-sim` was not built")?;
+    Ok(found.path.clone())
 }
 
-fn in_importers(python: &Path, everything: &[&str]) -> Result<()> {
-    let host_sim = host_sim(everything)?;
+fn in_importers(python: &Path, programs: &[Program]) -> Result<()> {
+    let host_sim = host_sim(programs)?;
     // With no feature of the kernel's: names that defmt gives to what it logs are none that a library may export.
     run(cargo().args(["rustc", "--package", "dbd-fmu", "--lib", "--crate-type", "cdylib"]))?;
     // Without its symbols it is packed into dozens of archives in a fraction of the time.
-    let (built, library) = (host_sim.with_file_name("libdbd_fmu.so"), root().join(LIBRARY));
+    let (built, library) = (target_dir().join("debug/libdbd_fmu.so"), root().join(LIBRARY));
     output(program("strip").arg("-o").arg(&library).arg(&built)).context("binutils are missing")?;
     let mut tests = program(python);
     tests.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "fmu/judges"]);
@@ -99,9 +113,9 @@ fn in_importers(python: &Path, everything: &[&str]) -> Result<()> {
 }
 
 /// Builds the wheel as it is published, installs it and runs its tests.
-fn package_tests(python: &Path, everything: &[&str]) -> Result<()> {
+fn package_tests(python: &Path, programs: &[Program]) -> Result<()> {
     run(cargo().args(["fmt", "--check", "--manifest-path", "python/Cargo.toml"]))?;
-    let host_sim = host_sim(everything)?;
+    let host_sim = host_sim(programs)?;
     let wheels = root().join("target/python/wheels");
     if wheels.exists() {
         std::fs::remove_dir_all(&wheels).context("cannot remove the last wheels")?;

@@ -58,7 +58,7 @@ pub fn run(long: bool, write_times: bool) -> Result<()> {
         bare(&mut steps);
         let host = release(&mut steps, &mut cases);
         other_targets(&mut steps);
-        python::add_steps(&mut steps, &EVERYTHING);
+        python::add_steps(&mut steps, &programs);
         host
     });
     on_target(&toolchain, host.as_ref(), long, &mut steps);
