@@ -7,6 +7,7 @@ import os
 import pickle
 import signal
 import threading
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -185,6 +186,15 @@ def test_a_plant_at_work_says_so() -> None:
         dbd.rollouts([], 1)
 
 
+@pytest.fixture
+def interruptible() -> Iterator[None]:
+    """Python hears of no interrupt where its parent ignored them, as a shell makes what runs in the background."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("interruptible")
 def test_an_interrupt_ends_what_would_last_for_ever() -> None:
     spinning = cart()
     spinning.set_state(angular_velocity=np.full((2, 3), 1e4))
