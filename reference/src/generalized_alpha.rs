@@ -176,3 +176,35 @@ impl State {
 fn joined(acceleration: &Acceleration) -> Vector6<f64> {
     join(acceleration.linear, acceleration.angular)
 }
+
+#[cfg(test)]
+mod tests {
+    use dbd_scene::Scene;
+
+    use super::*;
+
+    /// Without a new beginning at either jump the accelerations of before would act for another step.
+    #[test]
+    fn a_force_that_begins_and_ends_has_its_whole_effect_and_no_more() {
+        let text = r#"
+name = "pushed"
+duration = 0.5
+[[body]]
+name = "weight"
+mass = 2.0
+inertia = [0.01, 0.01, 0.01]
+position = [0, 0, 0]
+[[load]]
+body = "weight"
+force = [4, 0, 0]
+from = 0.1
+until = 0.3
+"#;
+        let scene = Scene::parse(text, "pushed.toml").unwrap();
+        let (mechanism, start) = Mechanism::of(&scene);
+        let mut run = GeneralizedAlpha::new(&mechanism, start, 0.01, GeneralizedAlpha::RHO);
+        (0..50).for_each(|_| run.step());
+        // ½·2 m/s²·(0.2 s)², then 0.4 m/s for 0.2 s.
+        assert!((run.state.bodies[0].position.x - 0.12).abs() < 1e-12, "{:?}", run.state.bodies);
+    }
+}
