@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use dbd_instance::instance::NEAR;
 use dbd_instance::{Instance, InstanceError};
 
 use crate::description::{Description, Role};
@@ -50,9 +51,6 @@ impl From<InstanceError> for Refusal {
         }
     }
 }
-
-/// How far a communication point may be from where the plant is, in steps: importers add up their own.
-const NEAR: f64 = 0.01;
 
 /// An instance with value references.
 pub struct Component {

@@ -17,7 +17,7 @@ use crate::settings::Settings;
 use crate::variables::{self, Input, Output};
 
 /// How far a time may be from a whole number of steps, in steps: callers add up their own.
-const NEAR: f64 = 0.01;
+pub const NEAR: f64 = 0.01;
 
 /// A scene's plant whose values have names.
 ///
