@@ -15,8 +15,9 @@ use std::time::{Duration, Instant};
 use anyhow::{Context as _, Result};
 
 use crate::block::file_name;
+use crate::execution::TOO_LONG;
 use crate::target::{Finding, Target};
-use crate::worker::{Found, TOO_LONG, Told};
+use crate::worker::{Found, Told};
 
 /// What a campaign is.
 #[derive(Clone, Debug)]

@@ -1,10 +1,15 @@
-//! One input through one target, a panic caught and named by its place.
+//! One input through one target: a panic is caught and named by its place, the time is watched.
 
 use std::cell::RefCell;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Once;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
 
 use crate::target::{Finding, Reach, Target};
+
+/// The exit code of a worker whose input took too long.
+pub const TOO_LONG: i32 = 3;
 
 thread_local! {
     static PANIC: RefCell<Option<Finding>> = const { RefCell::new(None) };
@@ -26,6 +31,29 @@ fn listen() {
     });
 }
 
+/// Counts inputs begun and inputs done with: it is odd while one runs.
+static COUNT: AtomicU64 = AtomicU64::new(0);
+
+/// Ends this process where an input takes longer than `limit`.
+///
+/// It counts its own looks and not the clock: where the machine halts the process, it halts both.
+pub fn watch(limit: Duration) {
+    /// Looks within the limit.
+    const LOOKS: u32 = 20;
+    std::thread::spawn(move || {
+        let mut last = (COUNT.load(Ordering::Relaxed), 0);
+        loop {
+            std::thread::sleep(limit / LOOKS);
+            let now = COUNT.load(Ordering::Relaxed);
+            last = (now, if now == last.0 && now % 2 == 1 { last.1 + 1 } else { 0 });
+            if last.1 > LOOKS {
+                eprintln!("an input takes longer than {limit:?}");
+                std::process::exit(TOO_LONG);
+            }
+        }
+    });
+}
+
 /// Runs a target on an input.
 ///
 /// # Errors
@@ -33,7 +61,9 @@ fn listen() {
 pub fn execute(target: &dyn Target, input: &[u8]) -> Result<Reach, Finding> {
     listen();
     // A target keeps nothing between two inputs.
+    COUNT.fetch_add(1, Ordering::Relaxed);
     let outcome = panic::catch_unwind(AssertUnwindSafe(|| target.execute(input)));
+    COUNT.fetch_add(1, Ordering::Relaxed);
     outcome.unwrap_or_else(|_| {
         let known = PANIC.with(|last| last.borrow_mut().take());
         Err(known.unwrap_or_else(|| Finding::new("panic", "without a word")))

@@ -8,21 +8,17 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, Result};
 
 use crate::block::{file_name, inputs};
-use crate::execution::execute;
+use crate::execution::{execute, watch};
 use crate::shrink::shrunk;
 use crate::target::{Finding, Reach, Target};
 
 /// What takes longer is shown: it is no fault, but may become one.
 const SLOW: Duration = Duration::from_secs(2);
-
-/// The exit code of a worker whose input took too long.
-pub const TOO_LONG: i32 = 3;
 
 /// What a worker is to do.
 #[derive(Clone, Debug)]
@@ -108,26 +104,6 @@ impl Found {
     }
 }
 
-/// Counts inputs begun: who watches sees whether it still counts.
-static BEGUN: AtomicU64 = AtomicU64::new(0);
-
-/// Ends this process where an input takes longer than `limit`.
-pub fn watch(limit: Duration) {
-    std::thread::spawn(move || {
-        let mut last = (BEGUN.load(Ordering::Relaxed), Instant::now());
-        loop {
-            std::thread::sleep(limit.min(Duration::from_secs(1)) / 10);
-            let now = BEGUN.load(Ordering::Relaxed);
-            if now != last.0 {
-                last = (now, Instant::now());
-            } else if last.1.elapsed() > limit {
-                eprintln!("an input takes longer than {limit:?}");
-                std::process::exit(TOO_LONG);
-            }
-        }
-    });
-}
-
 /// Does the work.
 ///
 /// # Errors
@@ -162,7 +138,6 @@ fn run_block(
         if let Some(trace) = &work.trace {
             fs::write(trace, &input).context("the trace cannot be written")?;
         }
-        BEGUN.fetch_add(1, Ordering::Relaxed);
         let begun = Instant::now();
         let outcome = execute(target, &input);
         let mut took = begun.elapsed();
