@@ -188,28 +188,30 @@ fn survey_until_killed() {
 fn a_survey_that_is_killed_is_gone_on_with() {
     let folder = tempfile::tempdir().unwrap();
     let [killed, whole] = ["killed", "whole"].map(|name| folder.path().join(name));
-    let mut child = std::process::Command::new(std::env::current_exe().unwrap())
-        .args(["--ignored", "--exact", "command::survey_until_killed"])
-        .env("DBD_TRADE_KILLED", &killed)
-        .stdout(std::process::Stdio::null())
-        .spawn()
-        .unwrap();
     let results = killed.join("spring-ball");
-    // Until some results are kept.
     let kept = || {
         let caches = if results.is_dir() { caches(&results) } else { Vec::new() };
-        caches.first().map_or(0, |file| fs::read_to_string(file).unwrap().lines().count())
+        let read = |file| fs::read_to_string(file).unwrap_or_default();
+        caches.first().map_or(0, |file| read(file).lines().count())
     };
-    while kept() < 20 && child.try_wait().unwrap().is_none() {
-        std::thread::sleep(std::time::Duration::from_millis(1));
-    }
-    child.kill().unwrap();
-    child.wait().unwrap();
+    // Killed when some results are kept. On a busy machine it may be done by then: once more.
+    let killed_in_time = || {
+        _ = fs::remove_dir_all(&killed);
+        let mut child = std::process::Command::new(std::env::current_exe().unwrap())
+            .args(["--ignored", "--exact", "command::survey_until_killed"])
+            .env("DBD_TRADE_KILLED", &killed)
+            .stdout(std::process::Stdio::null())
+            .spawn()
+            .unwrap();
+        while kept() < 20 && child.try_wait().unwrap().is_none() {
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        kept() >= 20 && !results.join("trade.csv").exists()
+    };
+    assert!((0..10).any(|_| killed_in_time()), "it was never killed in time");
     let before = kept();
-    assert!(
-        before >= 20 && !results.join("trade.csv").exists(),
-        "{before}: it was not killed in time"
-    );
     for out in [&killed, &whole] {
         let out = out.to_str().unwrap();
         let (exit, ..) =
