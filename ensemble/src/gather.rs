@@ -68,6 +68,7 @@ pub(crate) fn model<V: Register>(models: &[&ModelOf<V::Number>]) -> LanesModel<V
         initial: each!(initial, |row| body_state(|i| models[i].initial[row])),
         gravity: each!(gravity, |row| vector(|i| models[i].gravity[row])),
         groups: first.groups.clone(),
+        plan: first.plan.clone(),
         points: each!(points, |row| vector(|i| models[i].points[row])),
         tsdas: each!(tsdas, |row| {
             let of = |i: usize| models[i].tsdas[row];

@@ -10,6 +10,7 @@ use core::marker::PhantomData;
 use dbd_kernel::BodyState;
 use dbd_kernel::Scheme;
 use dbd_kernel::model::{ModelOwner, ModelRef, Terms};
+use dbd_kernel::solve::Plan;
 
 /// The model, for this scheme only.
 #[derive(Clone, Copy, Debug)]
@@ -54,6 +55,7 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
     type PerInput = M::PerInput;
     type PerDamper<T: Copy> = M::PerDamper<T>;
     type PerTsda<T: Copy> = M::PerTsda<T>;
+    type PerPair<T: Copy> = M::PerPair<T>;
     type PerKnot = M::PerKnot;
 
     #[inline(always)]
@@ -106,6 +108,16 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
     #[inline]
     fn per_damper<T: Copy>(&self, value: T) -> M::PerDamper<T> {
         self.model.per_damper(value)
+    }
+
+    #[inline]
+    fn per_pair<T: Copy>(&self, value: T) -> M::PerPair<T> {
+        self.model.per_pair(value)
+    }
+
+    #[inline]
+    fn plan(&self) -> Plan<'_> {
+        self.model.plan()
     }
 
     #[inline]

@@ -83,6 +83,7 @@ pub mod frequency;
 pub mod geometry;
 mod guards;
 pub mod index;
+pub mod keep;
 mod lockstep;
 #[cfg(feature = "micromath")]
 pub mod loose;
@@ -99,6 +100,7 @@ pub mod schedule;
 pub mod schemes;
 pub mod sketch;
 pub mod snapshot;
+pub mod solve;
 pub mod space;
 mod square_root;
 pub mod state;
@@ -126,7 +128,7 @@ pub use planar::{Planar32, Planar64};
 pub use plant::Plant;
 pub use real::Real;
 pub use schemes::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, JointWise, Leapfrog, Pefrl, Rk4, Scheme,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Leapfrog, Pefrl, Rk4, Scheme,
     SemiImplicitEuler,
 };
 pub use state::State;

@@ -21,9 +21,19 @@ impl<R: Real> Space for Plane<R> {
     type Vector = Vec2<R>;
     type Moment = Axial<R>;
     type Turn = Heading<R>;
+    type Row = [R; 3];
 
     const NAME: &'static str = "planar";
     const PLANAR: bool = true;
+
+    #[inline(always)]
+    fn row(linear: Vec2<R>, angular: Axial<R>) -> [R; 3] {
+        [linear.x, linear.y, angular.z]
+    }
+    #[inline(always)]
+    fn parts([x, y, z]: [R; 3]) -> (Vec2<R>, Axial<R>) {
+        (Vec2::new(x, y), Axial::new(z))
+    }
 }
 
 /// A vector in the plane.

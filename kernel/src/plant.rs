@@ -7,13 +7,14 @@
 use core::ops::Deref;
 
 use crate::attitude::Attitude as _;
-use crate::damping::{Damping, Held, Keep, Share, find, share, weigh};
+use crate::damping::{Damping, Held, Share, find, share, weigh};
 use crate::elements::input::{Input, InputKind};
 use crate::extents::first_excess;
 use crate::forces::{Wrench, are_in_line, find_rests};
 use crate::geometry::Geometry;
 use crate::guards::{first_beyond, first_fault};
 use crate::index::{BodyIndex, InputIndex};
+use crate::keep::{Keep, Kept};
 use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, SpaceOf, Terms};
 use crate::pose::{Places, place_bodies};
 use crate::real::Real;
@@ -39,7 +40,7 @@ where
     diagonals: PerBody<H, Diagonal<SpaceOf<H::Target>>>,
     rests: PerTsda<H>,
     shares: <H::Target as ModelOwner>::PerDamper<Share<RealOf<H::Target>>>,
-    levers: <S::Levers as Keep>::Memory<H::Target>,
+    kept: Kept<S::Keeps, H::Target>,
     windows: <H::Target as ModelOwner>::PerLoad,
     knots: <H::Target as ModelOwner>::PerKnot,
     state: State<H::Target>,
@@ -100,9 +101,13 @@ where
             find_rests(&view, frames.as_ref(), rests.as_mut());
         }
         let mut shares = owner.per_damper(Share::ALONE);
-        let mut levers = S::Levers::memory(owner);
+        if S::Keeps::MATRIX && !is_planned(owner) {
+            return Err(PlantError::Plan);
+        }
+        let mut kept = S::Keeps::memory(owner);
+        let levers = &mut kept.levers;
         let mut ledger = Ledger::default();
-        if <H::Target as ModelOwner>::Terms::DAMPERS && S::DAMPING != Damping::Explicit {
+        if <H::Target as ModelOwner>::Terms::DAMPERS && !matches!(S::DAMPING, Damping::Explicit | Damping::Implicit) {
             let (bodies, signals) = (state.bodies.as_ref(), state.signals.as_ref());
             place_bodies(bodies, frames.as_mut());
             let places = Places { frames: frames.as_ref(), signals };
@@ -126,7 +131,7 @@ where
             diagonals,
             rests,
             shares,
-            levers,
+            kept,
             windows,
             knots,
             state,
@@ -201,7 +206,10 @@ where
             diagonals: self.diagonals.as_ref(),
             rests: self.rests.as_ref(),
             shares: self.shares.as_ref(),
-            levers: self.levers.as_mut(),
+            levers: self.kept.levers.as_mut(),
+            plan: self.model.plan(),
+            blocks: self.kept.bodies.as_mut(),
+            pair_blocks: self.kept.pairs.as_mut(),
             windows: self.windows.as_ref(),
             knots: self.knots.as_ref(),
             signals: self.state.signals.as_mut(),
@@ -221,6 +229,7 @@ where
     pub(crate) fn fail(&mut self, cause: Cause) -> Status {
         self.ledger.fresh = false;
         self.ledger.ready = false;
+        self.ledger.begun = false;
         self.status = Status::Failed(Failure { cause, step: self.state.step });
         self.status
     }
@@ -401,6 +410,7 @@ where
         self.state = state;
         self.ledger.fresh = false;
         self.ledger.ready = false;
+        self.ledger.begun = false;
         self.status = Status::Running;
         self.sample();
     }
@@ -409,6 +419,14 @@ where
     pub fn hash(&self) -> u64 {
         self.state.hash()
     }
+}
+
+/// Whether a model has a plan, and its own.
+fn is_planned<M: ModelOwner>(model: &M) -> bool {
+    let view = model.view();
+    let groups = view.groups.iter().map(|group| [group.a.0, group.b.0]);
+    let ends = groups.chain(view.torsions.iter().map(|spring| [spring.a.0, spring.b.0]));
+    model.plan().fits(view.bodies.len(), ends)
 }
 
 fn moves_ground<P: Geometry>(input: &Input<P>) -> bool {

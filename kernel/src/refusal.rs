@@ -14,6 +14,11 @@ pub enum PlantError {
     Step(f64),
     /// A part of the model is beyond what the precision holds.
     Extent(Excess),
+    /// The scheme has a matrix, and the model no plan for it, or that of another one; see
+    /// [`Planned`](crate::model::Planned).
+    Plan,
+    /// The step is longer than the precision bears for joints as stiff as the model's: at most so many \[s\].
+    Stiff(f64),
 }
 
 impl core::fmt::Display for PlantError {
@@ -23,6 +28,10 @@ impl core::fmt::Display for PlantError {
                 write!(f, "the step must be a positive finite time, not {step} s")
             }
             PlantError::Extent(excess) => excess.fmt(f),
+            PlantError::Plan => f.write_str("the model has no plan of elimination for the scheme"),
+            PlantError::Stiff(most) => {
+                write!(f, "joints as stiff as these bear a step of {most} s at most in this precision")
+            }
         }
     }
 }

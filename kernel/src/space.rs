@@ -9,6 +9,7 @@ use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
 
 use crate::real::{Lanewise, Real};
+use crate::solve::Freedoms;
 use crate::vector::{Quaternion, Vec3};
 use crate::words::Words;
 
@@ -125,11 +126,18 @@ pub trait Space: Copy + Debug + Default + PartialEq + 'static {
     type Moment: Moment<Real = Self::Real, Vector = Self::Vector>;
     /// Turns of one body in another.
     type Turn: Turn<Real = Self::Real, Moment = Self::Moment>;
+    /// One number per freedom of a body.
+    type Row: Freedoms<Real = Self::Real>;
 
     /// The name users give: `spatial`, `planar`.
     const NAME: &'static str;
     /// Whether every turn is about z.
     const PLANAR: bool;
+
+    /// The row of a vector and a moment.
+    fn row(linear: Self::Vector, angular: Self::Moment) -> Self::Row;
+    /// Vector and moment of a row.
+    fn parts(row: Self::Row) -> (Self::Vector, Self::Moment);
 }
 
 impl<R: Real> Space for R {
@@ -137,9 +145,19 @@ impl<R: Real> Space for R {
     type Vector = Vec3<R>;
     type Moment = Vec3<R>;
     type Turn = Quaternion<R>;
+    type Row = [R; 6];
 
     const NAME: &'static str = "spatial";
     const PLANAR: bool = false;
+
+    #[inline(always)]
+    fn row(linear: Vec3<R>, angular: Vec3<R>) -> [R; 6] {
+        [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z]
+    }
+    #[inline(always)]
+    fn parts([x, y, z, u, v, w]: [R; 6]) -> (Vec3<R>, Vec3<R>) {
+        (Vec3::new(x, y, z), Vec3::new(u, v, w))
+    }
 }
 
 impl<R: Real> Linear for Vec3<R> {

@@ -56,6 +56,12 @@ pub enum Cause {
     },
     /// The step counter is at its end: 2⁶⁴ − 1 steps. The state is left as it was.
     Steps,
+    /// The matrix of an implicit scheme is not positive definite at this body: a number is beyond what
+    /// the precision holds.
+    Pivot {
+        /// The first such body.
+        body: BodyIndex,
+    },
     /// What is mounted to this body can vibrate faster than the step bears; see
     /// [`crate::watch::Watch`].
     Frequency {
@@ -109,6 +115,9 @@ impl core::fmt::Display for Failure {
                 write!(f, "the turn count of torsion spring {} is at its end", spring.0)?;
             }
             Cause::Steps => write!(f, "the step counter is at its end")?,
+            Cause::Pivot { body } => {
+                write!(f, "the matrix of the step has no factor at body {}", body.0)?;
+            }
             Cause::Frequency { body } => {
                 write!(f, "the mounts of body {} can vibrate too fast for the step", body.0)?;
             }

@@ -17,6 +17,7 @@ use crate::pose::{Places, place_bodies};
 use crate::real::Real;
 use crate::rotation;
 use crate::schedule::{self, KnotStep, LoadWindow, Signal, StageTime};
+use crate::solve::{BlockOf, Plan};
 use crate::space::{Moment as _, Space as _};
 use crate::status::Cause;
 
@@ -34,6 +35,8 @@ pub(crate) struct Ledger {
     pub(crate) ready: bool,
     /// At how many places a sweep of levers stops.
     pub(crate) stops: u16,
+    /// Whether what a scheme remembers is of the present state. Unlike the others part of a snapshot.
+    pub(crate) begun: bool,
 }
 
 /// Model, state and scratch of one plant, lent for one step, with the scheme's memory `S` per body.
@@ -79,6 +82,10 @@ pub struct Workspace<'s, 'm, P: Geometry, T> {
     pub(crate) shares: &'s [Share<P::Real>],
     /// The joints' levers, none where dampers act otherwise.
     pub(crate) levers: &'s mut [Lever<P>],
+    /// The plan of the matrix, and its blocks; none where the scheme has no matrix.
+    pub(crate) plan: Plan<'m>,
+    pub(crate) blocks: &'s mut [BlockOf<P::Space>],
+    pub(crate) pair_blocks: &'s mut [BlockOf<P::Space>],
     /// The loads' windows.
     pub(crate) windows: &'s [LoadWindow],
     /// The tables' knots among the steps.

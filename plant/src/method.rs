@@ -6,7 +6,7 @@
 
 use dbd_kernel::damping::Damping;
 use dbd_kernel::schemes::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, JointWise, Leapfrog, Pefrl, Rk4, Scheme,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Leapfrog, Pefrl, Rk4, Scheme,
     SemiImplicitEuler,
 };
 use miette::Diagnostic;
@@ -18,7 +18,7 @@ use crate::names::{DampingName, Named as _, OrientationName, PrecisionName, Sche
 pub const MOST_ITERATIONS: u32 = 8;
 
 /// A scheme with its parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SchemeChoice {
     Dbd(Dbd),
     DbdP1(DbdP1),
@@ -32,10 +32,11 @@ pub(crate) enum SchemeChoice {
     Pefrl(Pefrl),
     BlanesMoanS6(BlanesMoanS6),
     Rk4(Rk4),
+    GeneralizedAlpha(GeneralizedAlpha),
 }
 
 /// A scheme with its parameters, in a precision, with a way of storing orientations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Method {
     pub(crate) scheme: SchemeChoice,
     precision: PrecisionName,
@@ -127,6 +128,9 @@ impl Method {
             SchemeName::Pefrl => SchemeChoice::Pefrl(Pefrl),
             SchemeName::BlanesMoanS6 => SchemeChoice::BlanesMoanS6(BlanesMoanS6),
             SchemeName::Rk4 => SchemeChoice::Rk4(Rk4),
+            SchemeName::GeneralizedAlpha => {
+                SchemeChoice::GeneralizedAlpha(GeneralizedAlpha::default())
+            }
         };
         let method = Self { scheme, precision, orientation: OrientationName::default() };
         if newton.is_some() && method.newton().is_none() {
@@ -153,6 +157,7 @@ impl Method {
                 DampingName::Sweeps => SchemeChoice::Leapfrog(Leapfrog),
                 DampingName::JointWise => SchemeChoice::JointWiseLeapfrog(JointWise(Leapfrog)),
                 DampingName::Explicit => SchemeChoice::ExplicitLeapfrog(Explicit(Leapfrog)),
+                DampingName::Implicit => self.scheme,
             },
             (
                 SchemeChoice::SemiImplicitEuler(_)
@@ -167,6 +172,7 @@ impl Method {
                 DampingName::Explicit => {
                     SchemeChoice::ExplicitSemiImplicitEuler(Explicit(SemiImplicitEuler))
                 }
+                DampingName::Implicit => self.scheme,
             },
             (scheme, _) => scheme,
         };
@@ -175,6 +181,7 @@ impl Method {
             DampingName::Sweeps => Damping::Sweeps,
             DampingName::JointWise => Damping::JointWise,
             DampingName::Explicit => Damping::Explicit,
+            DampingName::Implicit => Damping::Implicit,
         };
         if method.damping() == asked {
             Ok(method)
@@ -265,6 +272,7 @@ impl Method {
             SchemeChoice::Pefrl(scheme) => Traits::of(scheme),
             SchemeChoice::BlanesMoanS6(scheme) => Traits::of(scheme),
             SchemeChoice::Rk4(scheme) => Traits::of(scheme),
+            SchemeChoice::GeneralizedAlpha(scheme) => Traits::of(scheme),
         }
     }
 

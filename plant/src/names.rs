@@ -75,6 +75,8 @@ named! {
         BlanesMoanS6 = "blanes-moan-s6",
         /// Classical Runge–Kutta: order 4, four evaluations, dissipates.
         Rk4 = "rk4",
+        /// One linear solve: order 2, any stiffness, damps what the step does not resolve.
+        GeneralizedAlpha = "generalized-alpha",
     }
 }
 
@@ -87,6 +89,8 @@ named! {
         JointWise = "joint-wise",
         /// Forces at the velocities of each evaluation: limit the step.
         Explicit = "explicit",
+        /// Part of the linear solve of generalized-alpha: no limit of the step.
+        Implicit = "implicit",
     }
 }
 

@@ -14,6 +14,7 @@ use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
 use dbd_kernel::index::InputIndex;
 #[cfg(all(feature = "comparison", not(test)))]
 use dbd_kernel::loose::{Loose32, LooseEuler32, LooseSingleEuler32};
+use dbd_kernel::keep::Keep as _;
 use dbd_kernel::plant::{self as kernel, InputError, Plant, StateError};
 use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::schedule::Signal;
@@ -133,6 +134,7 @@ macro_rules! with_scheme {
             SchemeChoice::Pefrl($scheme) => $body,
             SchemeChoice::BlanesMoanS6($scheme) => $body,
             SchemeChoice::Rk4($scheme) => $body,
+            SchemeChoice::GeneralizedAlpha($scheme) => $body,
         }
     };
 }
@@ -163,6 +165,19 @@ pub enum PlantError {
     #[error(transparent)]
     #[diagnostic(help("{}", .0.remedy))]
     Extent(#[from] Misfit),
+    /// The scheme has a matrix, and the bodies of the scene form more pairs than it holds.
+    #[error("a matrix of more than 65535 pairs of bodies")]
+    #[diagnostic(help("a scheme without a matrix: --scheme leapfrog"))]
+    Pairs,
+    /// The precision does not bear joints so stiff with so long a step.
+    #[error("joints as stiff as these take a step of at most {} in {precision}", display(*most))]
+    #[diagnostic(help("a shorter step, softer joints, or --precision f64"))]
+    Stiff {
+        /// \[s\] the longest step.
+        most: f64,
+        /// The precision's name.
+        precision: &'static str,
+    },
     /// This build does not hold the method.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -258,7 +273,10 @@ impl New<'_> {
         S: Scheme,
         Typed<P, S>: AnyPlant + 'static,
     {
-        let model: SceneModel<P> = self.model.convert();
+        let mut model: SceneModel<P> = self.model.convert();
+        if S::Keeps::MATRIX {
+            model = model.planned();
+        }
         let exact = model.convert();
         let exact = match self.plane {
             Some((planar, whole)) => planar.in_world(whole, &exact),
@@ -270,6 +288,10 @@ impl New<'_> {
                 kernel::PlantError::Step(_) => refused(self.method, self.step),
                 kernel::PlantError::Extent(excess) => {
                     Misfit::unnamed::<P>(&excess, self.step).into()
+                }
+                kernel::PlantError::Plan => PlantError::Pairs,
+                kernel::PlantError::Stiff(most) => {
+                    PlantError::Stiff { most, precision: self.method.precision_name() }
                 }
             })?;
         Ok(Box::new(Typed { plant, planar, exact, method: *self.method }))

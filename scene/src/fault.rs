@@ -26,6 +26,9 @@ impl Scene {
             Cause::Turns { spring: row } => {
                 format!("the turn count of {} is at its end", spring(usize::from(row.0)))
             }
+            Cause::Pivot { body } => {
+                format!("the matrix of the step has no factor at body `{}`", name(body))
+            }
             Cause::Steps => "the step counter is at its end".to_owned(),
             Cause::Frequency { body } => {
                 let body = name(body);

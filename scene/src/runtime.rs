@@ -10,11 +10,14 @@ use dbd_kernel::index::InputIndex;
 use dbd_kernel::model::{AllTerms, Group, ModelOwner, ModelRef};
 use dbd_kernel::schedule::LoadWindow;
 use dbd_kernel::schedule::{KnotStep, Signal};
+use dbd_kernel::solve::Plan;
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
     BodyState, F64, Geometry, Load, PointBushing, PointOnLine, Real, Revolute, State,
     TorsionSpring, Tsda, Universal,
 };
+
+use crate::elimination::Elimination;
 
 /// A model on the heap, see [`dbd_kernel::Model`] for the fields.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,6 +54,8 @@ pub struct SceneModel<P: Geometry> {
     pub revolutes: Vec<Revolute<P::Space>>,
     /// Universal joints of the groups.
     pub universals: Vec<Universal<P::Space>>,
+    /// The plan of a matrix, empty but for a scheme that has one; see [`Self::planned`].
+    pub plan: Elimination,
 }
 
 impl<P: Geometry> SceneModel<P> {
@@ -74,7 +79,19 @@ impl<P: Geometry> SceneModel<P> {
             clearances: self.clearances.iter().map(|c| Q::Real::from_f64(c.to_f64())).collect(),
             revolutes: self.revolutes.iter().map(Revolute::convert).collect(),
             universals: self.universals.iter().map(Universal::convert).collect(),
+            plan: self.plan.clone(),
         }
+    }
+
+    /// The same model with a plan for the matrix of an implicit scheme; unchanged where there are more pairs
+    /// of bodies than an index counts.
+    #[must_use]
+    pub fn planned(self) -> Self {
+        let groups = self.groups.iter().map(|group| [group.a.0, group.b.0]);
+        let torsions = self.torsions.iter().map(|spring| [spring.a.0, spring.b.0]);
+        let ends: Vec<_> = groups.chain(torsions).collect();
+        let plan = Elimination::new(self.bodies.len(), &ends).unwrap_or_default();
+        Self { plan, ..self }
     }
 
     /// The first input whose value or table the precision cannot hold.
@@ -129,6 +146,7 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
     type PerInput = Vec<Signal<P::Real>>;
     type PerDamper<T: Copy> = Vec<T>;
     type PerTsda<T: Copy> = Vec<T>;
+    type PerPair<T: Copy> = Vec<T>;
     type PerKnot = Vec<KnotStep<P::Real>>;
 
     fn view(&self) -> ModelRef<'_, P, AllTerms> {
@@ -174,6 +192,14 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
 
     fn per_damper<T: Copy>(&self, value: T) -> Vec<T> {
         vec![value; self.dampers.len()]
+    }
+
+    fn per_pair<T: Copy>(&self, value: T) -> Vec<T> {
+        vec![value; self.plan.pairs.len()]
+    }
+
+    fn plan(&self) -> Plan<'_> {
+        self.plan.plan()
     }
 
     fn per_tsda<T: Copy>(&self, value: T) -> Vec<T> {

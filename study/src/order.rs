@@ -113,7 +113,7 @@ fn cause(order: f64, method: &Method, influences: Influences) -> Option<Cause> {
         return None;
     }
     Some(match method.damping() {
-        Damping::Sweeps | Damping::JointWise => Cause::SweptDampers,
+        Damping::Sweeps | Damping::JointWise | Damping::Implicit => Cause::SweptDampers,
         Damping::Explicit => Cause::ExplicitDampers,
     })
 }

@@ -51,6 +51,7 @@ impl<
     type PerInput = Vec<Signal<P::Real>, INPUTS>;
     type PerDamper<T: Copy> = Vec<T, DAMPERS>;
     type PerTsda<T: Copy> = Vec<T, TSDAS>;
+    type PerPair<T: Copy> = [T; 0];
     type PerKnot = Vec<KnotStep<P::Real>, KNOTS>;
 
     fn view(&self) -> ModelRef<'_, P, AllTerms> {
@@ -100,6 +101,10 @@ impl<
 
     fn per_tsda<T: Copy>(&self, value: T) -> Vec<T, TSDAS> {
         self.tsdas.iter().map(|_| value).collect()
+    }
+
+    fn per_pair<T: Copy>(&self, _: T) -> [T; 0] {
+        []
     }
 
     fn per_knot(&self) -> Self::PerKnot {

@@ -6,7 +6,6 @@ use crate::damping::pair::Direction;
 use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::model::ModelOwner;
 use crate::pose::Places;
 use crate::real::Real;
 use crate::space::Linear as _;
@@ -131,40 +130,5 @@ impl<P: Geometry> Lever<P> {
     /// So many times itself.
     pub(super) fn scaled(&self, by: P::Real) -> Self {
         self.turned(by, self, P::Real::ZERO)
-    }
-}
-
-/// Whether a scheme keeps levers in its plant.
-pub trait Keep {
-    /// Memory for a model's levers.
-    type Memory<M: ModelOwner>: AsRef<[Lever<M::Precision>]> + AsMut<[Lever<M::Precision>]>;
-
-    /// Memory without levers yet.
-    fn memory<M: ModelOwner>(model: &M) -> Self::Memory<M>;
-}
-
-/// No levers: no memory.
-#[derive(Clone, Copy, Debug)]
-pub struct NoLevers;
-
-impl Keep for NoLevers {
-    type Memory<M: ModelOwner> = [Lever<M::Precision>; 0];
-
-    #[inline]
-    fn memory<M: ModelOwner>(_: &M) -> Self::Memory<M> {
-        []
-    }
-}
-
-/// Levers: twenty-six words per damper in space, twenty-one in the plane.
-#[derive(Clone, Copy, Debug)]
-pub struct Levers;
-
-impl Keep for Levers {
-    type Memory<M: ModelOwner> = M::PerDamper<Lever<M::Precision>>;
-
-    #[inline]
-    fn memory<M: ModelOwner>(model: &M) -> Self::Memory<M> {
-        model.per_damper(Lever::default())
     }
 }

@@ -33,7 +33,7 @@ mod strength;
 
 pub use crate::elements::share::Share;
 pub(crate) use joints::sweep_joints;
-pub use lever::{Keep, Lever, Levers, NoLevers};
+pub use lever::Lever;
 pub(crate) use levers::{find, weigh};
 pub(crate) use near::Held;
 pub(crate) use pair::{HalfKick, Kick, NoKick};
@@ -62,16 +62,19 @@ pub enum Damping {
     JointWise,
     /// Forces at the velocities of each evaluation: limits the step to about 2·m/c.
     Explicit,
+    /// Part of the linear solve of a step, at any coefficient.
+    Implicit,
 }
 
 impl Damping {
-    /// The name users give: `sweeps`, `joint-wise`, `explicit`.
+    /// The name users give: `sweeps`, `joint-wise`, `explicit`, `implicit`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Damping::Sweeps => "sweeps",
             Damping::JointWise => "joint-wise",
             Damping::Explicit => "explicit",
+            Damping::Implicit => "implicit",
         }
     }
 }

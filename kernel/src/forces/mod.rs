@@ -115,11 +115,9 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, D: Dampers>(
     if !placed {
         place_bodies(bodies, frames);
     }
-    start(model, windows, step, frames, wrenches);
-    let places = Places { frames, signals };
-    if T::INPUTS {
-        inputs::push(model, places, wrenches);
-    }
+    let places = Places { frames: &*frames, signals };
+    let weight = if T::GRAVITY { model.gravity.first().copied() } else { None };
+    start(model, weight, (windows, step), places, wrenches);
     if in_line && in_line::may_be::<P, T>() {
         in_line::add::<P, T, D>(model, places, (bodies, rests), wrenches);
     } else if T::TSDAS || T::BUSHINGS || T::LINES || T::REVOLUTES || T::UNIVERSALS {
@@ -166,16 +164,31 @@ pub(crate) fn record<P: Geometry, T: Terms, D: Dampers>(
     }
 }
 
-/// Weight and loads.
+/// What loads and inputs push from outside, torques in body axes.
 #[inline(always)]
-fn start<P: Geometry, T: Terms>(
+pub(crate) fn pushed<P: Geometry, T: Terms>(
     model: &ModelRef<'_, P, T>,
     windows: &[LoadWindow],
     step: u64,
-    frames: &[P::Frame],
+    places: Places<'_, P>,
     wrenches: &mut [Wrench<P::Space>],
 ) {
-    let field = if T::GRAVITY { model.gravity.first().copied() } else { None };
+    start(model, None, (windows, step), places, wrenches);
+    for (wrench, frame) in wrenches.iter_mut().zip(places.frames) {
+        wrench.torque = P::moment_to_body(frame, wrench.torque);
+    }
+}
+
+/// Weight in a field of gravity, loads and inputs.
+#[inline(always)]
+fn start<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    field: Option<P::Vector>,
+    (windows, step): (&[LoadWindow], u64),
+    places: Places<'_, P>,
+    wrenches: &mut [Wrench<P::Space>],
+) {
+    let frames = places.frames;
     for (body, wrench) in model.bodies.iter().zip(wrenches.iter_mut()) {
         let force = match field {
             Some(gravity) => gravity::weight(body.mass, gravity),
@@ -200,5 +213,8 @@ fn start<P: Geometry, T: Terms>(
                 wrench.torque = wrench.torque + torque;
             }
         }
+    }
+    if T::INPUTS {
+        inputs::push(model, places, wrenches);
     }
 }

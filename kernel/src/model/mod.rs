@@ -11,9 +11,11 @@
 //! As bushings either is one pair of points, a fixed joint three stars of a point each.
 
 mod owned;
+mod planned;
 mod terms;
 
 pub use owned::Model;
+pub use planned::Planned;
 pub use terms::{AllTerms, CountedTerms, Terms};
 
 use core::marker::PhantomData;
@@ -34,6 +36,7 @@ use crate::elements::universal::Universal;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
 use crate::schedule::{KnotStep, LoadWindow, Signal};
+use crate::solve::Plan;
 
 /// The elements of one joint or one raw element: one record of force and torques.
 ///
@@ -187,6 +190,8 @@ pub trait ModelOwner {
     type PerInput: Clone + AsRef<[Signal<RealOf<Self>>]> + AsMut<[Signal<RealOf<Self>>]>;
     /// Memory of one `T` per damper.
     type PerDamper<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
+    /// Memory of one `T` per pair of bodies of the plan, see [`Self::plan`].
+    type PerPair<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one `T` per TSDA.
     type PerTsda<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one knot in steps per knot.
@@ -206,6 +211,13 @@ pub trait ModelOwner {
     fn per_input(&self) -> Self::PerInput;
     /// One `value` per damper.
     fn per_damper<T: Copy>(&self, value: T) -> Self::PerDamper<T>;
+    /// One `value` per pair of bodies of the plan.
+    fn per_pair<T: Copy>(&self, value: T) -> Self::PerPair<T>;
+    /// In which order a scheme with a matrix eliminates the bodies; none where the model was built
+    /// without one, see [`Planned`].
+    fn plan(&self) -> Plan<'_> {
+        Plan::NONE
+    }
     /// One `value` per TSDA.
     fn per_tsda<T: Copy>(&self, value: T) -> Self::PerTsda<T>;
     /// One knot in steps per knot.

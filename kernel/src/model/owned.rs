@@ -268,6 +268,7 @@ impl<
     type PerInput = [Signal<P::Real>; INPUTS];
     type PerDamper<T: Copy> = [T; DAMPERS];
     type PerTsda<T: Copy> = [T; TSDAS];
+    type PerPair<T: Copy> = [T; 0];
     type PerKnot = [KnotStep<P::Real>; KNOTS];
 
     #[inline(always)]
@@ -324,6 +325,11 @@ impl<
     #[inline]
     fn per_tsda<T: Copy>(&self, value: T) -> [T; TSDAS] {
         [value; TSDAS]
+    }
+
+    #[inline]
+    fn per_pair<T: Copy>(&self, _: T) -> [T; 0] {
+        []
     }
 
     #[inline]

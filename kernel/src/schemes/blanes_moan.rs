@@ -7,8 +7,9 @@
 //! the free rotor of fourth order and sweeps before and after: second order with dampers.
 
 use crate::compositions::BLANES_MOAN_S6;
-use crate::damping::{Damping, NoLevers};
+use crate::damping::Damping;
 use crate::geometry::Geometry;
+use crate::keep::Nothing;
 use crate::model::Terms;
 use crate::schemes::Scheme;
 use crate::schemes::compose::compose;
@@ -26,7 +27,7 @@ impl Scheme for BlanesMoanS6 {
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Sweeps;
     type Memory<P: Geometry> = ();
-    type Levers = NoLevers;
+    type Keeps = Nothing;
 
     fn evaluations(&self) -> u32 {
         BLANES_MOAN_S6.kicks.len() as u32

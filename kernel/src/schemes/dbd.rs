@@ -9,9 +9,10 @@
 //! Keeps linear momentum to rounding, angular momentum to first order.
 
 use crate::body::{BodyState, Increment};
-use crate::damping::{Damping, NoLevers};
+use crate::damping::Damping;
 use crate::forces::{At, ExplicitDampers};
 use crate::geometry::Geometry;
+use crate::keep::Nothing;
 use crate::model::Terms;
 use crate::real::Real;
 use crate::rotation;
@@ -83,7 +84,7 @@ impl Scheme for Dbd {
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
     type Memory<P: Geometry> = DbdMemory<P>;
-    type Levers = NoLevers;
+    type Keeps = Nothing;
 
     fn evaluations(&self) -> u32 {
         3 + self.newton

@@ -7,9 +7,10 @@
 //! less with two iterations or more. Keeps linear momentum to rounding.
 //! For the record: the energies that the paper reports exclude it.
 
-use crate::damping::{Damping, NoLevers};
+use crate::damping::Damping;
 use crate::forces::{At, ExplicitDampers};
 use crate::geometry::Geometry;
+use crate::keep::Nothing;
 use crate::model::Terms;
 use crate::real::Real;
 use crate::schemes::dbd::iterate;
@@ -34,7 +35,7 @@ impl Scheme for DbdP1 {
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
     type Memory<P: Geometry> = DbdMemory<P>;
-    type Levers = NoLevers;
+    type Keeps = Nothing;
 
     fn evaluations(&self) -> u32 {
         2 + self.newton

@@ -7,9 +7,10 @@
 //! `ω_max·h < 1`. Keeps linear momentum to rounding.
 //! For the record: the energies that the paper reports exclude it.
 
-use crate::damping::{Damping, NoLevers};
+use crate::damping::Damping;
 use crate::forces::{At, ExplicitDampers};
 use crate::geometry::Geometry;
+use crate::keep::Nothing;
 use crate::model::Terms;
 use crate::real::Real;
 use crate::schemes::dbd::iterate;
@@ -32,7 +33,7 @@ impl Scheme for DbdP2 {
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
     type Memory<P: Geometry> = DbdMemory<P>;
-    type Levers = NoLevers;
+    type Keeps = Nothing;
 
     fn evaluations(&self) -> u32 {
         3 + self.newton

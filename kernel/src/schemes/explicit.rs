@@ -6,9 +6,10 @@
 //! damper of coefficient c on an effective mass μ alone limits the step to about 2·μ/c. Without
 //! dampers the bits are those of the scheme itself. For comparison; not advised.
 
-use crate::damping::{Damping, NoLevers};
+use crate::damping::Damping;
 use crate::forces::{Dampers, ExplicitDampers};
 use crate::geometry::Geometry;
+use crate::keep::Nothing;
 use crate::model::Terms;
 use crate::schemes::Scheme;
 use crate::status::Cause;
@@ -40,7 +41,7 @@ impl<S: Kicked> Scheme for Explicit<S> {
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
     type Memory<P: Geometry> = S::Memory<P>;
-    type Levers = NoLevers;
+    type Keeps = Nothing;
 
     fn evaluations(&self) -> u32 {
         S::EXPLICIT_EVALUATIONS

@@ -6,9 +6,10 @@
 //! from that of the single dampers by what the joint's deflection turns them. Order, limits and what is
 //! kept are those of sweeps. Without dampers the bits are those of the scheme itself.
 
-use crate::damping::{Damping, Levers};
+use crate::damping::Damping;
 use crate::forces::DampersOfJoints;
 use crate::geometry::Geometry;
+use crate::keep::Levers;
 use crate::model::Terms;
 use crate::schemes::{Kicked, Scheme};
 use crate::status::Cause;
@@ -25,7 +26,7 @@ impl<S: Kicked> Scheme for JointWise<S> {
     const ORDER_DAMPED: u32 = S::ORDER_DAMPED;
     const DAMPING: Damping = Damping::JointWise;
     type Memory<P: Geometry> = S::Memory<P>;
-    type Levers = Levers;
+    type Keeps = Levers;
 
     fn evaluations(&self) -> u32 {
         self.0.evaluations()

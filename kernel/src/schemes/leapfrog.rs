@@ -8,9 +8,10 @@
 //! Stable for `ω_max·h < 2`. Dampers are pairwise sweeps of half a step, each told of the half kick
 //! before it (see [`crate::damping`]); they cost no stability and keep second order.
 
-use crate::damping::{Damping, NoLevers};
+use crate::damping::Damping;
 use crate::forces::{At, Dampers, DampersLeft};
 use crate::geometry::Geometry;
+use crate::keep::Nothing;
 use crate::model::Terms;
 use crate::real::Real;
 use crate::schemes::{Kicked, Scheme};
@@ -28,7 +29,7 @@ impl Scheme for Leapfrog {
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Sweeps;
     type Memory<P: Geometry> = ();
-    type Levers = NoLevers;
+    type Keeps = Nothing;
 
     fn evaluations(&self) -> u32 {
         1

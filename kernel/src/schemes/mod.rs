@@ -6,6 +6,7 @@ mod dbd;
 mod dbd_p1;
 mod dbd_p2;
 mod explicit;
+mod generalized_alpha;
 mod joint_wise;
 mod leapfrog;
 mod pefrl;
@@ -17,17 +18,20 @@ pub use dbd::{Dbd, DbdMemory};
 pub use dbd_p1::DbdP1;
 pub use dbd_p2::DbdP2;
 pub use explicit::{Explicit, Kicked};
+pub use generalized_alpha::{GeneralizedAlpha, GeneralizedAlphaMemory, RhoError};
 pub use joint_wise::JointWise;
 pub use leapfrog::Leapfrog;
 pub use pefrl::Pefrl;
 pub use rk4::{Rk4, Rk4Memory};
 pub use semi_implicit_euler::SemiImplicitEuler;
 
-use crate::damping::{Damping, Keep};
+use crate::damping::Damping;
 use crate::geometry::Geometry;
+use crate::keep::Keep;
 use crate::model::Terms;
 use crate::status::Cause;
 use crate::step::Stepper;
+use crate::words::{WordSource, WordVisitor};
 
 /// A one-step scheme of fixed cost. Others may write further ones with what [`Stepper`] offers.
 pub trait Scheme: Copy {
@@ -39,17 +43,26 @@ pub trait Scheme: Copy {
     const ORDER_DAMPED: u32;
     /// How dampers act.
     const DAMPING: Damping;
-    /// Memory per body that the scheme needs within a step.
+    /// Whether what it remembers of a body goes on from step to step: it is part of a snapshot then.
+    const REMEMBERS: bool = false;
+    /// Memory per body that the scheme needs within a step, or from one to the next.
     type Memory<P: Geometry>: Copy + Default + Send;
-    /// Whether its plants keep the joints' levers: [`NoLevers`](crate::damping::NoLevers), or
-    /// [`Levers`](crate::damping::Levers) for damping joint by joint.
-    type Levers: Keep;
+    /// What its plants keep beside it: [`Nothing`](crate::keep::Nothing),
+    /// [`Levers`](crate::keep::Levers) for damping joint by joint, or a
+    /// [`Matrix`](crate::keep::Matrix).
+    type Keeps: Keep;
 
     /// Force evaluations per step, when nothing changes between steps.
     fn evaluations(&self) -> u32;
 
     /// Largest stable `ω_max·h` of an undamped oscillator; all smaller ones are stable, too.
     fn stability_limit(&self) -> f64;
+
+    /// Hands what is remembered of a body to the visitor, word by word.
+    fn visit_memory<P: Geometry>(_memory: &Self::Memory<P>, _visitor: &mut impl WordVisitor) {}
+
+    /// Takes it from the source in the same order.
+    fn fill_memory<P: Geometry>(_memory: &mut Self::Memory<P>, _source: &mut impl WordSource) {}
 
     /// One step of the size [`Workspace::step_size`](crate::step::Workspace::step_size). Ends with the state at the next step's start; the
     /// caller advances the counter and looks for what is not finite or spins too fast.

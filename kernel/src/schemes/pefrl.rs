@@ -9,8 +9,9 @@
 //! within a step, some of whose parts go backwards: second order then.
 
 use crate::compositions::PEFRL;
-use crate::damping::{Damping, NoLevers};
+use crate::damping::Damping;
 use crate::geometry::Geometry;
+use crate::keep::Nothing;
 use crate::model::Terms;
 use crate::schemes::Scheme;
 use crate::schemes::compose::compose;
@@ -28,7 +29,7 @@ impl Scheme for Pefrl {
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Sweeps;
     type Memory<P: Geometry> = ();
-    type Levers = NoLevers;
+    type Keeps = Nothing;
 
     fn evaluations(&self) -> u32 {
         PEFRL.kicks.len() as u32

@@ -8,9 +8,10 @@
 //! and energy to fourth order only: they drift.
 
 use crate::body::{BodyState, Increment};
-use crate::damping::{Damping, NoLevers};
+use crate::damping::Damping;
 use crate::forces::{At, ExplicitDampers};
 use crate::geometry::Geometry;
+use crate::keep::Nothing;
 use crate::model::Terms;
 use crate::real::Real as _;
 use crate::rotation;
@@ -44,7 +45,7 @@ impl Scheme for Rk4 {
     const ORDER_DAMPED: u32 = 4;
     const DAMPING: Damping = Damping::Explicit;
     type Memory<P: Geometry> = Rk4Memory<P>;
-    type Levers = NoLevers;
+    type Keeps = Nothing;
 
     fn evaluations(&self) -> u32 {
         4

@@ -8,9 +8,10 @@
 //! kick comes in two halves, each followed by a pairwise sweep that is told of it (see
 //! [`crate::damping`]); around the drift, too, sweeps would lower the limit towards √2.
 
-use crate::damping::{Damping, NoLevers};
+use crate::damping::Damping;
 use crate::forces::{At, Dampers, DampersLeft};
 use crate::geometry::Geometry;
+use crate::keep::Nothing;
 use crate::model::Terms;
 use crate::real::Real;
 use crate::schemes::{Kicked, Scheme};
@@ -28,7 +29,7 @@ impl Scheme for SemiImplicitEuler {
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Sweeps;
     type Memory<P: Geometry> = ();
-    type Levers = NoLevers;
+    type Keeps = Nothing;
 
     fn evaluations(&self) -> u32 {
         1

@@ -79,7 +79,7 @@ impl ExportScheme {
         let wrapper = match way {
             Some(Damping::Explicit) => Some("Explicit"),
             Some(Damping::JointWise) => Some("JointWise"),
-            Some(Damping::Sweeps) | None => None,
+            Some(Damping::Sweeps | Damping::Implicit) | None => None,
         };
         let with_newton = |name: &str| format!("{name} {{ newton: {iterations} }}");
         let scheme = match name {

@@ -1,0 +1,77 @@
+//! What a scheme keeps in its plant beside its memory per body: levers of joints, blocks of a matrix.
+//!
+//! `model => memory`. What a scheme does not need is not there.
+
+use crate::damping::Lever;
+use crate::model::{ModelOwner, SpaceOf};
+use crate::solve::{BlockOf, Freedoms};
+use crate::space::Space;
+
+/// What a scheme keeps in its plant.
+pub trait Keep {
+    /// Whether there is a matrix, which takes a model with a plan.
+    const MATRIX: bool = false;
+    /// Memory for a model's levers.
+    type Levers<M: ModelOwner>: AsRef<[Lever<M::Precision>]> + AsMut<[Lever<M::Precision>]>;
+    /// Memory for the blocks of bodies.
+    type Bodies<M: ModelOwner>: AsMut<[BlockOf<SpaceOf<M>>]>;
+    /// Memory for the blocks of pairs of bodies.
+    type Pairs<M: ModelOwner>: AsMut<[BlockOf<SpaceOf<M>>]>;
+
+    /// Memory without anything yet.
+    fn memory<M: ModelOwner>(model: &M) -> Kept<Self, M>;
+}
+
+/// What `K` keeps for a model.
+pub struct Kept<K: Keep + ?Sized, M: ModelOwner> {
+    pub(crate) levers: K::Levers<M>,
+    pub(crate) bodies: K::Bodies<M>,
+    pub(crate) pairs: K::Pairs<M>,
+}
+
+/// Nothing: no memory.
+#[derive(Clone, Copy, Debug)]
+pub struct Nothing;
+
+impl Keep for Nothing {
+    type Levers<M: ModelOwner> = [Lever<M::Precision>; 0];
+    type Bodies<M: ModelOwner> = [BlockOf<SpaceOf<M>>; 0];
+    type Pairs<M: ModelOwner> = [BlockOf<SpaceOf<M>>; 0];
+
+    #[inline]
+    fn memory<M: ModelOwner>(_: &M) -> Kept<Self, M> {
+        Kept { levers: [], bodies: [], pairs: [] }
+    }
+}
+
+/// Levers: twenty-six words per damper in space, twenty-one in the plane.
+#[derive(Clone, Copy, Debug)]
+pub struct Levers;
+
+impl Keep for Levers {
+    type Levers<M: ModelOwner> = M::PerDamper<Lever<M::Precision>>;
+    type Bodies<M: ModelOwner> = [BlockOf<SpaceOf<M>>; 0];
+    type Pairs<M: ModelOwner> = [BlockOf<SpaceOf<M>>; 0];
+
+    #[inline]
+    fn memory<M: ModelOwner>(model: &M) -> Kept<Self, M> {
+        Kept { levers: model.per_damper(Lever::default()), bodies: [], pairs: [] }
+    }
+}
+
+/// A matrix: thirty-six words per body and per pair of bodies in space, nine in the plane.
+#[derive(Clone, Copy, Debug)]
+pub struct Matrix;
+
+impl Keep for Matrix {
+    const MATRIX: bool = true;
+    type Levers<M: ModelOwner> = [Lever<M::Precision>; 0];
+    type Bodies<M: ModelOwner> = M::PerBody<BlockOf<SpaceOf<M>>>;
+    type Pairs<M: ModelOwner> = M::PerPair<BlockOf<SpaceOf<M>>>;
+
+    #[inline]
+    fn memory<M: ModelOwner>(model: &M) -> Kept<Self, M> {
+        let empty = <SpaceOf<M> as Space>::Row::EMPTY;
+        Kept { levers: [], bodies: model.per_body(empty), pairs: model.per_pair(empty) }
+    }
+}

@@ -1,0 +1,304 @@
+//! Generalised-α: the joints' stiffness and damping taken into the step by one linear solve.
+//!
+//! Chung & Hulbert (1993), on Lie groups Brüls, Cardona & Arnold (2012), with the residual at the moved
+//! pose and one Newton step from there, which is all that second order takes. Per body u the velocities,
+//! a the algorithmic and d the true accelerations, ρ∞ what is left per step of a vibration that the
+//! step does not resolve, `α_m = (2ρ−1)/(ρ+1)`, `α_f = ρ/(ρ+1)`, `γ = ½ − α_m + α_f`, `β = ¼·(γ + ½)²`:
+//!
+//! 1. `û = u + h·(1−γ)·a`, `q̂ = q ∘ exp(h·u + h²·(½−β)·a)`
+//! 2. `(μ·M + γ·h·C + β·h²·K)·a⁺ = F(q̂, û) + M·s`, `μ = (1−α_m)/(1−α_f)`, `s = (α_f·d − α_m·a)/(1−α_f)`
+//! 3. `u⁺ = û + γ·h·a⁺`, `q⁺ = q̂ ∘ exp(β·h²·a⁺)`, `d⁺ = μ·a⁺ − s`
+//!
+//! C and K are the material tangents of dampers and springs ([`crate::solve`]), so that the matrix is positive
+//! definite for every step; the gyroscopic torque, which they leave out, is that of `û + γ·h·a`: of
+//! û alone a tumbling body would be followed to first order only. Second order in the slow motion,
+//! stable at any stiffness and damping as long as the bodies turn little in a step; it damps what
+//! vibrates fast, by design, and keeps linear momentum of free bodies alone to rounding.
+//!
+//! What is pushed from outside, loads and inputs, may jump. Accelerations are therefore remembered
+//! without it, and it is added to them as it is where a step begins.
+
+use crate::body::{Body, Increment};
+use crate::damping::Damping;
+use crate::forces::{At, ExplicitDampers, Wrench};
+use crate::geometry::Geometry;
+use crate::keep::Matrix;
+use crate::model::Terms;
+use crate::real::{Constant, Real};
+use crate::rotation;
+use crate::schemes::Scheme;
+use crate::solve::Pencil;
+use crate::space::{Linear as _, Moment as _, Space};
+use crate::status::Cause;
+use crate::step::Stepper;
+use crate::words::{WordSource, WordVisitor, Words as _};
+
+/// One linear solve per step: for joints that are all but rigid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GeneralizedAlpha {
+    rho: f64,
+    /// μ.
+    mass: Constant,
+    beta: Constant,
+    gamma: Constant,
+    /// ½ − β.
+    rest_of_beta: Constant,
+    /// 1 − γ.
+    rest_of_gamma: Constant,
+    /// `α_f/(1−α_f)`, of d in s.
+    of_true: Constant,
+    /// `α_m/(1−α_f)`, of −a in s.
+    of_algorithmic: Constant,
+}
+
+/// Why there is no such scheme: ρ∞ is not from 0 to [`GeneralizedAlpha::MOST_RHO`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct RhoError(pub f64);
+
+impl core::fmt::Display for RhoError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "rho is from 0 to {}, not {}", GeneralizedAlpha::MOST_RHO, self.0)
+    }
+}
+
+impl core::error::Error for RhoError {}
+
+impl GeneralizedAlpha {
+    /// ρ∞ where nothing else is asked for.
+    pub const RHO: f64 = 0.5;
+    /// The largest ρ∞: beyond it what one Newton step leaves is damped too little.
+    pub const MOST_RHO: f64 = 0.8;
+
+    /// The scheme that leaves the part `rho`, ρ∞, of a vibration in each step that does not resolve it.
+    ///
+    /// # Errors
+    /// [`RhoError`] where it is not from 0 to [`Self::MOST_RHO`].
+    pub const fn new(rho: f64) -> Result<Self, RhoError> {
+        if !(rho >= 0.0 && rho <= Self::MOST_RHO) {
+            return Err(RhoError(rho));
+        }
+        let alpha_m = (2.0 * rho - 1.0) / (rho + 1.0);
+        let alpha_f = rho / (rho + 1.0);
+        let gamma = 0.5 - alpha_m + alpha_f;
+        let beta = 0.25 * (gamma + 0.5) * (gamma + 0.5);
+        Ok(Self {
+            rho,
+            mass: Constant::new((1.0 - alpha_m) / (1.0 - alpha_f)),
+            beta: Constant::new(beta),
+            gamma: Constant::new(gamma),
+            rest_of_beta: Constant::new(0.5 - beta),
+            rest_of_gamma: Constant::new(1.0 - gamma),
+            of_true: Constant::new(alpha_f / (1.0 - alpha_f)),
+            of_algorithmic: Constant::new(alpha_m / (1.0 - alpha_f)),
+        })
+    }
+
+    /// ρ∞.
+    #[must_use]
+    pub const fn rho(&self) -> f64 {
+        self.rho
+    }
+
+    /// The accelerations at the start of a run, or after a change from outside that the scheme was not
+    /// told of: `a = d = M⁻¹·F(q, u)`.
+    fn begin<P: Geometry, T: Terms>(
+        stepper: &mut Stepper<'_, '_, P, T, GeneralizedAlphaMemory<P>>,
+    ) -> Result<(), Cause> {
+        stepper.evaluate::<ExplicitDampers>(At::Boundary)?;
+        let inverse = P::Real::ONE / stepper.h;
+        stepper.each(|memory, _, increment, _| {
+            let Increment { linear, angular } = increment;
+            let a = Increment { linear: linear * inverse, angular: angular * inverse };
+            *memory = GeneralizedAlphaMemory { algorithmic: a, real: a };
+        });
+        if stepper.is_pushed() {
+            stepper.push();
+            stepper.each_pushed(-P::Real::ONE);
+        }
+        stepper.ledger.begun = true;
+        Ok(())
+    }
+}
+
+impl Default for GeneralizedAlpha {
+    fn default() -> Self {
+        const { 
+            match Self::new(Self::RHO) {
+                Ok(scheme) => scheme,
+                Err(_) => panic!(),
+            }
+        }
+    }
+}
+
+/// What a step of [`GeneralizedAlpha`] remembers of one body for the next: accelerations, without those of loads
+/// and inputs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GeneralizedAlphaMemory<P: Geometry> {
+    /// \[m/s², rad/s²\] a.
+    algorithmic: Increment<P::Space>,
+    /// d.
+    real: Increment<P::Space>,
+}
+
+impl Scheme for GeneralizedAlpha {
+    const NAME: &'static str = "generalized-alpha";
+    const ORDER: u32 = 2;
+    const ORDER_DAMPED: u32 = 2;
+    const DAMPING: Damping = Damping::Implicit;
+    const REMEMBERS: bool = true;
+    type Memory<P: Geometry> = GeneralizedAlphaMemory<P>;
+    type Keeps = Matrix;
+
+    fn evaluations(&self) -> u32 {
+        1
+    }
+
+    fn stability_limit(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    fn visit_memory<P: Geometry>(memory: &Self::Memory<P>, visitor: &mut impl WordVisitor) {
+        for Increment { linear, angular } in [&memory.algorithmic, &memory.real] {
+            linear.visit(visitor);
+            angular.visit(visitor);
+        }
+    }
+
+    fn fill_memory<P: Geometry>(memory: &mut Self::Memory<P>, source: &mut impl WordSource) {
+        for Increment { linear, angular } in [&mut memory.algorithmic, &mut memory.real] {
+            linear.fill(source);
+            angular.fill(source);
+        }
+    }
+
+    #[inline]
+    fn step<P: Geometry, T: Terms>(
+        &self,
+        stepper: &mut Stepper<'_, '_, P, T, Self::Memory<P>>,
+    ) -> Result<(), Cause> {
+        if !stepper.ledger.begun {
+            Self::begin(stepper)?;
+        }
+        if stepper.is_pushed() {
+            stepper.place_all();
+            stepper.push();
+            stepper.each_pushed(P::Real::ONE);
+        }
+        let constant = P::Real::constant;
+        let h = stepper.h;
+        let (near, far) = (h * constant(self.rest_of_beta), h * constant(self.rest_of_gamma));
+        let rows = stepper.workspace.bodies.iter_mut().zip(stepper.memory.iter());
+        for (state, memory) in rows {
+            let Increment { linear, angular } = memory.algorithmic;
+            let velocity = P::velocity(&state.velocity) + linear * near;
+            let turn = (P::spin(&state.angular_velocity) + angular * near) * (P::Real::HALF * h);
+            P::translate(&mut state.position, velocity * h);
+            rotation::turn_by::<P>(&mut state.orientation, turn);
+            P::accelerate(&mut state.velocity, linear * far);
+            P::spin_up(&mut state.angular_velocity, angular * far);
+        }
+        stepper.sample_inputs(P::Real::ONE);
+        stepper.evaluate_once::<ExplicitDampers>(At::Boundary, false)?;
+        let (change, reach) = (h * constant(self.gamma), h * h * constant(self.beta));
+        self.right_sides(stepper, change);
+        let mass = constant(self.mass);
+        stepper.solve(Pencil { mass, damping: change, stiffness: reach })?;
+        stepper.correct(|state, memory, next| {
+            let known = self.known::<P>(memory);
+            P::translate(&mut state.position, next.linear * reach);
+            let half = next.angular * (P::Real::HALF * reach);
+            rotation::turn_by::<P>(&mut state.orientation, half);
+            P::accelerate(&mut state.velocity, next.linear * change);
+            P::spin_up(&mut state.angular_velocity, next.angular * change);
+            memory.real = Increment {
+                linear: next.linear * mass - known.linear,
+                angular: next.angular * mass - known.angular,
+            };
+            memory.algorithmic = next;
+        });
+        if stepper.is_pushed() {
+            stepper.push();
+            stepper.each_pushed(-P::Real::ONE);
+        }
+        Ok(())
+    }
+}
+
+impl GeneralizedAlpha {
+    /// s.
+    #[inline(always)]
+    fn known<P: Geometry>(&self, memory: &GeneralizedAlphaMemory<P>) -> Increment<P::Space> {
+        let (d, a) = (P::Real::constant(self.of_true), P::Real::constant(self.of_algorithmic));
+        let GeneralizedAlphaMemory { algorithmic, real } = memory;
+        Increment {
+            linear: real.linear * d - algorithmic.linear * a,
+            angular: real.angular * d - algorithmic.angular * a,
+        }
+    }
+
+    /// `F + M·s` in place of the wrenches, torques in world axes.
+    #[inline(always)]
+    fn right_sides<P: Geometry, T: Terms>(
+        &self,
+        stepper: &mut Stepper<'_, '_, P, T, GeneralizedAlphaMemory<P>>,
+        change: P::Real,
+    ) {
+        let Stepper { workspace, memory } = stepper;
+        let rows = workspace.bodies.iter().zip(workspace.model.bodies);
+        let rows = rows.zip(workspace.frames.iter()).zip(workspace.wrenches.iter_mut());
+        for ((((state, body), frame), wrench), memory) in rows.zip(memory.iter()) {
+            let known = self.known::<P>(memory);
+            let w = P::spin(&state.angular_velocity) + memory.algorithmic.angular * change;
+            let gyroscopic = w.commutator(body.inertia.scale(w));
+            let torque = wrench.torque - gyroscopic + body.inertia.scale(known.angular);
+            wrench.force = wrench.force + known.linear * body.mass;
+            wrench.torque = P::moment_to_world(frame, torque);
+        }
+    }
+}
+
+impl<P: Geometry, T: Terms> Stepper<'_, '_, P, T, GeneralizedAlphaMemory<P>> {
+    /// Visits every body with its solution, torques of which are in world axes.
+    #[inline(always)]
+    fn correct(
+        &mut self,
+        mut visit: impl FnMut(
+            &mut crate::body::BodyState<P>,
+            &mut GeneralizedAlphaMemory<P>,
+            Increment<P::Space>,
+        ),
+    ) {
+        let Stepper { workspace, memory } = self;
+        let rows = workspace.bodies.iter_mut().zip(memory.iter_mut());
+        let rows = rows.zip(workspace.frames.iter()).zip(workspace.wrenches.iter());
+        for (((state, memory), frame), wrench) in rows {
+            let angular = P::moment_to_body(frame, wrench.torque);
+            visit(state, memory, Increment { linear: wrench.force, angular });
+        }
+    }
+
+    /// Adds to the remembered accelerations `sign` times those of what is pushed from outside.
+    #[inline(always)]
+    fn each_pushed(&mut self, sign: P::Real) {
+        let Stepper { workspace, memory } = self;
+        let rows = workspace.wrenches.iter().zip(workspace.model.bodies);
+        for ((wrench, body), memory) in rows.zip(memory.iter_mut()) {
+            let more = pushed_by(wrench, body, sign);
+            for own in [&mut memory.algorithmic, &mut memory.real] {
+                own.linear = own.linear + more.linear;
+                own.angular = own.angular + more.angular;
+            }
+        }
+    }
+}
+
+/// The acceleration of one body by a wrench, body axes.
+#[inline(always)]
+fn pushed_by<S: Space>(wrench: &Wrench<S>, body: &Body<S>, sign: S::Real) -> Increment<S> {
+    Increment {
+        linear: wrench.force * (sign * body.inverse_mass),
+        angular: wrench.torque.scale(body.inverse_inertia) * sign,
+    }
+}

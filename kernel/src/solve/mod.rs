@@ -1,0 +1,19 @@
+//! The linear system of a scheme that takes the joints' stiffness into its step.
+//!
+//! `(plan, pose, weights) => M-weighted tangent, factor, solution`. The matrix has a block for each body
+//! and for each pair of bodies that elements lie between, and what elimination fills; the order of
+//! elimination is found when the model is built ([`Plan`]) and kept in flash. No pivoting, no iteration:
+//! the matrix is positive definite for every step, stiffness and damping.
+
+mod assemble;
+mod freedoms;
+mod plan;
+mod springs;
+mod system;
+mod workspace;
+
+pub(crate) use assemble::{Pencil, assemble};
+pub use freedoms::Freedoms;
+pub use plan::Plan;
+pub use system::BlockOf;
+pub(crate) use system::System;

@@ -1,0 +1,108 @@
+//! The order in which bodies are eliminated, and the pairs that this fills.
+//!
+//! `(order, pairs, targets, homes) => plan`, plain index arrays that lie in flash with the model. Found
+//! when a model is built; here they are only checked and followed.
+
+/// Where the matrix of a model has blocks, and in which order its bodies are eliminated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Plan<'m> {
+    /// Every body once.
+    pub order: &'m [u16],
+    /// Two bodies whose block is not empty, also those that elimination fills: the one that is eliminated
+    /// first, then the other; sorted by the places of these in the order.
+    pub pairs: &'m [[u16; 2]],
+    /// For each body in order, for each two pairs of it that are eliminated with it, (second, first),
+    /// (third, first), (third, second) …: the pair that their product changes.
+    pub targets: &'m [u16],
+    /// For each group and then each torsion spring the pair of its bodies; [`Plan::GROUND`] with the ground.
+    pub homes: &'m [u16],
+}
+
+impl Plan<'_> {
+    /// The home of what has one body only.
+    pub const GROUND: u16 = u16::MAX;
+    /// The plan of a model that has none.
+    pub const NONE: Self = Self { order: &[], pairs: &[], targets: &[], homes: &[] };
+
+    /// Whether it is one for a model of so many bodies, and for these ends of its groups and torsion
+    /// springs: then a solution along it is that of the whole matrix.
+    #[must_use]
+    pub fn fits(&self, bodies: usize, ends: impl Iterator<Item = [u16; 2]>) -> bool {
+        let is_ground = |body: u16| usize::from(body) >= bodies;
+        let place = |body: u16| self.order.iter().position(|known| *known == body);
+        let all_once = self.order.len() == bodies
+            && (0..bodies).all(|body| u16::try_from(body).is_ok_and(|body| place(body).is_some()));
+        if !all_once {
+            return false;
+        }
+        let places = |pair: &[u16; 2]| Some([place(pair[0])?, place(pair[1])?]);
+        let mut last = None;
+        for pair in self.pairs {
+            let Some(now) = places(pair) else { return false };
+            if now[0] >= now[1] || last.is_some_and(|last| last >= now) {
+                return false;
+            }
+            last = Some(now);
+        }
+        let mut homes = self.homes.iter();
+        for [a, b] in ends {
+            let Some(&home) = homes.next() else { return false };
+            let held = match self.pairs.get(usize::from(home)) {
+                Some(pair) => *pair == [a, b] || *pair == [b, a],
+                None => home == Self::GROUND && (is_ground(a) || is_ground(b)),
+            };
+            if !held {
+                return false;
+            }
+        }
+        homes.next().is_none() && self.targets_fit()
+    }
+
+    fn targets_fit(&self) -> bool {
+        let mut targets = self.targets.iter();
+        for body in self.order {
+            let mut column = self.pairs.iter().filter(|pair| pair[0] == *body).enumerate();
+            let with_it = self.pairs.iter().filter(|pair| pair[0] == *body);
+            let all = column.all(|(i, [_, second])| {
+                with_it.clone().take(i).all(|[_, first]| {
+                    let target = targets.next().and_then(|row| self.pairs.get(usize::from(*row)));
+                    target == Some(&[*first, *second])
+                })
+            });
+            if !all {
+                return false;
+            }
+        }
+        targets.next().is_none()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A ring of four bodies, the first on the ground: one pair is filled.
+    const RING: Plan<'static> = Plan {
+        order: &[0, 1, 2, 3],
+        pairs: &[[0, 1], [0, 3], [1, 2], [1, 3], [2, 3]],
+        targets: &[3, 4],
+        homes: &[Plan::GROUND, 0, 2, 4, 1],
+    };
+    const ENDS: [[u16; 2]; 5] = [[u16::MAX, 0], [0, 1], [2, 1], [2, 3], [3, 0]];
+
+    #[test]
+    fn a_plan_is_one_for_its_own_model_alone() {
+        assert!(RING.fits(4, ENDS.into_iter()));
+        assert!(!RING.fits(5, ENDS.into_iter()));
+        assert!(!RING.fits(4, ENDS.into_iter().take(4)));
+        assert!(!Plan { order: &[0, 1, 1, 3], ..RING }.fits(4, ENDS.into_iter()));
+        assert!(!Plan { targets: &[3], ..RING }.fits(4, ENDS.into_iter()));
+        assert!(!Plan { targets: &[4, 3], ..RING }.fits(4, ENDS.into_iter()));
+        assert!(!Plan { homes: &[Plan::GROUND, 0, 2, 4, 2], ..RING }.fits(4, ENDS.into_iter()));
+        // Without what elimination fills there is nowhere to put it.
+        let unfilled = Plan { pairs: &[[0, 1], [0, 3], [1, 2], [2, 3]], targets: &[3, 3], ..RING };
+        let unfilled = Plan { homes: &[Plan::GROUND, 0, 2, 3, 1], ..unfilled };
+        assert!(!unfilled.fits(4, ENDS.into_iter()));
+    }
+}

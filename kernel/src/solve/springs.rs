@@ -1,0 +1,57 @@
+//! An element at a pose as springs and dampers of one direction each.
+//!
+//! `(law, stretch, damping, clearance) => directions, each with its stiffness and damping`.
+
+use crate::elements::clearance::{beyond, engaged};
+use crate::elements::element::Element;
+use crate::elements::point_law::Stretch;
+use crate::geometry::Geometry;
+use crate::model::{Law, ModelRef, Terms};
+use crate::real::{Real, choose};
+use crate::space::{Linear as _, Space, Vector as _};
+
+/// The springs of an element, unloaded: what its tension would add is left out.
+pub(super) struct Springs<S: Space> {
+    /// \[1\] world axes; of revolute joints as long as the root of what they are stiffer.
+    pub(super) directions: [S::Vector; 3],
+    /// \[N/m, N·s/m\] stiffness and damping along each.
+    pub(super) constants: [[S::Real; 2]; 3],
+    /// How many there are.
+    pub(super) count: usize,
+}
+
+/// The springs of an element, `None` where the model has no such law.
+#[inline(always)]
+pub(super) fn springs<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    law: &Element<'_, P::Space>,
+    stretch: &Stretch<P::Vector>,
+    (damping, clearance): (P::Real, Option<P::Real>),
+) -> Option<Springs<P::Space>> {
+    let kind = match law {
+        Element::Tsda(_) => Law::Tsda,
+        Element::PointBushing(_) => Law::PointBushing,
+        Element::PointOnLine(_) => Law::PointOnLine,
+        Element::Revolute(_) => Law::Revolute,
+        Element::Universal(_) => Law::Universal,
+    };
+    let (directions, count) = model.damped(kind, stretch)?;
+    let stiffness = law.stiffness();
+    let mut springs = Springs { directions, constants: [[stiffness, damping]; 3], count };
+    if clearance.is_some() {
+        let extension = law.extension(stretch);
+        let out = beyond(extension, clearance).equals(P::Real::ZERO);
+        let stiffness = choose!(P::Real, out, P::Real::ZERO, stiffness);
+        springs.constants = [[stiffness, engaged(damping, extension, clearance)]; 3];
+    }
+    if let Element::PointOnLine(law) = law
+        && !(clearance.is_none() && law.free_length == P::Real::ZERO)
+    {
+        // It pulls along the deflection alone, and damps across it, too.
+        let e = stretch.displacement;
+        let along = e * e.dot(e).sqrt().reciprocal_or_zero();
+        springs.directions = [along, stretch.direction.across(along), P::Vector::ZERO];
+        springs.constants[1][0] = P::Real::ZERO;
+    }
+    Some(springs)
+}

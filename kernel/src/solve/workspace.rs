@@ -1,0 +1,50 @@
+//! What a scheme with a matrix does with the memory of its plant.
+//!
+//! `(wrenches at a pose, weights) => solution in place of the wrenches`.
+
+use crate::forces::pushed;
+use crate::geometry::Geometry;
+use crate::model::Terms;
+use crate::pose::{Places, place_bodies};
+use crate::solve::assemble::{Pencil, assemble};
+use crate::solve::system::System;
+use crate::status::Cause;
+use crate::step::Workspace;
+
+impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
+    /// Whether anything may be pushed from outside: loads and inputs.
+    #[inline(always)]
+    pub(crate) fn is_pushed(&self) -> bool {
+        (T::LOADS && !self.model.loads.is_empty()) || (T::INPUTS && !self.model.inputs.is_empty())
+    }
+
+    /// Brings the frames to the present pose.
+    #[inline(always)]
+    pub(crate) fn place_all(&mut self) {
+        place_bodies(self.bodies, self.frames);
+    }
+
+    /// What loads and inputs push, in place of the wrenches; the frames are those of the pose.
+    #[inline(always)]
+    pub(crate) fn push(&mut self) {
+        self.ledger.fresh = false;
+        let places = Places { frames: &*self.frames, signals: &*self.signals };
+        pushed::<P, T>(&self.model, self.windows, self.step, places, self.wrenches);
+    }
+
+    /// Solves `(μ·M + χ·C + κ·K)·x = wrenches` at the pose of the frames, torques and x in world
+    /// axes, in place of the wrenches.
+    ///
+    /// # Errors
+    /// [`Cause::Pivot`] names the body at which the matrix is not positive definite.
+    #[inline(always)]
+    pub(crate) fn solve(&mut self, pencil: Pencil<P::Real>) -> Result<(), Cause> {
+        let plan = self.plan;
+        let mut system = System { plan, diagonal: self.blocks, pairs: self.pair_blocks };
+        let places = Places { frames: &*self.frames, signals: &*self.signals };
+        assemble(&self.model, places, (self.bodies, self.turns), pencil, &mut system);
+        system.factor().map_err(|body| Cause::Pivot { body })?;
+        system.substitute(self.wrenches);
+        Ok(())
+    }
+}

@@ -1,0 +1,122 @@
+//! In which order a matrix with a block per body and per pair of bodies is eliminated.
+//!
+//! `(number of bodies, ends of groups and torsion springs) => plan`. The body with the fewest neighbours
+//! goes next, the first of them where several have, and joins its neighbours (Tinney & Walker 1967):
+//! chains and loops of mechanisms fill in next to nothing.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use dbd_kernel::solve::Plan;
+
+/// A plan on the heap, see [`Plan`] for the fields.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Elimination {
+    /// [`Plan::order`].
+    pub order: Vec<u16>,
+    /// [`Plan::pairs`].
+    pub pairs: Vec<[u16; 2]>,
+    /// [`Plan::targets`].
+    pub targets: Vec<u16>,
+    /// [`Plan::homes`].
+    pub homes: Vec<u16>,
+}
+
+impl Elimination {
+    /// The plan of a model of so many bodies, of which what has these ends is stiff: its groups, then its
+    /// torsion springs. Ends that are no bodies are ground. `None` where there are more pairs than an index
+    /// counts.
+    #[must_use]
+    pub fn new(bodies: usize, ends: &[[u16; 2]]) -> Option<Self> {
+        let is_body = |body: u16| usize::from(body) < bodies;
+        let mut neighbours: Vec<BTreeSet<u16>> = vec![BTreeSet::new(); bodies];
+        for &[a, b] in ends.iter().filter(|ends| ends.iter().all(|end| is_body(*end))) {
+            neighbours[usize::from(a)].insert(b);
+            neighbours[usize::from(b)].insert(a);
+        }
+        // By number of neighbours, so that the next one is the first.
+        let mut left: BTreeSet<(usize, u16)> =
+            (0..).zip(&neighbours).map(|(body, near)| (near.len(), body)).collect();
+        let mut plan = Self::default();
+        let mut columns = Vec::with_capacity(bodies);
+        while let Some((_, next)) = left.pop_first() {
+            let joined = std::mem::take(&mut neighbours[usize::from(next)]);
+            for &a in &joined {
+                let near = &mut neighbours[usize::from(a)];
+                left.remove(&(near.len(), a));
+                near.remove(&next);
+                near.extend(joined.iter().copied().filter(|b| *b != a));
+                left.insert((near.len(), a));
+            }
+            plan.order.push(next);
+            columns.push(joined);
+        }
+        let places: BTreeMap<u16, usize> = plan.order.iter().copied().zip(0..).collect();
+        let mut rows = BTreeMap::new();
+        for (&first, joined) in plan.order.iter().zip(&columns) {
+            let mut joined: Vec<u16> = joined.iter().copied().collect();
+            joined.sort_by_key(|body| places[body]);
+            for second in joined {
+                rows.insert([first, second], u16::try_from(plan.pairs.len()).ok()?);
+                plan.pairs.push([first, second]);
+            }
+        }
+        for column in plan.pairs.chunk_by(|a, b| a[0] == b[0]) {
+            for (i, [_, second]) in column.iter().enumerate() {
+                let first = column[..i].iter().map(|[_, first]| rows[&[*first, *second]]);
+                plan.targets.extend(first);
+            }
+        }
+        plan.homes = ends.iter().map(|&[a, b]| {
+            rows.get(&[a, b]).or(rows.get(&[b, a])).copied().unwrap_or(Plan::GROUND)
+        }).collect();
+        // The last number is the ground's.
+        (plan.pairs.len() <= usize::from(Plan::GROUND)).then_some(plan)
+    }
+
+    /// As the kernel follows it.
+    #[must_use]
+    pub fn plan(&self) -> Plan<'_> {
+        let Self { order, pairs, targets, homes } = self;
+        Plan { order, pairs, targets, homes }
+    }
+
+    /// How many pairs elimination fills.
+    #[must_use]
+    pub fn filled(&self) -> usize {
+        self.pairs.len() - self.homes.iter().filter(|home| **home != Plan::GROUND).collect::<BTreeSet<_>>().len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GROUND: u16 = u16::MAX;
+
+    #[test]
+    fn a_chain_and_a_star_fill_nothing() {
+        let chain = [[GROUND, 0], [0, 1], [1, 2], [2, 3]];
+        let plan = Elimination::new(4, &chain).unwrap();
+        assert!(plan.plan().fits(4, chain.into_iter()), "{plan:?}");
+        assert_eq!((plan.pairs.len(), plan.filled(), plan.targets.len()), (3, 0, 0));
+        let star = [[0, 1], [2, 0], [0, 3], [4, 0]];
+        let plan = Elimination::new(5, &star).unwrap();
+        assert!(plan.plan().fits(5, star.into_iter()), "{plan:?}");
+        assert_eq!((plan.order.iter().position(|body| *body == 0), plan.filled()), (Some(3), 0));
+    }
+
+    #[test]
+    fn a_ring_is_filled_in_and_a_grid_more() {
+        let ring = [[0, 1], [1, 2], [2, 3], [4, 3], [0, 4]];
+        let plan = Elimination::new(5, &ring).unwrap();
+        assert!(plan.plan().fits(5, ring.into_iter()), "{plan:?}");
+        assert_eq!((plan.pairs.len(), plan.filled()), (7, 2));
+        let at = |x: u16, y: u16| 4 * y + x;
+        let across = (0..4).flat_map(|y| (0..3).map(move |x| [at(x, y), at(x + 1, y)]));
+        let along = (0..3).flat_map(|y| (0..4).map(move |x| [at(x, y + 1), at(x, y)]));
+        let grid: Vec<[u16; 2]> = across.chain(along).collect();
+        let plan = Elimination::new(16, &grid).unwrap();
+        assert!(plan.plan().fits(16, grid.iter().copied()), "{plan:?}");
+        assert!(plan.filled() > 5, "{}", plan.filled());
+    }
+}
