@@ -1,8 +1,10 @@
 //! A model with the plan of a matrix: for schemes with a linear solve.
 //!
-//! `(model, index arrays) => model`. The arrays' sizes are const generics: those of the order of
+//! `(pointer to a model, index arrays) => model`. The arrays' sizes are const generics: those of the order of
 //! elimination, of the pairs of bodies, of the pairs that elimination changes and of groups and torsion
 //! springs.
+
+use core::ops::Deref;
 
 use crate::body::BodyState;
 use crate::model::{ModelOwner, ModelRef};
@@ -11,14 +13,14 @@ use crate::solve::Plan;
 /// A model and the order in which its bodies are eliminated, see [`Plan`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Planned<
-    M,
+    H,
     const ORDER: usize,
     const PAIRS: usize,
     const TARGETS: usize,
     const HOMES: usize,
 > {
-    /// The model.
-    pub model: M,
+    /// The model, by any pointer: `&M` for one in flash.
+    pub model: H,
     /// [`Plan::order`].
     pub order: [u16; ORDER],
     /// [`Plan::pairs`].
@@ -29,56 +31,58 @@ pub struct Planned<
     pub homes: [u16; HOMES],
 }
 
-impl<M: ModelOwner, const O: usize, const PAIRS: usize, const T: usize, const H: usize> ModelOwner
-    for Planned<M, O, PAIRS, T, H>
+impl<H, const O: usize, const PAIRS: usize, const T: usize, const HOMES: usize> ModelOwner
+    for Planned<H, O, PAIRS, T, HOMES>
+where
+    H: Deref<Target: ModelOwner + Sized>,
 {
-    type Precision = M::Precision;
-    type Terms = M::Terms;
-    type PerBody<V: Copy> = M::PerBody<V>;
-    type PerTorsion = M::PerTorsion;
-    type PerLoad = M::PerLoad;
-    type PerInput = M::PerInput;
-    type PerDamper<V: Copy> = M::PerDamper<V>;
-    type PerTsda<V: Copy> = M::PerTsda<V>;
+    type Precision = <H::Target as ModelOwner>::Precision;
+    type Terms = <H::Target as ModelOwner>::Terms;
+    type PerBody<V: Copy> = <H::Target as ModelOwner>::PerBody<V>;
+    type PerTorsion = <H::Target as ModelOwner>::PerTorsion;
+    type PerLoad = <H::Target as ModelOwner>::PerLoad;
+    type PerInput = <H::Target as ModelOwner>::PerInput;
+    type PerDamper<V: Copy> = <H::Target as ModelOwner>::PerDamper<V>;
+    type PerTsda<V: Copy> = <H::Target as ModelOwner>::PerTsda<V>;
     type PerPair<V: Copy> = [V; PAIRS];
-    type PerKnot = M::PerKnot;
+    type PerKnot = <H::Target as ModelOwner>::PerKnot;
 
     #[inline(always)]
-    fn view(&self) -> ModelRef<'_, M::Precision, M::Terms> {
+    fn view(&self) -> ModelRef<'_, <H::Target as ModelOwner>::Precision, <H::Target as ModelOwner>::Terms> {
         self.model.view()
     }
 
-    fn initial(&self) -> &[BodyState<M::Precision>] {
+    fn initial(&self) -> &[BodyState<<H::Target as ModelOwner>::Precision>] {
         self.model.initial()
     }
 
     #[inline]
-    fn per_body<V: Copy>(&self, value: V) -> M::PerBody<V> {
+    fn per_body<V: Copy>(&self, value: V) -> <H::Target as ModelOwner>::PerBody<V> {
         self.model.per_body(value)
     }
 
     #[inline]
-    fn per_torsion(&self) -> M::PerTorsion {
+    fn per_torsion(&self) -> <H::Target as ModelOwner>::PerTorsion {
         self.model.per_torsion()
     }
 
     #[inline]
-    fn per_load(&self) -> M::PerLoad {
+    fn per_load(&self) -> <H::Target as ModelOwner>::PerLoad {
         self.model.per_load()
     }
 
     #[inline]
-    fn per_input(&self) -> M::PerInput {
+    fn per_input(&self) -> <H::Target as ModelOwner>::PerInput {
         self.model.per_input()
     }
 
     #[inline]
-    fn per_damper<V: Copy>(&self, value: V) -> M::PerDamper<V> {
+    fn per_damper<V: Copy>(&self, value: V) -> <H::Target as ModelOwner>::PerDamper<V> {
         self.model.per_damper(value)
     }
 
     #[inline]
-    fn per_tsda<V: Copy>(&self, value: V) -> M::PerTsda<V> {
+    fn per_tsda<V: Copy>(&self, value: V) -> <H::Target as ModelOwner>::PerTsda<V> {
         self.model.per_tsda(value)
     }
 
@@ -93,7 +97,7 @@ impl<M: ModelOwner, const O: usize, const PAIRS: usize, const T: usize, const H:
     }
 
     #[inline]
-    fn per_knot(&self) -> M::PerKnot {
+    fn per_knot(&self) -> <H::Target as ModelOwner>::PerKnot {
         self.model.per_knot()
     }
 }

@@ -67,6 +67,11 @@ impl core::error::Error for RhoError {}
 impl GeneralizedAlpha {
     /// ρ∞ where nothing else is asked for.
     pub const RHO: f64 = 0.5;
+    /// The scheme with [`Self::RHO`].
+    pub const DEFAULT: Self = match Self::new(Self::RHO) {
+        Ok(scheme) => scheme,
+        Err(_) => unreachable!(),
+    };
     /// The largest ρ∞: beyond it what one Newton step leaves is damped too little.
     pub const MOST_RHO: f64 = 0.8;
 
@@ -123,12 +128,7 @@ impl GeneralizedAlpha {
 
 impl Default for GeneralizedAlpha {
     fn default() -> Self {
-        const { 
-            match Self::new(Self::RHO) {
-                Ok(scheme) => scheme,
-                Err(_) => panic!(),
-            }
-        }
+        Self::DEFAULT
     }
 }
 

@@ -159,7 +159,8 @@ fn parts<P: SourceGeometry>(
     scheme: &ExportScheme,
 ) -> String {
     let model = model::model_in::<P>(scene, exact);
-    model + &model::joint_forces::<P>(scene) + &plant::plant::<P>(scene, scheme)
+    let plan = if scheme.has_matrix { model::plan::<P>(scene, exact) } else { String::new() };
+    model + &plan + &model::joint_forces::<P>(scene) + &plant::plant::<P>(scene, scheme)
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ use super::rows::{
     body, bushing, group, input, knot, list, load, point_on_line, readout, revolute, state,
     torsion, tsda, universal,
 };
-use crate::{Scene, SceneModel};
+use crate::{Elimination, Scene, SceneModel};
 
 /// Source of the scene's model in the precision of `R`: a type alias `FourBarF32` with the counts,
 /// a static `FOUR_BAR_F32` and a constant for each read-out, `FOUR_BAR_READOUT_ANGLE_F32`.
@@ -95,6 +95,26 @@ pub(super) fn model_in<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>
         ));
     }
     out
+}
+
+/// Source of the model with the plan of a matrix: a type alias `FourBarPlannedF32` and a static
+/// `FOUR_BAR_PLANNED_F32`.
+pub(super) fn plan<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>) -> String {
+    let Elimination { order, pairs, targets, homes } = exact.clone().planned().plan;
+    let (ty, name) = (type_name(&scene.name), constant_name(&scene.name));
+    let (suffix, capitals) = (P::SUFFIX, P::SUFFIX.to_uppercase());
+    let planned = format!("{ty}Planned{suffix}");
+    let counts = [order.len(), pairs.len(), targets.len(), homes.len()].map(|n| n.to_string());
+    format!(
+        "/// The scene {quoted} with the plan of a matrix.\n{UNUSED}\
+         pub type {planned} = dbd_kernel::model::Planned<&'static {ty}{suffix}, {counts}>;\n\
+         /// The scene {quoted} with the plan of a matrix.\n{UNUSED}\
+         pub static {name}_PLANNED_{capitals}: {planned} = dbd_kernel::model::Planned {{\n    \
+             model: &{name}_{capitals},\n    order: {order:?},\n    pairs: {pairs:?},\n    \
+             targets: {targets:?},\n    homes: {homes:?},\n}};\n",
+        quoted = quoted(&scene.name),
+        counts = counts.join(", "),
+    )
 }
 
 /// The force of each joint on its second body: of its last group, which acts on that.

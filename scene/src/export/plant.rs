@@ -23,7 +23,8 @@ pub(super) fn plant<P: SourceGeometry>(scene: &Scene, scheme: &ExportScheme) -> 
     let (ty, constant) = (type_name(&scene.name), constant_name(&scene.name));
     let (precision, capitals, path) = (P::SUFFIX, P::SUFFIX.to_uppercase(), &scheme.path);
     let suffix = precision.to_lowercase();
-    let model = format!("{ty}{precision}");
+    let planned = if scheme.has_matrix { ["Planned", "_PLANNED"] } else { [""; 2] };
+    let (model, of) = (format!("{ty}{}{precision}", planned[0]), planned[1]);
     format!(
         "/// The scene {} stepped by {} in {name}.\n{UNUSED}\
          pub type {ty}Plant{precision} = dbd_kernel::Plant<&'static {model}, {path}>;\n\
@@ -31,7 +32,7 @@ pub(super) fn plant<P: SourceGeometry>(scene: &Scene, scheme: &ExportScheme) -> 
          /// # Errors\n/// Where {name} does not hold the step, which was looked at when this was \
          written.\n{UNUSED}#[inline]\n\
          pub fn plant_{suffix}() -> Result<{ty}Plant{precision}, dbd_kernel::plant::PlantError> {{\n    \
-             dbd_kernel::Plant::new(&{constant}_{capitals}, {constant}_SCHEME, {constant}_STEP)\n\
+             dbd_kernel::Plant::new(&{constant}{of}_{capitals}, {constant}_SCHEME, {constant}_STEP)\n\
          }}\n",
         quoted(&scene.name),
         scheme.name(),

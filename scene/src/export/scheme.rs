@@ -3,18 +3,20 @@
 //! `(name, Newton iterations, damping) => type, value`. Names are the kernel's own.
 
 use dbd_kernel::damping::Damping;
+use dbd_kernel::keep::Keep as _;
 use dbd_kernel::schemes::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, JointWise, Kicked, Leapfrog, Pefrl, Rk4, Scheme,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Kicked, Leapfrog, Pefrl, Rk4, Scheme,
     SemiImplicitEuler,
 };
 
+use super::number::SourceNumber as _;
 use crate::nearest::nearest;
 
 /// Newton iterations that may be asked for: more change nothing but the stable step.
 pub const MOST_ITERATIONS: u32 = 8;
 
 /// All names, for messages.
-const NAMES: [&str; 8] = [
+const NAMES: [&str; 9] = [
     Dbd::NAME,
     DbdP1::NAME,
     DbdP2::NAME,
@@ -23,6 +25,7 @@ const NAMES: [&str; 8] = [
     Pefrl::NAME,
     BlanesMoanS6::NAME,
     Rk4::NAME,
+    GeneralizedAlpha::NAME,
 ];
 
 /// A scheme with its parameters, as source.
@@ -31,6 +34,8 @@ pub struct ExportScheme {
     name: &'static str,
     damping: Damping,
     stability_limit: f64,
+    /// Whether its plants take a model with a plan.
+    pub(super) has_matrix: bool,
     /// The type's path.
     pub(super) path: String,
     /// The value's expression.
@@ -97,6 +102,7 @@ impl ExportScheme {
             Pefrl::NAME => Self::plain(Pefrl, "Pefrl"),
             BlanesMoanS6::NAME => Self::plain(BlanesMoanS6, "BlanesMoanS6"),
             Rk4::NAME => Self::plain(Rk4, "Rk4"),
+            GeneralizedAlpha::NAME => Self::solved(GeneralizedAlpha::DEFAULT),
             _ => {
                 let meant = nearest(name, NAMES);
                 let meant = meant.map(|name| format!("did you mean {name}? ")).unwrap_or_default();
@@ -115,6 +121,33 @@ impl ExportScheme {
             ),
             _ => Ok(scheme),
         }
+    }
+
+    /// The same scheme with another ρ∞, for the one that has it.
+    ///
+    /// # Errors
+    /// Where it has none, or not such a one.
+    pub fn with_rho(self, rho: f64) -> Result<Self, SchemeError> {
+        let refuse = |message: String, help: &str| Err(SchemeError { message, help: help.into() });
+        if self.name != GeneralizedAlpha::NAME {
+            return refuse(format!("the scheme {} has no rho", self.name), "generalized-alpha has");
+        }
+        match GeneralizedAlpha::new(rho) {
+            Ok(scheme) => Ok(Self::solved(scheme)),
+            Err(error) => refuse(error.to_string(), "0.5 where nothing is said"),
+        }
+    }
+
+    fn solved(scheme: GeneralizedAlpha) -> Self {
+        let path = "GeneralizedAlpha";
+        let scheme_of = Self::of(scheme, path, "GeneralizedAlpha::DEFAULT");
+        if scheme == GeneralizedAlpha::DEFAULT {
+            return scheme_of;
+        }
+        let rho = scheme.rho().number();
+        let new = format!("{}::new({rho})", scheme_of.path);
+        let value = format!("match {new} {{ Ok(scheme) => scheme, Err(_) => panic!() }}");
+        Self { value, ..scheme_of }
     }
 
     fn plain<S: Scheme>(scheme: S, name: &str) -> Self {
@@ -139,6 +172,7 @@ impl ExportScheme {
             name: S::NAME,
             damping: S::DAMPING,
             stability_limit: scheme.stability_limit(),
+            has_matrix: S::Keeps::MATRIX,
             path: within(path),
             value: within(value),
         }
