@@ -56,6 +56,7 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
     type PerDamper<T: Copy> = M::PerDamper<T>;
     type PerTsda<T: Copy> = M::PerTsda<T>;
     type PerPair<T: Copy> = M::PerPair<T>;
+    type PerHome<T: Copy> = M::PerHome<T>;
     type PerKnot = M::PerKnot;
 
     #[inline(always)]
@@ -113,6 +114,11 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
     #[inline]
     fn per_pair<T: Copy>(&self, value: T) -> M::PerPair<T> {
         self.model.per_pair(value)
+    }
+
+    #[inline]
+    fn per_home<T: Copy>(&self, value: T) -> M::PerHome<T> {
+        self.model.per_home(value)
     }
 
     #[inline]

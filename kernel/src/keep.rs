@@ -4,7 +4,7 @@
 
 use crate::damping::Lever;
 use crate::model::{ModelOwner, SpaceOf};
-use crate::solve::{BlockOf, Freedoms};
+use crate::solve::{BlockOf, Freedoms, Seat};
 use crate::space::Space;
 
 /// What a scheme keeps in its plant.
@@ -13,6 +13,8 @@ pub trait Keep {
     const MATRIX: bool = false;
     /// Memory for a model's levers.
     type Levers<M: ModelOwner>: AsRef<[Lever<M::Precision>]> + AsMut<[Lever<M::Precision>]>;
+    /// Memory for joints held as a point and an axis.
+    type Seats<M: ModelOwner>: AsRef<[Seat<SpaceOf<M>>]> + AsMut<[Seat<SpaceOf<M>>]>;
     /// Memory for the blocks of bodies.
     type Bodies<M: ModelOwner>: AsMut<[BlockOf<SpaceOf<M>>]>;
     /// Memory for the blocks of pairs of bodies.
@@ -25,6 +27,7 @@ pub trait Keep {
 /// What `K` keeps for a model.
 pub struct Kept<K: Keep + ?Sized, M: ModelOwner> {
     pub(crate) levers: K::Levers<M>,
+    pub(crate) seats: K::Seats<M>,
     pub(crate) bodies: K::Bodies<M>,
     pub(crate) pairs: K::Pairs<M>,
 }
@@ -35,12 +38,13 @@ pub struct Nothing;
 
 impl Keep for Nothing {
     type Levers<M: ModelOwner> = [Lever<M::Precision>; 0];
+    type Seats<M: ModelOwner> = [Seat<SpaceOf<M>>; 0];
     type Bodies<M: ModelOwner> = [BlockOf<SpaceOf<M>>; 0];
     type Pairs<M: ModelOwner> = [BlockOf<SpaceOf<M>>; 0];
 
     #[inline]
     fn memory<M: ModelOwner>(_: &M) -> Kept<Self, M> {
-        Kept { levers: [], bodies: [], pairs: [] }
+        Kept { levers: [], seats: [], bodies: [], pairs: [] }
     }
 }
 
@@ -50,12 +54,13 @@ pub struct Levers;
 
 impl Keep for Levers {
     type Levers<M: ModelOwner> = M::PerDamper<Lever<M::Precision>>;
+    type Seats<M: ModelOwner> = [Seat<SpaceOf<M>>; 0];
     type Bodies<M: ModelOwner> = [BlockOf<SpaceOf<M>>; 0];
     type Pairs<M: ModelOwner> = [BlockOf<SpaceOf<M>>; 0];
 
     #[inline]
     fn memory<M: ModelOwner>(model: &M) -> Kept<Self, M> {
-        Kept { levers: model.per_damper(Lever::default()), bodies: [], pairs: [] }
+        Kept { levers: model.per_damper(Lever::default()), seats: [], bodies: [], pairs: [] }
     }
 }
 
@@ -66,12 +71,14 @@ pub struct Matrix;
 impl Keep for Matrix {
     const MATRIX: bool = true;
     type Levers<M: ModelOwner> = [Lever<M::Precision>; 0];
+    type Seats<M: ModelOwner> = M::PerHome<Seat<SpaceOf<M>>>;
     type Bodies<M: ModelOwner> = M::PerBody<BlockOf<SpaceOf<M>>>;
     type Pairs<M: ModelOwner> = M::PerPair<BlockOf<SpaceOf<M>>>;
 
     #[inline]
     fn memory<M: ModelOwner>(model: &M) -> Kept<Self, M> {
         let empty = <SpaceOf<M> as Space>::Row::EMPTY;
-        Kept { levers: [], bodies: model.per_body(empty), pairs: model.per_pair(empty) }
+        let (bodies, pairs) = (model.per_body(empty), model.per_pair(empty));
+        Kept { levers: [], seats: model.per_home(Seat::default()), bodies, pairs }
     }
 }

@@ -34,6 +34,24 @@ impl<R: Real> Space for Plane<R> {
     fn parts([x, y, z]: [R; 3]) -> (Vec2<R>, Axial<R>) {
         (Vec2::new(x, y), Axial::new(z))
     }
+    #[inline(always)]
+    fn add_point(weight: R, r: Vec2<R>, [a, b, z]: &mut [[R; 3]; 3]) {
+        let m = r * weight;
+        (a[0], b[1]) = (a[0] + weight, b[1] + weight);
+        (z[0], z[1], z[2]) = (z[0] - m.y, z[1] + m.x, z[2] + m.dot(r));
+    }
+    #[inline(always)]
+    fn take_points(weight: R, [r, s]: [Vec2<R>; 2], [a, b, z]: &mut [[R; 3]; 3]) {
+        let (m, n) = (r * weight, s * weight);
+        (a[0], a[2]) = (a[0] - weight, a[2] + n.y);
+        (b[1], b[2]) = (b[1] - weight, b[2] - n.x);
+        (z[0], z[1], z[2]) = (z[0] + m.y, z[1] - m.x, z[2] - m.dot(s));
+    }
+    /// What turns about an axis in the plane leaves it.
+    #[inline(always)]
+    fn add_across(_: R, _: Vec2<R>, _: &mut [[R; 3]; 3]) {}
+    #[inline(always)]
+    fn take_across(_: R, _: Vec2<R>, _: &mut [[R; 3]; 3]) {}
 }
 
 /// A vector in the plane.

@@ -23,6 +23,7 @@ use crate::schedule::{KnotStep, LoadWindow, Signal, StageTime, sample};
 use crate::schemes::Scheme;
 use crate::state::State;
 use crate::status::{Cause, Failure, Status};
+use crate::solve;
 use crate::step::{Diagonal, Ledger, Stepper, Workspace};
 use crate::words::is_finite;
 
@@ -120,6 +121,11 @@ where
             share(&view, places, bodies, others, held.as_mut(), shares);
             weigh(&view, shares, half, levers.as_mut());
         }
+        if S::Keeps::MATRIX {
+            place_bodies(state.bodies.as_ref(), frames.as_mut());
+            let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
+            solve::find(&view, places, scheme.pencil(h), kept.seats.as_mut());
+        }
         let wrenches = owner.per_body(Wrench::default());
         let memory = owner.per_body(S::Memory::default());
         let in_line = are_in_line(&view);
@@ -208,6 +214,7 @@ where
             shares: self.shares.as_ref(),
             levers: self.kept.levers.as_mut(),
             plan: self.model.plan(),
+            seats: self.kept.seats.as_ref(),
             blocks: self.kept.bodies.as_mut(),
             pair_blocks: self.kept.pairs.as_mut(),
             windows: self.windows.as_ref(),

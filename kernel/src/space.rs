@@ -9,7 +9,7 @@ use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
 
 use crate::real::{Lanewise, Real};
-use crate::solve::Freedoms;
+use crate::solve::{BlockOf, Freedoms};
 use crate::vector::{Quaternion, Vec3};
 use crate::words::Words;
 
@@ -138,6 +138,15 @@ pub trait Space: Copy + Debug + Default + PartialEq + 'static {
     fn row(linear: Self::Vector, angular: Self::Moment) -> Self::Row;
     /// Vector and moment of a row.
     fn parts(row: Self::Row) -> (Self::Vector, Self::Moment);
+    /// Adds `Σ w·j·jᵀ`, `j = (u, r×u)` over all axes u, to the lower triangle of a block: a point at the end of
+    /// the arm r, held alike in all directions.
+    fn add_point(weight: Self::Real, arm: Self::Vector, block: &mut BlockOf<Self>);
+    /// Takes `Σ w·(u, r×u)·(u, s×u)ᵀ` from a block, r and s the arms of its rows' and columns' body.
+    fn take_points(weight: Self::Real, arms: [Self::Vector; 2], block: &mut BlockOf<Self>);
+    /// Adds `w·(I − e·eᵀ)` to the turns of a symmetric block: an axis e that is held.
+    fn add_across(weight: Self::Real, axis: Self::Vector, block: &mut BlockOf<Self>);
+    /// Takes the same from a block of two bodies.
+    fn take_across(weight: Self::Real, axis: Self::Vector, block: &mut BlockOf<Self>);
 }
 
 impl<R: Real> Space for R {
@@ -157,6 +166,53 @@ impl<R: Real> Space for R {
     #[inline(always)]
     fn parts([x, y, z, u, v, w]: [R; 6]) -> (Vec3<R>, Vec3<R>) {
         (Vec3::new(x, y, z), Vec3::new(u, v, w))
+    }
+    #[inline(always)]
+    fn add_point(weight: R, r: Vec3<R>, block: &mut [[R; 6]; 6]) {
+        let m = r * weight;
+        let [a, b, c, x, y, z] = block;
+        (a[0], b[1], c[2]) = (a[0] + weight, b[1] + weight, c[2] + weight);
+        (x[1], x[2]) = (x[1] - m.z, x[2] + m.y);
+        (y[0], y[2]) = (y[0] + m.z, y[2] - m.x);
+        (z[0], z[1]) = (z[0] - m.y, z[1] + m.x);
+        let (xx, yy, zz) = (m.x * r.x, m.y * r.y, m.z * r.z);
+        x[3] = x[3] + (yy + zz);
+        (y[3], y[4]) = (y[3] - m.x * r.y, y[4] + (xx + zz));
+        (z[3], z[4], z[5]) = (z[3] - m.x * r.z, z[4] - m.y * r.z, z[5] + (xx + yy));
+    }
+    #[inline(always)]
+    fn take_points(weight: R, [r, s]: [Vec3<R>; 2], block: &mut [[R; 6]; 6]) {
+        let (m, n) = (r * weight, s * weight);
+        let [a, b, c, x, y, z] = block;
+        (a[0], b[1], c[2]) = (a[0] - weight, b[1] - weight, c[2] - weight);
+        (a[4], a[5]) = (a[4] - n.z, a[5] + n.y);
+        (b[3], b[5]) = (b[3] + n.z, b[5] - n.x);
+        (c[3], c[4]) = (c[3] - n.y, c[4] + n.x);
+        (x[1], x[2]) = (x[1] + m.z, x[2] - m.y);
+        (y[0], y[2]) = (y[0] - m.z, y[2] + m.x);
+        (z[0], z[1]) = (z[0] + m.y, z[1] - m.x);
+        // (r·s)·I − s·rᵀ: what r × u and s × u have in common.
+        let (xx, yy, zz) = (m.x * s.x, m.y * s.y, m.z * s.z);
+        x[3] = x[3] - (yy + zz);
+        (x[4], x[5]) = (x[4] + n.x * r.y, x[5] + n.x * r.z);
+        (y[3], y[4], y[5]) = (y[3] + n.y * r.x, y[4] - (xx + zz), y[5] + n.y * r.z);
+        (z[3], z[4], z[5]) = (z[3] + n.z * r.x, z[4] + n.z * r.y, z[5] - (xx + yy));
+    }
+    #[inline(always)]
+    fn add_across(weight: R, e: Vec3<R>, [_, _, _, x, y, z]: &mut [[R; 6]; 6]) {
+        let m = e * weight;
+        x[3] = x[3] + (weight - m.x * e.x);
+        (y[3], y[4]) = (y[3] - m.x * e.y, y[4] + (weight - m.y * e.y));
+        (z[3], z[4]) = (z[3] - m.x * e.z, z[4] - m.y * e.z);
+        z[5] = z[5] + (weight - m.z * e.z);
+    }
+    #[inline(always)]
+    fn take_across(weight: R, e: Vec3<R>, [_, _, _, x, y, z]: &mut [[R; 6]; 6]) {
+        let m = e * weight;
+        let (xy, xz, yz) = (m.x * e.y, m.x * e.z, m.y * e.z);
+        (x[3], x[4], x[5]) = (x[3] - (weight - m.x * e.x), x[4] + xy, x[5] + xz);
+        (y[3], y[4], y[5]) = (y[3] + xy, y[4] - (weight - m.y * e.y), y[5] + yz);
+        (z[3], z[4], z[5]) = (z[3] + xz, z[4] + yz, z[5] - (weight - m.z * e.z));
     }
 }
 

@@ -17,7 +17,7 @@ use crate::pose::{Places, place_bodies};
 use crate::real::Real;
 use crate::rotation;
 use crate::schedule::{self, KnotStep, LoadWindow, Signal, StageTime};
-use crate::solve::{BlockOf, Plan};
+use crate::solve::{BlockOf, Plan, Seat};
 use crate::space::{Moment as _, Space as _};
 use crate::status::Cause;
 
@@ -82,8 +82,9 @@ pub struct Workspace<'s, 'm, P: Geometry, T> {
     pub(crate) shares: &'s [Share<P::Real>],
     /// The joints' levers, none where dampers act otherwise.
     pub(crate) levers: &'s mut [Lever<P>],
-    /// The plan of the matrix, and its blocks; none where the scheme has no matrix.
+    /// The plan of the matrix, its joints and its blocks; none where the scheme has no matrix.
     pub(crate) plan: Plan<'m>,
+    pub(crate) seats: &'s [Seat<P::Space>],
     pub(crate) blocks: &'s mut [BlockOf<P::Space>],
     pub(crate) pair_blocks: &'s mut [BlockOf<P::Space>],
     /// The loads' windows.

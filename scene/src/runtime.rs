@@ -147,6 +147,7 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
     type PerDamper<T: Copy> = Vec<T>;
     type PerTsda<T: Copy> = Vec<T>;
     type PerPair<T: Copy> = Vec<T>;
+    type PerHome<T: Copy> = Vec<T>;
     type PerKnot = Vec<KnotStep<P::Real>>;
 
     fn view(&self) -> ModelRef<'_, P, AllTerms> {
@@ -196,6 +197,10 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
 
     fn per_pair<T: Copy>(&self, value: T) -> Vec<T> {
         vec![value; self.plan.pairs.len()]
+    }
+
+    fn per_home<T: Copy>(&self, value: T) -> Vec<T> {
+        vec![value; self.plan.homes.len()]
     }
 
     fn plan(&self) -> Plan<'_> {

@@ -52,6 +52,7 @@ impl<
     type PerDamper<T: Copy> = Vec<T, DAMPERS>;
     type PerTsda<T: Copy> = Vec<T, TSDAS>;
     type PerPair<T: Copy> = [T; 0];
+    type PerHome<T: Copy> = [T; 0];
     type PerKnot = Vec<KnotStep<P::Real>, KNOTS>;
 
     fn view(&self) -> ModelRef<'_, P, AllTerms> {
@@ -104,6 +105,10 @@ impl<
     }
 
     fn per_pair<T: Copy>(&self, _: T) -> [T; 0] {
+        []
+    }
+
+    fn per_home<T: Copy>(&self, _: T) -> [T; 0] {
         []
     }
 

@@ -192,6 +192,8 @@ pub trait ModelOwner {
     type PerDamper<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one `T` per pair of bodies of the plan, see [`Self::plan`].
     type PerPair<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
+    /// Memory of one `T` per group and torsion spring of the plan.
+    type PerHome<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one `T` per TSDA.
     type PerTsda<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one knot in steps per knot.
@@ -213,6 +215,8 @@ pub trait ModelOwner {
     fn per_damper<T: Copy>(&self, value: T) -> Self::PerDamper<T>;
     /// One `value` per pair of bodies of the plan.
     fn per_pair<T: Copy>(&self, value: T) -> Self::PerPair<T>;
+    /// One `value` per group and torsion spring of the plan.
+    fn per_home<T: Copy>(&self, value: T) -> Self::PerHome<T>;
     /// In which order a scheme with a matrix eliminates the bodies; none where the model was built
     /// without one, see [`Planned`].
     fn plan(&self) -> Plan<'_> {

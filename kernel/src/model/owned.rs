@@ -269,6 +269,7 @@ impl<
     type PerDamper<T: Copy> = [T; DAMPERS];
     type PerTsda<T: Copy> = [T; TSDAS];
     type PerPair<T: Copy> = [T; 0];
+    type PerHome<T: Copy> = [T; 0];
     type PerKnot = [KnotStep<P::Real>; KNOTS];
 
     #[inline(always)]
@@ -329,6 +330,11 @@ impl<
 
     #[inline]
     fn per_pair<T: Copy>(&self, _: T) -> [T; 0] {
+        []
+    }
+
+    #[inline]
+    fn per_home<T: Copy>(&self, _: T) -> [T; 0] {
         []
     }
 

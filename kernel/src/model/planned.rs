@@ -45,6 +45,7 @@ where
     type PerDamper<V: Copy> = <H::Target as ModelOwner>::PerDamper<V>;
     type PerTsda<V: Copy> = <H::Target as ModelOwner>::PerTsda<V>;
     type PerPair<V: Copy> = [V; PAIRS];
+    type PerHome<V: Copy> = [V; HOMES];
     type PerKnot = <H::Target as ModelOwner>::PerKnot;
 
     #[inline(always)]
@@ -89,6 +90,11 @@ where
     #[inline]
     fn per_pair<V: Copy>(&self, value: V) -> [V; PAIRS] {
         [value; PAIRS]
+    }
+
+    #[inline]
+    fn per_home<V: Copy>(&self, value: V) -> [V; HOMES] {
+        [value; HOMES]
     }
 
     #[inline]

@@ -159,6 +159,13 @@ impl Scheme for GeneralizedAlpha {
         f64::INFINITY
     }
 
+    #[inline(always)]
+    fn pencil<R: Real>(&self, h: R) -> Pencil<R> {
+        let Self { mass, gamma, beta, .. } = *self;
+        let [mass, gamma, beta] = [mass, gamma, beta].map(R::constant);
+        Pencil { mass, damping: h * gamma, stiffness: h * h * beta }
+    }
+
     fn visit_memory<P: Geometry>(memory: &Self::Memory<P>, visitor: &mut impl WordVisitor) {
         for Increment { linear, angular } in [&memory.algorithmic, &memory.real] {
             linear.visit(visitor);
@@ -201,10 +208,10 @@ impl Scheme for GeneralizedAlpha {
         }
         stepper.sample_inputs(P::Real::ONE);
         stepper.evaluate_once::<ExplicitDampers>(At::Boundary, false)?;
-        let (change, reach) = (h * constant(self.gamma), h * h * constant(self.beta));
+        let pencil = self.pencil(h);
+        let Pencil { mass, damping: change, stiffness: reach } = pencil;
         self.right_sides(stepper, change);
-        let mass = constant(self.mass);
-        stepper.solve(Pencil { mass, damping: change, stiffness: reach })?;
+        stepper.solve(pencil)?;
         stepper.correct(|state, memory, next| {
             let known = self.known::<P>(memory);
             P::translate(&mut state.position, next.linear * reach);

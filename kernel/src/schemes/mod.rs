@@ -29,6 +29,8 @@ use crate::damping::Damping;
 use crate::geometry::Geometry;
 use crate::keep::Keep;
 use crate::model::Terms;
+use crate::real::Real;
+use crate::solve::Pencil;
 use crate::status::Cause;
 use crate::step::Stepper;
 use crate::words::{WordSource, WordVisitor};
@@ -57,6 +59,11 @@ pub trait Scheme: Copy {
 
     /// Largest stable `ω_max·h` of an undamped oscillator; all smaller ones are stable, too.
     fn stability_limit(&self) -> f64;
+
+    /// The weights of mass, damping and stiffness in its matrix, for a scheme that has one.
+    fn pencil<R: Real>(&self, _h: R) -> Pencil<R> {
+        Pencil::default()
+    }
 
     /// Hands what is remembered of a body to the visitor, word by word.
     fn visit_memory<P: Geometry>(_memory: &Self::Memory<P>, _visitor: &mut impl WordVisitor) {}

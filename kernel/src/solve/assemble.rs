@@ -6,25 +6,36 @@
 
 use crate::body::BodyState;
 use crate::elements::element::Element;
+use crate::elements::point_law::Stretch;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, ModelRef, Terms};
-use crate::pose::{End, Placed, Places, held_turns, placed, twist_of};
+use crate::pose::{End, Places, held_turns, placed, twist_of};
 use crate::real::Real;
 use crate::solve::freedoms::Freedoms;
 use crate::solve::plan::Plan;
+use crate::solve::seat::Seat;
 use crate::solve::springs::springs;
 use crate::solve::system::{BlockOf, System};
 use crate::space::{Linear as _, Moment as _, Space, Vector as _};
 
-/// The weights of mass, damping and stiffness.
-#[derive(Clone, Copy)]
-pub(crate) struct Pencil<R> {
-    pub(crate) mass: R,
-    /// \[s\].
-    pub(crate) damping: R,
-    /// \[s²\].
-    pub(crate) stiffness: R,
+/// The weights of mass, damping and stiffness in a matrix.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pencil<R> {
+    /// Of masses.
+    pub mass: R,
+    /// \[s\] of damping coefficients.
+    pub damping: R,
+    /// \[s²\] of stiffnesses.
+    pub stiffness: R,
+}
+
+impl<R: Real> Pencil<R> {
+    /// That of a spring and its damper.
+    #[inline(always)]
+    fn weight(&self, stiffness: R, damping: R) -> R {
+        self.stiffness * stiffness + self.damping * damping
+    }
 }
 
 /// Writes the matrix.
@@ -32,7 +43,7 @@ pub(crate) fn assemble<P: Geometry, T: Terms>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     (bodies, turns): (&[BodyState<P>], &[i32]),
-    pencil: Pencil<P::Real>,
+    (pencil, seats): (Pencil<P::Real>, &[Seat<P::Space>]),
     system: &mut System<'_, P::Space>,
 ) {
     for block in system.pairs.iter_mut() {
@@ -52,7 +63,11 @@ pub(crate) fn assemble<P: Geometry, T: Terms>(
         }
     }
     for (number, group) in model.groups.iter().enumerate() {
-        add_group(model, places, (number, group), pencil, system);
+        let mut mount = Mount::new(system, [group.a, group.b], number);
+        match seats.get(number) {
+            Some(seat) if P::Real::ZERO < seat.point => mount.hold(model, places, group, seat),
+            _ => add_group(model, places, (number, group), pencil, &mut mount),
+        }
     }
     if T::TORSIONS {
         let springs = model.torsions.iter().zip(P::Real::counts(turns));
@@ -60,8 +75,7 @@ pub(crate) fn assemble<P: Geometry, T: Terms>(
             let Some(twist) = twist_of::<P>(spring, bodies, turns) else { continue };
             let gradient = End::new(model, places, spring.a, None).moment_to_world(twist.gradient);
             let damping = spring.damper.row().and_then(|row| model.dampers.get(row).copied());
-            let weight = pencil.stiffness * spring.stiffness
-                + pencil.damping * damping.unwrap_or(P::Real::ZERO);
+            let weight = pencil.weight(spring.stiffness, damping.unwrap_or(P::Real::ZERO));
             let mut mount = Mount::new(system, [spring.a, spring.b], model.groups.len() + row);
             mount.add(weight, P::Vector::ZERO, [gradient; 2]);
         }
@@ -70,40 +84,67 @@ pub(crate) fn assemble<P: Geometry, T: Terms>(
 
 type Row<P> = <<P as Geometry>::Space as Space>::Row;
 
+/// The weight of element `i` of a group, `None` where the model lacks it.
+#[inline(always)]
+pub(super) fn weight_of<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    group: &Group,
+    (i, index): (usize, usize),
+    pencil: Pencil<P::Real>,
+) -> Option<P::Real> {
+    let stiffness = model.element(group.law, index)?.stiffness();
+    Some(pencil.weight(stiffness, damping_of(model, group, i)))
+}
+
+/// The damping coefficient of element `i` of a group, 0 without one.
+#[inline(always)]
+fn damping_of<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    group: &Group,
+    i: usize,
+) -> P::Real {
+    let damper = group.damper.row().and_then(|row| model.dampers.get(row + i));
+    damper.copied().unwrap_or(P::Real::ZERO)
+}
+
+/// Element by element.
 fn add_group<P: Geometry, T: Terms>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     (number, group): (usize, &Group),
     pencil: Pencil<P::Real>,
-    system: &mut System<'_, P::Space>,
+    mount: &mut Mount<'_, P::Space>,
 ) {
-    let mut mount = Mount::new(system, [group.a, group.b], number);
     for i in 0..group.elements() {
         let Some(element) = placed(model, places, (number, group), i) else { continue };
         let Some(law) = model.element(group.law, element.index) else { continue };
-        let damping = group.damper.row().and_then(|row| model.dampers.get(row + i).copied());
-        let damping = damping.unwrap_or(P::Real::ZERO);
-        add_element(model, places, (&element, law), (damping, pencil), &mut mount);
-    }
-}
-
-fn add_element<P: Geometry, T: Terms>(
-    model: &ModelRef<'_, P, T>,
-    places: Places<'_, P>,
-    (element, law): (&Placed<'_, P::Vector>, Element<'_, P::Space>),
-    (damping, pencil): (P::Real, Pencil<P::Real>),
-    mount: &mut Mount<'_, P::Space>,
-) {
-    let clearance = model.clearance(element.group);
-    let Some(springs) = springs(model, &law, &element.stretch, (damping, clearance)) else { return };
-    for (u, [k, c]) in springs.directions.into_iter().zip(springs.constants).take(springs.count) {
-        let weight = pencil.stiffness * k + pencil.damping * c;
-        mount.add(weight, u, [element.arm_a.cross(u), element.arm_b.cross(u)]);
-    }
-    let (turns, count) = held_turns(model, places, element.group, element.index);
-    for turn in turns.into_iter().take(count) {
-        let weight = pencil.stiffness * law.stiffness() + pencil.damping * damping;
-        mount.add(weight, P::Vector::ZERO, [turn, turn]);
+        let weight = pencil.weight(law.stiffness(), damping_of(model, group, i));
+        let arms = [element.arm_a, element.arm_b];
+        match law {
+            Element::PointBushing(_) => mount.hold_point(weight, arms),
+            Element::Universal(_) => mount.hold_point(weight, arms),
+            Element::Revolute(revolute) => {
+                mount.hold_point(weight, arms);
+                let Stretch { direction, ratio, .. } = element.stretch;
+                let more = weight * (ratio - P::Real::ONE);
+                mount.add(more, direction, arms.map(|arm| arm.cross(direction)));
+                let lever = revolute.levers[0];
+                mount.hold_axis(weight * lever.dot(lever), direction);
+                continue;
+            }
+            Element::Tsda(_) | Element::PointOnLine(_) => {
+                let known = (damping_of(model, group, i), model.clearance(group));
+                let Some(springs) = springs(model, &law, &element.stretch, known) else { continue };
+                let parts = springs.directions.into_iter().zip(springs.constants);
+                for (u, [k, c]) in parts.take(springs.count) {
+                    mount.add(pencil.weight(k, c), u, arms.map(|arm| arm.cross(u)));
+                }
+            }
+        }
+        let (turns, count) = held_turns(model, places, group, element.index);
+        for turn in turns.into_iter().take(count) {
+            mount.add(weight, P::Vector::ZERO, [turn, turn]);
+        }
     }
 }
 
@@ -136,6 +177,50 @@ impl<'s, S: Space> Mount<'s, S> {
         if let Some((block, ordered)) = &mut self.pair {
             let (rows, columns) = if *ordered { (&b, &a) } else { (&a, &b) };
             rows.add_product(-weight, columns, block);
+        }
+    }
+
+    /// A point at the end of both arms.
+    #[inline(always)]
+    fn hold_point(&mut self, weight: S::Real, arms: [S::Vector; 2]) {
+        for (end, arm) in self.ends.into_iter().zip(arms) {
+            if let Some(block) = self.diagonal.get_mut(end.row()) {
+                S::add_point(weight, arm, block);
+            }
+        }
+        if let Some((block, ordered)) = &mut self.pair {
+            let [a, b] = arms;
+            S::take_points(weight, if *ordered { [b, a] } else { [a, b] }, block);
+        }
+    }
+
+    /// An axis.
+    #[inline(always)]
+    fn hold_axis(&mut self, weight: S::Real, axis: S::Vector) {
+        for end in self.ends {
+            if let Some(block) = self.diagonal.get_mut(end.row()) {
+                S::add_across(weight, axis, block);
+            }
+        }
+        if let Some((block, _)) = &mut self.pair {
+            S::take_across(weight, axis, block);
+        }
+    }
+
+    /// A joint by its seat.
+    #[inline(always)]
+    fn hold<P: Geometry<Space = S, Real = S::Real, Vector = S::Vector>, T: Terms>(
+        &mut self,
+        model: &ModelRef<'_, P, T>,
+        places: Places<'_, P>,
+        group: &Group,
+        seat: &Seat<S>,
+    ) {
+        let [a, b] = [group.a, group.b].map(|end| End::new(model, places, end, None));
+        let arms = [a.to_world(seat.arms[0]), b.to_world(seat.arms[1])];
+        self.hold_point(seat.point, arms);
+        if S::Real::ZERO < seat.across {
+            self.hold_axis(seat.across, a.to_world(seat.axis));
         }
     }
 }

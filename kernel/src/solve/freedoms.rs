@@ -23,6 +23,8 @@ pub trait Freedoms: Copy + Debug + Send + 'static {
     fn add_square(&self, weight: Self::Real, block: &mut Self::Block);
     /// Adds `weight·self·otherᵀ` to a block.
     fn add_product(&self, weight: Self::Real, other: &Self, block: &mut Self::Block);
+    /// Whether the lower triangles of two blocks are no farther apart than `least` anywhere.
+    fn are_near(a: &Self::Block, b: &Self::Block, least: Self::Real) -> bool;
     /// Writes the factor over a symmetric block: L below the diagonal, D⁻¹ on it. `false` where a pivot
     /// is not positive.
     fn factor(block: &mut Self::Block) -> bool;
@@ -80,6 +82,11 @@ impl<R: Real, const N: usize> Freedoms for [R; N] {
                 block[r][c] = block[r][c] + scaled * other[c];
             }
         }
+    }
+
+    fn are_near(a: &Self::Block, b: &Self::Block, least: R) -> bool {
+        let apart = |r: usize| (0..=r).any(|c| !((a[r][c] - b[r][c]).abs() <= least));
+        !(0..N).any(apart)
     }
 
     #[inline]

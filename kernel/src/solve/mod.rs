@@ -8,12 +8,14 @@
 mod assemble;
 mod freedoms;
 mod plan;
+mod seat;
 mod springs;
 mod system;
 mod workspace;
 
-pub(crate) use assemble::{Pencil, assemble};
+pub use assemble::Pencil;
 pub use freedoms::Freedoms;
 pub use plan::Plan;
+pub use seat::Seat;
+pub(crate) use seat::find;
 pub use system::BlockOf;
-pub(crate) use system::System;
