@@ -35,6 +35,11 @@ impl<R: Real> Space for Plane<R> {
         (Vec2::new(x, y), Axial::new(z))
     }
     #[inline(always)]
+    fn set_mass(mass: R, inertia: Axial<R>, _: [Axial<R>; 3], block: &mut [[R; 3]; 3]) {
+        let none = R::ZERO;
+        *block = [[mass, none, none], [none, mass, none], [none, none, inertia.z]];
+    }
+    #[inline(always)]
     fn add_point(weight: R, r: Vec2<R>, [a, b, z]: &mut [[R; 3]; 3]) {
         let m = r * weight;
         (a[0], b[1]) = (a[0] + weight, b[1] + weight);

@@ -138,6 +138,13 @@ pub trait Space: Copy + Debug + Default + PartialEq + 'static {
     fn row(linear: Self::Vector, angular: Self::Moment) -> Self::Row;
     /// Vector and moment of a row.
     fn parts(row: Self::Row) -> (Self::Vector, Self::Moment);
+    /// Writes a body's block: its mass, its principal inertia about axes.
+    fn set_mass(
+        mass: Self::Real,
+        inertia: Self::Moment,
+        axes: [Self::Moment; 3],
+        block: &mut BlockOf<Self>,
+    );
     /// Adds `Σ w·j·jᵀ`, `j = (u, r×u)` over all axes u, to the lower triangle of a block: a point at the end of
     /// the arm r, held alike in all directions.
     fn add_point(weight: Self::Real, arm: Self::Vector, block: &mut BlockOf<Self>);
@@ -166,6 +173,35 @@ impl<R: Real> Space for R {
     #[inline(always)]
     fn parts([x, y, z, u, v, w]: [R; 6]) -> (Vec3<R>, Vec3<R>) {
         (Vec3::new(x, y, z), Vec3::new(u, v, w))
+    }
+    #[inline(always)]
+    fn set_mass(mass: R, inertia: Vec3<R>, axes: [Vec3<R>; 3], block: &mut [[R; 6]; 6]) {
+        let none = R::ZERO;
+        let [u, v, w] = axes;
+        let [a, b, c] = [u * inertia.x, v * inertia.y, w * inertia.z];
+        let sum = |x: [R; 2], y: [R; 2], z: [R; 2]| x[0] * x[1] + y[0] * y[1] + z[0] * z[1];
+        *block = [
+            [mass, none, none, none, none, none],
+            [none, mass, none, none, none, none],
+            [none, none, mass, none, none, none],
+            [none, none, none, sum([a.x, u.x], [b.x, v.x], [c.x, w.x]), none, none],
+            [
+                none,
+                none,
+                none,
+                sum([a.y, u.x], [b.y, v.x], [c.y, w.x]),
+                sum([a.y, u.y], [b.y, v.y], [c.y, w.y]),
+                none,
+            ],
+            [
+                none,
+                none,
+                none,
+                sum([a.z, u.x], [b.z, v.x], [c.z, w.x]),
+                sum([a.z, u.y], [b.z, v.y], [c.z, w.y]),
+                sum([a.z, u.z], [b.z, v.z], [c.z, w.z]),
+            ],
+        ];
     }
     #[inline(always)]
     fn add_point(weight: R, r: Vec3<R>, block: &mut [[R; 6]; 6]) {

@@ -51,16 +51,8 @@ pub(crate) fn assemble<P: Geometry, T: Terms>(
     }
     let rows = system.diagonal.iter_mut().zip(model.bodies).zip(places.frames);
     for ((block, body), frame) in rows {
-        *block = Row::<P>::EMPTY;
-        let mass = pencil.mass * body.mass;
-        for axis in P::Vector::axes().into_iter().take(P::Vector::DIMENSION) {
-            P::Space::row(axis, P::Moment::ZERO).add_square(mass, block);
-        }
-        let axes = P::Moment::axes().into_iter().zip(P::moment_axes(frame));
-        for (own, axis) in axes.take(P::Moment::DIMENSION) {
-            let inertia = pencil.mass * body.inertia.dot(own);
-            P::Space::row(P::Vector::ZERO, axis).add_square(inertia, block);
-        }
+        let (mass, inertia) = (pencil.mass * body.mass, body.inertia * pencil.mass);
+        P::Space::set_mass(mass, inertia, P::moment_axes(frame), block);
     }
     for (number, group) in model.groups.iter().enumerate() {
         let mut mount = Mount::new(system, [group.a, group.b], number);

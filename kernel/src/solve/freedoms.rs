@@ -57,131 +57,168 @@ fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
     sum
 }
 
-impl<R: Real, const N: usize> Freedoms for [R; N] {
-    type Real = R;
-    type Block = [[R; N]; N];
+/// The algebra of rows of so many numbers, written out: of each row the columns before it, of each of
+/// these those before that one; then the rows from the last on with the columns before each.
+macro_rules! freedoms {
+    ($n:literal: $($r:literal [$($c:literal [$($k:literal)*])*])*; $($last:literal [$($before:literal)*])*) => {
+        impl<R: Real> Freedoms for [R; $n] {
+            type Real = R;
+            type Block = [[R; $n]; $n];
 
-    const ZERO: Self = [R::ZERO; N];
-    const EMPTY: Self::Block = [[R::ZERO; N]; N];
+            const ZERO: Self = [R::ZERO; $n];
+            const EMPTY: Self::Block = [[R::ZERO; $n]; $n];
 
-    #[inline(always)]
-    fn add_square(&self, weight: R, block: &mut Self::Block) {
-        for r in 0..N {
-            let scaled = weight * self[r];
-            for c in 0..=r {
-                block[r][c] = block[r][c] + scaled * self[c];
+            #[inline(always)]
+            fn add_square(&self, weight: R, block: &mut Self::Block) {
+                $(
+                    let scaled = weight * self[$r];
+                    $(block[$r][$c] = block[$r][$c] + scaled * self[$c];)*
+                    block[$r][$r] = block[$r][$r] + scaled * self[$r];
+                )*
             }
-        }
-    }
 
-    #[inline(always)]
-    fn add_product(&self, weight: R, other: &Self, block: &mut Self::Block) {
-        for r in 0..N {
-            let scaled = weight * self[r];
-            for c in 0..N {
-                block[r][c] = block[r][c] + scaled * other[c];
-            }
-        }
-    }
-
-    fn are_near(a: &Self::Block, b: &Self::Block, least: R) -> bool {
-        let apart = |r: usize| (0..=r).any(|c| !((a[r][c] - b[r][c]).abs() <= least));
-        !(0..N).any(apart)
-    }
-
-    #[inline]
-    fn factor(block: &mut Self::Block) -> bool {
-        let mut positive = true;
-        for c in 0..N {
-            let pivot = block[c][c];
-            positive &= R::ZERO < pivot;
-            let inverse = R::ONE / pivot;
-            block[c][c] = inverse;
-            for r in c + 1..N {
-                let l = block[r][c] * inverse;
-                for k in c + 1..=r {
-                    block[r][k] = block[r][k] - l * block[k][c];
+            #[inline(always)]
+            fn add_product(&self, weight: R, other: &Self, block: &mut Self::Block) {
+                for (row, own) in block.iter_mut().zip(self) {
+                    let scaled = weight * *own;
+                    $(row[$r] = row[$r] + scaled * other[$r];)*
                 }
             }
-            for row in block.iter_mut().skip(c + 1) {
-                row[c] = row[c] * inverse;
+
+            fn are_near(a: &Self::Block, b: &Self::Block, least: R) -> bool {
+                let near = |a: R, b: R| (a - b).abs() <= least;
+                true $($(&& near(a[$r][$c], b[$r][$c]))* && near(a[$r][$r], b[$r][$r]))*
+            }
+
+            #[inline(always)]
+            fn factor(block: &mut Self::Block) -> bool {
+                let (mut positive, mut row) = (true, Self::ZERO);
+                $(
+                    let mut pivot = block[$r][$r];
+                    $(
+                        row[$c] = block[$r][$c];
+                        $(row[$c] = row[$c] - block[$c][$k] * row[$k];)*
+                    )*
+                    $(
+                        let l = row[$c] * block[$c][$c];
+                        pivot = pivot - l * row[$c];
+                        block[$r][$c] = l;
+                    )*
+                    positive &= R::ZERO < pivot;
+                    block[$r][$r] = R::ONE / pivot;
+                )*
+                positive
+            }
+
+            #[inline(always)]
+            fn forward(&mut self, factor: &Self::Block) {
+                $($(self[$r] = self[$r] - factor[$r][$c] * self[$c];)*)*
+            }
+
+            #[inline(always)]
+            fn backward(&mut self, factor: &Self::Block) {
+                $($(self[$before] = self[$before] - factor[$last][$before] * self[$last];)*)*
+            }
+
+            #[inline(always)]
+            fn divide(&mut self, factor: &Self::Block) {
+                $(self[$r] = self[$r] * factor[$r][$r];)*
+            }
+
+            #[inline(always)]
+            fn forward_block(block: &mut Self::Block, factor: &Self::Block) {
+                for row in block {
+                    let mut own = *row;
+                    own.forward(factor);
+                    *row = own;
+                }
+            }
+
+            #[inline(always)]
+            fn divided(block: &Self::Block, factor: &Self::Block) -> Self::Block {
+                let mut out = *block;
+                for row in &mut out {
+                    row.divide(factor);
+                }
+                out
+            }
+
+            #[inline]
+            fn reduce(block: &mut Self::Block, a: &Self::Block, b: &Self::Block) {
+                for (row, a) in block.iter_mut().zip(a) {
+                    let a = *a;
+                    $(row[$r] = row[$r] - dot(&a, &b[$r]);)*
+                }
+            }
+
+            #[inline(always)]
+            fn reduce_square(block: &mut Self::Block, a: &Self::Block, b: &Self::Block) {
+                $(
+                    let row = a[$r];
+                    $(block[$r][$c] = block[$r][$c] - dot(&row, &b[$c]);)*
+                    block[$r][$r] = block[$r][$r] - dot(&row, &b[$r]);
+                )*
+            }
+
+            #[inline(always)]
+            fn reduce_by(&mut self, block: &Self::Block, other: &Self) {
+                for (own, row) in self.iter_mut().zip(block) {
+                    *own = *own - dot(row, other);
+                }
+            }
+
+            #[inline(always)]
+            fn reduce_by_transposed(&mut self, block: &Self::Block, other: &Self) {
+                for (row, x) in block.iter().zip(other) {
+                    $(self[$r] = self[$r] - row[$r] * *x;)*
+                }
             }
         }
-        positive
-    }
+    };
+}
 
-    #[inline(always)]
-    fn forward(&mut self, factor: &Self::Block) {
-        for r in 1..N {
-            for c in 0..r {
-                self[r] = self[r] - factor[r][c] * self[c];
-            }
-        }
-    }
+freedoms!(3: 0 [] 1 [0 []] 2 [0 [] 1 [0]]; 2 [0 1] 1 [0]);
+freedoms!(6:
+    0 []
+    1 [0 []]
+    2 [0 [] 1 [0]]
+    3 [0 [] 1 [0] 2 [0 1]]
+    4 [0 [] 1 [0] 2 [0 1] 3 [0 1 2]]
+    5 [0 [] 1 [0] 2 [0 1] 3 [0 1 2] 4 [0 1 2 3]];
+    5 [0 1 2 3 4] 4 [0 1 2 3] 3 [0 1 2] 2 [0 1] 1 [0]);
 
-    #[inline(always)]
-    fn backward(&mut self, factor: &Self::Block) {
-        for c in (1..N).rev() {
-            for r in 0..c {
-                self[r] = self[r] - factor[c][r] * self[c];
-            }
-        }
-    }
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-    #[inline(always)]
-    fn divide(&mut self, factor: &Self::Block) {
-        for r in 0..N {
-            self[r] = self[r] * factor[r][r];
+    #[test]
+    fn a_factored_block_solves_and_one_that_is_not_positive_is_refused() {
+        let mut random = 0.37_f64;
+        let mut next = || {
+            random = 3.9 * random * (1.0 - random);
+            random - 0.5
+        };
+        let mut block = <[f64; 6]>::EMPTY;
+        for _ in 0..8 {
+            core::array::from_fn::<f64, 6, _>(|_| next()).add_square(2.0, &mut block);
         }
-    }
-
-    #[inline]
-    fn forward_block(block: &mut Self::Block, factor: &Self::Block) {
-        for row in block {
-            row.forward(factor);
+        let whole = |r: usize, c: usize| block[r.max(c)][r.min(c)];
+        let meant: [f64; 6] = core::array::from_fn(|_| next());
+        let mut x = core::array::from_fn(|r| (0..6).map(|c| whole(r, c) * meant[c]).sum());
+        let mut factor = block;
+        assert!(<[f64; 6]>::factor(&mut factor));
+        <[f64; 6]>::forward(&mut x, &factor);
+        x.divide(&factor);
+        x.backward(&factor);
+        for (found, meant) in x.into_iter().zip(meant) {
+            assert!((found - meant).abs() < 1e-12, "{found} {meant}");
         }
-    }
-
-    #[inline]
-    fn divided(block: &Self::Block, factor: &Self::Block) -> Self::Block {
-        let mut out = *block;
-        for row in &mut out {
-            row.divide(factor);
-        }
-        out
-    }
-
-    #[inline]
-    fn reduce(block: &mut Self::Block, a: &Self::Block, b: &Self::Block) {
-        for r in 0..N {
-            for c in 0..N {
-                block[r][c] = block[r][c] - dot(&a[r], &b[c]);
-            }
-        }
-    }
-
-    #[inline]
-    fn reduce_square(block: &mut Self::Block, a: &Self::Block, b: &Self::Block) {
-        for r in 0..N {
-            for c in 0..=r {
-                block[r][c] = block[r][c] - dot(&a[r], &b[c]);
-            }
-        }
-    }
-
-    #[inline]
-    fn reduce_by(&mut self, block: &Self::Block, other: &Self) {
-        for r in 0..N {
-            self[r] = self[r] - dot(&block[r], other);
-        }
-    }
-
-    #[inline]
-    fn reduce_by_transposed(&mut self, block: &Self::Block, other: &Self) {
-        for (row, x) in block.iter().zip(other) {
-            for c in 0..N {
-                self[c] = self[c] - row[c] * *x;
-            }
-        }
+        // A rank of two has no third pivot.
+        let mut thin = <[f64; 3]>::EMPTY;
+        [1.0, 2.0, 3.0].add_square(1.0, &mut thin);
+        [0.0, 1.0, 1.0].add_square(1.0, &mut thin);
+        thin[2][2] -= 1e-9;
+        assert!(!<[f64; 3]>::factor(&mut thin));
+        assert!(!<[f32; 3]>::factor(&mut [[f32::NAN; 3]; 3]));
     }
 }
