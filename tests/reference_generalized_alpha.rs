@@ -107,7 +107,9 @@ fn more_of_a_fast_vibration_is_left_with_a_larger_rho() {
 /// The kernel's steps are those of the reference.
 #[test]
 fn the_kernel_takes_the_same_steps() {
-    for name in ["four-bar", "3ruu", "crank-slider", "six-bar", "double-wishbone", "macpherson", "gripper"] {
+    for name in
+        ["four-bar", "3ruu", "crank-slider", "six-bar", "double-wishbone", "macpherson", "gripper"]
+    {
         let scene = scene(name);
         let step = 2.5e-4;
         let (mechanism, start) = Mechanism::of(&scene);
@@ -117,11 +119,14 @@ fn the_kernel_takes_the_same_steps() {
         for steps in 1..=200 {
             reference.step();
             assert!(plant.step().is_running(), "{name}: {:?}", plant.status());
-            let apart = reference.state.bodies.iter().zip(&plant.state().bodies).map(|(a, b)| {
-                (a.position - nalgebra::Vector3::from(b.position.to_f64())).norm()
-            });
+            let apart =
+                reference.state.bodies.iter().zip(&plant.state().bodies).map(|(a, b)| {
+                    (a.position - nalgebra::Vector3::from(b.position.to_f64())).norm()
+                });
             let apart = apart.fold(0.0, f64::max);
-            if [1, 2, 10, 50, 200].contains(&steps) { println!("{name} {steps} {apart:e}"); }
+            if [1, 2, 10, 50, 200].contains(&steps) {
+                println!("{name} {steps} {apart:e}");
+            }
         }
     }
 }

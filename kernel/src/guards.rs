@@ -8,21 +8,22 @@ use crate::body::BodyState;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, TorsionIndex};
 use crate::model::Terms;
-use crate::real::Real as _;
+use crate::real::{Constant, Real as _};
 use crate::space::Linear as _;
-use crate::status::{Cause, MOST_TURN};
+use crate::status::Cause;
 use crate::words::{Sums, Words as _, is_finite};
 
-/// The first body with a number in its state that is infinite or NaN or that turns too far in a
-/// step, else the first turn count at its end.
+/// The first body with a number in its state that is infinite or NaN or that turns by more than `most` in a
+/// step `h`, else the first turn count at its end.
 #[inline]
 pub(crate) fn first_fault<P: Geometry, T: Terms>(
     bodies: &[BodyState<P>],
     turns: &[i32],
-    h: P::Real,
+    (h, most): (P::Real, Constant),
 ) -> Option<Cause> {
-    if !are_well::<P>(bodies, h)
-        && let Some(cause) = first_at_fault::<P>(bodies, h)
+    let most = P::Real::constant(most);
+    if !are_well::<P>(bodies, h, most * most)
+        && let Some(cause) = first_at_fault::<P>(bodies, h, most * most)
     {
         return Some(cause);
     }
@@ -35,7 +36,7 @@ pub(crate) fn first_fault<P: Geometry, T: Terms>(
 
 /// Whether all bodies are well for sure: all their numbers in one sum, all their turns in another.
 #[inline]
-fn are_well<P: Geometry>(bodies: &[BodyState<P>], h: P::Real) -> bool {
+fn are_well<P: Geometry>(bodies: &[BodyState<P>], h: P::Real, most: P::Real) -> bool {
     let (mut sums, mut squares) = (Sums::ZERO, P::Real::ZERO);
     for state in bodies {
         state.visit(&mut sums);
@@ -43,19 +44,21 @@ fn are_well<P: Geometry>(bodies: &[BodyState<P>], h: P::Real) -> bool {
         squares = squares + rate.dot(rate);
     }
     // Half of what a body may turn, so that rounding has room.
-    sums.are_finite() && squares * (h * h) <= P::Real::HALF
+    sums.are_finite() && squares * (h * h) <= P::Real::HALF * most
 }
 
 /// Body by body: what may be at fault need not be.
 #[cold]
 #[inline(never)]
-fn first_at_fault<P: Geometry>(bodies: &[BodyState<P>], h: P::Real) -> Option<Cause> {
-    // 1 rad: no conversion on a target without double precision.
-    const { assert!(MOST_TURN == 1.0) };
+fn first_at_fault<P: Geometry>(
+    bodies: &[BodyState<P>],
+    h: P::Real,
+    most: P::Real,
+) -> Option<Cause> {
     for (row, state) in bodies.iter().enumerate() {
         let body = BodyIndex(row as u16);
         let turn = P::spin(&state.angular_velocity) * h;
-        let slow = turn.dot(turn) <= P::Real::ONE;
+        let slow = turn.dot(turn) <= most;
         if !is_finite(state) {
             return Some(Cause::NonFinite { body });
         }

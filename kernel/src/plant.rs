@@ -11,6 +11,7 @@ use crate::damping::{Damping, Held, Share, find, share, weigh};
 use crate::elements::input::{Input, InputKind};
 use crate::extents::first_excess;
 use crate::forces::{Wrench, are_in_line, find_rests};
+use crate::frequency::bound;
 use crate::geometry::Geometry;
 use crate::guards::{first_beyond, first_fault};
 use crate::index::{BodyIndex, InputIndex};
@@ -21,9 +22,9 @@ use crate::real::Real;
 pub use crate::refusal::{InputError, PlantError, StateError};
 use crate::schedule::{KnotStep, LoadWindow, Signal, StageTime, sample};
 use crate::schemes::Scheme;
-use crate::state::State;
-use crate::status::{Cause, Failure, Status};
 use crate::solve;
+use crate::state::State;
+use crate::status::{Cause, Failure, MOST_TURN, Status};
 use crate::step::{Diagonal, Ledger, Stepper, Workspace};
 use crate::words::is_finite;
 
@@ -47,7 +48,7 @@ where
     state: State<H::Target>,
     frames: PerBody<H, FrameOf<H::Target>>,
     wrenches: PerBody<H, Wrench<SpaceOf<H::Target>>>,
-    memory: PerBody<H, S::Memory<<H::Target as ModelOwner>::Precision>>,
+    memory: MemoryOf<H, S>,
     in_line: bool,
     ledger: Ledger,
     status: Status,
@@ -57,6 +58,9 @@ where
 type PerTsda<H> = <<H as Deref>::Target as ModelOwner>::PerTsda<
     <<<H as Deref>::Target as ModelOwner>::Precision as Geometry>::Rest,
 >;
+/// What a scheme remembers of each body of the model that `H` points to.
+pub(crate) type MemoryOf<H, S> =
+    PerBody<H, <S as Scheme>::Memory<<<H as Deref>::Target as ModelOwner>::Precision>>;
 /// One `T` per body of the model that `H` points to.
 type PerBody<H, T> = <<H as Deref>::Target as ModelOwner>::PerBody<T>;
 
@@ -108,7 +112,9 @@ where
         let mut kept = S::Keeps::memory(owner);
         let levers = &mut kept.levers;
         let mut ledger = Ledger::default();
-        if <H::Target as ModelOwner>::Terms::DAMPERS && !matches!(S::DAMPING, Damping::Explicit | Damping::Implicit) {
+        if <H::Target as ModelOwner>::Terms::DAMPERS
+            && !matches!(S::DAMPING, Damping::Explicit | Damping::Implicit)
+        {
             let (bodies, signals) = (state.bodies.as_ref(), state.signals.as_ref());
             place_bodies(bodies, frames.as_mut());
             let places = Places { frames: frames.as_ref(), signals };
@@ -124,6 +130,12 @@ where
         if S::Keeps::MATRIX {
             place_bodies(state.bodies.as_ref(), frames.as_mut());
             let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
+            if let Some(most) = S::MOST_VIBRATION {
+                let (most, found) = (RealOf::<H::Target>::constant(most), bound(owner, &state));
+                if !(found * h <= most) {
+                    return Err(PlantError::Stiff((most / found).to_f64()));
+                }
+            }
             solve::find(&view, places, scheme.pencil(h), kept.seats.as_mut());
         }
         let wrenches = owner.per_body(Wrench::default());
@@ -262,8 +274,14 @@ where
     #[must_use]
     pub fn fault(&self) -> Option<Cause> {
         let (bodies, turns) = (self.state.bodies.as_ref(), self.state.turns.as_ref());
-        first_fault::<_, <H::Target as ModelOwner>::Terms>(bodies, turns, self.h)
-            .or_else(|| first_beyond(bodies))
+        let limits = (self.h, S::MOST_TURN);
+        match first_fault::<_, <H::Target as ModelOwner>::Terms>(bodies, turns, limits) {
+            Some(Cause::Spin { body }) if S::MOST_TURN.single < MOST_TURN as f32 => {
+                Some(Cause::Turn { body })
+            }
+            None => first_beyond(bodies),
+            some => some,
+        }
     }
 
     /// Forgets a failure and leaves the state as it failed. What is not finite, spins too fast or is
@@ -420,6 +438,25 @@ where
         self.ledger.begun = false;
         self.status = Status::Running;
         self.sample();
+    }
+
+    /// What the scheme remembers of the bodies, where that is of the present state.
+    pub(crate) fn remembered(&self) -> Option<&MemoryOf<H, S>> {
+        (S::REMEMBERS && self.ledger.begun).then_some(&self.memory)
+    }
+
+    /// Goes on from a state with what the scheme remembers of it.
+    pub(crate) fn resume_with(&mut self, state: State<H::Target>, memory: Option<MemoryOf<H, S>>) {
+        self.resume(state);
+        if let Some(memory) = memory {
+            self.memory = memory;
+            self.ledger.begun = true;
+        }
+    }
+
+    /// Memory for what the scheme remembers.
+    pub(crate) fn memory(&self) -> MemoryOf<H, S> {
+        self.memory.clone()
     }
 
     /// FNV-1a 64 over the state's words.

@@ -30,7 +30,10 @@ impl core::fmt::Display for PlantError {
             PlantError::Extent(excess) => excess.fmt(f),
             PlantError::Plan => f.write_str("the model has no plan of elimination for the scheme"),
             PlantError::Stiff(most) => {
-                write!(f, "joints as stiff as these bear a step of {most} s at most in this precision")
+                write!(
+                    f,
+                    "joints as stiff as these bear a step of {most} s at most in this precision"
+                )
             }
         }
     }

@@ -2,7 +2,8 @@
 //!
 //! `plant => bytes => plant`. Little-endian: magic `DBDS`, version (u16), fingerprint of the scheme
 //! (u32), fingerprint of model, precision and step (u64), the state's words in the order of its
-//! hash, then two words per input, then the CRC-32 (IEEE 802.3, reflected) of all before it. A
+//! hash, then two words per input, then, of a scheme that remembers the step before, whether it does and
+//! its words per body, then the CRC-32 (IEEE 802.3, reflected) of all before it. A
 //! plant of the same model, scheme and step, on whatever target, goes on with the very same bits.
 //! Bytes that do not fit are refused and change nothing.
 
@@ -47,7 +48,7 @@ pub enum SnapshotError {
     Checksum,
     /// It is the state of another model, precision or step.
     Model,
-    /// It is of another scheme, way of damping or number of Newton iterations.
+    /// It is of another scheme, way of damping, number of Newton iterations or ρ∞.
     Scheme,
     /// It holds a number that is not finite.
     NotFinite,
@@ -148,10 +149,16 @@ where
             signal.fill(&mut source);
             signal.visit(&mut finite);
         }
+        let begun = S::REMEMBERS && source.take(4) != 0;
+        let mut memory = begun.then(|| self.memory());
+        for of_body in memory.iter_mut().flat_map(|memory| memory.as_mut()) {
+            S::fill_memory(of_body, &mut source);
+            S::visit_memory(of_body, &mut finite);
+        }
         if !finite.0 {
             return Err(SnapshotError::NotFinite);
         }
-        self.resume(state);
+        self.resume_with(state, memory);
         Ok(())
     }
 
@@ -175,14 +182,15 @@ where
         hash.finish()
     }
 
-    /// FNV-1a 64 over the scheme's name, its way of damping and its evaluations per step, which
-    /// tell its Newton iterations, folded to 32 bits.
+    /// FNV-1a 64 over the scheme's name, its way of damping, its evaluations per step, which tell its
+    /// Newton iterations, and its other parameters, folded to 32 bits.
     fn scheme_fingerprint(&self) -> u32 {
         let mut hash = Fnv1a::new();
         for byte in S::NAME.bytes().chain(S::DAMPING.name().bytes()) {
             hash.word(Word::I32(i32::from(byte)));
         }
         hash.word(Word::U64(u64::from(self.scheme().evaluations())));
+        self.scheme().visit_parameters(&mut hash);
         let hash = hash.finish();
         (hash >> 32) as u32 ^ hash as u32
     }
@@ -191,6 +199,14 @@ where
         self.state().visit(visitor);
         for signal in self.state().signals.as_ref() {
             signal.visit(visitor);
+        }
+        if S::REMEMBERS {
+            let remembered = self.remembered();
+            visitor.word(Word::I32(i32::from(remembered.is_some())));
+            // Not begun it has the words, too: a snapshot's size is that of its plant.
+            let memory = remembered
+                .map_or_else(|| self.model().per_body(S::Memory::default()), Clone::clone);
+            memory.as_ref().iter().for_each(|of_body| S::visit_memory(of_body, visitor));
         }
     }
 }

@@ -44,6 +44,12 @@ pub enum Cause {
         /// The first such body.
         body: BodyIndex,
     },
+    /// This body turns farther in a step than the scheme bears:
+    /// [`Scheme::MOST_TURN`](crate::Scheme::MOST_TURN), less than [`MOST_TURN`].
+    Turn {
+        /// The first such body.
+        body: BodyIndex,
+    },
     /// This body is farther from the origin, or moved farther in a step, than fixed-point numbers hold.
     Extent {
         /// The first such body.
@@ -107,6 +113,9 @@ impl core::fmt::Display for Failure {
             }
             Cause::Spin { body } => {
                 write!(f, "body {} turns by more than {MOST_TURN} rad in a step", body.0)?;
+            }
+            Cause::Turn { body } => {
+                write!(f, "body {} turns farther in a step than the scheme bears", body.0)?;
             }
             Cause::Extent { body } => {
                 write!(f, "body {} is farther away than fixed-point numbers hold", body.0)?;

@@ -6,8 +6,8 @@
 
 use dbd_kernel::damping::Damping;
 use dbd_kernel::schemes::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Leapfrog, Pefrl, Rk4, Scheme,
-    SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Leapfrog, Pefrl, Rk4,
+    Scheme, SemiImplicitEuler,
 };
 use miette::Diagnostic;
 use thiserror::Error;

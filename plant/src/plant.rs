@@ -12,9 +12,9 @@ use dbd_kernel::energy::energy;
 #[cfg(all(feature = "comparison", not(test)))]
 use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
 use dbd_kernel::index::InputIndex;
+use dbd_kernel::keep::Keep as _;
 #[cfg(all(feature = "comparison", not(test)))]
 use dbd_kernel::loose::{Loose32, LooseEuler32, LooseSingleEuler32};
-use dbd_kernel::keep::Keep as _;
 use dbd_kernel::plant::{self as kernel, InputError, Plant, StateError};
 use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::schedule::Signal;

@@ -66,9 +66,10 @@ impl Elimination {
                 plan.targets.extend(first);
             }
         }
-        plan.homes = ends.iter().map(|&[a, b]| {
-            rows.get(&[a, b]).or(rows.get(&[b, a])).copied().unwrap_or(Plan::GROUND)
-        }).collect();
+        plan.homes = ends
+            .iter()
+            .map(|&[a, b]| rows.get(&[a, b]).or(rows.get(&[b, a])).copied().unwrap_or(Plan::GROUND))
+            .collect();
         // The last number is the ground's.
         (plan.pairs.len() <= usize::from(Plan::GROUND)).then_some(plan)
     }
@@ -83,7 +84,8 @@ impl Elimination {
     /// How many pairs elimination fills.
     #[must_use]
     pub fn filled(&self) -> usize {
-        self.pairs.len() - self.homes.iter().filter(|home| **home != Plan::GROUND).collect::<BTreeSet<_>>().len()
+        self.pairs.len()
+            - self.homes.iter().filter(|home| **home != Plan::GROUND).collect::<BTreeSet<_>>().len()
     }
 }
 

@@ -19,6 +19,9 @@ impl Scene {
             Cause::Spin { body } => {
                 format!("body `{}` turns by more than {MOST_TURN} rad in a step", name(body))
             }
+            Cause::Turn { body } => {
+                format!("body `{}` turns farther in a step than the scheme bears", name(body))
+            }
             Cause::Extent { body } => {
                 let body = name(body);
                 format!("body `{body}` is farther away, or faster, than fixed-point numbers hold")

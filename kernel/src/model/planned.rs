@@ -49,7 +49,9 @@ where
     type PerKnot = <H::Target as ModelOwner>::PerKnot;
 
     #[inline(always)]
-    fn view(&self) -> ModelRef<'_, <H::Target as ModelOwner>::Precision, <H::Target as ModelOwner>::Terms> {
+    fn view(
+        &self,
+    ) -> ModelRef<'_, <H::Target as ModelOwner>::Precision, <H::Target as ModelOwner>::Terms> {
         self.model.view()
     }
 

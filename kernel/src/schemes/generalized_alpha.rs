@@ -28,10 +28,10 @@ use crate::real::{Constant, Real};
 use crate::rotation;
 use crate::schemes::Scheme;
 use crate::solve::Pencil;
-use crate::space::{Linear as _, Moment as _, Space};
+use crate::space::{Moment as _, Space};
 use crate::status::Cause;
 use crate::step::Stepper;
-use crate::words::{WordSource, WordVisitor, Words as _};
+use crate::words::{Word, WordSource, WordVisitor, Words as _};
 
 /// One linear solve per step: for joints that are all but rigid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -148,6 +148,10 @@ impl Scheme for GeneralizedAlpha {
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Implicit;
     const REMEMBERS: bool = true;
+    // One Newton step does not follow what turns farther.
+    const MOST_TURN: Constant = Constant::new(0.5);
+    // The matrix' rounding is as its condition, the square of this: beyond it free motion drags.
+    const MOST_VIBRATION: Option<Constant> = Some(Constant { double: 1e7, single: 500.0 });
     type Memory<P: Geometry> = GeneralizedAlphaMemory<P>;
     type Keeps = Matrix;
 
@@ -157,6 +161,10 @@ impl Scheme for GeneralizedAlpha {
 
     fn stability_limit(&self) -> f64 {
         f64::INFINITY
+    }
+
+    fn visit_parameters(&self, visitor: &mut impl WordVisitor) {
+        visitor.word(Word::F64(self.rho));
     }
 
     #[inline(always)]

@@ -29,9 +29,9 @@ use crate::damping::Damping;
 use crate::geometry::Geometry;
 use crate::keep::Keep;
 use crate::model::Terms;
-use crate::real::Real;
+use crate::real::{Constant, Real};
 use crate::solve::Pencil;
-use crate::status::Cause;
+use crate::status::{Cause, MOST_TURN};
 use crate::step::Stepper;
 use crate::words::{WordSource, WordVisitor};
 
@@ -47,6 +47,11 @@ pub trait Scheme: Copy {
     const DAMPING: Damping;
     /// Whether what it remembers of a body goes on from step to step: it is part of a snapshot then.
     const REMEMBERS: bool = false;
+    /// \[rad\] what a body may turn in a step.
+    const MOST_TURN: Constant = Constant::new(MOST_TURN);
+    /// \[rad\] the largest `ω·h` of what a model's mounts can vibrate with that its matrix bears in double
+    /// and in single precision.
+    const MOST_VIBRATION: Option<Constant> = None;
     /// Memory per body that the scheme needs within a step, or from one to the next.
     type Memory<P: Geometry>: Copy + Default + Send;
     /// What its plants keep beside it: [`Nothing`](crate::keep::Nothing),
@@ -59,6 +64,9 @@ pub trait Scheme: Copy {
 
     /// Largest stable `ω_max·h` of an undamped oscillator; all smaller ones are stable, too.
     fn stability_limit(&self) -> f64;
+
+    /// Hands its parameters to the visitor, as far as [`Self::evaluations`] does not tell them.
+    fn visit_parameters(&self, _visitor: &mut impl WordVisitor) {}
 
     /// The weights of mass, damping and stiffness in its matrix, for a scheme that has one.
     fn pencil<R: Real>(&self, _h: R) -> Pencil<R> {

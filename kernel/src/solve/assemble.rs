@@ -17,7 +17,7 @@ use crate::solve::plan::Plan;
 use crate::solve::seat::Seat;
 use crate::solve::springs::springs;
 use crate::solve::system::{BlockOf, System};
-use crate::space::{Linear as _, Moment as _, Space, Vector as _};
+use crate::space::{Linear as _, Space, Vector as _};
 
 /// The weights of mass, damping and stiffness in a matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -94,14 +94,14 @@ macro_rules! freedoms {
             fn factor(block: &mut Self::Block) -> bool {
                 let (mut positive, mut row) = (true, Self::ZERO);
                 $(
-                    let mut pivot = block[$r][$r];
+                    let pivot = block[$r][$r];
                     $(
                         row[$c] = block[$r][$c];
                         $(row[$c] = row[$c] - block[$c][$k] * row[$k];)*
                     )*
                     $(
                         let l = row[$c] * block[$c][$c];
-                        pivot = pivot - l * row[$c];
+                        let pivot = pivot - l * row[$c];
                         block[$r][$c] = l;
                     )*
                     positive &= R::ZERO < pivot;

@@ -5,8 +5,8 @@
 use dbd_kernel::damping::Damping;
 use dbd_kernel::keep::Keep as _;
 use dbd_kernel::schemes::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Kicked, Leapfrog, Pefrl, Rk4, Scheme,
-    SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Kicked, Leapfrog,
+    Pefrl, Rk4, Scheme, SemiImplicitEuler,
 };
 
 use super::number::SourceNumber as _;
