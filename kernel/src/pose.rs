@@ -15,7 +15,7 @@ use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelRef, Terms};
 use crate::real::Real;
 use crate::schedule::Signal;
-use crate::space::{Linear as _, Moment as _, Vector};
+use crate::space::{Linear as _, Moment as _, Space as _, Vector};
 
 /// Computes the frames of all bodies.
 #[inline(always)]
@@ -336,6 +336,21 @@ fn twist_apart<P: Geometry>(
     turns: CountOf<P>,
 ) -> Option<Twist<P::Space>> {
     twist_here(spring, bodies, turns)
+}
+
+/// The gradient of a torsion spring's twist in the axes of its first body, `None` where it is undefined.
+#[inline(always)]
+pub(crate) fn gradient_of<P: Geometry>(
+    spring: &TorsionSpring<P::Space>,
+    bodies: &[BodyState<P>],
+) -> Option<P::Moment> {
+    if P::Space::PLANAR {
+        return Some(spring.axis);
+    }
+    let orientation = |row: usize| bodies.get(row).map(|s| &s.orientation);
+    let relative =
+        P::Orientation::relative(orientation(spring.a.row()), orientation(spring.b.row()));
+    Some(spring.since_start(relative)?.gradient(spring.axis))
 }
 
 #[inline(always)]

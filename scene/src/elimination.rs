@@ -12,7 +12,7 @@ use dbd_kernel::solve::Plan;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Elimination {
     /// [`Plan::order`].
-    pub order: Vec<u16>,
+    pub order: Vec<[u16; 2]>,
     /// [`Plan::pairs`].
     pub pairs: Vec<[u16; 2]>,
     /// [`Plan::targets`].
@@ -47,17 +47,18 @@ impl Elimination {
                 near.extend(joined.iter().copied().filter(|b| *b != a));
                 left.insert((near.len(), a));
             }
-            plan.order.push(next);
+            plan.order.push([next, joined.len() as u16]);
             columns.push(joined);
         }
-        let places: BTreeMap<u16, usize> = plan.order.iter().copied().zip(0..).collect();
+        let places: BTreeMap<u16, usize> =
+            plan.order.iter().map(|[body, _]| *body).zip(0..).collect();
         let mut rows = BTreeMap::new();
-        for (&first, joined) in plan.order.iter().zip(&columns) {
+        for ([first, _], joined) in plan.order.iter().zip(&columns) {
             let mut joined: Vec<u16> = joined.iter().copied().collect();
             joined.sort_by_key(|body| places[body]);
             for second in joined {
-                rows.insert([first, second], u16::try_from(plan.pairs.len()).ok()?);
-                plan.pairs.push([first, second]);
+                rows.insert([*first, second], u16::try_from(plan.pairs.len()).ok()?);
+                plan.pairs.push([*first, second]);
             }
         }
         for column in plan.pairs.chunk_by(|a, b| a[0] == b[0]) {
@@ -104,7 +105,10 @@ mod tests {
         let star = [[0, 1], [2, 0], [0, 3], [4, 0]];
         let plan = Elimination::new(5, &star).unwrap();
         assert!(plan.plan().fits(5, star.into_iter()), "{plan:?}");
-        assert_eq!((plan.order.iter().position(|body| *body == 0), plan.filled()), (Some(3), 0));
+        assert_eq!(
+            (plan.order.iter().position(|[body, _]| *body == 0), plan.filled()),
+            (Some(3), 0)
+        );
     }
 
     #[test]

@@ -22,7 +22,7 @@ pub struct Planned<
     /// The model, by any pointer: `&M` for one in flash.
     pub model: H,
     /// [`Plan::order`].
-    pub order: [u16; ORDER],
+    pub order: [[u16; 2]; ORDER],
     /// [`Plan::pairs`].
     pub pairs: [[u16; 2]; PAIRS],
     /// [`Plan::targets`].

@@ -10,7 +10,7 @@ use crate::elements::point_law::Stretch;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, ModelRef, Terms};
-use crate::pose::{End, Places, held_turns, placed, twist_of};
+use crate::pose::{End, Places, gradient_of, held_turns, placed};
 use crate::real::Real;
 use crate::solve::freedoms::Freedoms;
 use crate::solve::plan::Plan;
@@ -42,7 +42,7 @@ impl<R: Real> Pencil<R> {
 pub(crate) fn assemble<P: Geometry, T: Terms>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
-    (bodies, turns): (&[BodyState<P>], &[i32]),
+    bodies: &[BodyState<P>],
     (pencil, seats): (Pencil<P::Real>, &[Seat<P::Space>]),
     system: &mut System<'_, P::Space>,
 ) {
@@ -62,10 +62,9 @@ pub(crate) fn assemble<P: Geometry, T: Terms>(
         }
     }
     if T::TORSIONS {
-        let springs = model.torsions.iter().zip(P::Real::counts(turns));
-        for (row, (spring, &turns)) in springs.enumerate() {
-            let Some(twist) = twist_of::<P>(spring, bodies, turns) else { continue };
-            let gradient = End::new(model, places, spring.a, None).moment_to_world(twist.gradient);
+        for (row, spring) in model.torsions.iter().enumerate() {
+            let Some(gradient) = gradient_of::<P>(spring, bodies) else { continue };
+            let gradient = End::new(model, places, spring.a, None).moment_to_world(gradient);
             let damping = spring.damper.row().and_then(|row| model.dampers.get(row).copied());
             let weight = pencil.weight(spring.stiffness, damping.unwrap_or(P::Real::ZERO));
             let mut mount = Mount::new(system, [spring.a, spring.b], model.groups.len() + row);

@@ -7,8 +7,8 @@
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Plan<'m> {
-    /// Every body once.
-    pub order: &'m [u16],
+    /// Every body once, with the number of pairs that are eliminated with it.
+    pub order: &'m [[u16; 2]],
     /// Two bodies whose block is not empty, also those that elimination fills: the one that is eliminated
     /// first, then the other; sorted by the places of these in the order.
     pub pairs: &'m [[u16; 2]],
@@ -30,7 +30,7 @@ impl Plan<'_> {
     #[must_use]
     pub fn fits(&self, bodies: usize, ends: impl Iterator<Item = [u16; 2]>) -> bool {
         let is_ground = |body: u16| usize::from(body) >= bodies;
-        let place = |body: u16| self.order.iter().position(|known| *known == body);
+        let place = |body: u16| self.order.iter().position(|[known, _]| *known == body);
         let all_once = self.order.len() == bodies
             && (0..bodies).all(|body| u16::try_from(body).is_ok_and(|body| place(body).is_some()));
         if !all_once {
@@ -56,12 +56,17 @@ impl Plan<'_> {
                 return false;
             }
         }
-        homes.next().is_none() && self.targets_fit()
+        homes.next().is_none() && self.counts_fit() && self.targets_fit()
+    }
+
+    fn counts_fit(&self) -> bool {
+        let of = |body: u16| self.pairs.iter().filter(|pair| pair[0] == body).count();
+        self.order.iter().all(|[body, count]| of(*body) == usize::from(*count))
     }
 
     fn targets_fit(&self) -> bool {
         let mut targets = self.targets.iter();
-        for body in self.order {
+        for [body, _] in self.order {
             let mut column = self.pairs.iter().filter(|pair| pair[0] == *body).enumerate();
             let with_it = self.pairs.iter().filter(|pair| pair[0] == *body);
             let all = column.all(|(i, [_, second])| {
@@ -84,7 +89,7 @@ mod tests {
 
     /// A ring of four bodies, the first on the ground: one pair is filled.
     const RING: Plan<'static> = Plan {
-        order: &[0, 1, 2, 3],
+        order: &[[0, 2], [1, 2], [2, 1], [3, 0]],
         pairs: &[[0, 1], [0, 3], [1, 2], [1, 3], [2, 3]],
         targets: &[3, 4],
         homes: &[Plan::GROUND, 0, 2, 4, 1],
@@ -96,13 +101,19 @@ mod tests {
         assert!(RING.fits(4, ENDS.into_iter()));
         assert!(!RING.fits(5, ENDS.into_iter()));
         assert!(!RING.fits(4, ENDS.into_iter().take(4)));
-        assert!(!Plan { order: &[0, 1, 1, 3], ..RING }.fits(4, ENDS.into_iter()));
+        assert!(
+            !Plan { order: &[[0, 2], [1, 2], [1, 1], [3, 0]], ..RING }.fits(4, ENDS.into_iter())
+        );
+        let order = &[[0, 1], [1, 2], [2, 1], [3, 0]];
+        assert!(!Plan { order, ..RING }.fits(4, ENDS.into_iter()));
         assert!(!Plan { targets: &[3], ..RING }.fits(4, ENDS.into_iter()));
         assert!(!Plan { targets: &[4, 3], ..RING }.fits(4, ENDS.into_iter()));
         assert!(!Plan { homes: &[Plan::GROUND, 0, 2, 4, 2], ..RING }.fits(4, ENDS.into_iter()));
         // Without what elimination fills there is nowhere to put it.
-        let unfilled = Plan { pairs: &[[0, 1], [0, 3], [1, 2], [2, 3]], targets: &[3, 3], ..RING };
-        let unfilled = Plan { homes: &[Plan::GROUND, 0, 2, 3, 1], ..unfilled };
+        let order = &[[0, 2], [1, 1], [2, 1], [3, 0]];
+        let unfilled = Plan { order, pairs: &[[0, 1], [0, 3], [1, 2], [2, 3]], ..RING };
+        let homes = &[Plan::GROUND, 0, 2, 3, 1];
+        let unfilled = Plan { targets: &[3], homes, ..unfilled };
         assert!(!unfilled.fits(4, ENDS.into_iter()));
     }
 }

@@ -27,32 +27,27 @@ impl<S: Space> System<'_, S> {
     /// # Errors
     /// The first body with a pivot that is not positive: its state or its neighbours' is beyond numbers.
     pub(crate) fn factor(&mut self) -> Result<(), BodyIndex> {
-        let (mut first, mut targets) = (0, self.plan.targets.iter());
-        for &body in self.plan.order {
+        let Plan { order, mut pairs, mut targets, .. } = self.plan;
+        let (mut blocks, mut first) = (&mut *self.pairs, 0);
+        for &[body, count] in order {
             let row = usize::from(body);
             let Some(block) = self.diagonal.get_mut(row) else { continue };
             if !S::Row::factor(block) {
                 return Err(BodyIndex(body));
             }
             let factor = *block;
-            let with = column(&self.plan, first, body);
-            let Some((head, later)) = self.pairs.split_at_mut_checked(first + with.len()) else {
-                continue;
-            };
-            let here = head.get_mut(first..).unwrap_or_default();
-            for block in here.iter_mut() {
+            let count = usize::from(count);
+            let Some((with, other_pairs)) = pairs.split_at_checked(count) else { break };
+            let Some((here, later)) = blocks.split_at_mut_checked(count) else { break };
+            first += count;
+            for (i, [_, second]) in with.iter().enumerate() {
+                let Some((before, [block, ..])) = here.split_at_mut_checked(i) else { break };
                 S::Row::forward_block(block, &factor);
-            }
-            for i in 0..with.len() {
-                let (Some((before, [block, ..])), Some([_, second])) =
-                    (here.split_at_mut_checked(i), with.get(i))
-                else {
-                    continue;
-                };
                 let divided = S::Row::divided(block, &factor);
                 for other in before.iter() {
-                    let target = targets.next().map_or(0, |row| usize::from(*row));
-                    let target = target.checked_sub(first + with.len());
+                    let Some((target, rest)) = targets.split_first() else { break };
+                    targets = rest;
+                    let target = usize::from(*target).checked_sub(first);
                     if let Some(target) = target.and_then(|row| later.get_mut(row)) {
                         // The ones before are divided by now.
                         S::Row::reduce(target, block, other);
@@ -63,24 +58,25 @@ impl<S: Space> System<'_, S> {
                 }
                 *block = divided;
             }
-            first += with.len();
+            (pairs, blocks) = (other_pairs, later);
         }
         Ok(())
     }
 
     /// Solves a factored system for right sides that lie in wrenches.
     pub(crate) fn substitute(&self, right: &mut [Wrench<S>]) {
-        let mut first = 0;
-        for &body in self.plan.order {
+        let (mut pairs, mut blocks) = (self.plan.pairs, &*self.pairs);
+        for &[body, count] in self.plan.order {
             let row = usize::from(body);
-            let (Some(factor), Some(own)) = (self.diagonal.get(row), right.get_mut(row)) else {
+            let (Some(factor), Some(own)) = (self.diagonal.get(row), right.get(row)) else {
                 continue;
             };
             let mut x = S::row(own.force, own.torque);
             x.forward(factor);
-            let with = column(&self.plan, first, body);
-            let blocks = self.pairs.get(first..).unwrap_or_default();
-            for ([_, second], block) in with.iter().zip(blocks) {
+            let count = usize::from(count);
+            let Some((with, other_pairs)) = pairs.split_at_checked(count) else { break };
+            let Some((here, later)) = blocks.split_at_checked(count) else { break };
+            for ([_, second], block) in with.iter().zip(here) {
                 if let Some(other) = right.get_mut(usize::from(*second)) {
                     let mut y = S::row(other.force, other.torque);
                     y.reduce_by(block, &x);
@@ -91,19 +87,19 @@ impl<S: Space> System<'_, S> {
             if let Some(own) = right.get_mut(row) {
                 *own = wrench::<S>(x);
             }
-            first += with.len();
+            (pairs, blocks) = (other_pairs, later);
         }
-        for &body in self.plan.order.iter().rev() {
+        let (mut pairs, mut blocks) = (self.plan.pairs, &*self.pairs);
+        for &[body, count] in self.plan.order.iter().rev() {
             let row = usize::from(body);
             let (Some(factor), Some(own)) = (self.diagonal.get(row), right.get(row)) else {
                 continue;
             };
             let mut x = S::row(own.force, own.torque);
-            let with = self.plan.pairs.get(..first).unwrap_or_default();
-            let with = with.iter().rev().take_while(|pair| pair[0] == body).count();
-            first -= with;
-            let pairs = self.plan.pairs.iter().zip(self.pairs.iter()).skip(first).take(with);
-            for ([_, second], block) in pairs {
+            let before = pairs.len().saturating_sub(usize::from(count));
+            let Some((other_pairs, with)) = pairs.split_at_checked(before) else { break };
+            let Some((earlier, here)) = blocks.split_at_checked(before) else { break };
+            for ([_, second], block) in with.iter().zip(here) {
                 if let Some(other) = right.get(usize::from(*second)) {
                     x.reduce_by_transposed(block, &S::row(other.force, other.torque));
                 }
@@ -112,15 +108,9 @@ impl<S: Space> System<'_, S> {
             if let Some(own) = right.get_mut(row) {
                 *own = wrench::<S>(x);
             }
+            (pairs, blocks) = (other_pairs, earlier);
         }
     }
-}
-
-/// The pairs of a plan from `first` on that are eliminated with a body.
-fn column<'p>(plan: &Plan<'p>, first: usize, body: u16) -> &'p [[u16; 2]] {
-    let rest = plan.pairs.get(first..).unwrap_or_default();
-    let count = rest.iter().take_while(|pair| pair[0] == body).count();
-    rest.get(..count).unwrap_or_default()
 }
 
 fn wrench<S: Space>(row: S::Row) -> Wrench<S> {

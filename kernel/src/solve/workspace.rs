@@ -43,7 +43,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
         let mut system = System { plan, diagonal: self.blocks, pairs: self.pair_blocks };
         let places = Places { frames: &*self.frames, signals: &*self.signals };
         let known = (pencil, &*self.seats);
-        assemble(&self.model, places, (self.bodies, self.turns), known, &mut system);
+        assemble(&self.model, places, self.bodies, known, &mut system);
         system.factor().map_err(|body| Cause::Pivot { body })?;
         system.substitute(self.wrenches);
         Ok(())
