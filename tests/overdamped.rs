@@ -1,8 +1,9 @@
 //! Slow motion of strongly damped elements: what a step of the order of the undamped period makes
 //! of it.
 
-use dbd_kernel::damping::{Damping, NoLevers};
+use dbd_kernel::damping::Damping;
 use dbd_kernel::forces::{self, At, DampersLeft};
+use dbd_kernel::keep::Nothing;
 use dbd_kernel::model::Terms;
 use dbd_kernel::status::Cause;
 use dbd_kernel::step::Stepper;
@@ -25,7 +26,7 @@ impl Scheme for SweepsAlone {
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Sweeps;
     type Memory<P: Geometry> = ();
-    type Levers = NoLevers;
+    type Keeps = Nothing;
 
     fn evaluations(&self) -> u32 {
         1

@@ -1,7 +1,8 @@
 //! A scheme written outside the kernel, with what the kernel offers to schemes.
 
-use dbd_kernel::damping::{Damping, NoLevers};
+use dbd_kernel::damping::Damping;
 use dbd_kernel::forces::{At, DampersLeft, ExplicitDampers};
+use dbd_kernel::keep::Nothing;
 use dbd_kernel::model::Terms;
 use dbd_kernel::status::Cause;
 use dbd_kernel::step::Stepper;
@@ -19,7 +20,7 @@ impl Scheme for Verlet {
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Sweeps;
     type Memory<P: Geometry> = ();
-    type Levers = NoLevers;
+    type Keeps = Nothing;
 
     fn evaluations(&self) -> u32 {
         1
@@ -55,7 +56,7 @@ impl Scheme for Midpoint {
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Explicit;
     type Memory<P: Geometry> = BodyState<P>;
-    type Levers = NoLevers;
+    type Keeps = Nothing;
 
     fn evaluations(&self) -> u32 {
         2

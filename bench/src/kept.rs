@@ -6,9 +6,10 @@
 //! h⁴ (Hairer, Lubich & Wanner 2006, IX.3). Semi-implicit Euler is the same half a kick later. Everything here
 //! is in double precision. For models without dampers, loads and tables.
 
-use dbd_kernel::damping::{Damping, NoLevers};
+use dbd_kernel::damping::Damping;
 use dbd_kernel::energy::energy;
 use dbd_kernel::forces::{At, DampersLeft};
+use dbd_kernel::keep::Nothing;
 use dbd_kernel::model::Terms;
 use dbd_kernel::plant::{Plant, PlantError};
 use dbd_kernel::status::Cause;
@@ -113,7 +114,7 @@ macro_rules! part_of_a_step {
             const ORDER_DAMPED: u32 = 0;
             const DAMPING: Damping = Damping::Explicit;
             type Memory<P: Geometry> = ();
-            type Levers = NoLevers;
+            type Keeps = Nothing;
 
             fn evaluations(&self) -> u32 {
                 1

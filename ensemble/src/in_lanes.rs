@@ -3,10 +3,10 @@
 //! `scheme => whether lanes can`.
 
 use dbd_kernel::Scheme;
-use dbd_kernel::damping::NoLevers;
+use dbd_kernel::keep::Nothing;
 
 /// A scheme that lanes can step: all but those that damp joint by joint, whose levers are searched for
 /// in each instance by itself.
-pub trait InLanes: Scheme<Levers = NoLevers> {}
+pub trait InLanes: Scheme<Keeps = Nothing> {}
 
-impl<S: Scheme<Levers = NoLevers>> InLanes for S {}
+impl<S: Scheme<Keeps = Nothing>> InLanes for S {}

@@ -17,6 +17,8 @@ pub struct Settings {
     pub scheme: Option<String>,
     /// Newton iterations, for the schemes that have them.
     pub newton: Option<u32>,
+    /// ρ∞, for the scheme that has it.
+    pub rho: Option<f64>,
     /// The damping's name, [`DampingName`].
     pub damping: Option<String>,
     /// The precision's name, [`PrecisionName`].
@@ -35,6 +37,10 @@ impl Settings {
         let precision = choice("precision", self.precision.as_deref())?;
         let precision: PrecisionName = precision.unwrap_or_default();
         let method = Method::new(scheme, self.newton, precision)?;
+        let method = match self.rho {
+            Some(rho) => method.with_rho(rho)?,
+            None => method,
+        };
         Ok(match choice::<DampingName>("damping", self.damping.as_deref())? {
             Some(damping) => method.with_damping(damping)?,
             None => method,

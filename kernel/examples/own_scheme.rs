@@ -1,7 +1,8 @@
 //! A scheme of one's own, half a drift, a kick, half a drift: `cargo run --example own_scheme`.
 
-use dbd_kernel::damping::{Damping, NoLevers};
+use dbd_kernel::damping::Damping;
 use dbd_kernel::forces::{At, ExplicitDampers};
+use dbd_kernel::keep::Nothing;
 use dbd_kernel::model::Terms;
 use dbd_kernel::sketch::{Sketch, Spring, Start};
 use dbd_kernel::status::Cause;
@@ -18,7 +19,7 @@ impl Scheme for PositionVerlet {
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
     type Memory<P: Geometry> = ();
-    type Levers = NoLevers;
+    type Keeps = Nothing;
 
     fn evaluations(&self) -> u32 {
         1

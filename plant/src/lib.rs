@@ -59,7 +59,7 @@ pub mod time;
 
 pub use any::AnyPlant;
 pub use frequencies::Frequencies;
-pub use method::{Method, MethodError};
+pub use method::{MOST_RHO, Method, MethodError};
 pub use names::{DampingName, Named, OrientationName, PrecisionName, SchemeName};
 pub use plan::{Plan, PlanError};
 pub use plant::{PlantError, plant, plant_of_model};

@@ -6,8 +6,8 @@
 
 use dbd_kernel::damping::Damping;
 use dbd_kernel::schemes::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Leapfrog, Pefrl, Rk4,
-    Scheme, SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Leapfrog, Pefrl,
+    RhoError, Rk4, Scheme, SemiImplicitEuler,
 };
 use miette::Diagnostic;
 use thiserror::Error;
@@ -16,6 +16,9 @@ use crate::names::{DampingName, Named as _, OrientationName, PrecisionName, Sche
 
 /// Newton iterations that may be asked for: more change nothing but the stable step.
 pub const MOST_ITERATIONS: u32 = 8;
+
+/// The largest ρ∞ that may be asked for.
+pub const MOST_RHO: f64 = GeneralizedAlpha::MOST_RHO;
 
 /// A scheme with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +47,7 @@ pub struct Method {
 }
 
 /// Why there is no such method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error, Diagnostic)]
+#[derive(Clone, Copy, Debug, PartialEq, Error, Diagnostic)]
 pub enum MethodError {
     /// Newton iterations for a scheme without any.
     #[error("the scheme {scheme} has no Newton iterations")]
@@ -62,6 +65,17 @@ pub enum MethodError {
         /// How many.
         newton: u32,
     },
+    /// ρ∞ for a scheme without it.
+    #[error("the scheme {scheme} has no rho")]
+    #[diagnostic(help("--rho goes with --scheme generalized-alpha; leave it out for {scheme}"))]
+    NoRho {
+        /// The scheme's name.
+        scheme: &'static str,
+    },
+    /// ρ∞ beyond what it may be.
+    #[error("{0}")]
+    #[diagnostic(help("--rho 0 damps most, --rho {most} least; 0.5 where nothing is said", most = GeneralizedAlpha::MOST_RHO))]
+    Rho(RhoError),
     /// A damping that the scheme has not.
     #[error("the scheme {scheme} has no {asked} damping, only {own}")]
     #[diagnostic(help(
@@ -188,6 +202,28 @@ impl Method {
         } else {
             let (scheme, own) = (method.scheme_name(), method.damping().name());
             Err(MethodError::Damping { scheme, asked: asked.name(), own })
+        }
+    }
+
+    /// The same method with another ρ∞, from 0 to 0.8: what is left per step of a vibration that the step does
+    /// not resolve.
+    ///
+    /// # Errors
+    /// [`MethodError::NoRho`] where the scheme has none, [`MethodError::Rho`].
+    pub fn with_rho(self, rho: f64) -> Result<Self, MethodError> {
+        let SchemeChoice::GeneralizedAlpha(_) = self.scheme else {
+            return Err(MethodError::NoRho { scheme: self.scheme_name() });
+        };
+        let scheme = GeneralizedAlpha::new(rho).map_err(MethodError::Rho)?;
+        Ok(Self { scheme: SchemeChoice::GeneralizedAlpha(scheme), ..self })
+    }
+
+    /// ρ∞, `None` for a scheme without it.
+    #[must_use]
+    pub fn rho(&self) -> Option<f64> {
+        match self.scheme {
+            SchemeChoice::GeneralizedAlpha(scheme) => Some(scheme.rho()),
+            _ => None,
         }
     }
 

@@ -17,6 +17,7 @@ use crate::error::{Refusal, raise};
 ///     scene: Path of a scene file, TOML.
 ///     scheme: How it is stepped, as ``host-sim run --scheme``; ``leapfrog`` if not said.
 ///     newton: Newton iterations of the schemes that have them.
+///     rho: What ``generalized-alpha`` leaves per step of a vibration it does not resolve, 0 to 0.8.
 ///     damping: How dampers are stepped, as ``host-sim run --damping``.
 ///     precision: ``f64``, ``f32``, ``fixed``, as ``host-sim run --precision``; ``f64`` if not said.
 ///     step: [s] the step; the scene's if not said, else the advised one.
@@ -52,20 +53,21 @@ impl Plant {
 #[pymethods]
 impl Plant {
     #[new]
-    #[pyo3(signature = (scene, *, scheme=None, newton=None, damping=None, precision=None, step=None, changes=Vec::new()))]
+    #[pyo3(signature = (scene, *, scheme=None, newton=None, rho=None, damping=None, precision=None, step=None, changes=Vec::new()))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         py: Python<'_>,
         scene: std::path::PathBuf,
         scheme: Option<String>,
         newton: Option<u32>,
+        rho: Option<f64>,
         damping: Option<String>,
         precision: Option<String>,
         step: Option<f64>,
         changes: Vec<String>,
     ) -> PyResult<Self> {
         let blueprint = Blueprint::load(scene).map_err(|error| raise(py)(error.into()))?;
-        let settings = Settings { scheme, newton, damping, precision, step };
+        let settings = Settings { scheme, newton, rho, damping, precision, step };
         Self::of(py, Blueprint { changes, ..blueprint }, settings)
     }
 
@@ -77,7 +79,7 @@ impl Plant {
     ///
     /// The other arguments and what is raised are those of the class.
     #[staticmethod]
-    #[pyo3(signature = (text, name="scene.toml", *, scheme=None, newton=None, damping=None, precision=None, step=None, changes=Vec::new()))]
+    #[pyo3(signature = (text, name="scene.toml", *, scheme=None, newton=None, rho=None, damping=None, precision=None, step=None, changes=Vec::new()))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn from_text(
         py: Python<'_>,
@@ -85,12 +87,13 @@ impl Plant {
         name: &str,
         scheme: Option<String>,
         newton: Option<u32>,
+        rho: Option<f64>,
         damping: Option<String>,
         precision: Option<String>,
         step: Option<f64>,
         changes: Vec<String>,
     ) -> PyResult<Self> {
-        let settings = Settings { scheme, newton, damping, precision, step };
+        let settings = Settings { scheme, newton, rho, damping, precision, step };
         Self::of(py, Blueprint { changes, ..Blueprint::new(name, text) }, settings)
     }
 
@@ -215,6 +218,7 @@ impl Plant {
         let keywords = PyDict::new(py);
         keywords.set_item("scheme", &settings.scheme)?;
         keywords.set_item("newton", settings.newton)?;
+        keywords.set_item("rho", settings.rho)?;
         keywords.set_item("damping", &settings.damping)?;
         keywords.set_item("precision", &settings.precision)?;
         keywords.set_item("step", settings.step)?;

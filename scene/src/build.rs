@@ -44,6 +44,7 @@ pub struct Build {
     precisions: Vec<String>,
     scheme: Option<String>,
     newton: Option<u32>,
+    rho: Option<f64>,
     damping: Option<String>,
     step: Option<String>,
     without_tables: bool,
@@ -85,6 +86,7 @@ impl Build {
             precisions: Vec::new(),
             scheme: None,
             newton: None,
+            rho: None,
             damping: None,
             step: None,
             without_tables: false,
@@ -114,6 +116,13 @@ impl Build {
     /// Newton iterations of the dbd schemes.
     pub fn newton(mut self, iterations: u32) -> Self {
         self.newton = Some(iterations);
+        self
+    }
+
+    /// ρ∞ of generalized-alpha, 0 to 0.8: what is left per step of a vibration that it does not resolve.
+    /// Without it 0.5.
+    pub fn rho(mut self, rho: f64) -> Self {
+        self.rho = Some(rho);
         self
     }
 
@@ -199,6 +208,10 @@ impl Build {
         let precisions = self.precisions()?;
         let scheme = self.scheme.as_deref().unwrap_or(ExportScheme::default().name());
         let scheme = ExportScheme::named(scheme, self.newton, self.damping.as_deref())
+            .and_then(|scheme| match self.rho {
+                Some(rho) => scheme.with_rho(rho),
+                None => Ok(scheme),
+            })
             .map_err(BuildError::scheme)?;
         let asked = self.step.as_deref().map(step).transpose()?;
         // As it was given, in messages too, wherever cargo runs the script.

@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use dbd_plant::{
-    DampingName, Method, MethodError, Named, OrientationName, PrecisionName, SchemeName,
+    DampingName, MOST_RHO, Method, MethodError, Named, OrientationName, PrecisionName, SchemeName,
 };
 use dbd_scene::nearest;
 
@@ -21,6 +21,8 @@ pub enum Target {
     Scheme,
     /// Its Newton iterations.
     Newton,
+    /// Its ρ∞.
+    Rho,
     /// How dampers act.
     Damping,
     /// The precision.
@@ -29,14 +31,15 @@ pub enum Target {
     Orientation,
 }
 
-/// What leaves Newton iterations and damping to the scheme.
+/// What leaves Newton iterations, ρ∞ and damping to the scheme.
 pub const OWN: &str = "own";
 
 impl Target {
     /// The names of a method's choices.
-    pub const OF_METHOD: [(&'static str, Self); 5] = [
+    pub const OF_METHOD: [(&'static str, Self); 6] = [
         ("scheme", Self::Scheme),
         ("newton", Self::Newton),
+        ("rho", Self::Rho),
         ("damping", Self::Damping),
         ("precision", Self::Precision),
         ("orientation", Self::Orientation),
@@ -58,6 +61,11 @@ impl Target {
             Self::Newton => {
                 let fits = cell == OWN || cell.parse::<u32>().is_ok();
                 return (!fits).then(|| format!("a whole number from 0, or \"{OWN}\""));
+            }
+            Self::Rho => {
+                let range = 0.0..=MOST_RHO;
+                let fits = cell == OWN || cell.parse().is_ok_and(|rho: f64| range.contains(&rho));
+                return (!fits).then(|| format!("a number from 0 to {MOST_RHO}, or \"{OWN}\""));
             }
             Self::Scheme => names::<SchemeName>(&[]),
             Self::Damping => names::<DampingName>(&[OWN]),
@@ -100,6 +108,10 @@ impl<'c> Choices<'c> {
         let precision = of(Target::Precision).and_then(PrecisionName::of_name).unwrap_or_default();
         let orientation = of(Target::Orientation).and_then(OrientationName::of_name);
         let method = Method::new(scheme, newton, precision)?;
+        let method = match of(Target::Rho).and_then(|cell| cell.parse().ok()) {
+            Some(rho) => method.with_rho(rho)?,
+            None => method,
+        };
         let method = match of(Target::Damping).and_then(DampingName::of_name) {
             Some(damping) => method.with_damping(damping)?,
             None => method,

@@ -183,6 +183,7 @@ fn check_methods(spec: &Spec) -> Result<(), Box<Refusal>> {
 fn refused(spec: &Spec, values: &[&Value], error: &MethodError) -> Box<Refusal> {
     let targets = match error {
         MethodError::Newton { .. } | MethodError::Iterations { .. } => [Target::Newton; 2],
+        MethodError::NoRho { .. } | MethodError::Rho(_) => [Target::Rho; 2],
         MethodError::Damping { .. } => [Target::Damping; 2],
         _ => [Target::Precision, Target::Orientation],
     };
@@ -197,10 +198,12 @@ fn refused(spec: &Spec, values: &[&Value], error: &MethodError) -> Box<Refusal> 
         tried.map_or(axis.place.clone(), |(_, place)| place.clone())
     });
     let help = match error {
-        MethodError::Newton { .. } | MethodError::Damping { .. } => format!(
-            "\"{OWN}\" leaves it to the scheme; `paired` lets it go along with `scheme`, one value of \
+        MethodError::Newton { .. } | MethodError::NoRho { .. } | MethodError::Damping { .. } => {
+            format!(
+                "\"{OWN}\" leaves it to the scheme; `paired` lets it go along with `scheme`, one value of \
              each"
-        ),
+            )
+        }
         _ => error.help().map(|help| help.to_string()).unwrap_or_default(),
     };
     spec.source.refuse(place, error.to_string(), help)

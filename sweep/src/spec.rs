@@ -22,7 +22,7 @@ use crate::value::Value;
 /// More cases than this are refused.
 pub const MOST_CASES: u64 = 1_000_000;
 
-const KEYS: [&str; 14] = [
+const KEYS: [&str; 15] = [
     "scene",
     "axes",
     "paired",
@@ -30,6 +30,7 @@ const KEYS: [&str; 14] = [
     "set",
     "scheme",
     "newton",
+    "rho",
     "damping",
     "precision",
     "orientation",

@@ -8,7 +8,7 @@ use dbd_picture::Paper;
 use dbd_plant::{DampingName, Method, Named as _, PrecisionName, SchemeName};
 
 use crate::arguments::{SceneArgument, names};
-use crate::cli::named::{damped, load};
+use crate::cli::named::{damped, leaving, load};
 use crate::commands::check::check;
 use crate::commands::picture::{self, PictureError};
 use crate::commands::stability::StabilityCheck;
@@ -51,6 +51,10 @@ pub(super) struct CheckArguments {
     /// Its Newton iterations per step, at most 8 [default: 0]
     #[arg(long, value_name = "N", requires = "stability")]
     newton: Option<u32>,
+    /// What is left per step of a vibration that it does not resolve, of generalized-alpha: 0 to 0.8
+    /// [default: 0.5]
+    #[arg(long, value_name = "RHO", allow_hyphen_values = true, requires = "stability")]
+    rho: Option<f64>,
     /// How its dampers act [default: the scheme's own]
     #[arg(long, value_parser = names::<DampingName>(), requires = "stability")]
     damping: Option<DampingName>,
@@ -65,7 +69,7 @@ pub(super) fn check_scene(
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
     let method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
-    let method = damped(method, arguments.damping)?;
+    let method = damped(leaving(method, arguments.rho)?, arguments.damping)?;
     method.check_built()?;
     let picture_printed = arguments.svg.as_ref().is_some_and(|file| picture::is_output(file));
     if picture_printed && arguments.json {

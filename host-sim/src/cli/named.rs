@@ -31,6 +31,14 @@ pub(super) fn load(catalogue: &Catalogue, argument: &SceneArgument) -> Result<Fo
     Ok(catalogue.load_with(&argument.scene, &argument.changes())?)
 }
 
+/// A method that leaves another part of a vibration per step.
+pub(super) fn leaving(method: Method, rho: Option<f64>) -> Result<Method, Error> {
+    Ok(match rho {
+        Some(rho) => method.with_rho(rho)?,
+        None => method,
+    })
+}
+
 pub(super) fn damped(method: Method, damping: Option<DampingName>) -> Result<Method, Error> {
     Ok(match damping {
         Some(damping) => method.with_damping(damping)?,

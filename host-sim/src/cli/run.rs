@@ -8,7 +8,7 @@ use dbd_plant::time::Time;
 use dbd_plant::{DampingName, Method, Named as _, OrientationName, PrecisionName, SchemeName};
 
 use crate::arguments::{SceneArgument, names};
-use crate::cli::named::{ResultsArguments, damped, load};
+use crate::cli::named::{ResultsArguments, damped, leaving, load};
 use crate::commands::golden::GoldenOptions;
 use crate::commands::run::{Outcome, RunOptions, run};
 use crate::error::Error;
@@ -25,6 +25,10 @@ pub(super) struct RunArguments {
     /// Newton iterations per step of the dbd schemes, at most 8 [default: 0]
     #[arg(long, value_name = "N")]
     newton: Option<u32>,
+    /// What is left per step of a vibration that it does not resolve, of generalized-alpha: 0 to 0.8
+    /// [default: 0.5]
+    #[arg(long, value_name = "RHO", allow_hyphen_values = true)]
+    rho: Option<f64>,
     /// How dampers act [default: the scheme's own]
     #[arg(long, value_parser = names::<DampingName>())]
     damping: Option<DampingName>,
@@ -79,6 +83,7 @@ pub(super) fn run_scene(
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
     let method = Method::new(arguments.scheme, arguments.newton, arguments.precision)?;
+    let method = leaving(method, arguments.rho)?;
     let method = damped(method, arguments.damping)?.with_orientation(arguments.orientation);
     method.check_built()?;
     let Found { scene, file, .. } = load(catalogue, &arguments.scene)?;

@@ -48,6 +48,10 @@ pub struct ExportOptions {
     /// Newton iterations per step of the dbd schemes, at most 8 [default: 0]
     #[arg(long, value_name = "N")]
     pub newton: Option<u32>,
+    /// What is left per step of a vibration that it does not resolve, of generalized-alpha: 0 to 0.8
+    /// [default: 0.5]
+    #[arg(long, value_name = "RHO", allow_hyphen_values = true)]
+    pub rho: Option<f64>,
     /// How dampers act [default: the scheme's own]
     #[arg(long, value_parser = names::<DampingName>())]
     pub damping: Option<DampingName>,
@@ -99,6 +103,10 @@ impl Diagnostic for ExportError {
 pub fn export(scene: &Scene, options: &ExportOptions) -> Result<String, ExportError> {
     let damping = options.damping.map(DampingName::name);
     let scheme = ExportScheme::named(options.scheme.name(), options.newton, damping)?;
+    let scheme = match options.rho {
+        Some(rho) => scheme.with_rho(rho)?,
+        None => scheme,
+    };
     let step = options.step.map(Time::seconds).or(scene.step);
     let step = step.unwrap_or_else(|| Frequencies::of(scene).default_limit(scene.duration));
     let precisions = match options.precision {

@@ -35,6 +35,10 @@ pub struct FmuArguments {
     /// Newton iterations per step of the dbd schemes, at most 8 [default: 0]
     #[arg(long, value_name = "N")]
     pub newton: Option<u32>,
+    /// What is left per step of a vibration that it does not resolve, of generalized-alpha: 0 to 0.8
+    /// [default: 0.5]
+    #[arg(long, value_name = "RHO", allow_hyphen_values = true)]
+    pub rho: Option<f64>,
     /// How dampers act [default: the scheme's own]
     #[arg(long, value_parser = names::<DampingName>())]
     pub damping: Option<DampingName>,
@@ -120,6 +124,7 @@ pub fn fmu(found: &Found, arguments: &FmuArguments) -> Result<String, FmuError> 
     let settings = Settings {
         scheme: Some(arguments.scheme.name().into()),
         newton: arguments.newton,
+        rho: arguments.rho,
         damping: arguments.damping.map(|damping| damping.name().into()),
         precision: Some(arguments.precision.name().into()),
         step: arguments.step.map(Time::seconds),

@@ -354,6 +354,7 @@ fn summarise(
         scene: scene.name.clone(),
         scheme: method.scheme_name(),
         newton: method.newton(),
+        rho: method.rho(),
         damping: method.foreign_damping().map(Damping::name),
         precision: method.precision_name(),
         orientation: method.orientation_name(),

@@ -18,6 +18,9 @@ pub struct StabilityCheck {
     pub scheme: &'static str,
     /// Its Newton iterations, for the schemes that have them.
     pub newton: Option<u32>,
+    /// Its ρ∞, for the scheme that has it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rho: Option<f64>,
     /// How dampers act.
     pub damping: &'static str,
     /// The precision's name.
@@ -53,6 +56,7 @@ impl StabilityCheck {
         Ok(Self {
             scheme: method.scheme_name(),
             newton: method.newton(),
+            rho: method.rho(),
             damping: method.damping().name(),
             precision: method.precision_name(),
             frequency_hz: found.as_ref().map_or(0.0, |found| found.frequency / TAU),

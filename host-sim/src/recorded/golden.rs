@@ -89,6 +89,7 @@ fn head(file: &Path, golden: &Golden<'_>) -> Result<Head, Unreadable> {
         scene: golden.scene().to_owned(),
         scheme: identity.scheme.name.to_owned(),
         newton: None,
+        rho: None,
         damping: Some(identity.scheme.damping.to_owned()),
         precision: identity.precision.name.to_owned(),
         orientation: identity.precision.orientation.to_owned(),

@@ -39,6 +39,8 @@ pub struct Head {
     pub scheme: String,
     /// Newton iterations per step, where they are known.
     pub newton: Option<u32>,
+    /// ρ∞, of the scheme that has it.
+    pub rho: Option<f64>,
     /// How dampers acted, where it is known.
     pub damping: Option<String>,
     /// The precision's name.

@@ -33,6 +33,9 @@ pub struct RunSummary {
     pub scheme: String,
     /// Newton iterations.
     pub newton: Option<u32>,
+    /// ρ∞, of the scheme that has it.
+    #[serde(default)]
+    pub rho: Option<f64>,
     /// How dampers acted, where not in the scheme's own way.
     pub damping: Option<String>,
     /// The precision.

@@ -143,6 +143,7 @@ impl TraceReader {
             scene: summary.scene.clone(),
             scheme: summary.scheme.clone(),
             newton: summary.newton,
+            rho: summary.rho,
             damping: summary.damping.clone(),
             precision: summary.precision.clone(),
             orientation: summary.orientation.clone(),

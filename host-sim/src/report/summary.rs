@@ -25,6 +25,9 @@ pub struct Summary {
     pub scheme: &'static str,
     /// Newton iterations per step; `None` for a scheme without any.
     pub newton: Option<u32>,
+    /// ρ∞, of the scheme that has it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rho: Option<f64>,
     /// How dampers acted, where that is not the scheme's own way.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping: Option<&'static str>,
@@ -208,13 +211,16 @@ impl Summary {
             Some(n) if n > 1 => format!(", {n} Newton iterations"),
             _ => String::new(),
         };
+        let rho = self.rho.map(|rho| format!(", rho {rho}")).unwrap_or_default();
         let rms = match self.energy_rms_error {
             Some(error) => format!("{} J", significant(error, 4)),
             None => "– (dampers, loads or inputs change the energy)".into(),
         };
         let damping = self.damping.map(|name| format!(", {name} damping")).unwrap_or_default();
-        let method =
-            format!("{}{newton}{damping}, {}, {}", self.scheme, self.precision, self.orientation);
+        let method = format!(
+            "{}{newton}{rho}{damping}, {}, {}",
+            self.scheme, self.precision, self.orientation
+        );
         let plane = self.plane.as_ref().map(|plane| format!(", in the plane {plane}"));
         let method = method + &plane.unwrap_or_default();
         let frequency = format!(

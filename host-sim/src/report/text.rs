@@ -73,6 +73,7 @@ fn versions(summary: &Summary) -> Vec<(&'static str, String)> {
 /// The command line of the run, with all that was chosen for it spelled out.
 fn command(scene: &Scene, plan: &Plan, summary: &Summary, called: &str) -> String {
     let newton = summary.newton.map(|n| format!(" --newton {n}")).unwrap_or_default();
+    let rho = summary.rho.map(|rho| format!(" --rho {rho}")).unwrap_or_default();
     let damping = summary.damping.map(|way| format!(" --damping {way}")).unwrap_or_default();
     let orientation = match summary.orientation {
         "quaternion" => String::new(),
@@ -80,7 +81,7 @@ fn command(scene: &Scene, plan: &Plan, summary: &Summary, called: &str) -> Strin
     };
     let modes = summary.modes.as_ref().map(|modes| format!(" --modes {}", modes.len()));
     format!(
-        "host-sim run {} --scheme {}{newton}{damping} --precision {}{orientation} --step {} \
+        "host-sim run {} --scheme {}{newton}{rho}{damping} --precision {}{orientation} --step {} \
          --duration {} --every {}{}",
         with_changes(scene, called),
         summary.scheme,

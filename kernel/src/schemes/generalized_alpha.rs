@@ -150,8 +150,9 @@ impl Scheme for GeneralizedAlpha {
     const REMEMBERS: bool = true;
     // One Newton step does not follow what turns farther.
     const MOST_TURN: Constant = Constant::new(0.5);
-    // The matrix' rounding is as its condition, the square of this: beyond it free motion drags.
-    const MOST_VIBRATION: Option<Constant> = Some(Constant { double: 1e7, single: 500.0 });
+    // Rounding in the matrix grows with its condition, the square of this: in single precision free
+    // motion is followed to 1e-5 m up to here, and dragged beyond. The bound exceeds ω by up to √2.
+    const MOST_VIBRATION: Option<Constant> = Some(Constant { double: 1e7, single: 700.0 });
     type Memory<P: Geometry> = GeneralizedAlphaMemory<P>;
     type Keeps = Matrix;
 

@@ -50,6 +50,8 @@ pub fn differs(comparison: &Comparison) -> Vec<Differs> {
     if a.kind == Kind::Run && b.kind == Kind::Run {
         let newton = |head: &Head| head.newton.map(|newton| newton.to_string());
         fact("newton", newton(a), newton(b));
+        let rho = |head: &Head| head.rho.map(|rho| rho.to_string());
+        fact("rho", rho(a), rho(b));
         let damping = |head: &Head| head.damping.clone();
         fact("damping", damping(a), damping(b));
         let paths = a.set.iter().chain(&b.set).map(|value| value.path.clone());

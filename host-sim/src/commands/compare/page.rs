@@ -79,7 +79,8 @@ impl Differences {
 /// What a run is called beside the other: by what tells them apart.
 #[must_use]
 pub fn labels(comparison: &Comparison) -> [String; 2] {
-    const TELLING: [&str; 6] = ["scene", "scheme", "precision", "orientation", "newton", "damping"];
+    const TELLING: [&str; 7] =
+        ["scene", "scheme", "precision", "orientation", "newton", "rho", "damping"];
     let differs = grouped(differs(comparison));
     let telling = differs.iter().filter(|fact| {
         TELLING.contains(&fact.what.as_str())

@@ -53,6 +53,9 @@ pub struct RunRecord {
     pub scheme: String,
     /// Newton iterations, where there are some.
     pub newton: Option<u32>,
+    /// ρ∞, of the scheme that has it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rho: Option<f64>,
     /// How dampers acted, where it is recorded.
     pub damping: Option<String>,
     /// The precision.
@@ -95,13 +98,15 @@ impl Record {
     pub fn of(comparison: &Comparison) -> Self {
         let run = |side: usize| {
             let (head, end) = (comparison.heads[side].clone(), comparison.ends[side]);
-            let Head { kind, scene, scheme, newton, damping, precision, orientation, .. } = head;
+            let Head { kind, scene, scheme, newton, rho, damping, precision, orientation, .. } =
+                head;
             RunRecord {
                 path: whole(&head.file),
                 kind,
                 scene,
                 scheme,
                 newton,
+                rho,
                 damping,
                 precision,
                 orientation,

@@ -73,6 +73,10 @@ fn method(head: &Head) -> Option<Method> {
     let scheme = SchemeName::of_name(&head.scheme)?;
     let precision = PrecisionName::of_name(&head.precision)?;
     let method = Method::new(scheme, head.newton, precision).ok()?;
+    let method = match head.rho {
+        Some(rho) => method.with_rho(rho).ok()?,
+        None => method,
+    };
     let method = match &head.damping {
         Some(damping) => method.with_damping(DampingName::of_name(damping)?).ok()?,
         None => method,

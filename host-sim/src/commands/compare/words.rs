@@ -85,8 +85,8 @@ fn finer(comparison: &Comparison) -> Option<String> {
     let [a, _] = &comparison.heads;
     let [before, _] = first.equal_steps?;
     // By another method, or of another scene, every step differs.
-    const OTHER: [&str; 7] =
-        ["scene", "scheme", "precision", "orientation", "step", "newton", "damping"];
+    const OTHER: [&str; 8] =
+        ["scene", "scheme", "precision", "orientation", "step", "newton", "rho", "damping"];
     let other = |what: &str| OTHER.contains(&what) || what.starts_with("set ");
     let alike = !differs(comparison).iter().any(|fact| other(&fact.what));
     if !alike || before + 1 >= first.steps[0] {

@@ -5,6 +5,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
+use dbd_kernel::GeneralizedAlpha;
 use dbd_plant::Method;
 use dbd_study::command::quoted;
 use dbd_sweep::Spec;
@@ -154,9 +155,10 @@ impl Sweep {
         let changes = cases.changes(0);
         let set: String = changes.iter().map(|one| format!(" --set {}", quoted(one))).collect();
         let method = cases.method(0).unwrap_or_default();
-        let options: [(&str, Option<String>); 5] = [
+        let options: [(&str, Option<String>); 6] = [
             ("scheme", Some(method.scheme_name().into())),
             ("newton", method.newton().filter(|n| *n > 0).map(|n| n.to_string())),
+            ("rho", given_rho(&method).map(|rho| rho.to_string())),
             ("damping", method.foreign_damping().map(|damping| damping.name().into())),
             ("precision", Some(method.precision_name().into())),
             ("orientation", Some(method.orientation_name().into())),
@@ -179,10 +181,18 @@ impl Sweep {
     }
 }
 
+/// ρ∞ where it is not what it is without a word.
+fn given_rho(method: &Method) -> Option<f64> {
+    method.rho().filter(|rho| *rho != GeneralizedAlpha::RHO)
+}
+
 /// A method in words.
-fn words(method: &Method) -> [String; 5] {
+fn words(method: &Method) -> Vec<String> {
     let newton = method.newton().map_or(String::new(), |newton| newton.to_string());
     let [scheme, precision] = [method.scheme_name(), method.precision_name()].map(String::from);
     let damping = method.damping().name().to_owned();
-    [scheme, newton, damping, precision, method.orientation_name().to_owned()]
+    let mut words = vec![scheme, newton, damping, precision, method.orientation_name().to_owned()];
+    // Keys of cases without it are as they were.
+    words.extend(given_rho(method).map(|rho| rho.to_string()));
+    words
 }
