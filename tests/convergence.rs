@@ -5,9 +5,10 @@ use dbd_kernel::damping::Damping;
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::model::ModelOwner;
 use dbd_kernel::{
-    BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F64, Leapfrog, LoadFrame,
-    Pefrl, Rk4, Scheme, SemiImplicitEuler, Vec3,
+    BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F64, GeneralizedAlpha,
+    Leapfrog, LoadFrame, Pefrl, Rk4, Scheme, SemiImplicitEuler, Vec3,
 };
+use dbd_scene::Eliminated;
 use dbd_tests::page::{block, figure, table};
 use dbd_tests::{Bench, distance, hung_ring, run, turned};
 
@@ -103,6 +104,16 @@ impl Case {
             Explicit<SemiImplicitEuler> = Explicit(SemiImplicitEuler);
             Explicit<Leapfrog> = Explicit(Leapfrog);
         }
+        // The scheme with a matrix takes a model with a plan.
+        let model = Eliminated::new(&self.model).unwrap();
+        let [coarse, fine] = [second, 2 * second].map(|steps| {
+            let step = self.time / steps as f64;
+            let end = run(&model, GeneralizedAlpha::DEFAULT, step, steps);
+            distance(&end.bodies, &self.truth)
+        });
+        let (order, title) = ((coarse / fine).log2(), self.title);
+        let off = (order - f64::from(GeneralizedAlpha::ORDER)).abs();
+        assert!(off < TOLERANCE, "{title}, generalized-alpha: {order} from {coarse:e}, {fine:e}");
         observed
     }
 }

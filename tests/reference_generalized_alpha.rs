@@ -1,7 +1,7 @@
 //! Generalised-α of the references: second order on every kind of element, also at steps beyond every explicit limit
 //! and with joints of 9e8 N/m.
 
-use dbd_kernel::{F64, ModelOwner, Plant};
+use dbd_kernel::{F64, ModelOwner};
 use dbd_plant::frequencies::Frequencies;
 use dbd_reference::generalized_alpha::GeneralizedAlpha;
 use dbd_reference::implicit::Implicit;
@@ -102,31 +102,4 @@ fn more_of_a_fast_vibration_is_left_with_a_larger_rho() {
     };
     let [none, half, most] = [0.0, 0.5, 0.8].map(left);
     assert!(none < half && half < most && most < 1.0, "{none:e} {half:e} {most:e}");
-}
-
-/// The kernel's steps are those of the reference.
-#[test]
-fn the_kernel_takes_the_same_steps() {
-    for name in
-        ["four-bar", "3ruu", "crank-slider", "six-bar", "double-wishbone", "macpherson", "gripper"]
-    {
-        let scene = scene(name);
-        let step = 2.5e-4;
-        let (mechanism, start) = Mechanism::of(&scene);
-        let mut reference = GeneralizedAlpha::new(&mechanism, start, step, 0.5);
-        let model = scene.model.clone().planned();
-        let mut plant = Plant::new(&model, dbd_kernel::GeneralizedAlpha::default(), step).unwrap();
-        for steps in 1..=200 {
-            reference.step();
-            assert!(plant.step().is_running(), "{name}: {:?}", plant.status());
-            let apart =
-                reference.state.bodies.iter().zip(&plant.state().bodies).map(|(a, b)| {
-                    (a.position - nalgebra::Vector3::from(b.position.to_f64())).norm()
-                });
-            let apart = apart.fold(0.0, f64::max);
-            if [1, 2, 10, 50, 200].contains(&steps) {
-                println!("{name} {steps} {apart:e}");
-            }
-        }
-    }
 }

@@ -5,8 +5,12 @@
 //! chains and loops of mechanisms fill in next to nothing.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Deref;
 
+use dbd_kernel::model::{Group, ModelOwner, ModelRef};
 use dbd_kernel::solve::Plan;
+use dbd_kernel::space::Space;
+use dbd_kernel::{BodyState, TorsionSpring};
 
 /// A plan on the heap, see [`Plan`] for the fields.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -75,6 +79,17 @@ impl Elimination {
         (plan.pairs.len() <= usize::from(Plan::GROUND)).then_some(plan)
     }
 
+    /// The plan of a model by its bodies, groups and torsion springs.
+    pub(crate) fn of<S: Space>(
+        bodies: usize,
+        groups: &[Group],
+        torsions: &[TorsionSpring<S>],
+    ) -> Option<Self> {
+        let groups = groups.iter().map(|group| [group.a.0, group.b.0]);
+        let torsions = torsions.iter().map(|spring| [spring.a.0, spring.b.0]);
+        Self::new(bodies, &groups.chain(torsions).collect::<Vec<_>>())
+    }
+
     /// As the kernel follows it.
     #[must_use]
     pub fn plan(&self) -> Plan<'_> {
@@ -87,6 +102,86 @@ impl Elimination {
     pub fn filled(&self) -> usize {
         self.pairs.len()
             - self.homes.iter().filter(|home| **home != Plan::GROUND).collect::<BTreeSet<_>>().len()
+    }
+}
+
+/// A model of any owner with a plan on the heap, for schemes with a matrix.
+#[derive(Clone, Debug)]
+pub struct Eliminated<H> {
+    model: H,
+    plan: Elimination,
+}
+
+impl<H: Deref<Target: ModelOwner + Sized>> Eliminated<H> {
+    /// The model that `model` points to with its plan; `None` where that has more pairs of bodies than an
+    /// index counts.
+    #[must_use]
+    pub fn new(model: H) -> Option<Self> {
+        let view = model.view();
+        let plan = Elimination::of(view.bodies.len(), view.groups, view.torsions)?;
+        Some(Self { model, plan })
+    }
+}
+
+impl<H: Deref<Target: ModelOwner + Sized>> ModelOwner for Eliminated<H> {
+    type Precision = <H::Target as ModelOwner>::Precision;
+    type Terms = <H::Target as ModelOwner>::Terms;
+    type PerBody<T: Copy> = <H::Target as ModelOwner>::PerBody<T>;
+    type PerTorsion = <H::Target as ModelOwner>::PerTorsion;
+    type PerLoad = <H::Target as ModelOwner>::PerLoad;
+    type PerInput = <H::Target as ModelOwner>::PerInput;
+    type PerDamper<T: Copy> = <H::Target as ModelOwner>::PerDamper<T>;
+    type PerTsda<T: Copy> = <H::Target as ModelOwner>::PerTsda<T>;
+    type PerPair<T: Copy> = Vec<T>;
+    type PerHome<T: Copy> = Vec<T>;
+    type PerKnot = <H::Target as ModelOwner>::PerKnot;
+
+    fn view(&self) -> ModelRef<'_, Self::Precision, Self::Terms> {
+        self.model.view()
+    }
+
+    fn initial(&self) -> &[BodyState<Self::Precision>] {
+        self.model.initial()
+    }
+
+    fn per_body<T: Copy>(&self, value: T) -> Self::PerBody<T> {
+        self.model.per_body(value)
+    }
+
+    fn per_torsion(&self) -> Self::PerTorsion {
+        self.model.per_torsion()
+    }
+
+    fn per_load(&self) -> Self::PerLoad {
+        self.model.per_load()
+    }
+
+    fn per_input(&self) -> Self::PerInput {
+        self.model.per_input()
+    }
+
+    fn per_damper<T: Copy>(&self, value: T) -> Self::PerDamper<T> {
+        self.model.per_damper(value)
+    }
+
+    fn per_tsda<T: Copy>(&self, value: T) -> Self::PerTsda<T> {
+        self.model.per_tsda(value)
+    }
+
+    fn per_pair<T: Copy>(&self, value: T) -> Vec<T> {
+        vec![value; self.plan.pairs.len()]
+    }
+
+    fn per_home<T: Copy>(&self, value: T) -> Vec<T> {
+        vec![value; self.plan.homes.len()]
+    }
+
+    fn plan(&self) -> Plan<'_> {
+        self.plan.plan()
+    }
+
+    fn per_knot(&self) -> Self::PerKnot {
+        self.model.per_knot()
     }
 }
 

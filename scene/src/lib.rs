@@ -61,7 +61,7 @@ use std::path::Path;
 pub use build::{Build, build};
 pub use columns::{BODY_COLUMNS, ENERGY_COLUMNS, TIME_COLUMN, TraceColumns, UnlikeColumn};
 pub use derived::DerivedBody;
-pub use elimination::Elimination;
+pub use elimination::{Eliminated, Elimination};
 pub use error::{Refusal, SceneError};
 pub use extents::Misfit;
 pub use facts::{ElementDamping, ElementFrequency, Facts, Island, JointElement, JointFacts};

@@ -87,10 +87,8 @@ impl<P: Geometry> SceneModel<P> {
     /// of bodies than an index counts.
     #[must_use]
     pub fn planned(self) -> Self {
-        let groups = self.groups.iter().map(|group| [group.a.0, group.b.0]);
-        let torsions = self.torsions.iter().map(|spring| [spring.a.0, spring.b.0]);
-        let ends: Vec<_> = groups.chain(torsions).collect();
-        let plan = Elimination::new(self.bodies.len(), &ends).unwrap_or_default();
+        let plan = Elimination::of(self.bodies.len(), &self.groups, &self.torsions);
+        let plan = plan.unwrap_or_default();
         Self { plan, ..self }
     }
 
