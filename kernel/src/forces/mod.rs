@@ -9,6 +9,7 @@
 //! axes once, at the end.
 
 mod bushing;
+mod driven;
 mod in_line;
 mod inputs;
 mod lines;
@@ -164,7 +165,7 @@ pub(crate) fn record<P: Geometry, T: Terms, D: Dampers>(
     }
 }
 
-/// What loads and inputs push from outside, torques in body axes.
+/// What loads and inputs push from outside, the rates of moved ground included; torques in body axes.
 #[inline(always)]
 pub(crate) fn pushed<P: Geometry, T: Terms>(
     model: &ModelRef<'_, P, T>,
@@ -174,6 +175,9 @@ pub(crate) fn pushed<P: Geometry, T: Terms>(
     wrenches: &mut [Wrench<P::Space>],
 ) {
     start(model, None, (windows, step), places, wrenches);
+    if T::INPUTS && T::DAMPERS {
+        driven::push(model, places, wrenches);
+    }
     for (wrench, frame) in wrenches.iter_mut().zip(places.frames) {
         wrench.torque = P::moment_to_body(frame, wrench.torque);
     }

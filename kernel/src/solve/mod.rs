@@ -18,4 +18,5 @@ pub use freedoms::Freedoms;
 pub use plan::Plan;
 pub use seat::Seat;
 pub(crate) use seat::find;
+pub(crate) use springs::springs;
 pub use system::BlockOf;

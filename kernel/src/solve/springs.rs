@@ -11,18 +11,18 @@ use crate::real::{Real, choose};
 use crate::space::{Linear as _, Space, Vector as _};
 
 /// The springs of an element, unloaded: what its tension would add is left out.
-pub(super) struct Springs<S: Space> {
+pub(crate) struct Springs<S: Space> {
     /// \[1\] world axes; of revolute joints as long as the root of what they are stiffer.
-    pub(super) directions: [S::Vector; 3],
+    pub(crate) directions: [S::Vector; 3],
     /// \[N/m, N·s/m\] stiffness and damping along each.
-    pub(super) constants: [[S::Real; 2]; 3],
+    pub(crate) constants: [[S::Real; 2]; 3],
     /// How many there are.
-    pub(super) count: usize,
+    pub(crate) count: usize,
 }
 
 /// The springs of an element, `None` where the model has no such law.
 #[inline(always)]
-pub(super) fn springs<P: Geometry, T: Terms>(
+pub(crate) fn springs<P: Geometry, T: Terms>(
     model: &ModelRef<'_, P, T>,
     law: &Element<'_, P::Space>,
     stretch: &Stretch<P::Vector>,
