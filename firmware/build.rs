@@ -1,7 +1,7 @@
 //! Const models of the shipped scenes, and link arguments of the target's programs.
 //!
 //! `scenes/*.toml => SCENE.rs`, and `models.rs`: one module per scene and the macros `shipped`, `shipped_f32`,
-//! `charted`, `fixed`, `compensated` and `varied` that list them.
+//! `charted`, `fixed`, `compensated`, `solved` and `varied` that list them.
 //! Link arguments stand here and not in a configuration, so that RUSTFLAGS in the environment
 //! cannot lose them; a host build gets none.
 
@@ -58,6 +58,18 @@ const VARIED: &[(&str, &str, &[&str])] = &[
     ("hexagon", "damped", &["joint.*.damping=30"]),
     ("hexagon", "planar", &["planar=true"]),
     ("hexagon", "planar-bushing", &["planar=true", "realisation=bushing"]),
+];
+/// Scenes whose steps with the scheme generalized-alpha are counted, in single precision: the scene, what its
+/// name gets behind it, the changes.
+const SOLVED: &[(&str, &str, &[&str])] = &[
+    ("four-bar", "", &[]),
+    ("six-bar", "", &[]),
+    ("six-bar", "-planar", &["planar=true"]),
+    ("3rrr", "", &[]),
+    ("crank-slider", "", &[]),
+    ("3ruu", "", &[]),
+    ("double-wishbone", "", &[]),
+    ("gripper", "", &[]),
 ];
 /// Linked from its own entry without start-up code: see its head.
 const AUDIT: &str = "audit";
@@ -127,6 +139,23 @@ fn models() {
             "/// The scene `{scene}` with other values.\npub mod {module} {{\n{source}}}\n"
         );
     }
+    let mut solved = String::new();
+    for (scene, variant, changes) in SOLVED {
+        let name = format!("{scene}{variant}");
+        let file = format!("../scenes/{scene}.toml");
+        let build = changes.iter().fold(Build::scene(file), |build, change| build.set(change));
+        let build = build.precision("f32").scheme("generalized-alpha").step("1ms");
+        let source = source(&build);
+        let module = export::constant_name(&name).to_lowercase() + "_solved";
+        let (constant, model) = (export::constant_name(scene), export::type_name(scene));
+        solved += &format!(
+            "            {module} \"{name}\" {constant}_STEP, \
+             {constant}_PLANNED_F32: {model}PlannedF32;\n"
+        );
+        modules += &format!(
+            "/// The scene `{name}` with the plan of a matrix.\npub mod {module} {{\n{source}}}\n"
+        );
+    }
     for name in CONTROLLED {
         let build = Build::scene(format!("../scenes/{name}.toml")).without_tables();
         let (module, source) = (export::constant_name(name).to_lowercase(), source(&build));
@@ -151,6 +180,7 @@ fn models() {
         + &list("charted", "of those that are counted in both", &charted)
         + &list("fixed", "in fixed point", &fixed)
         + &list("compensated", "with compensated sums", &compensated)
+        + &list("solved", "with the plan of a matrix", &solved)
         + &list("varied", "of scenes with other values", &varied);
     write("models.rs", &source);
 }

@@ -36,6 +36,7 @@ pub fn run_single(systick: &mut SysTick) -> bool {
     run(systick, |costing| {
         crate::models::for_each(costing);
         crate::chart::for_each_single(costing);
+        crate::models::for_each_solved(costing);
     })
 }
 

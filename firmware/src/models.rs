@@ -2,12 +2,14 @@
 //!
 //! The build script makes them from the scene files that it lists, and the macros
 //! [`shipped`](crate::shipped), [`shipped_f32`](crate::shipped_f32), [`charted`](crate::charted),
-//! [`fixed`](crate::fixed), [`compensated`](crate::compensated) and [`varied`](crate::varied) from the same lists.
+//! [`fixed`](crate::fixed), [`compensated`](crate::compensated), [`solved`](crate::solved) and
+//! [`varied`](crate::varied) from the same lists.
 //! [`for_each`] shows pairs of model and scheme to a visitor, which is generic as the step is.
 
 use dbd_kernel::model::ModelOwner;
 use dbd_kernel::{
-    BlanesMoanS6, Dbd, DbdP1, JointWise, Leapfrog, Pefrl, Rk4, Scheme, SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, GeneralizedAlpha, JointWise, Leapfrog, Pefrl, Rk4, Scheme,
+    SemiImplicitEuler,
 };
 
 include!(concat!(env!("OUT_DIR"), "/models.rs"));
@@ -142,6 +144,23 @@ pub fn for_each_further(visitor: &mut impl Visitor) {
         double_wishbone::DOUBLE_WISHBONE_STEP,
     );
     joint_wise(visitor, "gripper", &gripper::GRIPPER_F32, gripper::GRIPPER_STEP);
+}
+
+/// Shows the models that have the plan of a matrix, with the scheme that takes it.
+pub fn for_each_solved(visitor: &mut impl Visitor) {
+    macro_rules! visit {
+        ($($module:ident $scene:literal $step:ident, $f32:ident: $model:ident;)*) => {
+            $(visitor.visit(Shipped {
+                scene: $scene,
+                model: &$module::$f32,
+                scheme: GeneralizedAlpha::DEFAULT,
+                variant: "",
+                step: $module::$step,
+                steps: SHORT,
+            });)*
+        };
+    }
+    solved!(visit);
 }
 
 /// Shows a model with leapfrog and its dampers joint by joint.

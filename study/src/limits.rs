@@ -86,9 +86,11 @@ impl Limits {
     #[must_use]
     pub fn decisive(&self, way: &Way) -> Option<Method> {
         self.vibration.as_ref()?;
+        if way.stability_limit().is_infinite() {
+            return None;
+        }
         let method = match way {
             Way::Kernel(method) => *method,
-            Way::LinearlyImplicitEuler => return None,
             // One evaluation with explicit dampers per step: at most as stable as the kernel's.
             _ if self.damped => {
                 let method = Method::new(SchemeName::SemiImplicitEuler, None, PrecisionName::F64);

@@ -2,7 +2,7 @@
 //!
 //! The table `hashes.csv` is part of the interface, `orientations.csv` holds those of Euler angles,
 //! `planar.csv` those of scenes in their plane, `joint-wise.csv` those of damping joint by joint,
-//! `fixed.csv` those of fixed point.
+//! `fixed.csv` those of fixed point, `generalized-alpha.csv` those of the scheme with a matrix.
 //! `DBD_BLESS=bits cargo test -p dbd-bits` writes the present hashes; a changed one needs its
 //! reason in the commit.
 
@@ -12,8 +12,8 @@ use std::path::PathBuf;
 use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
 use dbd_kernel::geometry::{F32, F64, Geometry};
 use dbd_kernel::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, Fixed, JointWise, Leapfrog, Pefrl, Planar32,
-    Planar64, Plant, Rk4, Scheme, SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, Fixed, GeneralizedAlpha, JointWise, Leapfrog, Pefrl,
+    Planar32, Planar64, Plant, Rk4, Scheme, SemiImplicitEuler,
 };
 use dbd_scene::{Scene, SceneModel};
 use dbd_tests::{scene, scene_names};
@@ -23,6 +23,10 @@ const HEADER: &str = "scene,scheme,precision,step,steps,hash";
 /// Steps of every scene, at its own step, and the longer run of one.
 const STEPS: u64 = 1_000;
 const LONG: (&str, u64) = ("four-bar", 10_000);
+
+/// \[s\] the step of the scheme with a matrix.
+const SOLVED: f64 = 1e-3;
+const SOLVE: GeneralizedAlpha = GeneralizedAlpha::DEFAULT;
 
 /// What leapfrog is called with its dampers joint by joint.
 const JOINT_WISE: &str = "leapfrog-joint-wise";
@@ -166,6 +170,27 @@ fn states_in_fixed_point_have_their_golden_hashes() {
     compare("fixed.csv", &present);
 }
 
+/// Of the paper's mechanisms, of joints without a tangent in closed form, clearances, bushings, inputs and a
+/// matrix that is filled.
+#[test]
+fn states_of_generalized_alpha_have_their_golden_hashes() {
+    let mut present = format!("{HEADER}\n");
+    let mut scenes = ALL_SCHEMES.to_vec();
+    scenes.extend(["six-bar", "gripper", "cart-pendulum", "delta-pick-and-place", "macpherson"]);
+    for name in scenes {
+        let scene = Scene { step: Some(SOLVED), ..scene(name) };
+        let model = scene.model.clone().planned();
+        for row in [
+            row_of_model::<F64, _>(&scene, &model, GeneralizedAlpha::NAME, SOLVE, STEPS),
+            row_of_model::<F32, _>(&scene, &model, GeneralizedAlpha::NAME, SOLVE, STEPS),
+            row_of_model::<Fixed, _>(&scene, &model, GeneralizedAlpha::NAME, SOLVE, STEPS),
+        ] {
+            writeln!(present, "{row}").unwrap();
+        }
+    }
+    compare("generalized-alpha.csv", &present);
+}
+
 /// Of scenes in their plane: pins, a spherical and a universal joint with a guide, dampers.
 #[test]
 fn states_in_the_plane_have_their_golden_hashes() {
@@ -192,6 +217,17 @@ fn states_in_the_plane_have_their_golden_hashes() {
         row_of_model::<Planar32, _>(&scene, &planar.model, JOINT_WISE, JointWise(Leapfrog), STEPS),
     ] {
         writeln!(present, "{row}").unwrap();
+    }
+    for name in ["hexagon", "six-bar"] {
+        let scene = Scene { step: Some(SOLVED), ..dbd_tests::scene(name) };
+        let planar = scene.reduced().unwrap_or_else(|found| panic!("{name}: {found:?}"));
+        let model = planar.model.clone().planned();
+        for row in [
+            row_of_model::<Planar64, _>(&scene, &model, GeneralizedAlpha::NAME, SOLVE, STEPS),
+            row_of_model::<Planar32, _>(&scene, &model, GeneralizedAlpha::NAME, SOLVE, STEPS),
+        ] {
+            writeln!(present, "{row}").unwrap();
+        }
     }
     compare("planar.csv", &present);
 }

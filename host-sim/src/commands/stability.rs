@@ -76,8 +76,12 @@ impl StabilityCheck {
             Some(n) => format!(", {n} Newton iterations"),
             None => String::new(),
         };
-        let method = format!("{}{newton}, {}, {}", self.scheme, self.damping, self.precision);
+        let rho = self.rho.map(|rho| format!(", rho {rho}")).unwrap_or_default();
+        let method = format!("{}{newton}{rho}, {}, {}", self.scheme, self.damping, self.precision);
         let step = match (self.largest_step, self.z) {
+            (Some(_), Some(z)) if self.linear_limit.is_infinite() && z >= LARGEST => {
+                format!("any with {method}: stable up to ω·h = {LARGEST}, where the scan ends")
+            }
             (Some(step), Some(z)) => format!(
                 "{} with {method}: ω·h = {} at {} Hz (one oscillator without damping: {})",
                 approximate(step),

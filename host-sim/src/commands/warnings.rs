@@ -125,7 +125,7 @@ pub fn of_step(
 /// Dampers so strong that what they slow down moves too fast: of all for a composition, whose sweeps
 /// lie around the step, of those that cross for the others; within a joint joint-wise damping has none.
 fn of_damping(scene: &Scene, method: &Method, step: f64, whose: &str) -> Option<String> {
-    if method.damping() == Damping::Explicit {
+    if matches!(method.damping(), Damping::Explicit | Damping::Implicit) {
         return None;
     }
     let composed = COMPOSED.contains(&method.scheme_name());

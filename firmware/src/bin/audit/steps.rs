@@ -3,9 +3,10 @@
 //! All schemes with the four-bar and with a model that has every kind of element, in all
 //! precisions; every other shipped model with leapfrog in single precision, some in fixed point.
 
+use dbd_kernel::model::Planned;
 use dbd_kernel::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Fixed, JointWise, Leapfrog, Model, Pefrl,
-    Plant, Rk4, SemiImplicitEuler, Status,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Fixed, GeneralizedAlpha, JointWise,
+    Leapfrog, Model, Pefrl, Plant, Rk4, SemiImplicitEuler, Status,
 };
 use firmware::alone::Alone;
 use firmware::models::{self, four_bar::FourBarF32, four_bar::FourBarF64};
@@ -15,6 +16,9 @@ use crate::Keep;
 /// A model with elements of every kind. Their numbers are of no matter to a step's code, their
 /// values even less: a kind that is there is compiled.
 pub type EveryKind<P> = Model<P, 4, 6, 24, 12, 2, 14, 2, 1, 2, 4, 3, 4, 2>;
+
+/// The same with the plan of a matrix.
+pub type EveryKindPlanned<P> = Planned<&'static EveryKind<P>, 4, 6, 4, 8>;
 
 macro_rules! step {
     ($keep:ident, $model:literal $type:ty, $name:literal $scheme:ty, $precision:literal) => {{
@@ -70,6 +74,16 @@ pub fn keep(keep: Keep) {
     firmware::shipped!(shipped);
     firmware::fixed!(fixed);
     firmware::shipped_f32!(shipped_f32);
+    // With a matrix, on models with its plan.
+    macro_rules! solved {
+        ($($module:ident $scene:literal $step:ident, $f32:ident: $model:ident;)*) => {
+            $(step!(keep, $scene models::$module::$model, "generalized-alpha" GeneralizedAlpha, "f32");)*
+        };
+    }
+    firmware::solved!(solved);
+    step!(keep, "every-kind" EveryKindPlanned<F32>, "generalized-alpha" GeneralizedAlpha, "f32");
+    step!(keep, "every-kind" EveryKindPlanned<F64>, "generalized-alpha" GeneralizedAlpha, "f64");
+    step!(keep, "every-kind" EveryKindPlanned<Fixed>, "generalized-alpha" GeneralizedAlpha, "fixed");
     // What a controller drives, without the scene's tables.
     step!(keep, "delta-pick-and-place" models::delta_pick_and_place::DeltaPickAndPlaceF32,
         "leapfrog" Leapfrog, "f32");
@@ -87,6 +101,7 @@ pub fn keep(keep: Keep) {
         "leapfrog-joint-wise" JointWise<Leapfrog>;
     }
     every_kind! {
+
         "dbd" Dbd;
         "dbd-p1" DbdP1;
         "dbd-p2" DbdP2;
