@@ -178,7 +178,8 @@ fn states_of_generalized_alpha_have_their_golden_hashes() {
     let mut scenes = ALL_SCHEMES.to_vec();
     scenes.extend(["six-bar", "gripper", "cart-pendulum", "delta-pick-and-place", "macpherson"]);
     for name in scenes {
-        let scene = Scene { step: Some(SOLVED), ..scene(name) };
+        let mut scene = scene(name);
+        scene.step = Some(SOLVED);
         let model = scene.model.clone().planned();
         for row in [
             row_of_model::<F64, _>(&scene, &model, GeneralizedAlpha::NAME, SOLVE, STEPS),
@@ -219,7 +220,8 @@ fn states_in_the_plane_have_their_golden_hashes() {
         writeln!(present, "{row}").unwrap();
     }
     for name in ["hexagon", "six-bar"] {
-        let scene = Scene { step: Some(SOLVED), ..dbd_tests::scene(name) };
+        let mut scene = dbd_tests::scene(name);
+        scene.step = Some(SOLVED);
         let planar = scene.reduced().unwrap_or_else(|found| panic!("{name}: {found:?}"));
         let model = planar.model.clone().planned();
         for row in [
