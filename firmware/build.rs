@@ -1,7 +1,7 @@
 //! Const models of the shipped scenes, and link arguments of the target's programs.
 //!
 //! `scenes/*.toml => SCENE.rs`, and `models.rs`: one module per scene and the macros `shipped`, `shipped_f32`,
-//! `charted`, `fixed`, `compensated`, `solved` and `varied` that list them.
+//! `charted`, `fixed`, `compensated`, `solved`, `solved_double`, `solved_fixed` and `varied` that list them.
 //! Link arguments stand here and not in a configuration, so that RUSTFLAGS in the environment
 //! cannot lose them; a host build gets none.
 
@@ -59,17 +59,20 @@ const VARIED: &[(&str, &str, &[&str])] = &[
     ("hexagon", "planar", &["planar=true"]),
     ("hexagon", "planar-bushing", &["planar=true", "realisation=bushing"]),
 ];
-/// Scenes whose steps with the scheme generalized-alpha are counted, in single precision: the scene, what its
-/// name gets behind it, the changes.
-const SOLVED: &[(&str, &str, &[&str])] = &[
-    ("four-bar", "", &[]),
-    ("six-bar", "", &[]),
-    ("six-bar", "-planar", &["planar=true"]),
-    ("3rrr", "", &[]),
-    ("crank-slider", "", &[]),
-    ("3ruu", "", &[]),
-    ("double-wishbone", "", &[]),
-    ("gripper", "", &[]),
+/// Scenes whose steps with the scheme generalized-alpha are counted, in the precisions that are counted of the
+/// other schemes: the scene, what its name gets behind it, the changes, the precisions.
+const SOLVED: &[(&str, &str, &[&str], &[&str])] = &[
+    ("four-bar", "", &[], &["f32", "f64", "fixed"]),
+    ("five-bar-a", "", &[], &["f32", "f64"]),
+    ("five-bar-b", "", &[], &["f32", "f64"]),
+    ("six-bar", "", &[], &["f32", "f64", "fixed"]),
+    ("six-bar", "-planar", &["planar=true"], &["f32"]),
+    ("3rrr", "", &[], &["f32", "f64"]),
+    ("crank-slider", "", &[], &["f32", "f64"]),
+    ("3ruu", "", &[], &["f32", "f64", "fixed"]),
+    ("hexagon", "", &[], &["f32", "f64"]),
+    ("double-wishbone", "", &[], &["f32", "f64"]),
+    ("gripper", "", &[], &["f32"]),
 ];
 /// Linked from its own entry without start-up code: see its head.
 const AUDIT: &str = "audit";
@@ -139,19 +142,24 @@ fn models() {
             "/// The scene `{scene}` with other values.\npub mod {module} {{\n{source}}}\n"
         );
     }
-    let mut solved = String::new();
-    for (scene, variant, changes) in SOLVED {
+    let mut solved = [const { String::new() }; 3];
+    for (scene, variant, changes, precisions) in SOLVED {
         let name = format!("{scene}{variant}");
         let file = format!("../scenes/{scene}.toml");
         let build = changes.iter().fold(Build::scene(file), |build, change| build.set(change));
-        let build = build.precision("f32").scheme("generalized-alpha").step("1ms");
-        let source = source(&build);
+        let build = precisions.iter().fold(build, |build, precision| build.precision(precision));
+        let source = source(&build.scheme("generalized-alpha").step("1ms"));
         let module = export::constant_name(&name).to_lowercase() + "_solved";
         let (constant, model) = (export::constant_name(scene), export::type_name(scene));
-        solved += &format!(
-            "            {module} \"{name}\" {constant}_STEP, \
-             {constant}_PLANNED_F32: {model}PlannedF32;\n"
-        );
+        for (list, suffix) in solved.iter_mut().zip(["F32", "F64", "Fixed"]) {
+            if precisions.contains(&suffix.to_lowercase().as_str()) {
+                let capitals = suffix.to_uppercase();
+                *list += &format!(
+                    "            {module} \"{name}\" {constant}_STEP, \
+                     {constant}_PLANNED_{capitals}: {model}Planned{suffix};\n"
+                );
+            }
+        }
         modules += &format!(
             "/// The scene `{name}` with the plan of a matrix.\npub mod {module} {{\n{source}}}\n"
         );
@@ -180,7 +188,9 @@ fn models() {
         + &list("charted", "of those that are counted in both", &charted)
         + &list("fixed", "in fixed point", &fixed)
         + &list("compensated", "with compensated sums", &compensated)
-        + &list("solved", "with the plan of a matrix", &solved)
+        + &list("solved", "with the plan of a matrix", &solved[0])
+        + &list("solved_double", "with the plan of a matrix in double precision", &solved[1])
+        + &list("solved_fixed", "with the plan of a matrix in fixed point", &solved[2])
         + &list("varied", "of scenes with other values", &varied);
     write("models.rs", &source);
 }

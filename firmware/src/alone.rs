@@ -9,8 +9,8 @@ use core::marker::PhantomData;
 
 use dbd_kernel::BodyState;
 use dbd_kernel::Scheme;
+use dbd_kernel::model::Plan;
 use dbd_kernel::model::{ModelOwner, ModelRef, Terms};
-use dbd_kernel::solve::Plan;
 
 /// The model, for this scheme only.
 #[derive(Clone, Copy, Debug)]

@@ -170,6 +170,21 @@ pub fn for_each_fixed(visitor: &mut impl Visitor) {
     double_wishbone::DOUBLE_WISHBONE_FIXED: DoubleWishboneFixed DOUBLE_WISHBONE_STEP }
 }
 
+/// Shows the models with the plan of a matrix in all precisions that are counted.
+pub fn for_each_solved(visitor: &mut impl Visitor) {
+    macro_rules! show {
+        ($($module:ident $scene:literal $step:ident, $constant:ident: $model:ident;)*) => {
+            $(
+                let (of, step) = (&models::$module::$constant, models::$module::$step);
+                models::solved_by_one(visitor, $scene, of, step, STEPS);
+            )*
+        };
+    }
+    solved!(show);
+    solved_double!(show);
+    solved_fixed!(show);
+}
+
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeSet;
@@ -206,6 +221,7 @@ mod tests {
         for_each_single(&mut names);
         for_each_double(&mut names);
         for_each_fixed(&mut names);
+        for_each_solved(&mut names);
         names
     }
 

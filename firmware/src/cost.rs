@@ -36,7 +36,6 @@ pub fn run_single(systick: &mut SysTick) -> bool {
     run(systick, |costing| {
         crate::models::for_each(costing);
         crate::chart::for_each_single(costing);
-        crate::models::for_each_solved(costing);
     })
 }
 
@@ -50,6 +49,12 @@ pub fn run_double(systick: &mut SysTick) -> bool {
 #[cfg(feature = "cost")]
 pub fn run_fixed(systick: &mut SysTick) -> bool {
     run(systick, |costing| crate::chart::for_each_fixed(costing))
+}
+
+/// Prints a line for every model with the plan of a matrix.
+#[cfg(feature = "cost")]
+pub fn run_solved(systick: &mut SysTick) -> bool {
+    run(systick, |costing| crate::chart::for_each_solved(costing))
 }
 
 /// Counts and prints what it is shown.

@@ -2,7 +2,8 @@
 //!
 //! The build script makes them from the scene files that it lists, and the macros
 //! [`shipped`](crate::shipped), [`shipped_f32`](crate::shipped_f32), [`charted`](crate::charted),
-//! [`fixed`](crate::fixed), [`compensated`](crate::compensated), [`solved`](crate::solved) and
+//! [`fixed`](crate::fixed), [`compensated`](crate::compensated), [`solved`](crate::solved),
+//! [`solved_double`](crate::solved_double), [`solved_fixed`](crate::solved_fixed) and
 //! [`varied`](crate::varied) from the same lists.
 //! [`for_each`] shows pairs of model and scheme to a visitor, which is generic as the step is.
 
@@ -146,21 +147,30 @@ pub fn for_each_further(visitor: &mut impl Visitor) {
     joint_wise(visitor, "gripper", &gripper::GRIPPER_F32, gripper::GRIPPER_STEP);
 }
 
-/// Shows the models that have the plan of a matrix, with the scheme that takes it.
+/// Shows the models that have the plan of a matrix, with the scheme that takes it: in single precision, those
+/// in fixed point, and the four-bar in double precision for few steps.
 pub fn for_each_solved(visitor: &mut impl Visitor) {
     macro_rules! visit {
-        ($($module:ident $scene:literal $step:ident, $f32:ident: $model:ident;)*) => {
-            $(visitor.visit(Shipped {
-                scene: $scene,
-                model: &$module::$f32,
-                scheme: GeneralizedAlpha::DEFAULT,
-                variant: "",
-                step: $module::$step,
-                steps: SHORT,
-            });)*
+        ($($module:ident $scene:literal $step:ident, $constant:ident: $model:ident;)*) => {
+            $(solved_by_one(visitor, $scene, &$module::$constant, $module::$step, SHORT);)*
         };
     }
     solved!(visit);
+    solved_fixed!(visit);
+    let of = &four_bar_solved::FOUR_BAR_PLANNED_F64;
+    solved_by_one(visitor, "four-bar", of, four_bar_solved::FOUR_BAR_STEP, 20);
+}
+
+/// Shows a model with the scheme that solves.
+pub(crate) fn solved_by_one<M: ModelOwner>(
+    visitor: &mut impl Visitor,
+    scene: &'static str,
+    model: &'static M,
+    step: f64,
+    steps: u64,
+) {
+    let (scheme, variant) = (GeneralizedAlpha::DEFAULT, "");
+    visitor.visit(Shipped { scene, model, scheme, variant, step, steps });
 }
 
 /// Shows a model with leapfrog and its dampers joint by joint.

@@ -5,7 +5,8 @@
 //! with its scheme: the counts do not depend on what else an image holds.
 
 use dbd_kernel::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, JointWise, Leapfrog, Pefrl, Rk4, SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Leapfrog, Pefrl, Rk4,
+    SemiImplicitEuler,
 };
 
 use crate::alone::Alone;
@@ -57,5 +58,11 @@ pub fn for_each_sampled(visitor: &mut impl Visitor) {
             JointWise(Leapfrog) => JointWise<Leapfrog>, "-joint-wise";
         "gripper" gripper::GRIPPER_F32: GripperF32 GRIPPER_STEP,
             JointWise(Leapfrog) => JointWise<Leapfrog>, "-joint-wise";
+        "3ruu" _3ruu_solved::_3RUU_PLANNED_F32: _3ruuPlannedF32 _3RUU_STEP,
+            GeneralizedAlpha::DEFAULT => GeneralizedAlpha, "";
+        "six-bar-planar" six_bar_planar_solved::SIX_BAR_PLANNED_F32: SixBarPlannedF32 SIX_BAR_STEP,
+            GeneralizedAlpha::DEFAULT => GeneralizedAlpha, "";
+        "double-wishbone" double_wishbone_solved::DOUBLE_WISHBONE_PLANNED_F64: DoubleWishbonePlannedF64
+            DOUBLE_WISHBONE_STEP, GeneralizedAlpha::DEFAULT => GeneralizedAlpha, "";
     }
 }

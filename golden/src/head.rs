@@ -85,7 +85,7 @@ pub struct Identity<'a> {
     pub numerals: Numerals,
     /// \[s\] the step as given.
     pub step_size: f64,
-    /// Hash of the model, the same in every precision: [`dbd_kernel::snapshot::model_hash`].
+    /// Hash of the model, the same in every precision: [`dbd_kernel::fingerprint::model_hash`].
     pub model: u64,
     /// How many bodies it has.
     pub bodies: usize,

@@ -4,8 +4,8 @@
 
 use core::ops::Deref;
 
+use dbd_kernel::fingerprint::model_hash;
 use dbd_kernel::readouts::{Reading, Readout};
-use dbd_kernel::snapshot::model_hash;
 use dbd_kernel::{F64, ModelOwner, Plant, Real, Scheme, Vec3};
 use dbd_plant::AnyPlant;
 use dbd_plant::numerals::Digits as StoredDigits;

@@ -6,7 +6,7 @@
 use core::ops::Deref;
 
 use dbd_kernel::attitude::Attitude as _;
-use dbd_kernel::snapshot::model_hash;
+use dbd_kernel::fingerprint::model_hash;
 use dbd_kernel::words::{Word, WordVisitor, Words};
 use dbd_kernel::{BodyState, Geometry, ModelOwner, Plant, Real, Scheme};
 

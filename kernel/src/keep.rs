@@ -3,9 +3,10 @@
 //! `model => memory`. What a scheme does not need is not there.
 
 use crate::damping::Lever;
+use crate::freedoms::Freedoms as _;
 use crate::model::{ModelOwner, SpaceOf};
-use crate::solve::{BlockOf, Freedoms, Seat};
-use crate::space::Space;
+use crate::solve::Seat;
+use crate::space::{BlockOf, Space};
 
 /// What a scheme keeps in its plant.
 pub trait Keep {

@@ -6,8 +6,8 @@
 //!
 //! The modules in the order of the road; each uses only those before it (a test holds it to that):
 //!
-//! - [`words`], `square_root`, [`real`], [`vector`], [`space`], [`plane`], [`arctangent`]: the
-//!   arithmetic, and the words in which it is stored.
+//! - [`words`], `square_root`, [`real`], [`vector`], [`freedoms`], [`space`], [`plane`], [`arctangent`]: the
+//!   arithmetic, also of blocks of numbers, and the words in which it is stored.
 //! - `compositions`, [`index`]: coefficients, and names of a model's parts.
 //! - [`attitude`], [`geometry`], [`compensated`], [`fixed`], [`planar`], [`euler`], [`loose`]: a precision
 //!   is a type: [`F64`], [`F32`], [`CompensatedF32`], [`Fixed`], in the plane [`Planar64`], [`Planar32`]; an
@@ -17,12 +17,14 @@
 //! - [`mod@model`], [`sketch`], [`state`]: read-only constants of bodies and elements, and how a person
 //!   writes them; plain data and its hash.
 //! - `pose`, [`forces`], [`damping`]: where points lie; one evaluation; dampers as impulses.
+//! - [`solve`], [`keep`]: the linear system of a scheme that has one; what a scheme keeps in its plant.
 //! - [`step`], [`schemes`]: kick and drift; how they make a step.
+//! - [`frequency`]: how fast a model can vibrate.
 //! - `guards`, [`extents`], `refusal`, [`plant`]: what a step must not have made; what a precision cannot
 //!   hold; why a plant refuses what it is given; model, scheme, step and state together.
-//! - [`energy`], [`frequency`], [`watch`]: what a state holds, how fast it can vibrate; guards that
-//!   look at both.
-//! - [`snapshot`], [`readouts`]: a state as bytes from machine to machine; what sensors see.
+//! - [`energy`], [`watch`]: what a state holds; guards that look at it and at how fast it can vibrate.
+//! - [`fingerprint`], [`snapshot`], [`readouts`]: what a state belongs to; a state as bytes from machine to
+//!   machine; what sensors see.
 //! - [`builder`], `convert`, `format`: models assembled at run time, nalgebra's types, defmt's
 //!   (features).
 //!
@@ -75,10 +77,12 @@ pub mod elements;
 pub mod energy;
 pub mod euler;
 pub mod extents;
+pub mod fingerprint;
 pub mod fixed;
 pub mod forces;
 #[cfg(feature = "defmt")]
 mod format;
+pub mod freedoms;
 pub mod frequency;
 pub mod geometry;
 mod guards;

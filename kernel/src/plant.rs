@@ -132,7 +132,8 @@ where
             let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
             if let Some(most) = S::MOST_VIBRATION {
                 let (most, found) = (RealOf::<H::Target>::constant(most), bound(owner, &state));
-                if !(found * h <= most) {
+                let holds = found * h <= most;
+                if !holds {
                     return Err(PlantError::Stiff((most / found).to_f64()));
                 }
             }

@@ -8,8 +8,8 @@
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
 
+use crate::freedoms::Freedoms;
 use crate::real::{Lanewise, Real};
-use crate::solve::{BlockOf, Freedoms};
 use crate::vector::{Quaternion, Vec3};
 use crate::words::Words;
 
@@ -115,6 +115,9 @@ pub trait Turn: Copy + Debug + Default + PartialEq + Send + Words + 'static {
     /// `sine`, v·n, and `norm`, the denominator.
     fn gradient(self, axis: Self::Moment, sine: Self::Real, norm: Self::Real) -> Self::Moment;
 }
+
+/// The block of a space's freedoms.
+pub type BlockOf<S> = <<S as Space>::Row as Freedoms>::Block;
 
 /// A space that bodies move in, over a number.
 pub trait Space: Copy + Debug + Default + PartialEq + 'static {

@@ -7,8 +7,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Deref;
 
+use dbd_kernel::model::Plan;
 use dbd_kernel::model::{Group, ModelOwner, ModelRef};
-use dbd_kernel::solve::Plan;
 use dbd_kernel::space::Space;
 use dbd_kernel::{BodyState, TorsionSpring};
 

@@ -7,10 +7,10 @@ use std::marker::PhantomData;
 use dbd_kernel::body::Body;
 use dbd_kernel::elements::input::{Input, Knot};
 use dbd_kernel::index::InputIndex;
+use dbd_kernel::model::Plan;
 use dbd_kernel::model::{AllTerms, Group, ModelOwner, ModelRef};
 use dbd_kernel::schedule::LoadWindow;
 use dbd_kernel::schedule::{KnotStep, Signal};
-use dbd_kernel::solve::Plan;
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
     BodyState, F64, Geometry, Load, PointBushing, PointOnLine, Real, Revolute, State,

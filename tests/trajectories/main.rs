@@ -12,8 +12,8 @@ mod bare;
 
 use dbd_golden::{Bands, GoldenFile, Mismatch, Recording, Tolerance};
 use dbd_kernel::euler::EulerF32;
+use dbd_kernel::fingerprint::model_hash;
 use dbd_kernel::readouts::Reading;
-use dbd_kernel::snapshot::model_hash;
 use dbd_kernel::{F32, F64, Geometry, Leapfrog, Pefrl, Plant, Real, Scheme};
 use dbd_plant::{Method, PrecisionName, SchemeName};
 use dbd_scene::SceneModel;

@@ -3,11 +3,11 @@
 //! `(groups at moved ground, signals) => wrenches`. Part of what is pushed from outside: a rate jumps
 //! where a table has a knot, as a force does.
 
+use crate::forces::directions::springs;
 use crate::forces::record::Wrench;
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::{End, Places, placed};
-use crate::solve::springs;
 use crate::space::{Linear as _, Vector as _};
 
 /// Adds the force `c·(u·ṡ)·u` of each damper to moved ground, ṡ the ground's rate; torques in world axes.

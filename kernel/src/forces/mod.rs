@@ -9,6 +9,7 @@
 //! axes once, at the end.
 
 mod bushing;
+mod directions;
 mod driven;
 mod in_line;
 mod inputs;
@@ -22,6 +23,7 @@ mod two_points;
 mod universal;
 
 use crate::body::BodyState;
+pub(crate) use directions::springs;
 pub(crate) use in_line::are_in_line;
 pub use record::{At, Dampers, DampersLeft, DampersOfJoints, ExplicitDampers, Wrench};
 pub(crate) use record::{Record, Turns, apply};

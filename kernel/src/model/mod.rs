@@ -11,10 +11,12 @@
 //! As bushings either is one pair of points, a fixed joint three stars of a point each.
 
 mod owned;
+mod plan;
 mod planned;
 mod terms;
 
 pub use owned::Model;
+pub use plan::Plan;
 pub use planned::Planned;
 pub use terms::{AllTerms, CountedTerms, Terms};
 
@@ -36,7 +38,6 @@ use crate::elements::universal::Universal;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
 use crate::schedule::{KnotStep, LoadWindow, Signal};
-use crate::solve::Plan;
 
 /// The elements of one joint or one raw element: one record of force and torques.
 ///

@@ -7,8 +7,8 @@
 use core::ops::Deref;
 
 use crate::body::BodyState;
+use crate::model::plan::Plan;
 use crate::model::{ModelOwner, ModelRef};
-use crate::solve::Plan;
 
 /// A model and the order in which its bodies are eliminated, see [`Plan`].
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,36 +7,17 @@
 use crate::body::BodyState;
 use crate::elements::element::Element;
 use crate::elements::point_law::Stretch;
+use crate::forces::springs;
+use crate::freedoms::Freedoms;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::model::{Group, ModelRef, Terms};
+use crate::model::{Group, ModelRef, Plan, Terms};
 use crate::pose::{End, Places, gradient_of, held_turns, placed};
 use crate::real::Real;
-use crate::solve::freedoms::Freedoms;
-use crate::solve::plan::Plan;
+use crate::solve::pencil::{Pencil, damping_of};
 use crate::solve::seat::Seat;
-use crate::solve::springs::springs;
-use crate::solve::system::{BlockOf, System};
-use crate::space::{Linear as _, Space, Vector as _};
-
-/// The weights of mass, damping and stiffness in a matrix.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pencil<R> {
-    /// Of masses.
-    pub mass: R,
-    /// \[s\] of damping coefficients.
-    pub damping: R,
-    /// \[s²\] of stiffnesses.
-    pub stiffness: R,
-}
-
-impl<R: Real> Pencil<R> {
-    /// That of a spring and its damper.
-    #[inline(always)]
-    fn weight(&self, stiffness: R, damping: R) -> R {
-        self.stiffness * stiffness + self.damping * damping
-    }
-}
+use crate::solve::system::System;
+use crate::space::{BlockOf, Linear as _, Space, Vector as _};
 
 /// Writes the matrix.
 pub(crate) fn assemble<P: Geometry, T: Terms>(
@@ -74,29 +55,6 @@ pub(crate) fn assemble<P: Geometry, T: Terms>(
 }
 
 type Row<P> = <<P as Geometry>::Space as Space>::Row;
-
-/// The weight of element `i` of a group, `None` where the model lacks it.
-#[inline(always)]
-pub(super) fn weight_of<P: Geometry, T: Terms>(
-    model: &ModelRef<'_, P, T>,
-    group: &Group,
-    (i, index): (usize, usize),
-    pencil: Pencil<P::Real>,
-) -> Option<P::Real> {
-    let stiffness = model.element(group.law, index)?.stiffness();
-    Some(pencil.weight(stiffness, damping_of(model, group, i)))
-}
-
-/// The damping coefficient of element `i` of a group, 0 without one.
-#[inline(always)]
-fn damping_of<P: Geometry, T: Terms>(
-    model: &ModelRef<'_, P, T>,
-    group: &Group,
-    i: usize,
-) -> P::Real {
-    let damper = group.damper.row().and_then(|row| model.dampers.get(row + i));
-    damper.copied().unwrap_or(P::Real::ZERO)
-}
 
 /// Element by element.
 fn add_group<P: Geometry, T: Terms>(

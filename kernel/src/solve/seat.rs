@@ -4,12 +4,12 @@
 //! alike at a centre, `Σ w·u·uᵀ = s·I`, and turns across an axis, `Σ w·(ρ×u)·(ρ×u)ᵀ = n·(I − e·eᵀ)`: then the
 //! joint is this point and this axis, wherever its bodies are. Any other group stands for its elements.
 
+use crate::freedoms::Freedoms as _;
 use crate::geometry::Geometry;
 use crate::model::{Group, Law, ModelRef, Terms};
 use crate::pose::{End, Placed, Places, placed};
 use crate::real::Real;
-use crate::solve::assemble::{Pencil, weight_of};
-use crate::solve::freedoms::Freedoms as _;
+use crate::solve::pencil::{Pencil, weight_of};
 use crate::space::{Linear as _, Space, Vector as _};
 
 /// Where and how much a joint holds.

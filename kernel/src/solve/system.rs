@@ -4,13 +4,10 @@
 //! 4.1), bodies in the order of the plan. For a positive definite matrix no pivot is needed.
 
 use crate::forces::Wrench;
+use crate::freedoms::Freedoms;
 use crate::index::BodyIndex;
-use crate::solve::freedoms::Freedoms;
-use crate::solve::plan::Plan;
-use crate::space::Space;
-
-/// The block of a space's freedoms.
-pub type BlockOf<S> = <<S as Space>::Row as Freedoms>::Block;
+use crate::model::Plan;
+use crate::space::{BlockOf, Space};
 
 /// The blocks of a system, lent for a step.
 pub(crate) struct System<'s, S: Space> {

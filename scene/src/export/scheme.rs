@@ -60,7 +60,7 @@ impl SchemeError {
 
 impl ExportScheme {
     /// A scheme by its name, with Newton iterations for those that have them, and with another
-    /// damping than its own, `sweeps`, `joint-wise` or `explicit`, for those that have all.
+    /// damping than its own, `sweeps`, `joint-wise` or `explicit`, for those that have them.
     ///
     /// # Errors
     /// Where there is no such scheme, or it has no such parameter.
@@ -70,10 +70,11 @@ impl ExportScheme {
         damping: Option<&str>,
     ) -> Result<Self, SchemeError> {
         let refuse = |message: String, help: String| Err(SchemeError { message, help });
-        let ways = [Damping::Sweeps, Damping::JointWise, Damping::Explicit];
+        let ways = [Damping::Sweeps, Damping::JointWise, Damping::Explicit, Damping::Implicit];
         let way = damping.and_then(|word| ways.into_iter().find(|way| way.name() == word));
         if let (Some(word), None) = (damping, way) {
-            let help = format!("{}, {} or {}", ways[0].name(), ways[1].name(), ways[2].name());
+            let names = ways.map(Damping::name);
+            let help = format!("{} or {}", names[..3].join(", "), names[3]);
             return refuse(format!("there is no damping \"{word}\""), help);
         }
         let iterations = newton.unwrap_or(0);
@@ -117,7 +118,9 @@ impl ExportScheme {
         match damping {
             Some(word) if word != scheme.damping.name() => refuse(
                 format!("the scheme {name} has no {word} damping, only {}", scheme.damping.name()),
-                format!("leapfrog and semi-implicit-euler have all of them; none for {name}"),
+                format!(
+                    "leapfrog and semi-implicit-euler have sweeps, joint-wise and explicit; none for {name}"
+                ),
             ),
             _ => Ok(scheme),
         }

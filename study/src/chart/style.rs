@@ -42,7 +42,7 @@ pub enum Shape {
     Star(u8),
 }
 
-const SHAPES: [Shape; 8] = [
+const SHAPES: [Shape; 9] = [
     Shape::Circle,
     Shape::Polygon(4, 45),
     Shape::Polygon(3, 0),
@@ -51,6 +51,7 @@ const SHAPES: [Shape; 8] = [
     Shape::Star(5),
     Shape::Polygon(5, 0),
     Shape::Star(4),
+    Shape::Star(6),
 ];
 
 /// Line and text.
@@ -67,7 +68,7 @@ const GREY: (&str, &str) = ("#9aa1ab", "#6b737e");
 
 /// Colour and mark of the schemes known, so that charts of several scenes agree: rows of `COLOURS`
 /// (none: black) and of `SHAPES`.
-const KNOWN: [(&str, Option<usize>, usize); 8] = [
+const KNOWN: [(&str, Option<usize>, usize); 9] = [
     ("dbd", None, 0),
     ("leapfrog", Some(0), 1),
     ("pefrl", Some(1), 2),
@@ -76,6 +77,7 @@ const KNOWN: [(&str, Option<usize>, usize); 8] = [
     ("semi-implicit-euler", Some(5), 6),
     ("dbd-p1", Some(4), 5),
     ("dbd-p2", Some(4), 7),
+    ("generalized-alpha", None, 8),
 ];
 
 impl Style {

@@ -31,6 +31,9 @@ const GOALS: &[(&str, Figure, u64)] = &[
     ("cart-pendulum leapfrog-joint-wise f32", Figure::Instructions, 6_000),
     ("gripper leapfrog-joint-wise f32", Figure::Instructions, 24_000),
     ("hexagon leapfrog fixed", Figure::Instructions, 7_625),
+    ("3ruu generalized-alpha f32", Figure::Instructions, 45_000),
+    ("six-bar generalized-alpha f32", Figure::Instructions, 16_000),
+    ("six-bar-planar generalized-alpha f32", Figure::Instructions, 5_000),
     ("3ruu leapfrog f32", Figure::Ram, 4 * 1024),
     ("3ruu leapfrog f32", Figure::Flash, 32 * 1024),
 ];

@@ -20,7 +20,7 @@ use super::row::Cost;
 
 const FILE: &str = "docs/costs-mix.csv";
 /// Programs that count, each in an image of its own.
-const PROGRAMS: [&str; 3] = ["cost", "cost-double", "cost-fixed"];
+const PROGRAMS: [&str; 4] = ["cost", "cost-double", "cost-fixed", "cost-solved"];
 /// The function whose calls are marks.
 const MARK: &str = "firmware::cost::mark";
 /// Calls between two marks.

@@ -26,11 +26,12 @@ const AUDIT: &str = "audit";
 pub const LIBRARIES: &str = "core,alloc";
 
 /// Programs that can be run, each with the image that holds it.
-const PROGRAMS: [(&str, &str); 12] = [
+const PROGRAMS: [(&str, &str); 13] = [
     ("board", SHARED),
     ("cost", "cost"),
     ("cost-double", "cost-double"),
     ("cost-fixed", "cost-fixed"),
+    ("cost-solved", "cost-solved"),
     ("guards", "guards"),
     ("hash", SHARED),
     ("plant", PLANT),

@@ -2,7 +2,7 @@
 //!
 //! `head, catalogue => scene; or why there is none`. Without its scene a run has curves, and no mechanism to be seen.
 
-use dbd_kernel::snapshot::model_hash;
+use dbd_kernel::fingerprint::model_hash;
 use dbd_scene::Scene;
 
 use crate::recorded::{Head, Kind};

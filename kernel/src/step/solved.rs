@@ -6,8 +6,7 @@ use crate::forces::pushed;
 use crate::geometry::Geometry;
 use crate::model::Terms;
 use crate::pose::{Places, place_bodies};
-use crate::solve::assemble::{Pencil, assemble};
-use crate::solve::system::System;
+use crate::solve::{Pencil, System, assemble};
 use crate::status::Cause;
 use crate::step::Workspace;
 
@@ -42,7 +41,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
         let plan = self.plan;
         let mut system = System { plan, diagonal: self.blocks, pairs: self.pair_blocks };
         let places = Places { frames: &*self.frames, signals: &*self.signals };
-        let known = (pencil, &*self.seats);
+        let known = (pencil, self.seats);
         assemble(&self.model, places, self.bodies, known, &mut system);
         system.factor().map_err(|body| Cause::Pivot { body })?;
         system.substitute(self.wrenches);

@@ -1,0 +1,49 @@
+//! What masses, dampers and springs weigh in a matrix.
+//!
+//! `(stiffness, damping) => κ·k + χ·c`. A scheme's constants and its step make the three weights.
+
+use crate::geometry::Geometry;
+use crate::model::{Group, ModelRef, Terms};
+use crate::real::Real;
+
+/// The weights of mass, damping and stiffness in a matrix.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pencil<R> {
+    /// \[1\] of masses.
+    pub mass: R,
+    /// \[s\] of damping coefficients.
+    pub damping: R,
+    /// \[s²\] of stiffnesses.
+    pub stiffness: R,
+}
+
+impl<R: Real> Pencil<R> {
+    /// That of a spring and its damper.
+    #[inline(always)]
+    pub(super) fn weight(&self, stiffness: R, damping: R) -> R {
+        self.stiffness * stiffness + self.damping * damping
+    }
+}
+
+/// The weight of element `i` of a group, `None` where the model lacks it.
+#[inline(always)]
+pub(super) fn weight_of<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    group: &Group,
+    (i, index): (usize, usize),
+    pencil: Pencil<P::Real>,
+) -> Option<P::Real> {
+    let stiffness = model.element(group.law, index)?.stiffness();
+    Some(pencil.weight(stiffness, damping_of(model, group, i)))
+}
+
+/// The damping coefficient of element `i` of a group, 0 without one.
+#[inline(always)]
+pub(super) fn damping_of<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    group: &Group,
+    i: usize,
+) -> P::Real {
+    let damper = group.damper.row().and_then(|row| model.dampers.get(row + i));
+    damper.copied().unwrap_or(P::Real::ZERO)
+}

@@ -1,0 +1,100 @@
+//! What a scheme does with dampers: half a step of impulses, with the forces' kick or by themselves.
+//!
+//! `(velocities, wrenches, frames) => velocities`.
+
+use crate::damping::{self, HalfKick, NoKick, Sweep};
+use crate::forces::Dampers;
+use crate::geometry::Geometry;
+use crate::model::Terms;
+use crate::pose::{Places, place_bodies};
+use crate::real::Real;
+use crate::step::Workspace;
+
+impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
+    /// Brings the frames to the present pose where sweeps need them and no evaluation has.
+    #[inline(always)]
+    pub fn place_for_sweep(&mut self) {
+        if self.has_dampers() {
+            place_bodies(self.bodies, self.frames);
+        }
+    }
+
+    /// Kick and dampers of half a step as one: a kick by half, then the dampers in ascending
+    /// order, which know of it. A strong damper leaves the rate at which it bears the force.
+    /// Frames and wrenches are those of the present pose, without dampers.
+    #[inline(always)]
+    pub fn damped_kick_forward(&mut self) {
+        self.kick(P::Real::HALF);
+        self.sweep_after_kick::<false>();
+    }
+
+    /// [`Self::damped_kick_forward`] with the dampers in descending order.
+    #[inline(always)]
+    pub fn damped_kick_reverse(&mut self) {
+        self.kick(P::Real::HALF);
+        self.sweep_after_kick::<true>();
+    }
+
+    #[inline(always)]
+    fn sweep_after_kick<const REVERSE: bool>(&mut self) {
+        let (wrenches, diagonals) = (&*self.wrenches, self.diagonals);
+        if self.has_dampers() {
+            let sweep = Sweep {
+                h: P::Real::HALF * self.h,
+                places: Places { frames: self.frames, signals: self.signals },
+                turns: self.turns,
+                shares: self.shares,
+                kick: HalfKick { wrenches, diagonals },
+            };
+            damping::sweep::<P, T, _, REVERSE>(&self.model, &sweep, self.bodies);
+        }
+    }
+
+    /// [`Self::damped_kick_forward`] or its reverse, with the dampers as `D` says.
+    #[inline(always)]
+    pub(crate) fn damped_kick<D: Dampers, const REVERSE: bool>(&mut self) {
+        self.kick(P::Real::HALF);
+        if !(D::JOINT_WISE && T::DAMPERS) {
+            return self.sweep_after_kick::<REVERSE>();
+        }
+        let h = P::Real::HALF * self.h;
+        let places = Places { frames: &*self.frames, signals: &*self.signals };
+        let kick = HalfKick { wrenches: &*self.wrenches, diagonals: self.diagonals };
+        let sweep = Sweep { h, places, turns: &*self.turns, shares: self.shares, kick };
+        if !self.ledger.ready {
+            let levers = (&mut *self.levers, self.ledger.stops);
+            damping::prepare::<P, T, _>(&self.model, &sweep, self.bodies, levers);
+            self.ledger.ready = true;
+        }
+        let levers = (&*self.levers, self.ledger.stops);
+        damping::sweep_joints::<P, T, _, REVERSE>(&self.model, &sweep, levers, self.bodies);
+    }
+
+    /// Half a step of the dampers by themselves in ascending order; frames are those of the
+    /// present pose. Where forces act within the same step, [`Self::damped_kick_forward`] follows
+    /// a strong damper truly; this stops its motion and lets the forces start it anew.
+    #[inline(always)]
+    pub fn sweep_forward(&mut self) {
+        self.sweep_alone::<false>();
+    }
+
+    /// [`Self::sweep_forward`] in descending order.
+    #[inline(always)]
+    pub fn sweep_reverse(&mut self) {
+        self.sweep_alone::<true>();
+    }
+
+    #[inline(always)]
+    fn sweep_alone<const REVERSE: bool>(&mut self) {
+        if self.has_dampers() {
+            let sweep = Sweep {
+                h: P::Real::HALF * self.h,
+                places: Places { frames: self.frames, signals: self.signals },
+                turns: self.turns,
+                shares: self.shares,
+                kick: NoKick,
+            };
+            damping::sweep::<P, T, _, REVERSE>(&self.model, &sweep, self.bodies);
+        }
+    }
+}
