@@ -34,6 +34,7 @@ pages! {
     joints "docs/joints.md"
     measured "docs/measured.md"
     method "docs/method.md"
+    near_rigid "docs/near-rigid.md"
     planar "docs/planar.md"
     precision "docs/precision.md"
     proof "docs/proof.md"

@@ -5,8 +5,9 @@ use dbd_kernel::damping::Damping;
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::energy::energy;
 use dbd_kernel::{
-    BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Geometry, JointWise,
-    Leapfrog, LoadFrame, ModelOwner, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler, State, Vec3,
+    BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F32, F64, GeneralizedAlpha,
+    Geometry, JointWise, Leapfrog, LoadFrame, ModelOwner, Pefrl, Plant, Rk4, Scheme,
+    SemiImplicitEuler, State, Vec3,
 };
 use dbd_tests::page::{block, table};
 use dbd_tests::{Bench, at, free_ring, hung_ring, momenta};
@@ -332,7 +333,10 @@ fn what_a_caller_sets_is_held_for_all_stages() {
 fn the_page_says_what_the_schemes_state() {
     fn row<S: Scheme>(scheme: fn(u32) -> S, newton: bool, words: [&str; 2]) -> Vec<String> {
         let plain = scheme(0);
-        let short = |limit: f64| format!("{}", (1e3 * limit).round() / 1e3);
+        let short = |limit: f64| match limit.is_infinite() {
+            true => "any".into(),
+            false => format!("{}", (1e3 * limit).round() / 1e3),
+        };
         let limits: Vec<f64> = (0..=8).map(|n| scheme(n).stability_limit()).collect();
         let evaluations = plain.evaluations();
         let (mut evaluations, mut limit) = (format!("{evaluations}"), short(limits[0]));
@@ -396,6 +400,14 @@ fn the_page_says_what_the_schemes_state() {
             ],
         ),
         row(|newton| DbdP2 { newton }, true, ["as dbd-p1", "for the record"]),
+        row(
+            |_| GeneralizedAlpha::DEFAULT,
+            false,
+            [
+                "nothing; takes the energy of what vibrates within a few steps",
+                "all but rigid joints at steps of milliseconds: [when](near-rigid.md)",
+            ],
+        ),
     ];
     let head = [
         "scheme",

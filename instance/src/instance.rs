@@ -49,8 +49,9 @@ impl Instance {
         set: BTreeMap<String, f64>,
     ) -> Result<Self, InstanceError> {
         let scene = blueprint.scene(&set)?;
-        let step = settings.step_of(&scene)?;
-        let plant = plant(&scene, &settings.method()?, step)?;
+        let method = settings.method()?;
+        let step = settings.step_of(&scene, &method)?;
+        let plant = plant(&scene, &method, step)?;
         let state = plant.state();
         let start = |input: dbd_kernel::index::InputIndex| {
             let signal = state.signals.get(usize::from(input.0));

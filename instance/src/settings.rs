@@ -52,11 +52,11 @@ impl Settings {
     ///
     /// # Errors
     /// Where no step fits these.
-    pub fn step_of(&self, scene: &Scene) -> Result<f64, PlanError> {
+    pub fn step_of(&self, scene: &Scene, method: &Method) -> Result<f64, PlanError> {
         if let Some(step) = self.step.or(scene.step) {
             return Ok(step);
         }
-        let longest = Frequencies::of(scene).default_limit(scene.duration);
+        let longest = Frequencies::of(scene).default_limit(method, scene.duration);
         let step = StepRequest::AtMost(longest);
         let request = Request { step, duration: scene.duration, every: scene.every };
         Ok(plan(&request)?.step)

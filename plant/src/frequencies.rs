@@ -1,8 +1,8 @@
 //! How fast a scene can vibrate at t = 0, how fast its bodies spin, and the step that follows.
 //!
 //! `scene => highest frequency: bound, estimate; fastest spin; advised step`. In double precision
-//! whatever precision runs, so that a default step is a function of the scene alone. Speaks for
-//! t = 0, not for the future.
+//! whatever precision runs, so that a default step of an explicit scheme is a function of the scene alone.
+//! Speaks for t = 0, not for the future.
 
 use std::f64::consts::TAU;
 
@@ -10,6 +10,7 @@ use dbd_kernel::{State, frequency};
 use dbd_scene::Scene;
 
 use crate::digits::{approximate, significant};
+use crate::method::Method;
 use crate::time::display;
 
 /// Power iterations of the estimate: beyond 0.99 of the highest frequency on every scene that
@@ -18,6 +19,9 @@ const ITERATIONS: u32 = 200;
 
 /// Where nothing vibrates, a run takes this many steps.
 const STEPS_WITHOUT_SPRINGS: f64 = 1000.0;
+
+/// What a default step keeps of the longest one that is not refused: frequencies rise along a motion.
+const MARGIN: f64 = 0.5;
 
 /// \[rad\] the largest turn of a body in a step: beyond it the free rotor's splitting loses energy
 /// and accuracy.
@@ -91,11 +95,17 @@ impl Frequencies {
         (self.spin > 0.0).then(|| LARGEST_TURN / self.spin)
     }
 
-    /// \[s\] the longest step to take where none is given.
+    /// \[s\] the longest step that a method takes where none is given. A scheme that bears any stiffness
+    /// steps as where nothing vibrates, up to what its matrix bears.
     #[must_use]
-    pub fn default_limit(&self, duration: f64) -> f64 {
+    pub fn default_limit(&self, method: &Method, duration: f64) -> f64 {
         let longest = duration / STEPS_WITHOUT_SPRINGS;
-        let vibration = self.vibration_step().unwrap_or(longest);
+        let vibration = if method.stability_limit().is_finite() {
+            self.vibration_step().unwrap_or(longest)
+        } else {
+            let most = method.most_vibration().map_or(longest, |most| MARGIN * most / self.bound);
+            most.min(longest)
+        };
         self.spin_step().map_or(vibration, |spin| vibration.min(spin))
     }
 

@@ -5,6 +5,7 @@
 //! and one arm there.
 
 use dbd_kernel::damping::Damping;
+use dbd_kernel::real::Constant;
 use dbd_kernel::schemes::{
     BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Leapfrog, Pefrl,
     RhoError, Rk4, Scheme, SemiImplicitEuler,
@@ -337,6 +338,17 @@ impl Method {
         self.traits().stability_limit
     }
 
+    /// The largest `ω·h` that it bears with the bound of the highest frequency, where its matrix limits it.
+    #[must_use]
+    pub fn most_vibration(&self) -> Option<f64> {
+        let most = self.traits().most_vibration?;
+        Some(if self.precision == PrecisionName::F64 {
+            most.double
+        } else {
+            f64::from(most.single)
+        })
+    }
+
     /// The scheme's name, e.g. `leapfrog`.
     #[must_use]
     pub fn scheme_name(&self) -> &'static str {
@@ -392,6 +404,7 @@ struct Traits {
     damping: Damping,
     orders: [u32; 2],
     stability_limit: f64,
+    most_vibration: Option<Constant>,
     evaluations: u32,
 }
 
@@ -401,6 +414,7 @@ impl Traits {
             name: S::NAME,
             damping: S::DAMPING,
             orders: [S::ORDER, S::ORDER_DAMPED],
+            most_vibration: S::MOST_VIBRATION,
             stability_limit: scheme.stability_limit(),
             evaluations: scheme.evaluations(),
         }

@@ -11,6 +11,7 @@ use dbd_kernel::CompensatedF32;
 use dbd_kernel::energy::energy;
 #[cfg(all(feature = "comparison", not(test)))]
 use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
+use dbd_kernel::frequency::bound;
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::keep::Keep as _;
 #[cfg(all(feature = "comparison", not(test)))]
@@ -226,6 +227,18 @@ pub fn plant_of_model(
 pub fn check_step(method: &Method, step: f64) -> Result<(), PlantError> {
     let rounded = method.rounded(step);
     if rounded > 0.0 && rounded.is_finite() { Ok(()) } else { Err(refused(method, step)) }
+}
+
+/// Whether a method's matrix bears a scene's stiffness at t = 0 with steps of `step` \[s\].
+///
+/// # Errors
+/// [`PlantError::Stiff`] with the longest step where it does not.
+pub fn check_stiffness(scene: &Scene, method: &Method, step: f64) -> Result<(), PlantError> {
+    let Some(most) = method.most_vibration() else { return Ok(()) };
+    let model = scene.stepped();
+    let most = most / bound(model, &State::initial(model));
+    let precision = method.precision_name();
+    if step <= most { Ok(()) } else { Err(PlantError::Stiff { most, precision }) }
 }
 
 /// Whether a method's precision holds what a scene's inputs are given.

@@ -33,7 +33,7 @@ fn loaded(imported: &Imported) -> Scene {
 fn distances(scene: &Scene, file: &str) -> Vec<f64> {
     let rows = rows(file);
     let interval = rows[1].number("time");
-    let limit = Frequencies::of(scene).default_limit(scene.duration);
+    let limit = Frequencies::of(scene).default_limit(&Method::default(), scene.duration);
     let steps = (interval / limit).ceil();
     let mut plant = plant(scene, &Method::default(), interval / steps).unwrap();
     let mut largest = vec![0.0_f64; scene.body_names.len()];

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
 use dbd_output::file::write_at;
-use dbd_plant::plant::{check_extents, check_inputs, check_step};
+use dbd_plant::plant::{check_extents, check_inputs, check_step, check_stiffness};
 use dbd_plant::time::Time;
 use dbd_plant::{
     DampingName, Frequencies, Method, Named as _, PlantError, PrecisionName, SchemeName,
@@ -107,17 +107,24 @@ pub fn export(scene: &Scene, options: &ExportOptions) -> Result<String, ExportEr
         Some(rho) => scheme.with_rho(rho)?,
         None => scheme,
     };
-    let step = options.step.map(Time::seconds).or(scene.step);
-    let step = step.unwrap_or_else(|| Frequencies::of(scene).default_limit(scene.duration));
     let precisions = match options.precision {
         Some(one) => vec![one],
         None => vec![ExportPrecision::F64, ExportPrecision::F32],
     };
-    for precision in &precisions {
-        let method = Method::default().with_precision(precision.name());
-        check_step(&method, step)?;
-        check_inputs(scene, &method)?;
-        check_extents(scene, &method, step)?;
+    let method = Method::new(options.scheme, None, PrecisionName::F64).map_err(PlantError::from)?;
+    let methods = precisions.iter().map(|precision| method.with_precision(precision.name()));
+    let methods: Vec<Method> = methods.collect();
+    let longest = || {
+        let frequencies = Frequencies::of(scene);
+        let longest = methods.iter().map(|way| frequencies.default_limit(way, scene.duration));
+        longest.fold(f64::INFINITY, f64::min)
+    };
+    let step = options.step.map(Time::seconds).or(scene.step).unwrap_or_else(longest);
+    for method in &methods {
+        check_step(method, step)?;
+        check_inputs(scene, method)?;
+        check_extents(scene, method, step)?;
+        check_stiffness(scene, method, step)?;
     }
     let precisions = precisions.into_iter().map(ExportPrecision::source).collect();
     Ok(source::source(scene, &source::Export { precisions, scheme, step }))

@@ -187,7 +187,7 @@ fn cause(scene: &Scene, method: &Method, step: f64, remedy: &Remedy) -> Option<S
 }
 
 fn find_remedy(scene: &Scene, method: &Method, run: &Plan, every: Option<f64>) -> Remedy {
-    let advised = Frequencies::of(scene).default_limit(run.duration);
+    let advised = Frequencies::of(scene).default_limit(method, run.duration);
     // Not the failed step itself, nor one as good as equal to it.
     let mut limit = advised.min(run.step / 2.0);
     let mut tried = Vec::new();

@@ -151,7 +151,8 @@ fn project(
     dependencies: &Dependencies,
 ) -> Result<String, NewError> {
     let scene = &found.scene;
-    let advised = || rounded(Frequencies::of(scene).default_limit(scene.duration), 2);
+    let advised =
+        || rounded(Frequencies::of(scene).default_limit(&Method::default(), scene.duration), 2);
     let step = scene.step.unwrap_or_else(advised);
     let steps = ((scene.duration / step).round() as u64).clamp(1, MOST_STEPS);
     let golden = golden(scene, step, steps)?;

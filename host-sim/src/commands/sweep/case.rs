@@ -6,7 +6,7 @@
 
 use std::{io, iter};
 
-use dbd_plant::plant::{check_extents, check_inputs, check_step};
+use dbd_plant::plant::{check_extents, check_inputs, check_step, check_stiffness};
 use dbd_plant::{Frequencies, Method, Plan};
 use dbd_scene::{BODY_COLUMNS, ENERGY_COLUMNS, Scene, SceneError};
 use dbd_sweep::check::{Misfit, Trial};
@@ -154,12 +154,13 @@ fn planned(scene: &Scene, method: &Method) -> Result<Plan, Misfit> {
         message: error.to_string(),
         help: error.help().map(|help| help.to_string()).unwrap_or_default(),
     };
-    let longest = |duration| Frequencies::of(scene).default_limit(duration);
+    let longest = |duration| Frequencies::of(scene).default_limit(method, duration);
     let plan = plan_within(scene, &RunOptions::new(*method), longest);
     let plan = plan.map_err(|error| misfit(&error))?;
     check_step(method, plan.step).map_err(|error| misfit(&error))?;
     check_inputs(scene, method).map_err(|error| misfit(&error))?;
     check_extents(scene, method, plan.step).map_err(|error| misfit(&error))?;
+    check_stiffness(scene, method, plan.step).map_err(|error| misfit(&error))?;
     Ok(plan)
 }
 
