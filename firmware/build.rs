@@ -156,7 +156,7 @@ fn models() {
                 let capitals = suffix.to_uppercase();
                 *list += &format!(
                     "            {module} \"{name}\" {constant}_STEP, \
-                     {constant}_PLANNED_{capitals}: {model}Planned{suffix};\n"
+                     {constant}_PLANNED_{capitals}: {model}Planned{suffix} of {model}{suffix};\n"
                 );
             }
         }

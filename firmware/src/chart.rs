@@ -25,6 +25,7 @@ macro_rules! chart {
             $visitor.visit(Shipped {
                 scene: $scene,
                 model: &MODEL,
+                beside: 0,
                 scheme: $scheme,
                 variant: $variant,
                 step: models::$module::$step,
@@ -173,10 +174,11 @@ pub fn for_each_fixed(visitor: &mut impl Visitor) {
 /// Shows the models with the plan of a matrix in all precisions that are counted.
 pub fn for_each_solved(visitor: &mut impl Visitor) {
     macro_rules! show {
-        ($($module:ident $scene:literal $step:ident, $constant:ident: $model:ident;)*) => {
+        ($($module:ident $scene:literal $step:ident,
+            $constant:ident: $model:ident of $base:ident;)*) => {
             $(
-                let (of, step) = (&models::$module::$constant, models::$module::$step);
-                models::solved_by_one(visitor, $scene, of, step, STEPS);
+                let of = (&models::$module::$constant, size_of::<models::$module::$base>());
+                models::solved_by_one(visitor, $scene, of, models::$module::$step, STEPS);
             )*
         };
     }

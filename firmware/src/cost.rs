@@ -144,7 +144,7 @@ impl Visitor for Costing<'_> {
             SysTick::instructions(total, STEPS),
             SysTick::instructions(most, 1),
             size_of::<Plant<&'static M, S>>(),
-            size_of::<M>(),
+            size_of::<M>() + shipped.beside,
             stack
         );
     }

@@ -21,6 +21,8 @@ pub struct Shipped<M: 'static, S> {
     pub scene: &'static str,
     /// The model in flash.
     pub model: &'static M,
+    /// \[bytes\] what it points to.
+    pub beside: usize,
     /// The scheme.
     pub scheme: S,
     /// What follows the scheme's name: nothing, `+1` for a Newton iteration, `-explicit` or
@@ -45,6 +47,7 @@ macro_rules! show {
         $($visitor.visit(Shipped {
             scene: $scene,
             model: &$module::$model,
+            beside: 0,
             scheme: $scheme,
             variant: "",
             step: $module::$step,
@@ -76,6 +79,7 @@ pub fn for_each(visitor: &mut impl Visitor) {
             $(visitor.visit(Shipped {
                 scene: $scene,
                 model: &$module::$f32,
+                beside: 0,
                 scheme: Leapfrog,
                 variant: "",
                 step: $module::$step,
@@ -92,9 +96,9 @@ fn both<M: ModelOwner>(
     model: &'static M,
     step: f64,
 ) {
-    let (variant, steps) = ("", u64::MAX);
-    visitor.visit(Shipped { scene, model, scheme: Leapfrog, variant, step, steps });
-    visitor.visit(Shipped { scene, model, scheme: Dbd::default(), variant, step, steps });
+    let (variant, beside, steps) = ("", 0, u64::MAX);
+    visitor.visit(Shipped { scene, model, beside, scheme: Leapfrog, variant, step, steps });
+    visitor.visit(Shipped { scene, model, beside, scheme: Dbd::default(), variant, step, steps });
 }
 
 /// Shows what a run that changes machines is tried with: both precisions, a scheme that keeps its
@@ -151,13 +155,17 @@ pub fn for_each_further(visitor: &mut impl Visitor) {
 /// in fixed point, and the four-bar in double precision for few steps.
 pub fn for_each_solved(visitor: &mut impl Visitor) {
     macro_rules! visit {
-        ($($module:ident $scene:literal $step:ident, $constant:ident: $model:ident;)*) => {
-            $(solved_by_one(visitor, $scene, &$module::$constant, $module::$step, SHORT);)*
+        ($($module:ident $scene:literal $step:ident,
+            $constant:ident: $model:ident of $base:ident;)*) => {
+            $(
+                let of = (&$module::$constant, size_of::<$module::$base>());
+                solved_by_one(visitor, $scene, of, $module::$step, SHORT);
+            )*
         };
     }
     solved!(visit);
     solved_fixed!(visit);
-    let of = &four_bar_solved::FOUR_BAR_PLANNED_F64;
+    let of = (&four_bar_solved::FOUR_BAR_PLANNED_F64, size_of::<four_bar_solved::FourBarF64>());
     solved_by_one(visitor, "four-bar", of, four_bar_solved::FOUR_BAR_STEP, 20);
 }
 
@@ -165,12 +173,12 @@ pub fn for_each_solved(visitor: &mut impl Visitor) {
 pub(crate) fn solved_by_one<M: ModelOwner>(
     visitor: &mut impl Visitor,
     scene: &'static str,
-    model: &'static M,
+    (model, beside): (&'static M, usize),
     step: f64,
     steps: u64,
 ) {
     let (scheme, variant) = (GeneralizedAlpha::DEFAULT, "");
-    visitor.visit(Shipped { scene, model, scheme, variant, step, steps });
+    visitor.visit(Shipped { scene, model, beside, scheme, variant, step, steps });
 }
 
 /// Shows a model with leapfrog and its dampers joint by joint.
@@ -181,5 +189,5 @@ fn joint_wise<M: ModelOwner>(
     step: f64,
 ) {
     let (scheme, variant) = (JointWise(Leapfrog), "-joint-wise");
-    visitor.visit(Shipped { scene, model, scheme, variant, step, steps: SHORT });
+    visitor.visit(Shipped { scene, model, beside: 0, scheme, variant, step, steps: SHORT });
 }

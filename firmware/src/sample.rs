@@ -23,6 +23,7 @@ pub fn for_each_sampled(visitor: &mut impl Visitor) {
                 visitor.visit(Shipped {
                     scene: $scene,
                     model: &MODEL,
+                    beside: 0,
                     scheme: $scheme,
                     variant: $variant,
                     step: models::$module::$step,

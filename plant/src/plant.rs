@@ -33,7 +33,7 @@ use crate::method::{Method, MethodError, SchemeChoice};
 use crate::names::{Named, OrientationName, PrecisionName};
 use crate::numerals::Numerals;
 use crate::readings::widened;
-use crate::time::display;
+use crate::time::{at_most, display};
 
 /// `$body` with `$P` the kernel's type for a method's precision and orientation.
 macro_rules! with_precision {
@@ -171,7 +171,7 @@ pub enum PlantError {
     #[diagnostic(help("a scheme without a matrix: --scheme leapfrog"))]
     Pairs,
     /// The precision does not bear joints so stiff with so long a step.
-    #[error("joints as stiff as these take a step of at most {} in {precision}", display(*most))]
+    #[error("joints as stiff as these take a step of at most {} in {precision}", display(at_most(*most)))]
     #[diagnostic(help("a shorter step, softer joints, or --precision f64"))]
     Stiff {
         /// \[s\] the longest step.

@@ -226,7 +226,8 @@ impl Build {
         }
         let bound = frequency::bound(scene.stepped(), &State::initial(scene.stepped()));
         let Some(step) = asked.or(scene.step) else {
-            let works = if bound > 0.0 { 1.0 / bound } else { scene.duration / 1000.0 };
+            let vibrates = bound > 0.0 && scheme.stability_limit().is_finite();
+            let works = if vibrates { 1.0 / bound } else { scene.duration / 1000.0 };
             return Err(BuildError::NoStep(called, display(crate::time::rounded(works, 2))));
         };
         let mut warnings: Vec<String> = scene
@@ -254,6 +255,19 @@ impl Build {
             if scene.planar.is_some() && !precision.has_planes() {
                 let message = format!("{called} is planar, and {name} has no plane");
                 return Err(BuildError::Option(message, "f32, or without `planar`".into()));
+            }
+            let longest = scheme.longest(*precision, bound);
+            if step > longest {
+                let message = format!(
+                    "{called}: joints as stiff as these take a step of at most {} with {} in {name}, not of {}",
+                    display(crate::time::at_most(longest)),
+                    scheme.name(),
+                    display(step),
+                );
+                return Err(BuildError::Option(
+                    message,
+                    "a shorter step, softer joints, or f64".into(),
+                ));
             }
             let held = match precision {
                 ExportPrecision::F64 => continue,

@@ -118,6 +118,14 @@ pub fn rounded(seconds: f64, digits: usize) -> f64 {
     format!("{seconds:.*e}", digits.max(1) - 1).parse().unwrap_or(seconds)
 }
 
+/// A longest time with four significant digits, never longer.
+#[must_use]
+pub fn at_most(seconds: f64) -> f64 {
+    let near = rounded(seconds, 4);
+    let unit = 10_f64.powi(near.log10().floor() as i32 - 3);
+    if near <= seconds { near } else { rounded(near - unit, 4) }
+}
+
 /// Writes `d.ddd·10^exponent`, given the digits without their point.
 fn place_point(digits: &str, exponent: i32) -> String {
     // Beyond this a number is clearer with an exponent.

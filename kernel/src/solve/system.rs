@@ -114,3 +114,70 @@ fn wrench<S: Space>(row: S::Row) -> Wrench<S> {
     let (force, torque) = S::parts(row);
     Wrench { force, torque }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::vec;
+
+    use super::*;
+
+    /// A ring of four bodies, the first on the ground: elimination of one pair's bodies fills another. The
+    /// product of the whole matrix with what was found is the right side.
+    #[test]
+    fn a_ring_whose_elimination_fills_a_pair_is_solved() {
+        let plan = Plan {
+            order: &[[0, 2], [1, 2], [2, 1], [3, 0]],
+            pairs: &[[0, 1], [0, 3], [1, 2], [1, 3], [2, 3]],
+            targets: &[3, 4],
+            homes: &[Plan::GROUND, 0, 2, 4, 1],
+        };
+        let mut random = 0.37_f64;
+        let mut next = || {
+            random = 3.9 * random * (1.0 - random);
+            random - 0.5
+        };
+        let mut diagonal = [<[f64; 6]>::EMPTY; 4];
+        let mut pairs = [<[f64; 6]>::EMPTY; 5];
+        let mut whole = vec![[0.0; 24]; 24];
+        let springs = [[usize::MAX, 0], [0, 1], [1, 2], [2, 3], [0, 3]];
+        for (ends, home) in springs.into_iter().zip(plan.homes) {
+            for _ in 0..8 {
+                let rows: [[f64; 6]; 2] = [(); 2].map(|()| core::array::from_fn(|_| next()));
+                let mut of_all = [0.0; 24];
+                for (end, row) in ends.into_iter().zip(rows) {
+                    if let Some(block) = diagonal.get_mut(end) {
+                        row.add_square(3.0, block);
+                        of_all[6 * end..6 * end + 6].copy_from_slice(&row);
+                    }
+                }
+                if let Some(block) = pairs.get_mut(usize::from(*home)) {
+                    rows[1].add_product(3.0, &rows[0], block);
+                }
+                for (whole, a) in whole.iter_mut().zip(of_all) {
+                    whole.iter_mut().zip(of_all).for_each(|(entry, b)| *entry += 3.0 * a * b);
+                }
+            }
+        }
+        assert_eq!(pairs[3], <[f64; 6]>::EMPTY);
+        let meant: [[f64; 6]; 4] = [(); 4].map(|()| core::array::from_fn(|_| next()));
+        let all: vec::Vec<f64> = meant.into_iter().flatten().collect();
+        let product = |row: usize| -> f64 { whole[row].iter().zip(&all).map(|(a, x)| a * x).sum() };
+        let mut right: [Wrench<f64>; 4] =
+            core::array::from_fn(|body| wrench(core::array::from_fn(|i| product(6 * body + i))));
+        let mut system: System<'_, f64> =
+            System { plan, diagonal: &mut diagonal, pairs: &mut pairs };
+        system.factor().unwrap();
+        system.substitute(&mut right);
+        for (found, meant) in right.into_iter().zip(meant) {
+            let meant = wrench::<f64>(meant);
+            let off = [found.force - meant.force, found.torque - meant.torque];
+            assert!(off.iter().all(|off| off.dot(*off) < 1e-16), "{found:?} {meant:?}");
+        }
+        assert_ne!(pairs[3], <[f64; 6]>::EMPTY);
+        // Held by nothing and without mass, a body has no pivot.
+        diagonal = [<[f64; 6]>::EMPTY; 4];
+        let mut system: System<'_, f64> =
+            System { plan, diagonal: &mut diagonal, pairs: &mut pairs };
+        assert_eq!(system.factor(), Err(BodyIndex(0)));
+    }
+}

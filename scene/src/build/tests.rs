@@ -95,6 +95,21 @@ fn what_is_not_meant_is_a_warning_of_cargos() {
     assert!(written && lines.contains(&said), "{lines}");
 }
 
+/// 1 Tera-newton per metre and 2 kg: single precision bears 700 rad per step.
+#[test]
+fn a_step_that_the_matrix_does_not_bear_is_refused_with_the_longest_one() {
+    let folder = Folder::new("stiff", &BALL.replace("2e4", "2e12"));
+    let build = || Build::scene(folder.scene()).scheme("generalized-alpha");
+    let (written, lines) = folder.write(&build());
+    assert!(!written);
+    let most = "take a step of at most 699.9us with generalized-alpha in f32, not of 1ms";
+    assert!(lines.contains(most), "{lines}");
+    assert!(folder.write(&build().step("699.9us")).0);
+    assert!(folder.write(&build().precision("f64")).0);
+    std::fs::write(folder.scene(), BALL.replace("step = 1e-3\n", "")).unwrap();
+    assert!(folder.write(&build()).1.contains("`.step(\"1ms\")`"));
+}
+
 #[test]
 fn options_that_are_not_right_are_refused_with_what_would_be() {
     let folder = Folder::new("options", BALL);

@@ -4,11 +4,13 @@
 
 use dbd_kernel::damping::Damping;
 use dbd_kernel::keep::Keep as _;
+use dbd_kernel::real::Constant;
 use dbd_kernel::schemes::{
     BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Kicked, Leapfrog,
     Pefrl, Rk4, Scheme, SemiImplicitEuler,
 };
 
+use super::ExportPrecision;
 use super::number::SourceNumber as _;
 use crate::nearest::nearest;
 
@@ -34,6 +36,8 @@ pub struct ExportScheme {
     name: &'static str,
     damping: Damping,
     stability_limit: f64,
+    /// What its matrix bears, see [`Self::longest`].
+    most_vibration: Option<Constant>,
     /// Whether its plants take a model with a plan.
     pub(super) has_matrix: bool,
     /// The type's path.
@@ -175,6 +179,7 @@ impl ExportScheme {
             name: S::NAME,
             damping: S::DAMPING,
             stability_limit: scheme.stability_limit(),
+            most_vibration: S::MOST_VIBRATION,
             has_matrix: S::Keeps::MATRIX,
             path: within(path),
             value: within(value),
@@ -185,6 +190,15 @@ impl ExportScheme {
     #[must_use]
     pub fn name(&self) -> &'static str {
         self.name
+    }
+
+    /// \[s\] the longest step that its matrix bears in a precision where `highest` \[rad/s\] is the bound of the
+    /// highest frequency; infinite without a matrix.
+    #[must_use]
+    pub fn longest(&self, precision: ExportPrecision, highest: f64) -> f64 {
+        let Some(Constant { double, single }) = self.most_vibration else { return f64::INFINITY };
+        let most = if precision == ExportPrecision::F64 { double } else { f64::from(single) };
+        most / highest
     }
 
     /// Largest stable `ω_max·h` of an undamped oscillator.

@@ -76,7 +76,7 @@ pub fn keep(keep: Keep) {
     firmware::shipped_f32!(shipped_f32);
     // With a matrix, on models with its plan.
     macro_rules! solved {
-        ($($module:ident $scene:literal $step:ident, $f32:ident: $model:ident;)*) => {
+        ($($module:ident $scene:literal $step:ident, $f32:ident: $model:ident of $base:ident;)*) => {
             $(step!(keep, $scene models::$module::$model, "generalized-alpha" GeneralizedAlpha, "f32");)*
         };
     }
@@ -101,7 +101,6 @@ pub fn keep(keep: Keep) {
         "leapfrog-joint-wise" JointWise<Leapfrog>;
     }
     every_kind! {
-
         "dbd" Dbd;
         "dbd-p1" DbdP1;
         "dbd-p2" DbdP2;
