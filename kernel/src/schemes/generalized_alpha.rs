@@ -54,7 +54,10 @@ pub struct GeneralizedAlpha {
 /// Why there is no such scheme: ρ∞ is not from 0 to [`GeneralizedAlpha::MOST_RHO`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct RhoError(pub f64);
+pub struct RhoError(
+    /// \[1\] what was asked for.
+    pub f64,
+);
 
 impl core::fmt::Display for RhoError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
