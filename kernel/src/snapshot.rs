@@ -103,7 +103,7 @@ where
     /// successful call.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), SnapshotError> {
         let size = self.snapshot_size();
-        let mut reader = Reader { bytes };
+        let mut reader = Reader { bytes: bytes.get(..HEADER).ok_or(SnapshotError::Format)? };
         if reader.take(4) != u64::from(u32::from_le_bytes(MAGIC)) {
             return Err(SnapshotError::Format);
         }
