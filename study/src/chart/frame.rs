@@ -166,8 +166,8 @@ impl Drawing<'_> {
             Machine::Target => "Thick: the paper's scheme, dbd in f64 and (dashed) in f32.",
         };
         let beneath = [
-            "Each mark is a step; hollow at the top: unstable, hollow elsewhere: lost, or too near \
-             the limit. Lines: solid f64, dashed f32, long dashes fixed, dash-dotted or dotted other orientations."
+            "Each mark is a step; hollow at the top: unstable, elsewhere: lost, or too near the limit. \
+             Lines: solid f64, dashed f32, long dashes fixed, dotted other orientations."
                 .to_owned(),
             format!(
                 "{paper} Grey: references in plain Rust. Faint: variants without a point on the \

@@ -77,7 +77,7 @@ const KNOWN: [(&str, Option<usize>, usize); 9] = [
     ("semi-implicit-euler", Some(5), 6),
     ("dbd-p1", Some(4), 5),
     ("dbd-p2", Some(4), 7),
-    ("generalized-alpha", None, 8),
+    ("generalized-alpha", Some(3), 8),
 ];
 
 impl Style {
