@@ -99,6 +99,12 @@ fn export_writes_what_a_build_script_writes() {
     assert_eq!(done.exit, Exit::Done, "{}", done.err);
     assert!(done.out == build.source().unwrap().source);
     assert!(done.out.contains("_SCHEME: dbd_kernel::schemes::Dbd = "));
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/four-bar.toml");
+    let solved = Build::scene(scene).precision("f32").scheme("generalized-alpha").rho(0.2);
+    let options = ["--precision", "f32", "--scheme", "generalized-alpha", "--rho", "0.2"];
+    let done = call(&[&["export", "four-bar"][..], &options].concat());
+    assert!(done.out == solved.source().unwrap().source, "{}", done.err);
+    assert!(done.out.contains("pub static FOUR_BAR_PLANNED_F32: FourBarPlannedF32 ="));
     let refused = call(&["export", "four-bar", "--newton", "2"]);
     assert_eq!(refused.exit, Exit::Refused);
     assert!(refused.err.contains("no Newton iterations"), "{}", refused.err);

@@ -14,7 +14,7 @@ fn bad_input_ends_with_2_and_writes_nothing() {
     let bad = folder.path("bad.toml");
     fs::write(&bad, PENDULUM.replace("mass = 0.5", "mass = -0.5")).unwrap();
     let bad = bad.to_str().unwrap();
-    let cases: [(&str, &[&str], &str); 20] = [
+    let cases: [(&str, &[&str], &str); 23] = [
         ("fuor-bar", &[], "did you mean four-bar?"),
         ("no-such-thing", &[], "four-bar"),
         ("no/such/file.toml", &[], "no/such/file.toml"),
@@ -29,6 +29,9 @@ fn bad_input_ends_with_2_and_writes_nothing() {
         (&good, &["--every", "1s"], "--every 0.5s"),
         (&good, &["--newton", "1"], "--scheme dbd"),
         (&good, &["--scheme", "dbd-p2", "--newton", "9"], "--newton 8"),
+        (&good, &["--rho", "0.5"], "--scheme generalized-alpha"),
+        (&good, &["--scheme", "generalized-alpha", "--rho", "0.9"], "--rho 0.8"),
+        (&good, &["--scheme", "generalized-alpha", "--rho", "-0.1"], "not -0.1"),
         (&good, &["--scheme", "pefrl", "--damping", "explicit"], "leapfrog"),
         (&good, &["--scheme", "dbd", "--damping", "sweeps"], "--damping"),
         (&good, &["--scheme", "simplectic"], "leapfrog"),
@@ -47,6 +50,30 @@ fn bad_input_ends_with_2_and_writes_nothing() {
     let done = folder.run(&good, &tiny);
     assert_eq!(done.exit, Exit::Refused);
     assert!(done.err.contains("--precision f64") && !folder.path("out").exists(), "{}", done.err);
+}
+
+/// Beyond what a matrix bears in single precision the longest step is named, and it runs.
+#[test]
+fn a_step_beyond_what_a_matrix_bears_is_refused_with_the_longest_one() {
+    let folder = Folder::new();
+    let stiff = ["--precision", "f32", "--set", "joint.*.stiffness=9e10", "--duration", "50ms"];
+    let stiff = [&["--scheme", "generalized-alpha"], &stiff[..]].concat();
+    let done = folder.run("four-bar", &[&stiff[..], &["--step", "1ms"]].concat());
+    assert_eq!(done.exit, Exit::Refused, "{}", done.out);
+    let (_, rest) = done.err.split_once("take a step of at most ").unwrap();
+    let (most, rest) = rest.split_once(' ').unwrap();
+    assert!(rest.starts_with("in f32"), "{rest}");
+    let named: f64 = most.strip_suffix("us").unwrap().parse().unwrap();
+    assert!((250.0..300.0).contains(&named), "{named}");
+    let done = folder.run("four-bar", &[&stiff[..], &["--step", "250us"]].concat());
+    assert_eq!(done.exit, Exit::Done, "{}", done.err);
+    let exported = call(&[&["export", "four-bar", "--step", "1ms"], &stiff[..6]].concat());
+    assert!(exported.err.contains(&format!("at most {most} in f32")), "{}", exported.err);
+    // Where no step is given, one that is borne is taken.
+    let text = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/four-bar.toml"));
+    let stepless = folder.scene(&text.unwrap().replace("\nstep = 2e-5", ""));
+    let done = folder.run(&stepless, &stiff);
+    assert_eq!(done.exit, Exit::Done, "{}", done.err);
 }
 
 /// What fixed point does not hold is named with the numbers, and with what would be right.
