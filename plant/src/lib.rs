@@ -15,6 +15,7 @@
 //! - [`frequencies`]: how fast a scene can vibrate, and the step that follows.
 //! - [`any`]: what a plant of any method can do.
 //! - `budget`: how much energy a run can have.
+//! - `refusal`: why there is no plant of a scene.
 //! - [`plant`](mod@plant): where the names become the kernel's types.
 //! - [`judge`]: what a state holds, and whether a run can go on from it.
 //!
@@ -55,6 +56,7 @@ pub mod numerals;
 pub mod plan;
 pub mod plant;
 pub mod readings;
+mod refusal;
 pub mod time;
 
 pub use any::AnyPlant;

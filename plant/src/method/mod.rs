@@ -4,14 +4,16 @@
 //! kernel's types is [`plant`](mod@crate::plant). A further scheme or precision is one variant here
 //! and one arm there.
 
+mod error;
+
+pub use error::MethodError;
+
 use dbd_kernel::damping::Damping;
 use dbd_kernel::real::Constant;
 use dbd_kernel::schemes::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Leapfrog, Pefrl,
-    RhoError, Rk4, Scheme, SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Leapfrog, Pefrl, Rk4,
+    Scheme, SemiImplicitEuler,
 };
-use miette::Diagnostic;
-use thiserror::Error;
 
 use crate::names::{DampingName, Named as _, OrientationName, PrecisionName, SchemeName};
 
@@ -45,81 +47,6 @@ pub struct Method {
     pub(crate) scheme: SchemeChoice,
     precision: PrecisionName,
     orientation: OrientationName,
-}
-
-/// Why there is no such method.
-#[derive(Clone, Copy, Debug, PartialEq, Error, Diagnostic)]
-pub enum MethodError {
-    /// Newton iterations for a scheme without any.
-    #[error("the scheme {scheme} has no Newton iterations")]
-    #[diagnostic(help(
-        "--newton goes with --scheme dbd, dbd-p1 or dbd-p2; leave it out for {scheme}"
-    ))]
-    Newton {
-        /// The scheme's name.
-        scheme: &'static str,
-    },
-    /// More than [`MOST_ITERATIONS`].
-    #[error("{newton} Newton iterations are more than {MOST_ITERATIONS}")]
-    #[diagnostic(help("--newton 0 to --newton {MOST_ITERATIONS}; more of them buy nothing"))]
-    Iterations {
-        /// How many.
-        newton: u32,
-    },
-    /// ρ∞ for a scheme without it.
-    #[error("the scheme {scheme} has no rho")]
-    #[diagnostic(help("--rho goes with --scheme generalized-alpha; leave it out for {scheme}"))]
-    NoRho {
-        /// The scheme's name.
-        scheme: &'static str,
-    },
-    /// ρ∞ beyond what it may be.
-    #[error("{0}")]
-    #[diagnostic(help("--rho 0 damps most, --rho {most} least; 0.5 where nothing is said", most = GeneralizedAlpha::MOST_RHO))]
-    Rho(RhoError),
-    /// A damping that the scheme has not.
-    #[error("the scheme {scheme} has no {asked} damping, only {own}")]
-    #[diagnostic(help(
-        "leapfrog and semi-implicit-euler have sweeps, joint-wise and explicit; leave --damping out for {scheme}"
-    ))]
-    Damping {
-        /// The scheme's name.
-        scheme: &'static str,
-        /// What was asked for.
-        asked: &'static str,
-        /// What it has.
-        own: &'static str,
-    },
-    /// A method for comparison, in a build without the feature `comparison`.
-    #[error("{what} is there for comparison only, and not part of this build")]
-    #[diagnostic(help(
-        "cargo run --release --features comparison -- …; or --precision f64 or f32, --orientation \
-         quaternion"
-    ))]
-    Comparison {
-        /// The precision or the way of storing orientations.
-        what: &'static str,
-    },
-    /// A way of storing orientations that a precision has not.
-    #[error("{precision} has no orientations as {orientation}")]
-    #[diagnostic(help(
-        "it stores quaternions of its own: leave --orientation out, or --precision f64 or f32"
-    ))]
-    Orientation {
-        /// The precision's name.
-        precision: &'static str,
-        /// The way of storing orientations.
-        orientation: &'static str,
-    },
-    /// A precision in which no pose is at rest.
-    #[error("there is no stability to look at in {precision}: its square root is off by per cents")]
-    #[diagnostic(help(
-        "no frozen pose is at rest in it, nothing vibrates about one; --precision f64 or f32"
-    ))]
-    Restless {
-        /// The precision's name.
-        precision: &'static str,
-    },
 }
 
 impl Method {
@@ -422,89 +349,4 @@ impl Traits {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_names_are_those_of_the_kernel() {
-        for scheme in SchemeName::ALL {
-            let method = Method::new(*scheme, None, PrecisionName::F64).unwrap();
-            assert_eq!(method.scheme_name(), scheme.name());
-            assert_eq!(SchemeName::of_name(scheme.name()), Some(*scheme));
-        }
-        assert_eq!(SchemeName::of_name("euler"), None);
-        assert_eq!(
-            Method::default(),
-            Method::new(SchemeName::default(), None, PrecisionName::F64).unwrap()
-        );
-        assert_eq!(
-            DampingName::Explicit.summary(),
-            "Forces at the velocities of each evaluation: limit the step"
-        );
-    }
-
-    #[test]
-    fn what_is_for_comparison_is_refused_with_its_remedy_where_it_is_not_built() {
-        let built = cfg!(all(feature = "comparison", not(test)));
-        for precision in PrecisionName::ALL {
-            for orientation in OrientationName::ALL {
-                let method = Method::new(SchemeName::Rk4, None, *precision).unwrap();
-                let method = method.with_orientation(*orientation);
-                let quaternions = *orientation == OrientationName::Quaternion;
-                let aside = [PrecisionName::F32Compensated, PrecisionName::F32Micromath]
-                    .contains(precision);
-                let exists = quaternions || precision.is_plain();
-                let held = if built { exists } else { quaternions && !aside };
-                assert_eq!(method.check_built().is_ok(), held, "{method:?}");
-                let refused = matches!(method.check_built(), Err(MethodError::Orientation { .. }));
-                assert_eq!(refused, !exists, "{method:?}");
-            }
-        }
-        let help = MethodError::Comparison { what: "euler-321" }.help().unwrap().to_string();
-        assert!(help.contains("--features comparison"), "{help}");
-    }
-
-    #[test]
-    fn newton_iterations_belong_to_the_dbd_schemes() {
-        for (scheme, evaluations) in
-            [(SchemeName::Dbd, 5), (SchemeName::DbdP1, 4), (SchemeName::DbdP2, 5)]
-        {
-            let method = Method::new(scheme, Some(2), PrecisionName::F64).unwrap();
-            assert_eq!((method.newton(), method.evaluations()), (Some(2), evaluations));
-            assert!(Method::new(scheme, Some(8), PrecisionName::F64).is_ok());
-            let refused = Method::new(scheme, Some(9), PrecisionName::F64);
-            assert_eq!(refused, Err(MethodError::Iterations { newton: 9 }));
-        }
-        for scheme in SchemeName::ALL {
-            let method = Method::new(*scheme, None, PrecisionName::F64).unwrap();
-            if method.newton().is_none() {
-                let refused = Method::new(*scheme, Some(0), PrecisionName::F64);
-                assert_eq!(refused, Err(MethodError::Newton { scheme: method.scheme_name() }));
-            }
-        }
-    }
-
-    #[test]
-    fn a_scheme_has_its_own_damping_and_two_have_all_but_implicit() {
-        let several = ["semi-implicit-euler", "leapfrog"];
-        for scheme in SchemeName::ALL {
-            let own = Method::new(*scheme, None, PrecisionName::F64).unwrap();
-            for damping in DampingName::ALL {
-                let name = damping.name();
-                match own.with_damping(*damping) {
-                    Ok(method) => {
-                        assert_eq!(method.damping().name(), name);
-                        assert_eq!(method.scheme_name(), own.scheme_name());
-                        assert!(method == own || several.contains(&own.scheme_name()));
-                    }
-                    Err(refused) => {
-                        let implicit = *damping == DampingName::Implicit;
-                        assert!(implicit || !several.contains(&own.scheme_name()));
-                        let text = refused.to_string();
-                        assert!(text.contains(name) && text.contains(own.damping().name()));
-                    }
-                }
-            }
-        }
-    }
-}
+mod tests;
