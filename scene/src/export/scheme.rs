@@ -255,6 +255,12 @@ mod tests {
         assert_eq!(ExportScheme::default(), ExportScheme::named("leapfrog", None, None).unwrap());
     }
 
+    /// The value of a scheme with another ρ∞, or why there is none.
+    fn value_of(scheme: Result<ExportScheme, SchemeError>, rho: f64) -> Result<String, String> {
+        let scheme = scheme.and_then(|scheme| scheme.with_rho(rho));
+        scheme.map(|scheme| scheme.value).map_err(|error| error.to_string())
+    }
+
     #[test]
     fn what_there_is_not_is_refused_with_what_there_is() {
         let unknown = refused("leap-frog", None, None);
@@ -263,6 +269,17 @@ mod tests {
         assert!(refused("dbd", Some(9), None).contains("at most 8"));
         assert!(refused("dbd", None, Some("sweeps")).contains("no sweeps damping"));
         let none = refused("dbd", None, Some("none"));
-        assert!(none.contains("sweeps, joint-wise or explicit"), "{none}");
+        assert!(none.contains("sweeps, joint-wise, explicit or implicit"), "{none}");
+        assert!(refused("leapfrog", None, Some("implicit")).contains("no implicit damping"));
+        let solved =
+            |rho| value_of(ExportScheme::named("generalized-alpha", None, Some("implicit")), rho);
+        let new = format!("match dbd_kernel::schemes::GeneralizedAlpha::new({})", 0.2.number());
+        assert!(solved(0.2).unwrap().starts_with(&new));
+        let own = "dbd_kernel::schemes::GeneralizedAlpha::DEFAULT";
+        assert_eq!(solved(0.5).unwrap(), own);
+        assert!(solved(0.9).unwrap_err().contains("from 0 to 0.8"));
+        assert!(
+            value_of(ExportScheme::named("rk4", None, None), 0.5).unwrap_err().contains("no rho")
+        );
     }
 }
