@@ -19,6 +19,9 @@ const LEVELS: [f64; 3] = [1e-3, 1e-4, 1e-5];
 /// \[N/m\], and what 5 % of damping is of a kilogram on it \[N·s/m\].
 const STIFF: [&str; 2] = ["joint.*.stiffness=9e8", "joint.*.damping=3000"];
 
+/// \[s\] the step where joints are shaken for ever.
+const SHAKEN: f64 = 1e-5;
+
 type Samples = Vec<[f64; 3]>;
 
 /// A scene with joints of 9e8 N/m, without dampers or with.
@@ -85,10 +88,9 @@ fn it_converges_with_order_2_at_every_stiffness() {
         // Of a kilogram on a spring of the joint 5 % damping.
         for (stiffness, damper) in [("9e6", 300), ("9e8", 3_000)] {
             for damping in [0, damper] {
-                if (name, stiffness, damping) == ("six-bar", "9e6", 0) {
-                    // Its fast motion shakes its joints for ever, at 2 to 8 rad per step.
-                    continue;
-                }
+                // Its fast motion shakes its joints for ever: there a step has to resolve them.
+                let shaken = (name, stiffness, damping) == ("six-bar", "9e6", 0);
+                let step = if shaken { SHAKEN } else { step };
                 let stiff = scene(name).with(&format!("joint.*.stiffness={stiffness}")).unwrap();
                 let stiff = stiff.with(&format!("joint.*.damping={damping}")).unwrap();
                 let model = stiff.model.planned();
