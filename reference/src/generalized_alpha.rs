@@ -12,6 +12,9 @@
 //! whose change within the step would be lost; F has it at û + γ·h·a, not at û: without that a tumbling body is
 //! followed to first order only. Second order in the slow motion, and
 //! whatever vibrates fast against the step is damped by ρ∞ in each. Loads and tables jump where a step begins.
+//!
+//! A first step knows no accelerations. It takes one for all of it, that at which the joints close at its part τ,
+//! `½·τ² = β·(1−α_f)/(1−α_m)`: with the same matrix from `q ∘ exp(τ·h·u)`, `a = d`.
 
 use nalgebra::{DVector, Matrix6, Vector3, Vector6};
 
@@ -28,7 +31,7 @@ pub struct GeneralizedAlpha<'m> {
     step: f64,
     steps: u64,
     weights: Weights,
-    /// Algorithmic and true acceleration of each body.
+    /// Algorithmic and true acceleration of each body; none before the first step.
     memory: Vec<[Vector6<f64>; 2]>,
     matrix: BlockMatrix,
 }
@@ -62,10 +65,7 @@ impl<'m> GeneralizedAlpha<'m> {
     pub fn new(mechanism: &'m Mechanism, state: State, step: f64, rho: f64) -> Self {
         let weights = Weights::of(rho);
         let matrix = BlockMatrix::of(mechanism);
-        let mut run =
-            Self { mechanism, state, step, steps: 0, weights, memory: Vec::new(), matrix };
-        run.begin();
-        run
+        Self { mechanism, state, step, steps: 0, weights, memory: Vec::new(), matrix }
     }
 
     /// Takes the accelerations that the present state has in the coming step: what was known is of another
@@ -104,6 +104,9 @@ impl<'m> GeneralizedAlpha<'m> {
         if self.is_after_jump() {
             self.begin();
         }
+        if self.memory.is_empty() {
+            return self.first_step();
+        }
         let piece = self.piece();
         let before: Vec<_> = self.velocities();
         self.state.set_velocities(&before, &self.memory, (0.5 - w.beta) * h);
@@ -111,6 +114,41 @@ impl<'m> GeneralizedAlpha<'m> {
         self.state.set_velocities(&before, &self.memory, (1.0 - w.gamma) * h);
         self.steps += 1;
 
+        let next = self.accelerations(piece);
+        let predicted = self.velocities();
+        for (row, [a, d]) in self.memory.iter_mut().enumerate() {
+            let next = next[row];
+            *d = (next * (1.0 - w.alpha_m) + *a * w.alpha_m - *d * w.alpha_f) / (1.0 - w.alpha_f);
+            *a = next;
+        }
+        let rest = vec![Vector6::zeros(); predicted.len()];
+        self.state.set_velocities(&rest, &self.memory, w.beta * h);
+        self.state.drift(h);
+        self.state.set_velocities(&predicted, &self.memory, w.gamma * h);
+        self.mechanism.settle(&mut self.state);
+    }
+
+    /// A step of one acceleration.
+    fn first_step(&mut self) {
+        let (h, w) = (self.step, self.weights);
+        let piece = self.piece();
+        let at = (2.0 * w.beta / w.mass).sqrt();
+        self.memory = vec![[Vector6::zeros(); 2]; self.mechanism.bodies.len()];
+        let before = self.velocities();
+        self.state.drift(at * h);
+        self.steps += 1;
+        let next = self.accelerations(piece);
+        self.memory = next.iter().map(|next| [next * w.mass; 2]).collect();
+        let rest: Vec<_> = before.iter().map(|before| before * (1.0 - at)).collect();
+        self.state.set_velocities(&rest, &self.memory, 0.5 * h);
+        self.state.drift(h);
+        self.state.set_velocities(&before, &self.memory, h);
+        self.mechanism.settle(&mut self.state);
+    }
+
+    /// The solution at the present pose with what is remembered; the step lies in `piece` \[s\].
+    fn accelerations(&mut self, piece: [f64; 2]) -> Vec<Vector6<f64>> {
+        let (h, w) = (self.step, self.weights);
         let mut right = DVector::zeros(6 * self.mechanism.bodies.len());
         self.matrix.clear();
         let at = self.mechanism.at(&self.state, Clock::between(self.time(), piece));
@@ -144,17 +182,7 @@ impl<'m> GeneralizedAlpha<'m> {
         drop(at);
 
         let solution = self.matrix.solve(&right);
-        let predicted = self.velocities();
-        for (row, [a, d]) in self.memory.iter_mut().enumerate() {
-            let next = self.matrix.part(&solution, row);
-            *d = (next * (1.0 - w.alpha_m) + *a * w.alpha_m - *d * w.alpha_f) / (1.0 - w.alpha_f);
-            *a = next;
-        }
-        let rest = vec![Vector6::zeros(); predicted.len()];
-        self.state.set_velocities(&rest, &self.memory, w.beta * h);
-        self.state.drift(h);
-        self.state.set_velocities(&predicted, &self.memory, w.gamma * h);
-        self.mechanism.settle(&mut self.state);
+        (0..self.memory.len()).map(|row| self.matrix.part(&solution, row)).collect()
     }
 
     fn velocities(&self) -> Vec<Vector6<f64>> {

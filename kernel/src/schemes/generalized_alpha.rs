@@ -15,6 +15,11 @@
 //! stable at any stiffness and damping as long as the bodies turn little in a step; it damps what
 //! vibrates fast, by design, and keeps linear momentum of free bodies alone to rounding.
 //!
+//! A first step knows no accelerations. Those of `M⁻¹·F` would be wrong by far: joints that are all but rigid hold
+//! the bodies only once they have moved, and what they were thrown in a step shakes them for many more. So forces
+//! are taken at `q ∘ exp(τ·h·u)`, `½·τ² = β/μ`, where the same matrix closes the joints, and
+//! `(M + γ/μ·h·C + β/μ·h²·K)·a = F` is the acceleration of the whole first step, `a = d`.
+//!
 //! What is pushed from outside, loads and inputs, may jump. Accelerations are therefore remembered
 //! without it, and it is added to them as it is where a step begins.
 
@@ -49,6 +54,10 @@ pub struct GeneralizedAlpha {
     of_true: Constant,
     /// `α_m/(1−α_f)`, of −a in s.
     of_algorithmic: Constant,
+    /// τ, at which part of a first step forces are taken.
+    first: Constant,
+    /// 1 − τ.
+    rest_of_first: Constant,
 }
 
 /// Why there is no such scheme: ρ∞ is not from 0 to [`GeneralizedAlpha::MOST_RHO`].
@@ -90,6 +99,7 @@ impl GeneralizedAlpha {
         let alpha_f = rho / (rho + 1.0);
         let gamma = 0.5 - alpha_m + alpha_f;
         let beta = 0.25 * (gamma + 0.5) * (gamma + 0.5);
+        let first = root(2.0 * beta * (1.0 - alpha_f) / (1.0 - alpha_m));
         Ok(Self {
             rho,
             mass: Constant::new((1.0 - alpha_m) / (1.0 - alpha_f)),
@@ -99,6 +109,8 @@ impl GeneralizedAlpha {
             rest_of_gamma: Constant::new(1.0 - gamma),
             of_true: Constant::new(alpha_f / (1.0 - alpha_f)),
             of_algorithmic: Constant::new(alpha_m / (1.0 - alpha_f)),
+            first: Constant::new(first),
+            rest_of_first: Constant::new(1.0 - first),
         })
     }
 
@@ -106,26 +118,6 @@ impl GeneralizedAlpha {
     #[must_use]
     pub const fn rho(&self) -> f64 {
         self.rho
-    }
-
-    /// The accelerations at the start of a run, or after a change from outside that the scheme was not
-    /// told of: `a = d = M⁻¹·F(q, u)`.
-    fn begin<P: Geometry, T: Terms>(
-        stepper: &mut Stepper<'_, '_, P, T, GeneralizedAlphaMemory<P>>,
-    ) -> Result<(), Cause> {
-        stepper.evaluate::<ExplicitDampers>(At::Boundary)?;
-        let inverse = P::Real::ONE / stepper.h;
-        stepper.each(|memory, _, increment, _| {
-            let Increment { linear, angular } = increment;
-            let a = Increment { linear: linear * inverse, angular: angular * inverse };
-            *memory = GeneralizedAlphaMemory { algorithmic: a, real: a };
-        });
-        if stepper.is_pushed() {
-            stepper.push();
-            stepper.each_pushed(-P::Real::ONE);
-        }
-        stepper.ledger.begun = true;
-        Ok(())
     }
 }
 
@@ -197,10 +189,10 @@ impl Scheme for GeneralizedAlpha {
         &self,
         stepper: &mut Stepper<'_, '_, P, T, Self::Memory<P>>,
     ) -> Result<(), Cause> {
-        if !stepper.ledger.begun {
-            Self::begin(stepper)?;
-        }
-        if stepper.is_pushed() {
+        let begins = !stepper.ledger.begun;
+        if begins {
+            stepper.memory.iter_mut().for_each(|memory| *memory = Default::default());
+        } else if stepper.is_pushed() {
             stepper.place_all();
             stepper.push();
             stepper.each_pushed(P::Real::ONE);
@@ -208,22 +200,54 @@ impl Scheme for GeneralizedAlpha {
         let constant = P::Real::constant;
         let h = stepper.h;
         let (near, far) = (h * constant(self.rest_of_beta), h * constant(self.rest_of_gamma));
+        let drift = if begins { h * constant(self.first) } else { h };
         let rows = stepper.workspace.bodies.iter_mut().zip(stepper.memory.iter());
         for (state, memory) in rows {
             let Increment { linear, angular } = memory.algorithmic;
             let velocity = P::velocity(&state.velocity) + linear * near;
-            let turn = (P::spin(&state.angular_velocity) + angular * near) * (P::Real::HALF * h);
-            P::translate(&mut state.position, velocity * h);
-            rotation::turn_by::<P>(&mut state.orientation, turn);
+            let spin = P::spin(&state.angular_velocity) + angular * near;
+            P::translate(&mut state.position, velocity * drift);
+            rotation::turn_by::<P>(&mut state.orientation, spin * (P::Real::HALF * drift));
             P::accelerate(&mut state.velocity, linear * far);
             P::spin_up(&mut state.angular_velocity, angular * far);
         }
         stepper.sample_inputs(P::Real::ONE);
         stepper.evaluate_once::<ExplicitDampers>(At::Boundary, false)?;
         let pencil = self.pencil(h);
-        let Pencil { mass, damping: change, stiffness: reach } = pencil;
-        self.right_sides(stepper, change);
+        self.right_sides(stepper, pencil.damping);
         stepper.solve(pencil)?;
+        if begins {
+            self.end_first(stepper);
+        } else {
+            self.end(stepper, pencil);
+        }
+        stepper.ledger.begun = true;
+        if stepper.is_pushed() {
+            stepper.push();
+            stepper.each_pushed(-P::Real::ONE);
+        }
+        Ok(())
+    }
+}
+
+/// √x by Newton's iteration, which a constant can have.
+const fn root(x: f64) -> f64 {
+    let (mut y, mut i) = (1.0, 0);
+    while i < 8 {
+        y = 0.5 * (y + x / y);
+        i += 1;
+    }
+    y
+}
+
+impl GeneralizedAlpha {
+    /// A step from the solution on.
+    #[inline(always)]
+    fn end<P: Geometry, T: Terms>(
+        &self,
+        stepper: &mut Stepper<'_, '_, P, T, GeneralizedAlphaMemory<P>>,
+        Pencil { mass, damping: change, stiffness: reach }: Pencil<P::Real>,
+    ) {
         stepper.correct(|state, memory, next| {
             let known = self.known::<P>(memory);
             P::translate(&mut state.position, next.linear * reach);
@@ -237,15 +261,28 @@ impl Scheme for GeneralizedAlpha {
             };
             memory.algorithmic = next;
         });
-        if stepper.is_pushed() {
-            stepper.push();
-            stepper.each_pushed(-P::Real::ONE);
-        }
-        Ok(())
     }
-}
 
-impl GeneralizedAlpha {
+    /// A first step from the solution on: the rest of the way, at one acceleration.
+    fn end_first<P: Geometry, T: Terms>(
+        &self,
+        stepper: &mut Stepper<'_, '_, P, T, GeneralizedAlphaMemory<P>>,
+    ) {
+        let constant = P::Real::constant;
+        let (h, mass, half) = (stepper.h, constant(self.mass), P::Real::HALF);
+        let (rest, reach) = (h * constant(self.rest_of_first), half * h * h);
+        stepper.correct(|state, memory, next| {
+            let a = Increment { linear: next.linear * mass, angular: next.angular * mass };
+            let way = P::velocity(&state.velocity) * rest + a.linear * reach;
+            let turn = P::spin(&state.angular_velocity) * rest + a.angular * reach;
+            P::translate(&mut state.position, way);
+            rotation::turn_by::<P>(&mut state.orientation, turn * half);
+            P::accelerate(&mut state.velocity, a.linear * h);
+            P::spin_up(&mut state.angular_velocity, a.angular * h);
+            *memory = GeneralizedAlphaMemory { algorithmic: a, real: a };
+        });
+    }
+
     /// s.
     #[inline(always)]
     fn known<P: Geometry>(&self, memory: &GeneralizedAlphaMemory<P>) -> Increment<P::Space> {
