@@ -39,7 +39,10 @@ pub(crate) fn first_fault<P: Geometry, T: Terms>(
 fn are_well<P: Geometry>(bodies: &[BodyState<P>], h: P::Real, most: P::Real) -> bool {
     let (mut sums, mut squares) = (Sums::ZERO, P::Real::ZERO);
     for state in bodies {
-        state.visit(&mut sums);
+        state.position.visit(&mut sums);
+        state.orientation.visit(&mut sums);
+        state.velocity.visit(&mut sums);
+        // What is no number or infinite of a spin is so of its square.
         let rate = P::spin(&state.angular_velocity);
         squares = squares + rate.dot(rate);
     }

@@ -6,6 +6,8 @@
 //! sweep before a step's end and the one at the start of the next. Bushings and what has a clearance
 //! are swept damper by damper.
 
+use core::sync::atomic::{Ordering, compiler_fence};
+
 use crate::body::BodyState;
 use crate::damping::lever::{Kind, Lever, Stop};
 use crate::damping::levers::counts;
@@ -100,12 +102,14 @@ fn ground<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     bodies: &mut [BodyState<P>],
 ) {
     let row = BodyIndex(stop.ends[0]).row();
-    let (Some(body), Some(state), Some(frame)) =
-        (model.bodies.get(row), bodies.get_mut(row), sweep.places.frames.get(row))
-    else {
+    let (Some(body), Some(state), Some(frame), Some(kick)) = (
+        model.bodies.get(row),
+        bodies.get_mut(row),
+        sweep.places.frames.get(row),
+        sweep.kick.of(row),
+    ) else {
         return;
     };
-    let kick = sweep.kick.of(row);
     let pushed = P::to_body(frame, kick.linear);
     let velocity = P::to_body(frame, P::velocity(&state.velocity));
     let spin = P::spin(&state.angular_velocity);
@@ -122,8 +126,16 @@ fn ground<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
         push = push + lever.along * impulse;
         turn = turn + lever.moment * impulse;
     }
+    anew();
     P::accelerate(&mut state.velocity, P::to_world(frame, push * body.inverse_mass));
     P::spin_up(&mut state.angular_velocity, turn.scale(body.inverse_inertia));
+}
+
+/// What was read before is read again after this: a compiler would keep it, and as there are not enough
+/// registers, write it to the stack.
+#[inline(always)]
+fn anew() {
+    compiler_fence(Ordering::SeqCst);
 }
 
 /// The `N` levers of a joint between two bodies, one after the other.
@@ -186,6 +198,7 @@ fn joint<P: Geometry, T: Terms, const REVERSE: bool, const N: usize>(
     act!(3: 0 1 2);
     act!(4: 0 1 2 3);
     act!(5: 0 1 2 3 4);
+    anew();
     let push = P::to_world(frame, push);
     P::accelerate(&mut state.velocity, push * body.inverse_mass);
     P::spin_up(&mut state.angular_velocity, turn.scale(body.inverse_inertia));

@@ -49,8 +49,8 @@ impl<R: Real> Damper<R> {
 pub(crate) trait Kick<P: Geometry> {
     /// Whether there is one.
     const KNOWN: bool;
-    /// What it gave to the body in this row.
-    fn of(&self, row: usize) -> Increment<P::Space>;
+    /// What it gave to the body in this row, `None` of the ground.
+    fn of(&self, row: usize) -> Option<Increment<P::Space>>;
 }
 
 /// A sweep by itself: no kick came before.
@@ -60,8 +60,8 @@ impl<P: Geometry> Kick<P> for NoKick {
     const KNOWN: bool = false;
 
     #[inline(always)]
-    fn of(&self, _: usize) -> Increment<P::Space> {
-        Increment::default()
+    fn of(&self, _: usize) -> Option<Increment<P::Space>> {
+        Some(Increment::default())
     }
 }
 
@@ -75,13 +75,9 @@ impl<P: Geometry> Kick<P> for HalfKick<'_, P::Space> {
     const KNOWN: bool = true;
 
     #[inline(always)]
-    fn of(&self, row: usize) -> Increment<P::Space> {
-        match (self.wrenches.get(row), self.diagonals.get(row)) {
-            (Some(wrench), Some(diagonal)) => {
-                diagonal.increment(wrench.force, wrench.torque, P::Real::HALF)
-            }
-            _ => Increment::default(),
-        }
+    fn of(&self, row: usize) -> Option<Increment<P::Space>> {
+        let (wrench, diagonal) = (self.wrenches.get(row)?, self.diagonals.get(row)?);
+        Some(diagonal.increment(wrench.force, wrench.torque, P::Real::HALF))
     }
 }
 
@@ -115,7 +111,7 @@ fn side<P: Geometry, T: Terms, K: Kick<P>>(
     kick: &K,
 ) -> Option<(Side<P::Space>, P::Real, P::Vector, P::Vector)> {
     let (body, state) = (model.bodies.get(row)?, bodies.get(row)?);
-    let kick = kick.of(row);
+    let kick = kick.of(row)?;
     let side = Side {
         inverse_inertia: body.inverse_inertia,
         spin: P::spin(&state.angular_velocity),

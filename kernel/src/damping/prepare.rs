@@ -112,8 +112,9 @@ fn hold<P: Geometry, T: Terms, K: Kick<P>, const N: usize>(
     else {
         return;
     };
-    let kick = sweep.kick.of(row);
-    let partner_kick = sweep.kick.of(other_row);
+    let (Some(kick), Some(partner_kick)) = (sweep.kick.of(row), sweep.kick.of(other_row)) else {
+        return;
+    };
     let pushed = P::to_body(frame, kick.linear - partner_kick.linear);
     let apart = P::position(&state.position) - P::position(&partner_state.position);
     let apart = P::to_body(frame, apart);
@@ -160,11 +161,12 @@ fn line<P: Geometry, T: Terms, K: Kick<P>>(
     let Some(group) = model.groups.get(usize::from(stop.of)) else { return };
     let first = group.point as usize;
     let [a, b] = if ends[0] == group.a { [first, first + 1] } else { [first + 1, first] };
-    let (Some(a), Some(b), Some(&coefficient), Some(body)) = (
+    let (Some(a), Some(b), Some(&coefficient), Some(body), Some(kick)) = (
         model.points.get(a),
         model.points.get(b),
         model.dampers.get(usize::from(stop.row)),
         model.bodies.get(ends[0].row()),
+        sweep.kick.of(ends[0].row()),
     ) else {
         return;
     };
@@ -172,15 +174,15 @@ fn line<P: Geometry, T: Terms, K: Kick<P>>(
     let ((a, arm), (b, other_arm)) = (own.place(a), other.place(b));
     let d = P::displacement(&a, &b);
     let along = d * d.dot(d).sqrt().reciprocal_or_zero();
-    let kick = sweep.kick.of(ends[0].row());
     lever.along = along;
     lever.moment = own.moment_to_axes(arm.cross(along));
     let mut inverse_mass = body.inverse_mass;
     let mut rate = lever.moment.dot(lever.moment.scale(body.inverse_inertia));
     let mut kicked = lever.moment.dot(kick.angular);
     let mut pushed = kick.linear;
-    if let Some(partner) = model.bodies.get(ends[1].row()) {
-        let kick = sweep.kick.of(ends[1].row());
+    if let Some(partner) = model.bodies.get(ends[1].row())
+        && let Some(kick) = sweep.kick.of(ends[1].row())
+    {
         lever.other = other.moment_to_axes(other_arm.cross(along));
         inverse_mass = inverse_mass + partner.inverse_mass;
         rate = rate + lever.other.dot(lever.other.scale(partner.inverse_inertia));
@@ -231,7 +233,8 @@ fn twist<P: Geometry, T: Terms, K: Kick<P>>(
         };
         let inverse = model.bodies.get(end.row()).map(|body| body.inverse_inertia);
         let turn = moment.scale(inverse.unwrap_or(P::Moment::ZERO));
-        (moment, moment.dot(turn), moment.dot(sweep.kick.of(end.row()).angular))
+        let kicked = sweep.kick.of(end.row()).map(|kick| kick.angular);
+        (moment, moment.dot(turn), moment.dot(kicked.unwrap_or(P::Moment::ZERO)))
     });
     lever.moment = own.0;
     lever.other = other.0;
