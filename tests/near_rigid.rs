@@ -193,10 +193,16 @@ fn what_a_minute_leaves_of_the_energy() {
     let less_damped = GeneralizedAlpha::new(GeneralizedAlpha::MOST_RHO).unwrap();
     for name in [
         "four-bar",
+        "five-bar-a",
+        "five-bar-b",
         "six-bar",
         "crank-slider",
         "3rrr",
+        "3rrr-1",
+        "3rrr-2",
         "3ruu",
+        "3ruu-1",
+        "3ruu-2",
         "hexagon",
         "double-wishbone",
         "macpherson",
