@@ -75,31 +75,13 @@ fn single_precision_and_fixed_point_follow_it() {
     }
 }
 
-/// A minute at 1 ms, where explicit schemes take steps of microseconds.
+/// A minute at 1 ms, where explicit schemes take steps of microseconds, of what is not in the table of
+/// `near_rigid`.
 #[test]
 fn a_minute_with_joints_all_but_rigid() {
-    for name in [
-        "four-bar",
-        "five-bar-a",
-        "five-bar-b",
-        "six-bar",
-        "crank-slider",
-        "3rrr",
-        "3rrr-1",
-        "3rrr-2",
-        "3ruu",
-        "3ruu-1",
-        "3ruu-2",
-        "double-wishbone",
-        "macpherson",
-        "hexagon",
-        "chain-closed",
-        "chain-open-30",
-        "chain-open-60",
-        "two-3ruu",
-        "gripper",
-        "cart-pendulum",
-    ] {
+    for name in
+        ["chain-closed", "chain-open-30", "chain-open-60", "two-3ruu", "gripper", "cart-pendulum"]
+    {
         let model = with_stiffness(name, "9e8").model.planned();
         let mut plant = Plant::new(&model, SCHEME, 1e-3).unwrap();
         assert_eq!(plant.advance(60_000), Status::Running, "{name}");
