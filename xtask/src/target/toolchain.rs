@@ -12,7 +12,7 @@ use std::process::Command;
 
 use anyhow::{Context as _, Result, bail};
 
-use crate::command::{cargo, find, output, program, target_dir};
+use crate::command::{cargo, cargo_at, find, output, program, target_dir};
 use crate::target::debian;
 
 /// The variable that demands one way.
@@ -127,7 +127,7 @@ impl Toolchain {
     /// `cargo SUBCOMMAND` for the target; `libraries` as for build-std: `core`, `core,alloc`, `std,…`.
     pub fn cargo(&self, subcommand: &str, libraries: &str) -> Command {
         let mut command = match self.way {
-            Way::Debian => program(DEBIAN_CARGO),
+            Way::Debian => cargo_at(DEBIAN_CARGO),
             Way::Prebuilt | Way::RustSrc => cargo(),
         };
         self.clean(&mut command);
@@ -163,7 +163,7 @@ impl Toolchain {
     /// `cargo SUBCOMMAND` for the machine that it runs on, with the same compiler.
     pub fn host_cargo(&self, subcommand: &str) -> Command {
         let mut command = match self.way {
-            Way::Debian => program(DEBIAN_CARGO),
+            Way::Debian => cargo_at(DEBIAN_CARGO),
             Way::Prebuilt | Way::RustSrc => cargo(),
         };
         self.clean(&mut command);
