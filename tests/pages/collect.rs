@@ -24,6 +24,9 @@ pub fn collect() {
         };
         renew("docs/results/trade.csv", |name| Some(choices(name, &surveyed(name)?)));
         renew("docs/results/timing.csv", |name| Some(times(name, &surveyed(name)?)));
+        renew("docs/results/precisions-on-chip.csv", |name| {
+            Some(by_precision(name, &surveyed(name)?))
+        });
     });
 }
 
@@ -122,6 +125,24 @@ fn choices(name: &str, points: &[Point]) -> String {
             let way = stepper.damping.as_ref().map(|damping| format!(" {damping}"));
             let scheme = format!("{}{}", stepper.scheme, way.unwrap_or_default());
             let _ = writeln!(text, "{scheme},{},{ratio},{known},{precision}", stepper.precision);
+        }
+    }
+    text
+}
+
+/// The rows of a scene in `precisions-on-chip.csv`: the cheapest way in each precision.
+fn by_precision(name: &str, points: &[Point]) -> String {
+    let mut text = String::new();
+    for accuracy in ACCURACIES {
+        for precision in ["f32", "fixed", "f64"] {
+            let of = |point: &&Point| point.stepper.precision == precision;
+            let own: Vec<Point> = points.iter().filter(of).cloned().collect();
+            let Some(row) = choice(&own, Machine::Target, accuracy.parse().unwrap(), true) else {
+                continue;
+            };
+            let (cost, _) = own[row].kept(Machine::Target).unwrap();
+            let (scheme, step) = (&own[row].stepper.scheme, own[row].step);
+            let _ = writeln!(text, "{name},{accuracy},{precision},{scheme},{step:e},{cost:.3e}");
         }
     }
     text

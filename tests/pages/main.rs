@@ -2,6 +2,7 @@
 //! no test can repeat in a moment.
 
 mod bench;
+mod chip;
 mod collect;
 mod pictures;
 mod proof;
