@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use anyhow::{Context as _, Result, bail};
 use serde_json::Value;
 
-use crate::command::shown;
+use crate::command::{cargo, shown};
 
 /// A program that was built.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,6 +36,20 @@ pub fn build(command: &mut Command) -> Result<Vec<Program>> {
         bail!("`{line}` ended with {}", output.status);
     }
     programs(&String::from_utf8_lossy(&output.stdout))
+}
+
+/// The command line: that of the programs that were built, else it is built.
+///
+/// # Errors
+/// Where it does not build.
+pub fn host_sim(programs: &[Program]) -> Result<PathBuf> {
+    let is_it = |program: &&Program| program.name == "host-sim::host-sim" && !program.tests;
+    if let Some(program) = programs.iter().find(is_it) {
+        return Ok(program.path.clone());
+    }
+    let built = build(cargo().args(["build", "--package", "host-sim", "--bin", "host-sim"]))?;
+    let found = built.iter().find(is_it).context("`host-sim` was not built")?;
+    Ok(found.path.clone())
 }
 
 /// The programs in cargo's messages.

@@ -174,7 +174,7 @@ fn main() -> ExitCode {
         Command::Plant { ticks } => bits::closed_loop::run(ticks),
         Command::Boards { names } => boards::run(&names),
         Command::Project => {
-            setup::complete().and_then(|toolchain| project::check(&toolchain, true))
+            setup::complete().and_then(|toolchain| project::check(&toolchain, true, &[]))
         }
         Command::Python => python::check(),
         Command::Libraries => libraries::build(),

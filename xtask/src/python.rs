@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, bail};
 
-use crate::built::{Program, build};
+use crate::built::{Program, host_sim};
 use crate::command::{cargo, find, output, program, root, run, succeeds, target_dir};
 use crate::steps::Steps;
 use crate::target::debian;
@@ -86,17 +86,6 @@ pub fn environment(name: &str, requirements: &str) -> Result<PathBuf> {
 
 fn shown(folder: &Path) -> String {
     folder.strip_prefix(root()).unwrap_or(folder).display().to_string()
-}
-
-/// The command line.
-fn host_sim(programs: &[Program]) -> Result<PathBuf> {
-    let is_it = |program: &&Program| program.name == "host-sim::host-sim" && !program.tests;
-    if let Some(program) = programs.iter().find(is_it) {
-        return Ok(program.path.clone());
-    }
-    let built = build(cargo().args(["build", "--package", "host-sim", "--bin", "host-sim"]))?;
-    let found = built.iter().find(is_it).context("`host-sim` was not built")?;
-    Ok(found.path.clone())
 }
 
 fn in_importers(python: &Path, programs: &[Program]) -> Result<()> {

@@ -9,31 +9,27 @@ use std::process::Command;
 
 use anyhow::{Context as _, Result, bail};
 
-use crate::built::build;
-use crate::command::{cargo, output, program, root, run, shown};
+use crate::built::{Program, host_sim};
+use crate::command::{output, program, root, run, shown};
 use crate::target::Toolchain;
 use crate::target::firmware::{LIBRARIES, PROFILE};
 
-/// The command line; built as the tests build it.
-const COMMAND_LINE: &str = "host-sim";
 const NAME: &str = "new-project";
 /// What its golden test says of the first line that differs.
 const DIFFERENCE: &str = "steps and hash: the first that differ";
 
 /// Writes a project, compares what it prints on the target with its golden bits, and, where it is asked
-/// for, tests it here, which compiles its build script's crates once more.
+/// for, tests it here, which compiles its build script's crates once more. The command line is that of the
+/// programs that were built, else it is built.
 ///
 /// # Errors
 /// Where a step of it fails, bits differ, or a planted difference is not found.
-pub fn check(toolchain: &Toolchain, here: bool) -> Result<()> {
-    let mut command = cargo();
-    command.args(["build", "--workspace", "--all-features", "--bin", COMMAND_LINE]);
-    let built = build(&mut command)?;
-    let host_sim = built.first().context("cargo names no program")?;
+pub fn check(toolchain: &Toolchain, here: bool, programs: &[Program]) -> Result<()> {
+    let host_sim = host_sim(programs)?;
     // Not below the repository, whose .cargo/config.toml cargo would add to the project's.
     let folder = std::env::temp_dir().join(format!("dbd-{NAME}-{}", std::process::id()));
     fs::create_dir_all(&folder)?;
-    let checked = written(&host_sim.path, &folder.join(NAME)).and_then(|project| {
+    let checked = written(&host_sim, &folder.join(NAME)).and_then(|project| {
         on_the_target(toolchain, &project)?;
         if here { on_the_pc(toolchain, &project) } else { Ok(()) }
     });

@@ -61,7 +61,7 @@ pub fn run(long: bool, write_times: bool) -> Result<()> {
         python::add_steps(&mut steps, &programs);
         host
     });
-    on_target(&toolchain, host.as_ref(), long, &mut steps);
+    on_target(&toolchain, (host.as_ref(), &programs), long, &mut steps);
     audit::add_steps(&toolchain, &mut steps);
     let slowest = cases::slowest(&cases, SLOWEST);
     show(&slowest);
@@ -242,7 +242,12 @@ fn other_targets(steps: &mut Steps) {
     });
 }
 
-fn on_target(toolchain: &Toolchain, host: Option<&Host>, long: bool, steps: &mut Steps) {
+fn on_target(
+    toolchain: &Toolchain,
+    (host, programs): (Option<&Host>, &[Program]),
+    long: bool,
+    steps: &mut Steps,
+) {
     steps.step("drivers on the target", || {
         firmware::execute(toolchain, "board", false, &[]).map(drop)
     });
@@ -259,7 +264,7 @@ fn on_target(toolchain: &Toolchain, host: Option<&Host>, long: bool, steps: &mut
         boards::check_format()?;
         boards::execute(toolchain, if long { &boards::PROGRAMS } else { &[boards::PLAIN] })
     });
-    steps.step("a new firmware project", || project::check(toolchain, long));
+    steps.step("a new firmware project", || project::check(toolchain, long, programs));
     steps.step("costs on the target", || cost::baseline::check(toolchain));
 }
 
