@@ -12,7 +12,7 @@ use anyhow::{Context as _, Result, bail};
 /// backtrace, and a crate is cut into fewer parts, each of which has its own copy of what is generic.
 /// `dbd-plant`, optimised and checked as ever, then takes 58 CPU seconds instead of 105.
 ///
-/// An image for the target is linked in a third of the time without what a debugger reads of it; its code is
+/// An image for the target is linked in half of the time without what a debugger reads of it; its code is
 /// the same.
 const ONCE: [(&str, &str); 5] = [
     ("CARGO_INCREMENTAL", "0"),
