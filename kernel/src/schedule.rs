@@ -123,7 +123,7 @@ pub(crate) struct StageTime<R> {
 }
 
 /// Brings the signals of tables to a stage; whether any changed. Kept apart, but for lanes: a step
-/// calls it more than once.
+/// calls it more than once. Not called where there is no input.
 #[inline(always)]
 pub(crate) fn sample<P: Geometry>(
     inputs: &[Input<P>],
@@ -132,7 +132,9 @@ pub(crate) fn sample<P: Geometry>(
     at: StageTime<P::Real>,
     signals: &mut [Signal<P::Real>],
 ) -> bool {
-    if P::Real::LANES == 1 {
+    if inputs.is_empty() {
+        false
+    } else if P::Real::LANES == 1 {
         sample_apart(inputs, knots, steps, at, signals)
     } else {
         sample_here(inputs, knots, steps, at, signals)
