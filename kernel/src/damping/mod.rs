@@ -36,7 +36,7 @@ pub(crate) use joints::sweep_joints;
 pub use lever::Lever;
 pub(crate) use levers::{find, weigh};
 pub(crate) use near::Held;
-pub(crate) use pair::{HalfKick, Kick, NoKick};
+pub(crate) use pair::{HalfKick, KeptKick, Kick, NoKick};
 pub(crate) use prepare::prepare;
 pub(crate) use shares::share;
 pub use strength::{DampersOf, Strength, strengths, strengths_of_joints};

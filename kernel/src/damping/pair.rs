@@ -81,6 +81,21 @@ impl<P: Geometry> Kick<P> for HalfKick<'_, P::Space> {
     }
 }
 
+/// The kick of half a step that stands in place of the wrenches.
+pub(crate) struct KeptKick<'s, S: Space> {
+    pub(crate) kicks: &'s [Wrench<S>],
+}
+
+impl<P: Geometry> Kick<P> for KeptKick<'_, P::Space> {
+    const KNOWN: bool = true;
+
+    #[inline(always)]
+    fn of(&self, row: usize) -> Option<Increment<P::Space>> {
+        let kick = self.kicks.get(row)?;
+        Some(Increment { linear: kick.force, angular: kick.torque })
+    }
+}
+
 /// A damper's direction u in world axes, and the moments `r × u` of a unit force along it on the
 /// two bodies, body axes. The ground has none.
 #[derive(Clone, Copy)]
