@@ -27,6 +27,9 @@ pub(crate) fn sweep_joints<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: boo
     (levers, stops): (&[Lever<P>], u16),
     bodies: &mut [BodyState<P>],
 ) {
+    if !sweep.is_of(model, bodies) {
+        return;
+    }
     let stops = levers.get(..stops.into()).unwrap_or_default();
     if REVERSE {
         for lever in stops.iter().rev() {

@@ -93,6 +93,18 @@ pub(crate) struct Sweep<'s, P: Geometry, K> {
     pub(crate) kick: K,
 }
 
+impl<P: Geometry, K: Kick<P>> Sweep<'_, P, K> {
+    /// Whether all that is kept per body is of as many: a row of one is then a row of the others, which
+    /// a compiler does not look up again.
+    #[inline(always)]
+    fn is_of<T: Terms>(&self, model: &ModelRef<'_, P, T>, bodies: &[BodyState<P>]) -> bool {
+        let count = bodies.len();
+        model.bodies.len() == count
+            && self.places.frames.len() == count
+            && self.kick.count().is_none_or(|kicks| kicks == count)
+    }
+}
+
 impl<P: Geometry, K> Sweep<'_, P, K> {
     /// A damper of this coefficient, with its share; in descending order those before it follow.
     #[inline(always)]

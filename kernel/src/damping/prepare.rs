@@ -24,6 +24,9 @@ pub(crate) fn prepare<P: Geometry, T: Terms, K: Kick<P>>(
     bodies: &[BodyState<P>],
     (levers, stops): (&mut [Lever<P>], u16),
 ) {
+    if !sweep.is_of(model, bodies) {
+        return;
+    }
     for number in 0..usize::from(stops) {
         let Some(&Lever { stop, .. }) = levers.get(number) else { break };
         let row = usize::from(stop.row);
