@@ -17,12 +17,14 @@ use crate::pose::{End, placed};
 use crate::real::Real;
 use crate::space::{Linear as _, Moment as _, Space as _, Vector as _};
 
-/// Makes all levers ready: for this pose and for the kick of `sweep`.
+/// Makes all levers ready: for this pose and for the kick of `sweep`. In descending order those of joints
+/// to the ground are told in the sweep itself.
 pub(crate) fn prepare<P: Geometry, T: Terms, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     bodies: &[BodyState<P>],
     (levers, stops): (&mut [Lever<P>], u16),
+    reverse: bool,
 ) {
     if !sweep.is_of(model, bodies) {
         return;
@@ -35,7 +37,11 @@ pub(crate) fn prepare<P: Geometry, T: Terms, K: Kick<P>>(
         };
         // Not sorted out before: the table of a match would have a place for what cannot come.
         match stop.kind {
-            Kind::Ground => {}
+            Kind::Ground => {
+                if !reverse {
+                    told(sweep, &stop, own);
+                }
+            }
             Kind::Joint => {
                 let [few, more, _] = counts::<P>();
                 let count = usize::from(stop.count);
@@ -89,6 +95,19 @@ fn touches<P: Geometry, T: Terms, K: Kick<P>>(
         placed(model, sweep.places, (0, group), i)
             .is_some_and(|element| engaged(model, &element, P::Real::ONE) > P::Real::ZERO)
     })
+}
+
+/// Tells the levers of a joint to the ground what the kick gave.
+#[inline(always)]
+fn told<P: Geometry, K: Kick<P>>(sweep: &Sweep<'_, P, K>, stop: &Stop, levers: &mut [Lever<P>]) {
+    let row = usize::from(stop.ends[0]);
+    let (Some(frame), Some(kick)) = (sweep.places.frames.get(row), sweep.kick.of(row)) else {
+        return;
+    };
+    let pushed = P::to_body(frame, kick.linear);
+    for lever in levers.iter_mut().take(stop.count.into()) {
+        lever.linked[0] = lever.along.dot(pushed) + lever.moment.dot(kick.angular);
+    }
 }
 
 /// The `N` levers of a joint between two bodies.

@@ -66,10 +66,10 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
         let sweep = Sweep { h, places, turns: &*self.turns, shares: self.shares, kick };
         if fresh {
             let levers = (&mut *self.levers, self.ledger.stops);
-            damping::prepare::<P, T, _>(&self.model, &sweep, self.bodies, levers);
+            damping::prepare::<P, T, _>(&self.model, &sweep, self.bodies, levers, REVERSE);
             self.ledger.ready = true;
         }
-        let levers = (&*self.levers, self.ledger.stops);
+        let levers = (&mut *self.levers, self.ledger.stops);
         damping::sweep_joints::<P, T, _, REVERSE>(&self.model, &sweep, levers, self.bodies);
     }
 
