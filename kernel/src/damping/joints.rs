@@ -15,7 +15,7 @@ use crate::damping::pair::Kick;
 use crate::damping::{Sweep, sweep_group};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::model::{ModelRef, Terms};
+use crate::model::{Group, ModelRef, Terms};
 use crate::real::Real;
 use crate::space::{Linear as _, Moment as _, Space as _};
 
@@ -85,10 +85,21 @@ fn act<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
             if let Some(group) = model.groups.get(usize::from(stop.of))
                 && stop.count > 0
             {
-                sweep_group::<P, T, K, REVERSE>(model, sweep, group, bodies);
+                dampers::<P, T, K, REVERSE>(model, sweep, group, bodies);
             }
         }
     }
+}
+
+/// A group's dampers one by one. Apart: beside it there would not be enough registers for levers.
+#[inline(never)]
+fn dampers<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    group: &Group,
+    bodies: &mut [BodyState<P>],
+) {
+    sweep_group::<P, T, K, REVERSE>(model, sweep, group, bodies);
 }
 
 /// The levers of a joint to the ground, all at once: they do not act on one another. In descending order

@@ -172,7 +172,7 @@ fn hold<P: Geometry, T: Terms, K: Kick<P>, const N: usize>(
 }
 
 /// The lever of a raw spring, world axes.
-#[inline(always)]
+#[inline(never)]
 fn line<P: Geometry, T: Terms, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
