@@ -161,7 +161,7 @@ fn ground<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
 /// What was read before is read again after this: a compiler would keep it, and as there are not enough
 /// registers, write it to the stack.
 #[inline(always)]
-fn anew() {
+pub(super) fn anew() {
     compiler_fence(Ordering::SeqCst);
 }
 

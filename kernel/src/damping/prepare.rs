@@ -2,10 +2,11 @@
 //!
 //! `(pose, wrenches, torsion springs' turns) => moments on the other body, impulse per rate, impulse
 //! less`. Once per pose: for the sweep before a step's end and the one at the start of the next.
-//! Those of joints to the ground are always ready.
+//! Those of joints to the ground are but told of the kick.
 
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
+use crate::damping::joints::anew;
 use crate::damping::lever::{Kind, Lever, Stop};
 use crate::damping::levers::{LARGEST, counts};
 use crate::damping::pair::Kick;
@@ -145,21 +146,29 @@ fn hold<P: Geometry, T: Terms, K: Kick<P>, const N: usize>(
     for axis in &mut axes {
         *axis = P::moment_to_body(partner_frame, *axis);
     }
-    let mut others = [P::Moment::ZERO; N];
     // Written out: of a loop the moments would be in memory.
+    macro_rules! see {
+        ($($i:literal)*) => {$(
+            if $i < N {
+                let lever = &mut levers[$i];
+                lever.other = (lever.moment + apart.cross(lever.along)).of_columns(axes);
+                anew();
+            }
+        )*};
+    }
+    see!(0 1 2 3 4 5);
     macro_rules! ready {
         ($i:literal: $($j:literal)*) => {
             if $i < N {
-                let lever = &mut levers[$i];
-                let other = (lever.moment + apart.cross(lever.along)).of_columns(axes);
+                let other = levers[$i].other;
                 let turn = other.scale(partner.inverse_inertia);
-                let rate = lever.rate + other.dot(turn);
+                let rate = levers[$i].rate + other.dot(turn);
+                $(levers[$i].linked[$j] = levers[$i].still[$j] + levers[$j].other.dot(turn);)*
+                let lever = &mut levers[$i];
                 let kicked = lever.along.dot(pushed) + lever.moment.dot(kick.angular)
                     - other.dot(partner_kick.angular);
-                lever.other = other;
-                others[$i] = other;
-                $(lever.linked[$j] = lever.still[$j] + others[$j].dot(turn);)*
                 lever.weigh(&shares[$i], sweep.h, rate, kicked);
+                anew();
             }
         };
     }
