@@ -15,7 +15,7 @@ use crate::damping::pair::Kick;
 use crate::damping::{Sweep, sweep_group};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::model::{ModelRef, Terms};
+use crate::model::{Group, ModelRef, Terms};
 use crate::real::Real;
 use crate::space::{Linear as _, Moment as _, Space as _};
 
@@ -24,18 +24,17 @@ use crate::space::{Linear as _, Moment as _, Space as _};
 pub(crate) fn sweep_joints<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
-    (levers, stops): (&[Lever<P>], u16),
+    (levers, stops): (&mut [Lever<P>], u16),
     bodies: &mut [BodyState<P>],
 ) {
-    let stops = levers.get(..stops.into()).unwrap_or_default();
-    if REVERSE {
-        for lever in stops.iter().rev() {
-            act::<P, T, K, REVERSE>(model, sweep, &lever.stop, levers, bodies);
-        }
-    } else {
-        for lever in stops {
-            act::<P, T, K, REVERSE>(model, sweep, &lever.stop, levers, bodies);
-        }
+    if !sweep.is_of(model, bodies) {
+        return;
+    }
+    let stops = usize::from(stops);
+    for number in 0..stops {
+        let number = if REVERSE { stops - 1 - number } else { number };
+        let Some(&Lever { stop, .. }) = levers.get(number) else { break };
+        act::<P, T, K, REVERSE>(model, sweep, &stop, levers, bodies);
     }
 }
 
@@ -45,13 +44,13 @@ fn act<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     stop: &Stop,
-    levers: &[Lever<P>],
+    levers: &mut [Lever<P>],
     bodies: &mut [BodyState<P>],
 ) {
-    let Some(levers) = levers.get(stop.row.into()..) else { return };
+    let Some(levers) = levers.get_mut(stop.row.into()..) else { return };
     match stop.kind {
         Kind::Ground => {
-            if let Some(levers) = levers.get(..stop.count.into()) {
+            if let Some(levers) = levers.get_mut(..stop.count.into()) {
                 ground::<P, T, K, REVERSE>(model, sweep, stop, levers, bodies);
             }
         }
@@ -86,19 +85,31 @@ fn act<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
             if let Some(group) = model.groups.get(usize::from(stop.of))
                 && stop.count > 0
             {
-                sweep_group::<P, T, K, REVERSE>(model, sweep, group, bodies);
+                dampers::<P, T, K, REVERSE>(model, sweep, group, bodies);
             }
         }
     }
 }
 
-/// The levers of a joint to the ground, all at once: they do not act on one another.
+/// A group's dampers one by one. Apart: beside it there would not be enough registers for levers.
+#[inline(never)]
+fn dampers<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    group: &Group,
+    bodies: &mut [BodyState<P>],
+) {
+    sweep_group::<P, T, K, REVERSE>(model, sweep, group, bodies);
+}
+
+/// The levers of a joint to the ground, all at once: they do not act on one another. In descending order
+/// they are told of the kick, and keep what it gave for the sweep that follows.
 #[inline(always)]
 fn ground<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     stop: &Stop,
-    levers: &[Lever<P>],
+    levers: &mut [Lever<P>],
     bodies: &mut [BodyState<P>],
 ) {
     let row = BodyIndex(stop.ends[0]).row();
@@ -115,18 +126,34 @@ fn ground<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     let spin = P::spin(&state.angular_velocity);
     let mut push = P::Vector::ZERO;
     let mut turn = P::Moment::ZERO;
-    for lever in levers {
-        // Another end of the loop, which no compiler then unrolls: there are not enough registers.
-        if lever.impulse <= P::Real::ZERO {
-            break;
-        }
-        let kicked = lever.along.dot(pushed) + lever.moment.dot(kick.angular);
-        let rate = lever.along.dot(velocity) + lever.moment.dot(spin);
-        let impulse = lever.less[usize::from(REVERSE)] * kicked - lever.impulse * rate;
-        push = push + lever.along * impulse;
-        turn = turn + lever.moment * impulse;
+    // Written out: in a loop its own instructions would be a fifth.
+    macro_rules! act {
+        ($from:expr, $to:expr; $($n:literal)*) => {$(
+            if $n >= $from && $n < $to && let Some(lever) = levers.get_mut($n) {
+                if REVERSE {
+                    lever.linked[0] = lever.along.dot(pushed) + lever.moment.dot(kick.angular);
+                }
+                let kicked = lever.linked[0];
+                let rate = lever.along.dot(velocity) + lever.moment.dot(spin);
+                let impulse = lever.less[usize::from(REVERSE)] * kicked - lever.impulse * rate;
+                let (along, moment) = (lever.along * impulse, lever.moment * impulse);
+                push = if $n == 0 { along } else { push + along };
+                turn = if $n == 0 { moment } else { turn + moment };
+                anew();
+            }
+        )*};
     }
-    anew();
+    let [few, more, all] = counts::<P>();
+    if levers.len() < few {
+        return;
+    }
+    act!(0, few; 0 1 2);
+    if levers.len() >= more {
+        act!(few, more; 2 3 4);
+        if levers.len() >= all {
+            act!(more, all; 2 3 4 5);
+        }
+    }
     P::accelerate(&mut state.velocity, P::to_world(frame, push * body.inverse_mass));
     P::spin_up(&mut state.angular_velocity, turn.scale(body.inverse_inertia));
 }
@@ -134,7 +161,7 @@ fn ground<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
 /// What was read before is read again after this: a compiler would keep it, and as there are not enough
 /// registers, write it to the stack.
 #[inline(always)]
-fn anew() {
+pub(super) fn anew() {
     compiler_fence(Ordering::SeqCst);
 }
 
@@ -189,6 +216,7 @@ fn joint<P: Geometry, T: Terms, const REVERSE: bool, const N: usize>(
                 push = if $n == 0 { along } else { push + along };
                 turn = if $n == 0 { moment } else { turn + moment };
                 partner_turn = if $n == 0 { other } else { partner_turn + other };
+                anew();
             }
         };
     }

@@ -28,7 +28,7 @@ pub struct Lever<P: Geometry> {
     /// what the kick and moved ground gave.
     pub(super) less: [P::Real; 2],
     /// \[1/s\] rate per impulse along each of the levers before it, of joints between two bodies; and
-    /// without the other body's turning.
+    /// without the other body's turning. To the ground the first is the rate that the kick gave.
     pub(super) linked: [P::Real; LINKED],
     pub(super) still: [P::Real; LINKED],
     /// A stop of the sweeps: of the whole model's in order the one of this row's number.

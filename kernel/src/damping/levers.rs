@@ -39,7 +39,7 @@ pub(super) fn fixed<P: Geometry, T: Terms>(group: &Group) -> Option<[BodyIndex; 
     }
 }
 
-/// How many levers a joint between two bodies has: as few as a spherical joint, as a revolute, or as
+/// How many levers a joint has: as few as a spherical joint, as a revolute, or as
 /// many as a wrench has components, which always have room.
 pub(super) const fn counts<P: Geometry>() -> [usize; 3] {
     if P::Space::PLANAR { [2, 2, 3] } else { [3, 5, 6] }
@@ -156,8 +156,7 @@ fn stops<P: Geometry, T: Terms>(model: &ModelRef<'_, P, T>, levers: &mut [Lever<
         let Some(row) = group.damper.row() else { continue };
         let (kind, ends) = kind::<P, T>(group);
         let count = match kind {
-            Kind::Ground => held(group, levers).len(),
-            Kind::Joint => match held(group, levers).len() {
+            Kind::Ground | Kind::Joint => match held(group, levers).len() {
                 0 => 0,
                 count => counts::<P>().into_iter().find(|&whole| whole >= count).unwrap_or(count),
             },

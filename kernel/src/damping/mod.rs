@@ -36,7 +36,7 @@ pub(crate) use joints::sweep_joints;
 pub use lever::Lever;
 pub(crate) use levers::{find, weigh};
 pub(crate) use near::Held;
-pub(crate) use pair::{HalfKick, Kick, NoKick};
+pub(crate) use pair::{HalfKick, KeptKick, Kick, NoKick};
 pub(crate) use prepare::prepare;
 pub(crate) use shares::share;
 pub use strength::{DampersOf, Strength, strengths, strengths_of_joints};
@@ -91,6 +91,18 @@ pub(crate) struct Sweep<'s, P: Geometry, K> {
     pub(crate) shares: &'s [Share<P::Real>],
     /// The kick just before.
     pub(crate) kick: K,
+}
+
+impl<P: Geometry, K: Kick<P>> Sweep<'_, P, K> {
+    /// Whether all that is kept per body is of as many: a row of one is then a row of the others, which
+    /// a compiler does not look up again.
+    #[inline(always)]
+    fn is_of<T: Terms>(&self, model: &ModelRef<'_, P, T>, bodies: &[BodyState<P>]) -> bool {
+        let count = bodies.len();
+        model.bodies.len() == count
+            && self.places.frames.len() == count
+            && self.kick.count().is_none_or(|kicks| kicks == count)
+    }
 }
 
 impl<P: Geometry, K> Sweep<'_, P, K> {

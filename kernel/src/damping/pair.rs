@@ -49,6 +49,10 @@ impl<R: Real> Damper<R> {
 pub(crate) trait Kick<P: Geometry> {
     /// Whether there is one.
     const KNOWN: bool;
+    /// Of how many bodies it knows, where it counts them.
+    fn count(&self) -> Option<usize> {
+        None
+    }
     /// What it gave to the body in this row, `None` of the ground.
     fn of(&self, row: usize) -> Option<Increment<P::Space>>;
 }
@@ -78,6 +82,25 @@ impl<P: Geometry> Kick<P> for HalfKick<'_, P::Space> {
     fn of(&self, row: usize) -> Option<Increment<P::Space>> {
         let (wrench, diagonal) = (self.wrenches.get(row)?, self.diagonals.get(row)?);
         Some(diagonal.increment(wrench.force, wrench.torque, P::Real::HALF))
+    }
+}
+
+/// The kick of half a step that stands in place of the wrenches.
+pub(crate) struct KeptKick<'s, S: Space> {
+    pub(crate) kicks: &'s [Wrench<S>],
+}
+
+impl<P: Geometry> Kick<P> for KeptKick<'_, P::Space> {
+    const KNOWN: bool = true;
+
+    #[inline(always)]
+    fn count(&self) -> Option<usize> {
+        Some(self.kicks.len())
+    }
+    #[inline(always)]
+    fn of(&self, row: usize) -> Option<Increment<P::Space>> {
+        let kick = self.kicks.get(row)?;
+        Some(Increment { linear: kick.force, angular: kick.torque })
     }
 }
 

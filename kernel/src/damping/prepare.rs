@@ -2,10 +2,11 @@
 //!
 //! `(pose, wrenches, torsion springs' turns) => moments on the other body, impulse per rate, impulse
 //! less`. Once per pose: for the sweep before a step's end and the one at the start of the next.
-//! Those of joints to the ground are always ready.
+//! Those of joints to the ground are but told of the kick.
 
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
+use crate::damping::joints::anew;
 use crate::damping::lever::{Kind, Lever, Stop};
 use crate::damping::levers::{LARGEST, counts};
 use crate::damping::pair::Kick;
@@ -17,13 +18,18 @@ use crate::pose::{End, placed};
 use crate::real::Real;
 use crate::space::{Linear as _, Moment as _, Space as _, Vector as _};
 
-/// Makes all levers ready: for this pose and for the kick of `sweep`.
+/// Makes all levers ready: for this pose and for the kick of `sweep`. In descending order those of joints
+/// to the ground are told in the sweep itself.
 pub(crate) fn prepare<P: Geometry, T: Terms, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     bodies: &[BodyState<P>],
     (levers, stops): (&mut [Lever<P>], u16),
+    reverse: bool,
 ) {
+    if !sweep.is_of(model, bodies) {
+        return;
+    }
     for number in 0..usize::from(stops) {
         let Some(&Lever { stop, .. }) = levers.get(number) else { break };
         let row = usize::from(stop.row);
@@ -32,7 +38,11 @@ pub(crate) fn prepare<P: Geometry, T: Terms, K: Kick<P>>(
         };
         // Not sorted out before: the table of a match would have a place for what cannot come.
         match stop.kind {
-            Kind::Ground => {}
+            Kind::Ground => {
+                if !reverse {
+                    told(sweep, &stop, own);
+                }
+            }
             Kind::Joint => {
                 let [few, more, _] = counts::<P>();
                 let count = usize::from(stop.count);
@@ -88,6 +98,19 @@ fn touches<P: Geometry, T: Terms, K: Kick<P>>(
     })
 }
 
+/// Tells the levers of a joint to the ground what the kick gave.
+#[inline(always)]
+fn told<P: Geometry, K: Kick<P>>(sweep: &Sweep<'_, P, K>, stop: &Stop, levers: &mut [Lever<P>]) {
+    let row = usize::from(stop.ends[0]);
+    let (Some(frame), Some(kick)) = (sweep.places.frames.get(row), sweep.kick.of(row)) else {
+        return;
+    };
+    let pushed = P::to_body(frame, kick.linear);
+    for lever in levers.iter_mut().take(stop.count.into()) {
+        lever.linked[0] = lever.along.dot(pushed) + lever.moment.dot(kick.angular);
+    }
+}
+
 /// The `N` levers of a joint between two bodies.
 #[inline(always)]
 fn hold<P: Geometry, T: Terms, K: Kick<P>, const N: usize>(
@@ -123,21 +146,29 @@ fn hold<P: Geometry, T: Terms, K: Kick<P>, const N: usize>(
     for axis in &mut axes {
         *axis = P::moment_to_body(partner_frame, *axis);
     }
-    let mut others = [P::Moment::ZERO; N];
     // Written out: of a loop the moments would be in memory.
+    macro_rules! see {
+        ($($i:literal)*) => {$(
+            if $i < N {
+                let lever = &mut levers[$i];
+                lever.other = (lever.moment + apart.cross(lever.along)).of_columns(axes);
+                anew();
+            }
+        )*};
+    }
+    see!(0 1 2 3 4 5);
     macro_rules! ready {
         ($i:literal: $($j:literal)*) => {
             if $i < N {
-                let lever = &mut levers[$i];
-                let other = (lever.moment + apart.cross(lever.along)).of_columns(axes);
+                let other = levers[$i].other;
                 let turn = other.scale(partner.inverse_inertia);
-                let rate = lever.rate + other.dot(turn);
+                let rate = levers[$i].rate + other.dot(turn);
+                $(levers[$i].linked[$j] = levers[$i].still[$j] + levers[$j].other.dot(turn);)*
+                let lever = &mut levers[$i];
                 let kicked = lever.along.dot(pushed) + lever.moment.dot(kick.angular)
                     - other.dot(partner_kick.angular);
-                lever.other = other;
-                others[$i] = other;
-                $(lever.linked[$j] = lever.still[$j] + others[$j].dot(turn);)*
                 lever.weigh(&shares[$i], sweep.h, rate, kicked);
+                anew();
             }
         };
     }
@@ -150,7 +181,7 @@ fn hold<P: Geometry, T: Terms, K: Kick<P>, const N: usize>(
 }
 
 /// The lever of a raw spring, world axes.
-#[inline(always)]
+#[inline(never)]
 fn line<P: Geometry, T: Terms, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,

@@ -2,8 +2,8 @@
 //!
 //! `(velocities, wrenches, frames) => velocities`.
 
-use crate::damping::{self, HalfKick, NoKick, Sweep};
-use crate::forces::Dampers;
+use crate::damping::{self, HalfKick, KeptKick, NoKick, Sweep};
+use crate::forces::{Dampers, Wrench};
 use crate::geometry::Geometry;
 use crate::model::Terms;
 use crate::pose::{Places, place_bodies};
@@ -50,24 +50,46 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
         }
     }
 
-    /// [`Self::damped_kick_forward`] or its reverse, with the dampers as `D` says.
+    /// [`Self::damped_kick_forward`] or its reverse, with the dampers as `D` says. Joint by joint the
+    /// kick of a pose is kept in place of its wrenches: there are two of it.
     #[inline(always)]
     pub(crate) fn damped_kick<D: Dampers, const REVERSE: bool>(&mut self) {
-        self.kick(P::Real::HALF);
-        if !(D::JOINT_WISE && T::DAMPERS) {
+        if !(D::JOINT_WISE && self.has_dampers()) {
+            self.kick(P::Real::HALF);
             return self.sweep_after_kick::<REVERSE>();
         }
+        let fresh = !self.ledger.ready;
+        self.keep_kick(fresh);
         let h = P::Real::HALF * self.h;
         let places = Places { frames: &*self.frames, signals: &*self.signals };
-        let kick = HalfKick { wrenches: &*self.wrenches, diagonals: self.diagonals };
+        let kick = KeptKick { kicks: &*self.wrenches };
         let sweep = Sweep { h, places, turns: &*self.turns, shares: self.shares, kick };
-        if !self.ledger.ready {
+        if fresh {
             let levers = (&mut *self.levers, self.ledger.stops);
-            damping::prepare::<P, T, _>(&self.model, &sweep, self.bodies, levers);
+            damping::prepare::<P, T, _>(&self.model, &sweep, self.bodies, levers, REVERSE);
             self.ledger.ready = true;
         }
-        let levers = (&*self.levers, self.ledger.stops);
+        let levers = (&mut *self.levers, self.ledger.stops);
         damping::sweep_joints::<P, T, _, REVERSE>(&self.model, &sweep, levers, self.bodies);
+    }
+
+    /// A kick by half. At first it is made of the wrenches and takes their place.
+    #[inline(always)]
+    fn keep_kick(&mut self, fresh: bool) {
+        let rows = self.bodies.iter_mut().zip(self.wrenches.iter_mut());
+        if fresh {
+            for ((state, wrench), diagonal) in rows.zip(self.diagonals) {
+                let kick = diagonal.increment(wrench.force, wrench.torque, P::Real::HALF);
+                *wrench = Wrench { force: kick.linear, torque: kick.angular };
+                P::accelerate(&mut state.velocity, kick.linear);
+                P::spin_up(&mut state.angular_velocity, kick.angular);
+            }
+        } else {
+            for (state, kick) in rows {
+                P::accelerate(&mut state.velocity, kick.force);
+                P::spin_up(&mut state.angular_velocity, kick.torque);
+            }
+        }
     }
 
     /// Half a step of the dampers by themselves in ascending order; frames are those of the

@@ -33,7 +33,7 @@ pub(crate) struct Ledger {
     /// Whether frames and wrenches are those of the present pose, without dampers and with settled
     /// turn counts: a scheme that ends on an evaluation need not begin with one.
     pub(crate) fresh: bool,
-    /// Whether the joints' levers are those of the present pose.
+    /// Whether the joints' levers are those of the present pose, with its kick in place of the wrenches.
     pub(crate) ready: bool,
     /// At how many places a sweep of levers stops.
     pub(crate) stops: u16,
