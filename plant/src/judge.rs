@@ -283,39 +283,3 @@ fn fastest(state: &State<SceneModel<F64>>) -> usize {
     let speeds = state.bodies.iter().map(speed).enumerate();
     speeds.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(row, _)| row)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A body falls through its joint's clearance: that is no opening. What is beyond it is, with the
-    /// time at which it was seen.
-    #[test]
-    fn a_joint_opens_beyond_its_clearance() {
-        let opening = |stiffness: f64| {
-            let text = format!(
-                "name = \"loose\"\nduration = 1\ngravity = [0, 0, -10]\n[[body]]\nname = \"b\"\n\
-                 mass = 1\ninertia = [1, 1, 1]\nposition = [0, 0, 0]\n[[joint]]\nname = \"j\"\n\
-                 type = \"revolute\"\nbetween = [\"world\", \"b\"]\nat = [0, 0, 0]\naxis = [1, 0, 0]\n\
-                 stiffness = {stiffness:?}\nspan = 0.1\nclearance = 0.005\n"
-            );
-            let scene = Scene::parse(&text, "loose.toml").unwrap();
-            let mut plant = crate::plant(&scene, &crate::Method::default(), 1e-4).unwrap();
-            let mut judge = Judge::new(&scene, plant.as_ref());
-            let mut largest = 0.0_f64;
-            for _ in 0..1000 {
-                assert!(plant.advance(1).is_running());
-                let verdict = judge.judge(&plant.state());
-                largest =
-                    largest.max(verdict.unwrap_or_else(|trouble| panic!("{trouble:?}")).extension);
-            }
-            (judge.openings()[0], largest)
-        };
-        let (stiff, largest) = opening(1e6);
-        assert!((stiff.extension - (largest - 0.005)).abs() < 1e-15, "{stiff:?} {largest}");
-        assert!(stiff.extension < 1e-3 && largest > 0.005 && stiff.since.is_none(), "{stiff:?}");
-        let (soft, _) = opening(1e2);
-        let since = soft.since.unwrap();
-        assert!(soft.share() > OPENED && since > 0.02 && since < soft.time, "{soft:?}");
-    }
-}

@@ -1,20 +1,21 @@
 //! A plant of any method behind one type: where the names of a method become the kernel's types.
 //!
 //! `(model, method, step) => plant`. Every scheme is compiled here for every precision, once for
-//! all that steps scenes on a host. A plant owns its model and can be sent to another thread. The unit
-//! tests of this crate do without what is for comparison, which would be compiled for them once more.
+//! all that steps scenes on a host; so no unit test of this crate makes a plant, for which all of it would
+//! be compiled once more: `tests/` has those that do. A plant owns its model and can be sent to another
+//! thread.
 
 use std::sync::Arc;
 
-#[cfg(all(feature = "comparison", not(test)))]
+#[cfg(feature = "comparison")]
 use dbd_kernel::CompensatedF32;
 use dbd_kernel::energy::energy;
-#[cfg(all(feature = "comparison", not(test)))]
+#[cfg(feature = "comparison")]
 use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
 use dbd_kernel::frequency::bound;
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::keep::Keep as _;
-#[cfg(all(feature = "comparison", not(test)))]
+#[cfg(feature = "comparison")]
 use dbd_kernel::loose::{Loose32, LooseEuler32, LooseSingleEuler32};
 use dbd_kernel::plant::{self as kernel, InputError, Plant, StateError};
 use dbd_kernel::readouts::{Reading, Readout};
@@ -49,42 +50,42 @@ macro_rules! with_precision {
                 type $P = Fixed;
                 $body
             }
-            #[cfg(all(feature = "comparison", not(test)))]
+            #[cfg(feature = "comparison")]
             (PrecisionName::F32Compensated, OrientationName::Quaternion) => {
                 type $P = CompensatedF32;
                 $body
             }
-            #[cfg(all(feature = "comparison", not(test)))]
+            #[cfg(feature = "comparison")]
             (PrecisionName::F64, OrientationName::Euler321) => {
                 type $P = EulerF64;
                 $body
             }
-            #[cfg(all(feature = "comparison", not(test)))]
+            #[cfg(feature = "comparison")]
             (PrecisionName::F32, OrientationName::Euler321) => {
                 type $P = EulerF32;
                 $body
             }
-            #[cfg(all(feature = "comparison", not(test)))]
+            #[cfg(feature = "comparison")]
             (PrecisionName::F64, OrientationName::Euler321Single) => {
                 type $P = SingleEulerF64;
                 $body
             }
-            #[cfg(all(feature = "comparison", not(test)))]
+            #[cfg(feature = "comparison")]
             (PrecisionName::F32, OrientationName::Euler321Single) => {
                 type $P = SingleEulerF32;
                 $body
             }
-            #[cfg(all(feature = "comparison", not(test)))]
+            #[cfg(feature = "comparison")]
             (PrecisionName::F32Micromath, OrientationName::Quaternion) => {
                 type $P = Loose32;
                 $body
             }
-            #[cfg(all(feature = "comparison", not(test)))]
+            #[cfg(feature = "comparison")]
             (PrecisionName::F32Micromath, OrientationName::Euler321) => {
                 type $P = LooseEuler32;
                 $body
             }
-            #[cfg(all(feature = "comparison", not(test)))]
+            #[cfg(feature = "comparison")]
             (PrecisionName::F32Micromath, OrientationName::Euler321Single) => {
                 type $P = LooseSingleEuler32;
                 $body

@@ -242,7 +242,7 @@ pub fn of_turns(
     ))
 }
 
-/// What Euler angles lose besides: `tests/extremes/attitude.rs` has the figure.
+/// What Euler angles lose besides: `tests/mechanics/extremes/attitude.rs` has the figure.
 fn of_angles(method: &Method) -> &'static str {
     match method.orientation() {
         OrientationName::Quaternion => "",

@@ -200,7 +200,7 @@ impl Method {
         let aside =
             matches!(self.precision, PrecisionName::F32Compensated | PrecisionName::F32Micromath);
         let exists = quaternions || self.precision.is_plain();
-        if (quaternions && !aside) || (exists && cfg!(all(feature = "comparison", not(test)))) {
+        if (quaternions && !aside) || (exists && cfg!(feature = "comparison")) {
             Ok(())
         } else {
             Err(self.not_built())

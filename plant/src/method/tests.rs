@@ -24,7 +24,7 @@ fn the_names_are_those_of_the_kernel() {
 
 #[test]
 fn what_is_for_comparison_is_refused_with_its_remedy_where_it_is_not_built() {
-    let built = cfg!(all(feature = "comparison", not(test)));
+    let built = cfg!(feature = "comparison");
     for precision in PrecisionName::ALL {
         for orientation in OrientationName::ALL {
             let method = Method::new(SchemeName::Rk4, None, *precision).unwrap();

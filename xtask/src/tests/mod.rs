@@ -23,6 +23,8 @@ use cases::{Case, Selection};
 
 const KERNEL: &str = "dbd-kernel";
 const GOLDEN: &str = "dbd-bits";
+/// What small models do.
+const MECHANICS: &str = "dbd-mechanics";
 /// What firmwares compare trajectories with.
 const TRAJECTORIES: &str = "dbd-golden";
 const PROOF: &str = "dbd-proof";
@@ -104,6 +106,8 @@ pub fn tables() -> Result<()> {
             "dbd-tests",
             "--package",
             GOLDEN,
+            "--package",
+            MECHANICS,
             "--package",
             PROOF,
         ]);

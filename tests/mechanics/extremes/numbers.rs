@@ -10,7 +10,7 @@ use dbd_kernel::{
 use dbd_tests::page::{block, figure, table};
 use dbd_tests::{Bench, at, distance};
 
-use crate::{outcome, rounding};
+use super::{outcome, rounding};
 
 /// The amplitude after 10,000 steps of 0.1 rad in parts of what it was, of a mass on a spring whose
 /// amplitude is this.

@@ -7,7 +7,7 @@ use dbd_kernel::{BodyState, F32, F64, Geometry, Leapfrog, Pefrl, Plant, Quaterni
 use dbd_tests::Bench;
 use dbd_tests::page::{block, figure, table};
 
-use crate::{outcome, rounding};
+use super::{outcome, rounding};
 
 /// \[rad/s\] the spin.
 const SPIN: f64 = 1e4;
