@@ -6,7 +6,9 @@ use super::cases::Case;
 const LIMIT: f64 = 3.0;
 
 /// Program and test, each longer than [`LIMIT`].
-pub const LONG: [(&str, &str); 20] = [
+pub const LONG: [(&str, &str); 22] = [
+    ("mechanics::mechanics", "orientation::every_scheme_keeps_its_order"),
+    ("mechanics::mechanics", "planar::a_planar_model_moves_as_the_spatial_one_in_every_scheme"),
     ("tests::command_line", "tutorial::the_tutorial_does_what_it_says"),
     ("tests::frequency", "the_bound_holds_along_the_run_of_every_scene::test"),
     ("tests::frequency", "written_in_the_page"),
