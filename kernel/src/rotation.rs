@@ -24,7 +24,7 @@ pub fn turn_by<P: Geometry>(orientation: &mut P::Orientation, half: P::Moment) {
 
 /// The free rigid rotor over `time` \[s\]: second order, reversible; with quaternions the world's
 /// angular momentum is kept to rounding up to h·ω = 0.3, beyond that as well as the truncated
-/// turns are exact: within 4e-13 of it over 20 s at 0.6, 3e-10 at 1.1 (`tests/orientation.rs`).
+/// turns are exact: within 4e-13 of it over 20 s at 0.6, 3e-10 at 1.1 (`tests/mechanics/orientation.rs`).
 ///
 /// Symmetric splitting of the kinetic energy into its three axes (McLachlan 1993; Dullweber,
 /// Leimkuhler & McLachlan 1997): turns about x, y, z, y, x by h/2, h/2, h, h/2, h/2. Each is
