@@ -18,6 +18,7 @@ mod gather;
 mod in_lanes;
 mod instructions;
 mod lanes;
+mod large;
 // Six registers' steps, which the unit tests would compile once more.
 #[cfg(not(test))]
 mod leapfrog;
@@ -30,6 +31,7 @@ pub use batch::PlantOf;
 pub use ensemble::{Ensemble, EnsembleError};
 pub use in_lanes::InLanes;
 pub use instructions::InstructionSet;
+pub use large::{Large, fits};
 #[cfg(not(test))]
 pub use leapfrog::{
     AnyEnsemble, ensemble_in_f32, ensemble_in_f64, lanes_in_f64, pace_in_f32, pace_in_f64,
