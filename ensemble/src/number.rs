@@ -8,8 +8,8 @@ use dbd_kernel::{Leapfrog, Real};
 use crate::batch::{Batch, Members, PlantOf};
 use crate::in_lanes::InLanes;
 use crate::instructions::InstructionSet;
-use crate::large::{InRows, Rows};
 use crate::register;
+use crate::rows::{InRows, Rowed};
 
 /// A number that has registers: `f64` and `f32`.
 pub trait Number: Real + Named + sealed::Batches {
@@ -20,7 +20,7 @@ pub trait Number: Real + Named + sealed::Batches {
 pub(crate) mod sealed {
     use dbd_kernel::Leapfrog;
 
-    use super::{Batch, InLanes, InstructionSet, PlantOf, Rows};
+    use super::{Batch, InLanes, InstructionSet, PlantOf, Rowed};
 
     /// What only this crate does with a number.
     pub trait Batches: super::Real + super::Named {
@@ -33,7 +33,7 @@ pub(crate) mod sealed {
 
         /// A large model's plant in rows.
         #[allow(private_interfaces)]
-        fn rows(set: InstructionSet, plant: PlantOf<Self, Leapfrog>) -> Box<dyn Rows<Self>>;
+        fn rows(set: InstructionSet, plant: PlantOf<Self, Leapfrog>) -> Box<dyn Rowed<Self>>;
     }
 }
 
@@ -76,7 +76,7 @@ macro_rules! number {
             }
 
             #[allow(private_interfaces)]
-            fn rows(set: InstructionSet, plant: PlantOf<Self, Leapfrog>) -> Box<dyn Rows<Self>> {
+            fn rows(set: InstructionSet, plant: PlantOf<Self, Leapfrog>) -> Box<dyn Rowed<Self>> {
                 match set {
                     InstructionSet::Baseline => Box::new(InRows::<register::$array>::new(plant)),
                     #[cfg(target_arch = "x86_64")]
