@@ -17,11 +17,13 @@ use crate::lanes::Lanes;
 use crate::register::{Register, Work};
 
 mod plan;
+mod table;
 #[cfg(test)]
 mod tests;
 mod unfit;
 
-use plan::{Plan, Rows};
+use plan::Plan;
+use table::{Table, load, store};
 pub use unfit::{Unfit, fits};
 
 /// Steps between two looks.
@@ -41,89 +43,23 @@ pub(crate) trait Rowed<R: Real + Named>: Send {
 
 /// Bodies of a register.
 struct Bodies<V: Register> {
-    body: Body<Lanes<V>>,
+    /// \[1\] of the moments of inertia, all that a drift takes of a [`Body`].
+    ratios: [Vec3<Lanes<V>>; 2],
     diagonal: Diagonal<Lanes<V>>,
     /// \[N\].
     weight: Vec3<Lanes<V>>,
     state: BodyState<Float<Lanes<V>>>,
-    /// What joints do to them, in the order of the joints.
-    added: Vec<Rows>,
+    /// The first rows of what joints do to them, in the order of the joints.
+    added: Box<[u32]>,
 }
 
 /// Joints of a register.
 struct Joints<V: Register> {
-    ends: [Rows; 2],
+    /// The first rows of their bodies.
+    ends: [u32; 2],
     centres: [Vec3<Lanes<V>>; 2],
     tips: [Vec3<Lanes<V>>; 3],
     springs: [[Tsda<Lanes<V>>; 3]; 2],
-}
-
-/// As many numbers of each row, the first of all rows before the second of all.
-struct Table<N, const NUMBERS: usize> {
-    numbers: Vec<N>,
-    rows: usize,
-}
-
-impl<N: Real, const NUMBERS: usize> Table<N, NUMBERS> {
-    fn new(rows: usize, row: [N; NUMBERS]) -> Self {
-        Self { numbers: row.iter().flat_map(|&number| vec![number; rows]).collect(), rows }
-    }
-
-    /// The first numbers of all rows, the second, and so on.
-    #[inline(always)]
-    fn columns(&self) -> [&[N]; NUMBERS] {
-        let mut columns: [&[N]; NUMBERS] = [&[]; NUMBERS];
-        let mut left = self.numbers.as_slice();
-        for column in &mut columns {
-            (*column, left) = left.split_at(self.rows);
-        }
-        columns
-    }
-
-    /// Likewise.
-    #[inline(always)]
-    fn columns_mut(&mut self) -> [&mut [N]; NUMBERS] {
-        let mut left = self.numbers.as_mut_slice();
-        core::array::from_fn(|_| {
-            let (column, others) = core::mem::take(&mut left).split_at_mut(self.rows);
-            left = others;
-            column
-        })
-    }
-}
-
-/// What the lanes of a register take of columns.
-#[inline(always)]
-fn take<V: Register, const NUMBERS: usize>(
-    columns: &[&[V::Number]; NUMBERS],
-    rows: &Rows,
-) -> [Lanes<V>; NUMBERS] {
-    let mut taken = [Lanes::ZERO; NUMBERS];
-    match rows {
-        Rows::Run(first) => {
-            for (taken, column) in taken.iter_mut().zip(columns) {
-                *taken = Lanes::load(&column[*first as usize..]);
-            }
-        }
-        Rows::Each(rows) => {
-            for (taken, column) in taken.iter_mut().zip(columns) {
-                *taken = lanes(|lane| column[rows[lane] as usize]);
-            }
-        }
-    }
-    taken
-}
-
-/// Writes a register's rows from `first` on.
-#[inline(always)]
-fn put<V: Register, const NUMBERS: usize>(
-    columns: &mut [&mut [V::Number]; NUMBERS],
-    first: usize,
-    numbers: [Lanes<V>; NUMBERS],
-) {
-    for (column, numbers) in columns.iter_mut().zip(numbers) {
-        numbers.store(&mut column[first..]);
-    }
 }
 
 /// A plant and its rows of lanes.
@@ -184,7 +120,9 @@ impl<V: Register> InRows<V> {
             let weight = vector(|i| {
                 known(i).zip(gravity).map_or_else(Vec3::default, |(body, g)| weight(body.mass, g))
             });
-            Bodies { body, diagonal: Diagonal::new(&body, h), weight, state: at_rest(), added }
+            let ratios = [body.ratio, body.inverse_ratio];
+            let diagonal = Diagonal::new(&body, h);
+            Bodies { ratios, diagonal, weight, state: at_rest(), added }
         });
         let bodies = bodies.collect();
         let joints = plan.joints.chunks(V::LANES).zip(plan.ends).map(|(joints, ends)| {
@@ -210,8 +148,7 @@ impl<V: Register> InRows<V> {
         let joints = joints.collect();
         let BodyState { position, orientation, .. } = at_rest::<V::Number>();
         let pose = Float::<V::Number>::frame(&position, &orientation).numbers();
-        // A register beyond the last row may be read where lanes are idle.
-        let poses = Table::new(plan.bodies + V::LANES, pose);
+        let poses = Table::new(plan.poses, pose);
         // Nothing is a negative zero, which changes no sum.
         let done = Table::new(plan.done, [-V::Number::ZERO; DONE]);
         Self { plant, bodies, joints, poses, done, present: false }
@@ -262,17 +199,16 @@ impl<V: Register> InRows<V> {
     #[inline(always)]
     fn pull(&mut self) {
         let Self { joints, poses, done, .. } = self;
+        poses.copy();
         let (poses, mut done) = (poses.columns(), done.columns_mut());
         let second = joints.len() * V::LANES + V::LANES;
         for (block, joint) in joints.iter().enumerate() {
-            let [a, b] = &joint.ends;
-            let a = Pose::from_numbers(take(&poses, a));
-            let b = Pose::from_numbers(take(&poses, b));
+            let [a, b] = joint.ends.map(|first| Pose::from_numbers(load(&poses, first as usize)));
             let points = (&joint.centres, &joint.tips);
             let record = parts::revolute::<Float<Lanes<V>>>([&a, &b], points, &joint.springs);
             let parts::Record { force: f, torque_a: a, torque_b: b } = record;
-            put(&mut done, block * V::LANES, [f.x, f.y, f.z, a.x, a.y, a.z]);
-            put(&mut done, second + block * V::LANES, [-f.x, -f.y, -f.z, -b.x, -b.y, -b.z]);
+            store(&mut done, block * V::LANES, [f.x, f.y, f.z, a.x, a.y, a.z]);
+            store(&mut done, second + block * V::LANES, [-f.x, -f.y, -f.z, -b.x, -b.y, -b.z]);
         }
     }
 
@@ -283,26 +219,22 @@ impl<V: Register> InRows<V> {
         let one = Lanes::<V>::ONE;
         let mut calm = Lanes::<V>::truth(true);
         let Self { bodies, poses, done, .. } = self;
+        done.copy();
         let (mut poses, done) = (poses.columns_mut(), done.columns());
         for (block, bodies) in bodies.iter_mut().enumerate() {
-            let Bodies { body, diagonal, weight, state, added } = bodies;
+            let Bodies { ratios, diagonal, weight, state, added } = bodies;
             let first = V::LANES + block * V::LANES;
-            let zero = Lanes::ZERO;
             let [mut fx, mut fy, mut fz] = [weight.x, weight.y, weight.z];
-            let [mut tx, mut ty, mut tz] = [zero; 3];
-            for rows in &*added {
-                let done: [_; DONE] = take(&done, rows);
+            let [mut tx, mut ty, mut tz] = [Lanes::ZERO; 3];
+            for &first in &**added {
+                let done: [_; DONE] = load(&done, first as usize);
                 (fx, fy, fz) = (fx + done[0], fy + done[1], fz + done[2]);
                 (tx, ty, tz) = (tx + done[3], ty + done[4], tz + done[5]);
             }
-            let mut pose = [zero; POSE];
-            for (number, column) in pose.iter_mut().zip(&poses) {
-                *number = Lanes::load(&column[first..]);
-            }
-            let torque = Vec3::new(tx, ty, tz);
+            let pose = Pose::from_numbers(load(&poses, first));
             let wrench = Wrench {
                 force: Vec3::new(fx, fy, fz),
-                torque: Float::<Lanes<V>>::moment_to_body(&Pose::from_numbers(pose), torque),
+                torque: Float::<Lanes<V>>::moment_to_body(&pose, Vec3::new(tx, ty, tz)),
             };
             if ends {
                 parts::kick::<Float<Lanes<V>>>(state, &wrench, diagonal);
@@ -311,9 +243,11 @@ impl<V: Register> InRows<V> {
             }
             if begins {
                 parts::kick::<Float<Lanes<V>>>(state, &wrench, diagonal);
-                parts::drift::<Float<Lanes<V>>>(state, body, h);
+                let [ratio, inverse_ratio] = *ratios;
+                let body = Body { ratio, inverse_ratio, ..Body::default() };
+                parts::drift::<Float<Lanes<V>>>(state, &body, h);
                 let frame = Float::<Lanes<V>>::frame(&state.position, &state.orientation);
-                put(&mut poses, first, frame.numbers());
+                store(&mut poses, first, frame.numbers());
             }
         }
         calm
@@ -326,7 +260,7 @@ impl<V: Register> InRows<V> {
         for (block, bodies) in self.bodies.iter().enumerate() {
             let BodyState { position, orientation, .. } = &bodies.state;
             let frame = Float::<Lanes<V>>::frame(position, orientation);
-            put(&mut poses, V::LANES + block * V::LANES, frame.numbers());
+            store(&mut poses, V::LANES + block * V::LANES, frame.numbers());
         }
     }
 }

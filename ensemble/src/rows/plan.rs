@@ -1,27 +1,38 @@
 //! Where the parts of a large model lie in lanes.
 //!
 //! `(ends of the joints, lanes) => order of the joints, rows that each register takes`. Only numbers of rows. Joints may
-//! lie in any order, for each writes what it does to either body to a place of its own; a body then adds what the
-//! joints did to it in the order of the joints. They are sorted so that neighbours take neighbours: rows that follow
-//! one another are a load, others are gathered one by one.
+//! lie in any order, for each writes what it does to either body to a row of its own; a body then adds what the joints
+//! did to it in the order of the joints. They are sorted so that neighbours take neighbours: rows that follow one
+//! another are a load. Others are copied first to rows that do.
 
-/// What the lanes of a register take.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Rows {
-    /// Rows that follow one another, from this one on.
-    Run(u32),
-    /// A row for each lane.
-    Each(Box<[u32]>),
+/// The rows of a table, and which of them are copies.
+pub(super) struct Layout {
+    /// The rows that are written.
+    pub(super) written: usize,
+    /// The rows whose copies follow those that are written.
+    pub(super) copied: Vec<u32>,
+    lanes: usize,
 }
 
-impl Rows {
-    /// Of lanes of which the last may be `None`, and may take anything.
-    fn new(rows: &[Option<u32>], none: u32) -> Self {
+impl Layout {
+    fn new(written: usize, lanes: usize) -> Self {
+        Self { written, copied: Vec::new(), lanes }
+    }
+
+    /// The first of the rows that a register takes; what is `None` may be any row.
+    fn take(&mut self, rows: &[Option<u32>], none: u32) -> u32 {
         let first = rows.first().copied().flatten().unwrap_or(none);
         if (first..).zip(rows).all(|(next, row)| row.is_none_or(|row| row == next)) {
-            return Self::Run(first);
+            return first;
         }
-        Self::Each(rows.iter().map(|row| row.unwrap_or(none)).collect())
+        let first = self.written + self.copied.len();
+        self.copied.extend(rows.iter().map(|row| row.unwrap_or(none)));
+        first as u32
+    }
+
+    /// All rows, and a register beyond: where some lanes take any row there may be none.
+    pub(super) fn rows(&self) -> usize {
+        self.written + self.copied.len() + self.lanes
     }
 }
 
@@ -29,14 +40,14 @@ impl Rows {
 pub(super) struct Plan {
     /// The joint in each place, `None` where a lane has none; whole registers.
     pub(super) joints: Vec<Option<usize>>,
-    /// The rows of the first and the second bodies, a register each.
-    pub(super) ends: Vec<[Rows; 2]>,
-    /// What is added to the bodies' wrenches, one of each register's bodies after the other.
-    pub(super) added: Vec<Vec<Rows>>,
-    /// Rows of bodies.
-    pub(super) bodies: usize,
-    /// Rows of what joints do: to all first bodies, to all second ones, and nothing.
-    pub(super) done: usize,
+    /// The first rows of the first and of the second bodies, of each register of joints.
+    pub(super) ends: Vec<[u32; 2]>,
+    /// The first rows of what is added to bodies, one after the other, of each register of bodies.
+    pub(super) added: Vec<Box<[u32]>>,
+    /// Poses: idle rows, the last of which is the ground, then those of the bodies.
+    pub(super) poses: Layout,
+    /// What joints do to their first bodies, to their second ones, and nothing.
+    pub(super) done: Layout,
 }
 
 impl Plan {
@@ -51,43 +62,42 @@ impl Plan {
             (i64::from(b) - i64::from(a), a)
         });
         let places = joints.len().div_ceil(lanes) * lanes;
-        let mut order: Vec<_> = order.into_iter().map(Some).collect();
-        order.resize(places, None);
-        let end = |registers: &[Option<usize>], end: usize| {
-            let rows: Vec<_> = registers.iter().map(|joint| joint.map(|joint| rows(joint)[end])).collect();
-            Rows::new(&rows, row(None))
-        };
-        let ends = order.chunks(lanes).map(|joints| [end(joints, 0), end(joints, 1)]).collect();
-
-        // Idle lanes of the last register write as others do, and are never read as a run.
+        // In idle lanes joints write, too.
         let second = places + lanes;
         let nothing = 2 * second;
-        let mut place = vec![0; joints.len()];
-        order.iter().enumerate().for_each(|(at, joint)| {
-            if let Some(joint) = *joint {
-                place[joint] = at;
-            }
-        });
         let mut added = vec![Vec::new(); bodies];
-        for (joint, &(a, b)) in joints.iter().enumerate() {
+        let mut place = vec![0; joints.len()];
+        order.iter().enumerate().for_each(|(at, &joint)| place[joint] = at);
+        for (&(a, b), &place) in joints.iter().zip(&place) {
             if let Some(a) = a {
-                added[a].push(place[joint] as u32);
+                added[a].push(place as u32);
             }
-            added[b].push((second + place[joint]) as u32);
+            added[b].push((second + place) as u32);
         }
+
+        let mut poses = Layout::new(lanes + bodies.div_ceil(lanes) * lanes, lanes);
+        let mut order: Vec<_> = order.into_iter().map(Some).collect();
+        order.resize(places, None);
+        let ends = order.chunks(lanes).map(|joints| {
+            [0, 1].map(|end| {
+                let rows = joints.iter().map(|joint| joint.map(|joint| rows(joint)[end]));
+                poses.take(&rows.collect::<Vec<_>>(), row(None))
+            })
+        });
+        let ends = ends.collect();
+        let mut done = Layout::new(nothing + lanes, lanes);
         let added = added.chunks(lanes).map(|bodies| {
             let most = bodies.iter().map(Vec::len).max().unwrap_or(0);
             let of = |turn: usize| {
                 let nothing = nothing as u32;
-                let rows = |body: &Vec<u32>| Some(body.get(turn).copied().unwrap_or(nothing));
-                let mut rows: Vec<_> = bodies.iter().map(rows).collect();
+                let row = |body: &Vec<u32>| Some(body.get(turn).copied().unwrap_or(nothing));
+                let mut rows: Vec<_> = bodies.iter().map(row).collect();
                 rows.resize(lanes, None);
-                Rows::new(&rows, nothing)
+                done.take(&rows, nothing)
             };
             (0..most).map(of).collect()
         });
         let added = added.collect();
-        let bodies = lanes + bodies.div_ceil(lanes) * lanes;
-        Self { joints: order, ends, added, bodies, done: nothing + lanes }
+        Self { joints: order, ends, added, poses, done }
     }
 }
