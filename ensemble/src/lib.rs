@@ -36,8 +36,9 @@ pub use instructions::InstructionSet;
 pub use large::{Large, LargeError, Refused};
 #[cfg(not(test))]
 pub use leapfrog::{
-    AnyEnsemble, ensemble_in_f32, ensemble_in_f64, lanes_in_f64, pace_in_f32, pace_in_f64,
+    AnyEnsemble, AnyLarge, ensemble_in_f32, ensemble_in_f64, lanes_in_f64, large_in_f32,
+    large_in_f64, pace_in_f32, pace_in_f64,
 };
 pub use number::Number;
-pub use pace::{Course, Pace, pace};
+pub use pace::{Course, Pace, pace, pace_of_large};
 pub use rows::{Unfit, fits};

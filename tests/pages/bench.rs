@@ -174,23 +174,38 @@ fn ensembles_are_as_measured() {
     block("docs/ensembles.md", "ratios", &table(&head, &lines));
 }
 
+/// Chain by chain, precision by precision: times on each instruction set, and instructions on AVX2.
 #[test]
-fn lanes_across_one_model_are_as_tried() {
+fn lanes_across_one_model_are_as_measured() {
     let all = rows("docs/results/large.csv");
-    let line = |bodies: &Row| {
-        let found = |way: &str| {
-            let wanted = [("bodies", bodies.text("bodies")), ("way", way)];
-            all.iter().find(|row| row.is(&wanted)).unwrap()
+    let mut seen: Vec<[&str; 2]> = Vec::new();
+    let mut lines: Vec<Vec<String>> = Vec::new();
+    for row in &all {
+        let of = ["bodies", "precision"].map(|column| row.text(column));
+        if seen.contains(&of) {
+            continue;
+        }
+        seen.push(of);
+        let found = |set: &str| {
+            let wanted = [("bodies", of[0]), ("precision", of[1]), ("instructions", set)];
+            all.iter().find(|row| row.is(&wanted))
         };
-        let [kernel, lanes] = ["kernel", "lanes"].map(found);
-        let number = |row: &Row, column: &str| row.text(column).parse::<f64>().ok();
-        let ratio = |column: &str| {
-            let ratio = number(kernel, column).zip(number(lanes, column)).map(|(a, b)| a / b);
-            ratio.map_or("–".into(), |ratio| figure(ratio, 2))
+        let ratio = |set: &str| {
+            found(set).map_or("–".into(), |row| figure(row.number("median_ratio"), 2))
         };
-        vec![grouped(bodies.text("bodies")), ratio("instructions"), ratio("least_us")]
-    };
-    let lines = all.iter().filter(|row| row.text("way") == "kernel").map(line).collect::<Vec<_>>();
-    let head = ["bodies", "kernel's instructions over lanes'", "kernel's least time over lanes'"];
+        let of_avx2 = |column: &str, times: f64, digits: usize| {
+            found("avx2").map_or("–".into(), |row| figure(times * row.number(column), digits))
+        };
+        lines.push(vec![
+            grouped(of[0]),
+            of[1].to_owned(),
+            ratio("baseline"),
+            ratio("avx2"),
+            of_avx2("spread", 100.0, 2),
+            ratio("avx512"),
+            of_avx2("counted_ratio", 1.0, 2),
+        ]);
+    }
+    let head = ["bodies", "numbers", "baseline", "AVX2", "±%", "AVX-512", "instructions with AVX2"];
     block("docs/ensembles.md", "large", &table(&head, &lines));
 }

@@ -1,10 +1,12 @@
 //! A model in rows has the bits of its plant by itself.
 
 use dbd_kernel::geometry::{Float, Named};
-use dbd_kernel::{F64, Leapfrog, Plant, Real, Vec3};
+use dbd_kernel::index::{ClearanceIndex, DamperIndex};
+use dbd_kernel::{BodyIndex, F64, Leapfrog, Plant, Real, Vec3};
 use dbd_scene::{Scene, SceneModel};
 
-use super::{InRows, Rowed, fits};
+use super::plan::Plan;
+use super::{InRows, Rowed, Unfit, fits};
 #[cfg(target_arch = "x86_64")]
 use crate::InstructionSet;
 use crate::batch::PlantOf;
@@ -69,6 +71,28 @@ fn rows_have_the_bits_of_the_plant_by_itself() {
     }
 }
 
+/// Joints between bodies that do not follow one another, several of a body, some to the ground, in any order.
+#[test]
+fn a_tangle_has_the_bits_of_the_plant_by_itself() {
+    let mut random = 7_u64;
+    let mut below = |most: usize| {
+        random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (random >> 33) as usize % most
+    };
+    for joints in [1, 13, 30] {
+        let (mut model, step) = shipped("chain-open-30");
+        model.groups.truncate(joints);
+        for group in &mut model.groups {
+            group.b = BodyIndex(below(model.bodies.len()) as u16);
+            group.a = if below(5) == 0 { BodyIndex::WORLD } else { BodyIndex(below(4) as u16) };
+        }
+        for spring in &mut model.tsdas {
+            spring.stiffness = 1.0 + below(100) as f64;
+        }
+        in_every_register(&format!("a tangle of {joints}"), &model, step, true);
+    }
+}
+
 #[test]
 fn what_fails_fails_as_by_itself() {
     let (mut model, step) = shipped("chain-open-30");
@@ -78,8 +102,58 @@ fn what_fails_fails_as_by_itself() {
 }
 
 #[test]
-fn what_is_more_than_joints_and_weight_does_not_fit() {
-    for name in ["gripper", "four-bar", "cart-pendulum", "3ruu", "macpherson"] {
-        assert!(fits(&shipped(name).0).is_err(), "{name}");
+fn what_was_changed_goes_on_as_by_itself() {
+    let (model, step) = shipped("chain-open-30");
+    let mut alone = plant::<f64>(&model, step);
+    let mut rows = InRows::<Doubles>::new(plant(&model, step));
+    for push in [0.0, 0.1, -0.2] {
+        for plant in [&mut alone, rows.plant_mut()] {
+            let mut state = plant.state().clone();
+            state.bodies[4].velocity.x += push;
+            plant.set_state(state).unwrap();
+        }
+        assert_eq!(alone.advance(70), rows.advance(70));
+        assert_eq!(alone.hash(), rows.plant().hash());
     }
+    alone.reset();
+    rows.plant_mut().reset();
+    assert_eq!(alone.advance(3), rows.advance(3));
+    assert_eq!(alone.hash(), Box::new(rows).into_plant().hash());
+}
+
+/// Of a chain nothing is copied but what its ends lack.
+#[test]
+fn a_chain_lies_in_line() {
+    let joints: Vec<_> = (0..100_usize).map(|body| (body.checked_sub(1), body)).collect();
+    for lanes in [2, 4, 8, 16] {
+        let plan = Plan::new(&joints, joints.len(), lanes);
+        assert_eq!(plan.poses.copied, []);
+        assert!(plan.done.copied.len() <= lanes, "{lanes}");
+        assert!(plan.joints.iter().flatten().copied().eq(0..100));
+    }
+}
+
+#[test]
+fn what_is_more_than_joints_and_weight_does_not_fit() {
+    let (plain, _) = shipped("chain-open-30");
+    let unfit = |change: fn(&mut SceneModel<F64>)| {
+        let mut model = plain.clone();
+        change(&mut model);
+        fits(&model).unwrap_err()
+    };
+    assert_eq!(unfit(|model| model.groups[2].shared = false), Unfit::Joint(2));
+    assert_eq!(unfit(|model| model.groups[3].stars = 1), Unfit::Joint(3));
+    assert_eq!(unfit(|model| model.groups[4].b = BodyIndex::WORLD), Unfit::Ends(4));
+    assert_eq!(unfit(|model| model.groups[5].a = BodyIndex(30)), Unfit::Ends(5));
+    assert_eq!(unfit(|model| model.groups[6].damper = DamperIndex(0)), Unfit::Damper(6));
+    assert_eq!(unfit(|model| model.groups[7].clearance = ClearanceIndex(0)), Unfit::Clearance(7));
+    assert_eq!(unfit(|model| model.gravity[0].z = -0.0), Unfit::Weight(0));
+    for (name, why) in
+        [("four-bar", Unfit::Torsion), ("gripper", Unfit::Input), ("3ruu", Unfit::Torsion)]
+    {
+        assert_eq!(fits(&shipped(name).0), Err(why), "{name}");
+    }
+    let mut loaded = plain.clone();
+    loaded.loads = shipped("crank-slider").0.loads;
+    assert_eq!(fits(&loaded), Err(Unfit::Load));
 }
