@@ -3,6 +3,7 @@
 //! `(plant, steps) => plant`, on the instruction set of the machine or on a chosen one.
 
 use std::fmt::{Debug, Formatter};
+use std::num::NonZeroUsize;
 
 use dbd_kernel::{Leapfrog, Status};
 use thiserror::Error;
@@ -72,12 +73,22 @@ impl<R: Number> Large<R> {
             Some(LargeError::Instructions(set))
         };
         match error {
-            None => Ok(Self { rows: R::rows(set, plant), set }),
+            None => Ok(Self { rows: R::rows(set, plant, NonZeroUsize::MIN), set }),
             Some(error) => Err(Refused { plant: Box::new(plant), error }),
         }
     }
 
-    /// `steps` steps, or as many as succeed. Steps go in blocks of 64: fewer at a time take longer each.
+    /// The same on several threads, each of which steps bodies that follow one another in the scene. They meet once in
+    /// a step: what pays depends on the bodies of each, see `docs/ensembles.md`. Where bodies that are joined do not
+    /// follow one another, threads do the joints between them twice.
+    #[must_use]
+    pub fn on(self, threads: NonZeroUsize) -> Self {
+        let Self { rows, set } = self;
+        Self { rows: R::rows(set, rows.into_plant(), threads), set }
+    }
+
+    /// `steps` steps, or as many as succeed. Steps go in blocks of 64, on several threads of 512: fewer at a time take
+    /// longer each.
     pub fn advance(&mut self, steps: u64) -> Status {
         self.rows.advance(steps)
     }

@@ -2,6 +2,8 @@
 //!
 //! `(instruction set, plants) => batch`.
 
+use std::num::NonZeroUsize;
+
 use dbd_kernel::geometry::Named;
 use dbd_kernel::{Leapfrog, Real};
 
@@ -20,7 +22,7 @@ pub trait Number: Real + Named + sealed::Batches {
 pub(crate) mod sealed {
     use dbd_kernel::Leapfrog;
 
-    use super::{Batch, InLanes, InstructionSet, PlantOf, Rowed};
+    use super::{Batch, InLanes, InstructionSet, NonZeroUsize, PlantOf, Rowed};
 
     /// What only this crate does with a number.
     pub trait Batches: super::Real + super::Named {
@@ -33,7 +35,11 @@ pub(crate) mod sealed {
 
         /// A large model's plant in rows.
         #[allow(private_interfaces)]
-        fn rows(set: InstructionSet, plant: PlantOf<Self, Leapfrog>) -> Box<dyn Rowed<Self>>;
+        fn rows(
+            set: InstructionSet,
+            plant: PlantOf<Self, Leapfrog>,
+            threads: NonZeroUsize,
+        ) -> Box<dyn Rowed<Self>>;
     }
 }
 
@@ -76,16 +82,26 @@ macro_rules! number {
             }
 
             #[allow(private_interfaces)]
-            fn rows(set: InstructionSet, plant: PlantOf<Self, Leapfrog>) -> Box<dyn Rowed<Self>> {
+            fn rows(
+                set: InstructionSet,
+                plant: PlantOf<Self, Leapfrog>,
+                threads: NonZeroUsize,
+            ) -> Box<dyn Rowed<Self>> {
                 match set {
-                    InstructionSet::Baseline => Box::new(InRows::<register::$array>::new(plant)),
+                    InstructionSet::Baseline => {
+                        Box::new(InRows::<register::$array>::new(plant, threads))
+                    }
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx2 => Box::new(InRows::<register::$narrow>::new(plant)),
+                    InstructionSet::Avx2 => {
+                        Box::new(InRows::<register::$narrow>::new(plant, threads))
+                    }
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx512 => Box::new(InRows::<register::$wide>::new(plant)),
+                    InstructionSet::Avx512 => {
+                        Box::new(InRows::<register::$wide>::new(plant, threads))
+                    }
                     #[cfg(not(target_arch = "x86_64"))]
                     InstructionSet::Avx2 | InstructionSet::Avx512 => {
-                        Box::new(InRows::<register::$array>::new(plant))
+                        Box::new(InRows::<register::$array>::new(plant, threads))
                     }
                 }
             }

@@ -136,7 +136,7 @@ pub fn pace_of_large<R: Number>(
         Plant::new(Box::new(model.clone()), Leapfrog, step_size).expect("a step")
     };
     let mut plant_alone = plant();
-    let mut large = Large::with_instructions(plant(), set)?;
+    let mut large = Large::with_instructions(plant(), set)?.on(threads);
     let mut pace = Pace { instances: 1, together: Vec::new(), alone: Vec::new() };
     for round in 0..=rounds.get() {
         large.plant_mut().reset();

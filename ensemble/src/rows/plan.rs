@@ -1,9 +1,11 @@
 //! Where the parts of a large model lie in lanes.
 //!
-//! `(ends of the joints, lanes) => order of the joints, rows that each register takes`. Only numbers of rows. Joints may
+//! `(ends of the joints, share, lanes) => order of the joints, rows that each register takes`. Only numbers of rows. Joints may
 //! lie in any order, for each writes what it does to either body to a row of its own; a body then adds what the joints
 //! did to it in the order of the joints. They are sorted so that neighbours take neighbours: rows that follow one
 //! another are a load. Others are copied first to rows that do.
+
+use super::share::{Ends, Share};
 
 /// The rows of a table, and which of them are copies.
 pub(super) struct Layout {
@@ -44,38 +46,49 @@ pub(super) struct Plan {
     pub(super) ends: Vec<[u32; 2]>,
     /// The first rows of what is added to bodies, one after the other, of each register of bodies.
     pub(super) added: Vec<Box<[u32]>>,
-    /// Poses: idle rows, the last of which is the ground, then those of the bodies.
+    /// Poses: idle rows, the last of which is the ground, then those of the bodies and, from `guests` on, of guests.
     pub(super) poses: Layout,
+    pub(super) guests: usize,
     /// What joints do to their first bodies, to their second ones, and nothing.
     pub(super) done: Layout,
 }
 
 impl Plan {
-    /// Of joints between the ground, `None`, or a body and a body, of as many `bodies`.
-    pub(super) fn new(joints: &[(Option<usize>, usize)], bodies: usize, lanes: usize) -> Self {
+    /// Of a share of a model's joints and bodies.
+    pub(super) fn new(all: &[Ends], share: &Share, lanes: usize) -> Self {
+        let bodies = share.bodies.len();
+        let guests = lanes + bodies.div_ceil(lanes) * lanes;
+        let own = |body: usize| share.bodies.contains(&body).then(|| body - share.bodies.start);
         // The ground is the row before the first body: a chain's first bodies are then a row before its second ones.
-        let row = |body: Option<usize>| (body.map_or(lanes - 1, |body| lanes + body)) as u32;
-        let rows = |joint: usize| [row(joints[joint].0), row(Some(joints[joint].1))];
-        let mut order: Vec<usize> = (0..joints.len()).collect();
+        let row = |body: Option<usize>| {
+            let guest = |body: usize| guests + share.guests.partition_point(|&guest| guest < body);
+            let of = |body: usize| own(body).map_or_else(|| guest(body), |row| lanes + row);
+            body.map_or(lanes - 1, of) as u32
+        };
+        let rows = |joint: usize| [row(all[joint].0), row(Some(all[joint].1))];
+        let mut order = share.joints.clone();
         order.sort_by_key(|&joint| {
             let [a, b] = rows(joint);
             (i64::from(b) - i64::from(a), a)
         });
-        let places = joints.len().div_ceil(lanes) * lanes;
+        let places = order.len().div_ceil(lanes) * lanes;
         // In idle lanes joints write, too.
         let second = places + lanes;
         let nothing = 2 * second;
         let mut added = vec![Vec::new(); bodies];
-        let mut place = vec![0; joints.len()];
-        order.iter().enumerate().for_each(|(at, &joint)| place[joint] = at);
-        for (&(a, b), &place) in joints.iter().zip(&place) {
-            if let Some(a) = a {
-                added[a].push(place as u32);
+        let mut place: Vec<_> = order.iter().copied().zip(0_u32..).collect();
+        place.sort_unstable();
+        for (joint, place) in place {
+            let (a, b) = all[joint];
+            if let Some(a) = a.and_then(own) {
+                added[a].push(place);
             }
-            added[b].push((second + place) as u32);
+            if let Some(b) = own(b) {
+                added[b].push(second as u32 + place);
+            }
         }
 
-        let mut poses = Layout::new(lanes + bodies.div_ceil(lanes) * lanes, lanes);
+        let mut poses = Layout::new(guests + share.guests.len(), lanes);
         let mut order: Vec<_> = order.into_iter().map(Some).collect();
         order.resize(places, None);
         let ends = order.chunks(lanes).map(|joints| {
@@ -98,6 +111,6 @@ impl Plan {
             (0..most).map(of).collect()
         });
         let added = added.collect();
-        Self { joints: order, ends, added, poses, done }
+        Self { joints: order, ends, added, poses, guests, done }
     }
 }

@@ -45,6 +45,18 @@ impl<N: Real, const NUMBERS: usize> Table<N, NUMBERS> {
         })
     }
 
+    /// A row.
+    pub(super) fn row(&self, row: usize) -> [N; NUMBERS] {
+        self.columns().map(|column| column[row])
+    }
+
+    /// Writes a row.
+    pub(super) fn set_row(&mut self, row: usize, numbers: [N; NUMBERS]) {
+        for (column, number) in self.columns_mut().into_iter().zip(numbers) {
+            column[row] = number;
+        }
+    }
+
     /// Copies the rows that are taken beside others.
     pub(super) fn copy(&mut self) {
         let Layout { written, copied, .. } = &self.layout;

@@ -1,11 +1,14 @@
 //! A model in rows has the bits of its plant by itself.
 
+use std::num::NonZeroUsize;
+
 use dbd_kernel::geometry::{Float, Named};
 use dbd_kernel::index::{ClearanceIndex, DamperIndex};
 use dbd_kernel::{BodyIndex, F64, Leapfrog, Plant, Real, Vec3};
 use dbd_scene::{Scene, SceneModel};
 
 use super::plan::Plan;
+use super::share::Share;
 use super::{InRows, Rowed, Unfit, fits};
 #[cfg(target_arch = "x86_64")]
 use crate::InstructionSet;
@@ -30,13 +33,15 @@ fn compare<V: Register>(
     name: &str,
     model: &SceneModel<F64>,
     step: f64,
+    threads: usize,
 ) -> PlantOf<V::Number, Leapfrog> {
+    let threads = NonZeroUsize::new(threads).unwrap();
     let mut alone = plant::<V::Number>(model, step);
     assert_eq!(fits(alone.model()), Ok(()), "{name}");
-    let mut rows = InRows::<V>::new(plant(model, step));
+    let mut rows = InRows::<V>::new(plant(model, step), threads);
     for steps in [1, 70, 64, 30] {
         let status = rows.advance(steps);
-        let what = format!("{name}, {}, {} lanes", V::Number::NAME, V::LANES);
+        let what = format!("{name}, {}, {} lanes, {threads} threads", V::Number::NAME, V::LANES);
         assert_eq!(alone.advance(steps), status, "{what}");
         assert_eq!(rows.plant().hash(), alone.hash(), "{what}");
     }
@@ -44,12 +49,12 @@ fn compare<V: Register>(
 }
 
 fn in_every_register(name: &str, model: &SceneModel<F64>, step: f64, runs: bool) {
-    let mut ended = vec![compare::<Doubles>(name, model, step).status()];
-    ended.push(compare::<Singles>(name, model, step).status());
+    let mut ended = vec![compare::<Doubles>(name, model, step, 1).status()];
+    ended.push(compare::<Singles>(name, model, step, 3).status());
     #[cfg(target_arch = "x86_64")]
     if InstructionSet::Avx2.is_there() {
-        ended.push(compare::<Doubles256>(name, model, step).status());
-        ended.push(compare::<Singles256>(name, model, step).status());
+        ended.push(compare::<Doubles256>(name, model, step, 2).status());
+        ended.push(compare::<Singles256>(name, model, step, 1).status());
     }
     assert!(ended.iter().all(|status| status.is_running() == runs), "{name}: {ended:?}");
 }
@@ -105,7 +110,7 @@ fn what_fails_fails_as_by_itself() {
 fn what_was_changed_goes_on_as_by_itself() {
     let (model, step) = shipped("chain-open-30");
     let mut alone = plant::<f64>(&model, step);
-    let mut rows = InRows::<Doubles>::new(plant(&model, step));
+    let mut rows = InRows::<Doubles>::new(plant(&model, step), NonZeroUsize::MIN);
     for push in [0.0, 0.1, -0.2] {
         for plant in [&mut alone, rows.plant_mut()] {
             let mut state = plant.state().clone();
@@ -125,12 +130,26 @@ fn what_was_changed_goes_on_as_by_itself() {
 #[test]
 fn a_chain_lies_in_line() {
     let joints: Vec<_> = (0..100_usize).map(|body| (body.checked_sub(1), body)).collect();
+    let share = &Share::all(&joints, joints.len(), 1)[0];
     for lanes in [2, 4, 8, 16] {
-        let plan = Plan::new(&joints, joints.len(), lanes);
+        let plan = Plan::new(&joints, share, lanes);
         assert_eq!(plan.poses.copied, []);
         assert!(plan.done.copied.len() <= lanes, "{lanes}");
         assert!(plan.joints.iter().flatten().copied().eq(0..100));
     }
+}
+
+/// A closed chain of three threads: each has a guest at either end, and the joints to them.
+#[test]
+fn joints_across_a_border_are_of_both_threads() {
+    let joints: Vec<_> = (0..9).map(|body| (Some((body + 8) % 9), body)).collect();
+    let shares = Share::all(&joints, 9, 3);
+    let seen: Vec<_> = shares.iter().map(|share| (&share.joints[..], &share.guests[..])).collect();
+    let ends = [&[3, 8][..], &[2, 6], &[0, 5]];
+    assert_eq!(seen[0], (&[0, 1, 2, 3][..], ends[0]));
+    assert_eq!(seen[1], (&[3, 4, 5, 6][..], ends[1]));
+    assert_eq!(seen[2], (&[0, 6, 7, 8][..], ends[2]));
+    assert_eq!(Share::all(&joints, 9, 100).len(), 9);
 }
 
 #[test]
