@@ -8,7 +8,7 @@ use dbd_kernel::Status;
 use dbd_plant::{AnyPlant, Method, Plan, PrecisionName};
 use dbd_scene::Scene;
 
-/// The fewest bodies that are worth the state's way into lanes and back at each look.
+/// The fewest bodies that lanes step.
 pub(super) const FEWEST: usize = 100;
 
 /// How many runs of a method go in lockstep on this machine; 1 where lanes do not step it.
@@ -24,23 +24,42 @@ pub fn lanes(method: &Method) -> usize {
     }
 }
 
+/// The fewest steps between two looks that are worth the state's way from lanes to its plant.
+const FEWEST_STEPS: u64 = 16;
+
 /// A scene in lanes, where it is one for them.
 pub(super) struct Rows {
-    pub(super) large: Option<Box<dyn AnyLarge>>,
+    large: Option<Box<dyn AnyLarge>>,
     /// Steps made in lanes.
-    pub(super) steps: u64,
+    steps: u64,
 }
 
 impl Rows {
-    /// Of a run at its start.
-    pub(super) fn new(scene: &Scene, method: &Method, plan: &Plan) -> Self {
+    /// Of a run at its start, with as many steps between two looks.
+    pub(super) fn new(scene: &Scene, method: &Method, plan: &Plan, steps: u64) -> Self {
+        if steps < FEWEST_STEPS { Self::none() } else { Self::of(scene, method, plan.step) }
+    }
+
+    /// No lanes.
+    pub(super) fn none() -> Self {
+        Self { large: None, steps: 0 }
+    }
+
+    /// Of a run whatever its looks.
+    pub(super) fn of(scene: &Scene, method: &Method, step: f64) -> Self {
         let is_large = scene.planar.is_none() && scene.model.bodies.len() >= FEWEST;
         let large = match method.precision() {
             _ if !is_large || lanes(method) == 1 => None,
-            PrecisionName::F32 => large_in_f32(&scene.model, plan.step),
-            _ => large_in_f64(&scene.model, plan.step),
+            PrecisionName::F32 => large_in_f32(&scene.model, step),
+            _ => large_in_f64(&scene.model, step),
         };
         Self { large, steps: 0 }
+    }
+
+    /// Whether there are any.
+    #[cfg(test)]
+    pub(super) fn are_there(&self) -> bool {
+        self.large.is_some()
     }
 
     /// `steps` steps of `plant`, or as many as succeed.
