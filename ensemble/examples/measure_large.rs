@@ -1,4 +1,4 @@
-//! Times chains of revolutes in lanes against their plants, both in one process in turn, and prints the ratios of
+//! Times chains of revolutes in lanes against their plants on one thread, both in one process in turn, and prints the ratios of
 //! steps per second as CSV: `cargo run --release -p dbd-ensemble --example measure_large [BODIES…]`. `cargo xtask
 //! bench` keeps them.
 //!
@@ -23,23 +23,26 @@ fn model<R: Number>(bodies: usize) -> SceneModel<Float<R>> {
     chain::model(bodies, Joints::Revolute).unwrap().convert()
 }
 
-/// A row per instruction set.
+/// A row per instruction set and number of threads.
 fn rows<R: Number>(bodies: usize) {
     let steps = (WORK / bodies) as u64;
     let steps = (steps / BLOCK).max(1) * BLOCK;
     for set in InstructionSet::ALL.into_iter().filter(|set| set.is_there()) {
-        let [threads, rounds] = [1, ROUNDS].map(|n| NonZeroUsize::new(n).unwrap());
-        let course = Course { set, threads, steps, rounds };
-        let pace = pace_of_large::<R>(&model(bodies), chain::STEP, course).unwrap();
-        println!(
-            "{bodies},{},{},{},{:.2},{:.3},{:.2}",
-            R::NAME,
-            set.name(),
-            R::lanes(set),
-            pace.ratio(),
-            pace.spread(),
-            pace.best_ratio(),
-        );
+        let mut one_thread = None;
+        for threads in [1, 2] {
+            let [of, rounds] = [threads, ROUNDS].map(|n| NonZeroUsize::new(n).unwrap());
+            let course = Course { set, threads: of, steps, rounds };
+            let pace = pace_of_large::<R>(&model(bodies), chain::STEP, course).unwrap();
+            let (ratio, best, lanes) = (pace.ratio(), pace.best_ratio(), R::lanes(set));
+            let one = *one_thread.get_or_insert(ratio);
+            println!(
+                "{bodies},{},{},{lanes},{threads},{ratio:.2},{:.3},{best:.2},{:.2}",
+                R::NAME,
+                set.name(),
+                pace.spread(),
+                ratio / one
+            );
+        }
     }
 }
 
@@ -77,7 +80,9 @@ fn main() {
             _ => count::<f64>(bodies, way, steps),
         };
     }
-    println!("bodies,precision,instructions,lanes,median_ratio,spread,best_ratio");
+    println!(
+        "bodies,precision,instructions,lanes,threads,median_ratio,spread,best_ratio,over_one_thread"
+    );
     let told: Vec<usize> = told.iter().map(|bodies| bodies.parse().unwrap()).collect();
     for &bodies in if told.is_empty() { &BODIES[..] } else { &told } {
         rows::<f32>(bodies);

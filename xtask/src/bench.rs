@@ -54,7 +54,7 @@ pub fn large() -> Result<()> {
     let mut rows = format!("{},counted_ratio\n", lines.next().unwrap_or_default());
     let mut plant = (String::new(), 0);
     for line in lines {
-        let [bodies, precision, set] = parts(line)?;
+        let [bodies, precision, set, _, threads] = parts(line)?;
         let count = |way: &str| {
             callgrind::count(program, FUNCTION, &["count", bodies, precision, way, COUNTED])
         };
@@ -62,18 +62,19 @@ pub fn large() -> Result<()> {
         if plant.0 != of {
             plant = (of, count("plant")?);
         }
-        let counted = match set {
-            UNKNOWN => String::new(),
-            set => format!("{:.2}", plant.1 as f64 / count(set)? as f64),
+        let counted = if set == UNKNOWN || threads != "1" {
+            String::new()
+        } else {
+            format!("{:.2}", plant.1 as f64 / count(set)? as f64)
         };
         rows += &format!("{line},{counted}\n");
     }
     write(LARGE, &of_large(&machine, &rows))
 }
 
-/// The first three columns of a row.
-fn parts(line: &str) -> Result<[&str; 3]> {
-    let parts: Vec<_> = line.splitn(4, ',').take(3).collect();
+/// The first columns of a row.
+fn parts(line: &str) -> Result<[&str; 5]> {
+    let parts: Vec<_> = line.split(',').take(5).collect();
     parts.try_into().ok().with_context(|| format!("`{line}` is no row"))
 }
 
@@ -108,10 +109,10 @@ fn ensembles(of: &str, rows: &str) -> String {
 
 fn of_large(of: &str, rows: &str) -> String {
     format!(
-        "# Steps per second of one chain of revolutes in lanes, leapfrog, over those of its plant, both on one thread and taken\n\
-         # in turn in one process: the median of the rounds' ratios, half the range of their middle half over it, the ratio of\n\
-         # the fastest rounds, and the plant's instructions over the lanes', counted by callgrind, which does not know AVX-512;\n\
-         # written by `cargo xtask bench`, {of}.\n{rows}"
+        "# Steps per second of one chain of revolutes in lanes, leapfrog, over those of its plant on one thread, taken in turn in\n\
+         # one process: the median of the rounds' ratios, half the range of their middle half over it, the ratio of the fastest\n\
+         # rounds, and of two threads that over one; the plant's instructions over the lanes', counted by callgrind, which does\n\
+         # not know AVX-512; written by `cargo xtask bench`, {of}.\n{rows}"
     )
 }
 

@@ -15,7 +15,7 @@ use dbd_kernel::{Body, BodyState, Geometry as _, Quaternion, Real, Tsda, Vec3};
 use dbd_scene::SceneModel;
 
 use super::links::Links;
-use super::plan::Plan;
+use super::plan::{Batch, Plan};
 use super::share::{Ends, Share};
 use super::table::{Table, load, store};
 use crate::lanes::Lanes;
@@ -61,6 +61,7 @@ pub(super) struct Part<V: Register> {
     guests: usize,
     /// What joints do to their first bodies, to their second ones, and nothing.
     done: Table<V::Number, DONE>,
+    batches: Vec<Batch>,
 }
 
 #[inline(always)]
@@ -141,7 +142,7 @@ impl<V: Register> Part<V> {
         let poses = Table::new(plan.poses, pose);
         // Nothing is a negative zero, which changes no sum.
         let done = Table::new(plan.done, [-V::Number::ZERO; DONE]);
-        Self { range, bodies, joints, poses, guests: plan.guests, done }
+        Self { range, bodies, joints, poses, guests: plan.guests, done, batches: plan.batches }
     }
 
     /// Brings the states of a model's bodies into the lanes.
@@ -183,14 +184,15 @@ impl<V: Register> Part<V> {
         }
     }
 
-    /// What all joints do at the present poses.
+    /// What the joints of a batch do at the present poses.
     #[inline(always)]
-    fn pull(&mut self) {
-        let Self { joints, poses, done, .. } = self;
-        poses.copy();
+    fn pull(&mut self, batch: usize) {
+        let Self { joints, poses, done, batches, .. } = self;
+        let batch = &batches[batch];
+        poses.copy(&batch.poses);
         let (poses, mut done) = (poses.columns(), done.columns_mut());
         let second = joints.len() * V::LANES + V::LANES;
-        for (block, joint) in joints.iter().enumerate() {
+        for (block, joint) in batch.joints.clone().zip(&joints[batch.joints.clone()]) {
             let [a, b] = joint.ends.map(|first| Pose::from_numbers(load(&poses, first as usize)));
             let points = (&joint.centres, &joint.tips);
             let record = parts::revolute::<Float<Lanes<V>>>([&a, &b], points, &joint.springs);
@@ -200,16 +202,17 @@ impl<V: Register> Part<V> {
         }
     }
 
-    /// Ends a step of all bodies, where one has begun, and begins the next one, where there is one.
+    /// Ends a step of the bodies of a batch, where one has begun, and begins the next one, where there is one.
     /// Whether no body turned too far.
     #[inline(always)]
-    fn move_on(&mut self, h: Lanes<V>, ends: bool, begins: bool) -> V::Truth {
+    fn move_on(&mut self, batch: usize, h: Lanes<V>, ends: bool, begins: bool) -> V::Truth {
         let one = Lanes::<V>::ONE;
         let mut calm = Lanes::<V>::truth(true);
-        let Self { bodies, poses, done, .. } = self;
-        done.copy();
+        let Self { bodies, poses, done, batches, .. } = self;
+        let batch = &batches[batch];
+        done.copy(&batch.done);
         let (mut poses, done) = (poses.columns_mut(), done.columns());
-        for (block, bodies) in bodies.iter_mut().enumerate() {
+        for (block, bodies) in batch.bodies.clone().zip(&mut bodies[batch.bodies.clone()]) {
             let Bodies { ratios, diagonal, weight, state, added } = bodies;
             let first = V::LANES + block * V::LANES;
             let [mut fx, mut fy, mut fz] = [weight.x, weight.y, weight.z];
@@ -294,11 +297,13 @@ impl<V: Register> Work for Block<'_, V> {
             complete = links.exchange(&mut part.poses, rows);
         }
         for step in 0..=steps {
-            if step > 0 || !present {
-                part.pull();
-            }
             let (ends, begins) = (step > 0, step < steps);
-            calm = calm & part.move_on(h, ends, begins);
+            for batch in 0..part.batches.len() {
+                if ends || !present {
+                    part.pull(batch);
+                }
+                calm = calm & part.move_on(batch, h, ends, begins);
+            }
             complete = complete && (!begins || links.exchange(&mut part.poses, rows));
         }
         for bodies in &part.bodies {

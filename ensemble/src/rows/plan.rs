@@ -5,6 +5,8 @@
 //! did to it in the order of the joints. They are sorted so that neighbours take neighbours: rows that follow one
 //! another are a load. Others are copied first to rows that do.
 
+use std::ops::Range;
+
 use super::share::{Ends, Share};
 
 /// The rows of a table, and which of them are copies.
@@ -38,6 +40,43 @@ impl Layout {
     }
 }
 
+/// Registers of joints, and those of bodies on which no joint is left to act once these have: they may move while
+/// what acted on them is at hand.
+pub(super) struct Batch {
+    /// Registers of joints.
+    pub(super) joints: Range<usize>,
+    /// The copies that these joints take.
+    pub(super) poses: Range<usize>,
+    /// Registers of bodies.
+    pub(super) bodies: Range<usize>,
+    /// The copies that these bodies take.
+    pub(super) done: Range<usize>,
+}
+
+/// Registers of joints of a batch.
+const BATCH: usize = 16;
+
+/// The batches of registers of joints and bodies: the last register of joints that acts on each register of bodies,
+/// and of both kinds the copies before each.
+fn batches(last: &[usize], poses: &[usize], done: &[usize]) -> Vec<Batch> {
+    let (joints, bodies) = (poses.len() - 1, done.len() - 1);
+    let mut next = 0;
+    let batch = |first: usize| {
+        let end = joints.min(first + BATCH);
+        let begin = next;
+        let ready = last[begin..].iter().take_while(|&&last| last < end || end == joints);
+        next += ready.count();
+        Batch {
+            joints: first..end,
+            poses: poses[first]..poses[end],
+            bodies: begin..next,
+            done: done[begin]..done[next],
+        }
+    };
+    debug_assert_eq!(last.len(), bodies);
+    (0..joints.max(1)).step_by(BATCH).map(batch).collect()
+}
+
 /// The places of a model's joints and bodies.
 pub(super) struct Plan {
     /// The joint in each place, `None` where a lane has none; whole registers.
@@ -51,6 +90,7 @@ pub(super) struct Plan {
     pub(super) guests: usize,
     /// What joints do to their first bodies, to their second ones, and nothing.
     pub(super) done: Layout,
+    pub(super) batches: Vec<Batch>,
 }
 
 impl Plan {
@@ -76,29 +116,35 @@ impl Plan {
         let second = places + lanes;
         let nothing = 2 * second;
         let mut added = vec![Vec::new(); bodies];
+        let mut last = vec![0; bodies.div_ceil(lanes)];
         let mut place: Vec<_> = order.iter().copied().zip(0_u32..).collect();
         place.sort_unstable();
         for (joint, place) in place {
             let (a, b) = all[joint];
-            if let Some(a) = a.and_then(own) {
-                added[a].push(place);
-            }
-            if let Some(b) = own(b) {
-                added[b].push(second as u32 + place);
+            for (body, row) in [(a, place), (Some(b), second as u32 + place)] {
+                if let Some(body) = body.and_then(own) {
+                    added[body].push(row);
+                    let last = &mut last[body / lanes];
+                    *last = (*last).max(place as usize / lanes);
+                }
             }
         }
 
         let mut poses = Layout::new(guests + share.guests.len(), lanes);
         let mut order: Vec<_> = order.into_iter().map(Some).collect();
         order.resize(places, None);
+        let mut copies_of_joints = vec![0];
         let ends = order.chunks(lanes).map(|joints| {
-            [0, 1].map(|end| {
+            let ends = [0, 1].map(|end| {
                 let rows = joints.iter().map(|joint| joint.map(|joint| rows(joint)[end]));
                 poses.take(&rows.collect::<Vec<_>>(), row(None))
-            })
+            });
+            copies_of_joints.push(poses.copied.len());
+            ends
         });
         let ends = ends.collect();
         let mut done = Layout::new(nothing + lanes, lanes);
+        let mut copies_of_bodies = vec![0];
         let added = added.chunks(lanes).map(|bodies| {
             let most = bodies.iter().map(Vec::len).max().unwrap_or(0);
             let of = |turn: usize| {
@@ -108,9 +154,12 @@ impl Plan {
                 rows.resize(lanes, None);
                 done.take(&rows, nothing)
             };
-            (0..most).map(of).collect()
+            let added = (0..most).map(of).collect();
+            copies_of_bodies.push(done.copied.len());
+            added
         });
         let added = added.collect();
-        Self { joints: order, ends, added, poses, guests, done }
+        let batches = batches(&last, &copies_of_joints, &copies_of_bodies);
+        Self { joints: order, ends, added, poses, guests, done, batches }
     }
 }

@@ -2,6 +2,8 @@
 //!
 //! `(columns, first row) => lanes`, and back.
 
+use std::ops::Range;
+
 use dbd_kernel::Real;
 
 use super::plan::Layout;
@@ -57,15 +59,16 @@ impl<N: Real, const NUMBERS: usize> Table<N, NUMBERS> {
         }
     }
 
-    /// Copies the rows that are taken beside others.
-    pub(super) fn copy(&mut self) {
-        let Layout { written, copied, .. } = &self.layout;
-        if copied.is_empty() {
+    /// Makes these of the copies of rows that are taken beside others.
+    pub(super) fn copy(&mut self, copies: &Range<usize>) {
+        if copies.is_empty() {
             return;
         }
+        let Layout { written, copied, .. } = &self.layout;
+        let rows = &copied[copies.clone()];
         for column in self.numbers.chunks_exact_mut(self.rows) {
-            let (written, copies) = column.split_at_mut(*written);
-            for (copy, &row) in copies.iter_mut().zip(copied) {
+            let (written, all) = column.split_at_mut(*written);
+            for (copy, &row) in all[copies.clone()].iter_mut().zip(rows) {
                 *copy = written[row as usize];
             }
         }
