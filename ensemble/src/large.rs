@@ -13,11 +13,30 @@ use crate::instructions::InstructionSet;
 use crate::number::Number;
 use crate::rows::{Rowed, Unfit, fits};
 
-/// A plant of a large model, stepped in lanes with the bits that it has by itself.
+/// A plant of a large model, stepped in lanes with the bits that it has by itself, leapfrog.
 ///
-/// Joints and bodies of one model lie in the lanes of a register, not instances of many. It pays from about a hundred
-/// bodies on. What kinds of model it steps says [`fits`]; a run that fails does so at the step and for the cause of the
-/// plant by itself.
+/// Joints and bodies of one model lie in the lanes of a register, not instances of many. It pays from a few dozen bodies
+/// on. Which models it steps says [`fits`]; a run that fails does so at the step and for the cause of the plant by
+/// itself.
+///
+/// ```
+/// use std::num::NonZeroUsize;
+///
+/// use dbd_bench::chain::{self, Joints};
+/// use dbd_ensemble::{Large, PlantOf};
+/// use dbd_kernel::{Leapfrog, Plant};
+///
+/// // A hundred links, each on the one before.
+/// let model = chain::model(100, Joints::Revolute)?;
+/// let plant = || Plant::new(Box::new(model.clone()), Leapfrog, chain::STEP);
+/// let mut large = Large::<f64>::new(plant()?)?.on(NonZeroUsize::new(2).expect("not 0"));
+/// large.advance(200).ok()?;
+///
+/// let mut alone: PlantOf<f64, Leapfrog> = plant()?;
+/// alone.advance(200).ok()?;
+/// assert_eq!(large.plant().hash(), alone.hash());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Large<R: Number> {
     rows: Box<dyn Rowed<R>>,
     set: InstructionSet,
@@ -115,5 +134,36 @@ impl<R: Number> Large<R> {
     #[must_use]
     pub fn instructions(&self) -> InstructionSet {
         self.set
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dbd_bench::chain::{self, Joints};
+    use dbd_kernel::Plant;
+
+    use super::*;
+
+    #[test]
+    fn what_does_not_fit_is_handed_back() {
+        let mut model = chain::model(3, Joints::Spherical).unwrap();
+        let plant = |model: &dbd_scene::SceneModel<_>| {
+            Plant::new(Box::new(model.clone()), Leapfrog, chain::STEP).unwrap()
+        };
+        let Err(mut refused) = Large::<f64>::new(plant(&model)) else { panic!("it fits") };
+        assert_eq!(refused.error, LargeError::Unfit(Unfit::Joint(0)));
+        assert!(refused.to_string().contains("group 0"), "{refused}");
+        assert!(refused.plant.advance(2).is_running());
+        model = chain::model(3, Joints::Revolute).unwrap();
+        for set in InstructionSet::ALL {
+            let large = Large::<f64>::with_instructions(plant(&model), set);
+            match large {
+                Ok(large) => assert_eq!(large.instructions(), set),
+                Err(refused) => {
+                    assert_eq!(refused.error, LargeError::Instructions(set));
+                    assert!(!set.is_there());
+                }
+            }
+        }
     }
 }
