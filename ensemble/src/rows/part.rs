@@ -193,7 +193,10 @@ impl<V: Register> Part<V> {
         let (poses, mut done) = (poses.columns(), done.columns_mut());
         let second = joints.len() * V::LANES + V::LANES;
         for (block, joint) in batch.joints.clone().zip(&joints[batch.joints.clone()]) {
-            let [a, b] = joint.ends.map(|first| Pose::from_numbers(load(&poses, first as usize)));
+            // Written out: a closure may be compiled apart.
+            let [a, b] = joint.ends;
+            let a = Pose::from_numbers(load(&poses, a as usize));
+            let b = Pose::from_numbers(load(&poses, b as usize));
             let points = (&joint.centres, &joint.tips);
             let record = parts::revolute::<Float<Lanes<V>>>([&a, &b], points, &joint.springs);
             let parts::Record { force: f, torque_a: a, torque_b: b } = record;

@@ -77,11 +77,11 @@ pub(crate) fn find_rests<P: Geometry, T: Terms>(
 /// [`stars`] has it for floating-point numbers.
 #[inline(always)]
 pub(crate) fn between_bodies<P: Geometry>(
-    frames: [&P::Frame; 2],
+    [a, b]: [&P::Frame; 2],
     (centres, tips): (&[P::Local; 2], &[P::Local; 3]),
     springs: &[[Tsda<P::Real>; 3]; 2],
 ) -> Record<P::Space> {
-    let [a, b] = frames.map(End::<P>::at);
+    let (a, b) = (End::<P>::at(a), End::<P>::at(b));
     Springs { springs, rests: None, dampers: None, clearance: None }.record(centres, tips, &a, &b)
 }
 
