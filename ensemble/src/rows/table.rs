@@ -83,7 +83,7 @@ pub(super) fn load<V: Register, C: AsRef<[V::Number]>, const NUMBERS: usize>(
 ) -> [Lanes<V>; NUMBERS] {
     let mut numbers = [Lanes::ZERO; NUMBERS];
     for (numbers, column) in numbers.iter_mut().zip(columns) {
-        *numbers = Lanes::load(&column.as_ref()[first..]);
+        *numbers = Lanes::load(&column.as_ref()[first..first + V::LANES]);
     }
     numbers
 }
@@ -96,6 +96,6 @@ pub(super) fn store<V: Register, const NUMBERS: usize>(
     numbers: [Lanes<V>; NUMBERS],
 ) {
     for (column, numbers) in columns.iter_mut().zip(numbers) {
-        numbers.store(&mut column[first..]);
+        numbers.store(&mut column[first..first + V::LANES]);
     }
 }
