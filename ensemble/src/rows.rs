@@ -24,7 +24,8 @@ mod unfit;
 
 use links::Links;
 use part::{Block, Part, PoseLinks};
-use share::Share;
+use plan::Plan;
+use share::{Share, along_joints, in_order};
 pub use unfit::{Unfit, fits};
 
 /// Steps between two looks.
@@ -57,9 +58,15 @@ impl<V: Register> InRows<V> {
         let ends = model.groups.iter();
         let ends = ends.map(|group| ((!group.a.is_world()).then(|| group.a.row()), group.b.row()));
         let ends: Vec<_> = ends.collect();
+        let bodies = model.bodies.len();
+        // Where bodies stand otherwise than they are joined, they lie as joints come to them.
+        let (own, along) = ((0..bodies).collect(), along_joints(&ends, bodies));
+        let copies = |order: &Vec<usize>| Plan::copies(&in_order(&ends, order), bodies, V::LANES);
+        let order = [own, along].into_iter().min_by_key(copies).unwrap_or_default();
+        let ends = in_order(&ends, &order);
         let h = Lanes::from_f64(plant.step_size());
-        let shares = Share::all(&ends, model.bodies.len(), threads.get());
-        let parts = shares.iter().map(|share| Part::new(model, &ends, share, h)).collect();
+        let shares = Share::all(&ends, bodies, threads.get());
+        let parts = shares.iter().map(|share| Part::new(model, &order, &ends, share, h)).collect();
         Self { plant, shares, parts, present: false }
     }
 

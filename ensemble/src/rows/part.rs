@@ -4,8 +4,6 @@
 //! bodies, as it has lanes. What a joint does to its bodies has rows of its own, from which each body adds in the order
 //! of the joints: every sum is that of the plant by itself.
 
-use std::ops::Range;
-
 use dbd_kernel::body::Diagonal;
 use dbd_kernel::elements::gravity::weight;
 use dbd_kernel::geometry::{Float, Named, Pose};
@@ -53,7 +51,7 @@ struct Joints<V: Register> {
 /// What one thread steps.
 pub(super) struct Part<V: Register> {
     /// The bodies' rows in the model.
-    range: Range<usize>,
+    rows: Vec<usize>,
     bodies: Vec<Bodies<V>>,
     joints: Vec<Joints<V>>,
     poses: Table<V::Number, POSE>,
@@ -84,21 +82,22 @@ fn at_rest<R: Real + Named>() -> BodyState<Float<R>> {
 }
 
 impl<V: Register> Part<V> {
-    /// A share of a model, for steps of `h` \[s\].
+    /// A share of a model whose bodies lie in an order, for steps of `h` \[s\].
     pub(super) fn new(
         model: &SceneModel<Float<V::Number>>,
+        order: &[usize],
         ends: &[Ends],
         share: &Share,
         h: Lanes<V>,
     ) -> Self {
         let plan = Plan::new(ends, share, V::LANES);
-        let range = share.bodies.clone();
-        let own = &model.bodies[range.clone()];
+        let rows = order[share.bodies.clone()].to_vec();
         // What no lane needs is as heavy as anything, at the origin and at rest.
         let idle = Body::from_f64(1.0, [1.0; 3]);
         let gravity = model.gravity.first().copied();
         let bodies = plan.added.into_iter().enumerate().map(|(block, added)| {
-            let known = |lane: usize| own.get(block * V::LANES + lane);
+            let known =
+                |lane: usize| rows.get(block * V::LANES + lane).map(|&row| &model.bodies[row]);
             let of = |lane: usize| *known(lane).unwrap_or(&idle);
             let body = Body {
                 mass: lanes(|i| of(i).mass),
@@ -142,15 +141,15 @@ impl<V: Register> Part<V> {
         let poses = Table::new(plan.poses, pose);
         // Nothing is a negative zero, which changes no sum.
         let done = Table::new(plan.done, [-V::Number::ZERO; DONE]);
-        Self { range, bodies, joints, poses, guests: plan.guests, done, batches: plan.batches }
+        Self { rows, bodies, joints, poses, guests: plan.guests, done, batches: plan.batches }
     }
 
     /// Brings the states of a model's bodies into the lanes.
     pub(super) fn seat(&mut self, states: &[BodyState<Float<V::Number>>]) {
-        let states = &states[self.range.clone()];
         let rest = at_rest();
         for (block, bodies) in self.bodies.iter_mut().enumerate() {
-            let of = |lane: usize| states.get(block * V::LANES + lane).unwrap_or(&rest);
+            let row = |lane: usize| self.rows.get(block * V::LANES + lane);
+            let of = |lane: usize| row(lane).map_or(&rest, |&row| &states[row]);
             bodies.state = BodyState {
                 position: vector(|lane| of(lane).position),
                 orientation: Quaternion {
@@ -165,13 +164,12 @@ impl<V: Register> Part<V> {
 
     /// Brings the lanes' states into those of a model's bodies.
     pub(super) fn leave(&self, states: &mut [BodyState<Float<V::Number>>]) {
-        let states = &mut states[self.range.clone()];
-        for (states, bodies) in states.chunks_mut(V::LANES).zip(&self.bodies) {
+        for (rows, bodies) in self.rows.chunks(V::LANES).zip(&self.bodies) {
             let BodyState { position, orientation, velocity, angular_velocity } = bodies.state;
-            for (lane, state) in states.iter_mut().enumerate() {
+            for (lane, &row) in rows.iter().enumerate() {
                 let vector =
                     |v: Vec3<Lanes<V>>| Vec3::new(v.x.lane(lane), v.y.lane(lane), v.z.lane(lane));
-                *state = BodyState {
+                states[row] = BodyState {
                     position: vector(position),
                     orientation: Quaternion {
                         w: orientation.w.lane(lane),

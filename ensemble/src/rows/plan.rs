@@ -94,6 +94,15 @@ pub(super) struct Plan {
 }
 
 impl Plan {
+    /// How many rows are copied in a step of a model on one thread.
+    pub(super) fn copies(joints: &[Ends], bodies: usize, lanes: usize) -> usize {
+        let copies = |share| {
+            let plan = Self::new(joints, share, lanes);
+            plan.poses.copied.len() + plan.done.copied.len()
+        };
+        Share::all(joints, bodies, 1).iter().map(copies).sum()
+    }
+
     /// Of a share of a model's joints and bodies.
     pub(super) fn new(all: &[Ends], share: &Share, lanes: usize) -> Self {
         let bodies = share.bodies.len();

@@ -9,6 +9,20 @@ use std::ops::Range;
 /// The ends of a joint: a body or the ground, and a body.
 pub(super) type Ends = (Option<usize>, usize);
 
+/// The bodies of a model as joints come to them, one joint after the other; those without joints last.
+pub(super) fn along_joints(joints: &[Ends], bodies: usize) -> Vec<usize> {
+    let mut is_new = vec![true; bodies];
+    let ends = joints.iter().flat_map(|&(a, b)| a.into_iter().chain([b])).chain(0..bodies);
+    ends.filter(|&body| std::mem::take(&mut is_new[body])).collect()
+}
+
+/// Joints between bodies by their places in an order.
+pub(super) fn in_order(joints: &[Ends], order: &[usize]) -> Vec<Ends> {
+    let mut places = vec![0; order.len()];
+    order.iter().enumerate().for_each(|(place, &body)| places[body] = place);
+    joints.iter().map(|&(a, b)| (a.map(|a| places[a]), places[b])).collect()
+}
+
 /// A thread's part of a model.
 #[derive(Debug, PartialEq)]
 pub(super) struct Share {

@@ -8,7 +8,7 @@ use dbd_kernel::{BodyIndex, F64, Leapfrog, Plant, Real, Vec3};
 use dbd_scene::{Scene, SceneModel};
 
 use super::plan::Plan;
-use super::share::Share;
+use super::share::{Share, along_joints, in_order};
 use super::{InRows, Rowed, Unfit, fits};
 #[cfg(target_arch = "x86_64")]
 use crate::InstructionSet;
@@ -137,6 +137,19 @@ fn a_chain_lies_in_line() {
         assert!(plan.done.copied.len() <= lanes, "{lanes}");
         assert!(plan.joints.iter().flatten().copied().eq(0..100));
     }
+}
+
+/// A chain whose bodies stand in any order is one that lies in line.
+#[test]
+fn bodies_may_stand_as_joints_come_to_them() {
+    // 2 is a primitive root of 101.
+    let at = |place: usize| (0..place).fold(1, |power, _| 2 * power % 101) - 1;
+    let joints: Vec<_> = (0..100).map(|i: usize| (i.checked_sub(1).map(at), at(i))).collect();
+    let order = along_joints(&joints, 101);
+    assert!(order.iter().copied().eq((0..100).map(at).chain([100])));
+    let in_line = in_order(&joints, &order);
+    assert!(Plan::copies(&in_line, 101, 4) <= 4);
+    assert!(Plan::copies(&joints, 100, 4) > 100);
 }
 
 /// A closed chain of three threads: each has a guest at either end, and the joints to them.
