@@ -1,4 +1,5 @@
-//! How fast an ensemble is beside its instances stepped one after the other.
+//! How fast lanes are beside plants by themselves: an ensemble beside its instances one after the other, a large model
+//! in lanes beside its plant.
 //!
 //! `(model, scheme, h, instruction set, threads) => steps per second of both`. Both in one process, in
 //! turn, from the same state.
@@ -6,14 +7,15 @@
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
-use dbd_kernel::Plant;
 use dbd_kernel::geometry::Float;
+use dbd_kernel::{Leapfrog, Plant};
 use dbd_scene::SceneModel;
 
 use crate::batch::PlantOf;
 use crate::ensemble::{Ensemble, EnsembleError};
 use crate::in_lanes::InLanes;
 use crate::instructions::InstructionSet;
+use crate::large::{Large, Refused};
 use crate::number::Number;
 
 /// What is measured.
@@ -109,6 +111,44 @@ pub fn pace<R: Number, S: InLanes + Send + 'static>(
             let _ = plant.advance(steps);
         }
         let alone = done / start.elapsed().as_secs_f64();
+        if round > 0 {
+            pace.together.push(together);
+            pace.alone.push(alone);
+        }
+    }
+    Ok(pace)
+}
+
+/// Times a large model in lanes against its plant by itself, leapfrog.
+///
+/// # Errors
+/// [`Refused`] where the model does not fit or the machine lacks the instruction set.
+///
+/// # Panics
+/// Where the step is none.
+pub fn pace_of_large<R: Number>(
+    model: &SceneModel<Float<R>>,
+    step_size: f64,
+    course: Course,
+) -> Result<Pace, Refused<R>> {
+    let Course { set, threads, steps, rounds } = course;
+    let plant = || -> PlantOf<R, Leapfrog> {
+        Plant::new(Box::new(model.clone()), Leapfrog, step_size).expect("a step")
+    };
+    let mut plant_alone = plant();
+    let mut large = Large::with_instructions(plant(), set)?.on(threads);
+    let mut pace = Pace { instances: 1, together: Vec::new(), alone: Vec::new() };
+    for round in 0..=rounds.get() {
+        large.plant_mut().reset();
+        plant_alone.reset();
+        // Lanes are filled before their first step.
+        let _ = (large.advance(1), plant_alone.step());
+        let start = Instant::now();
+        let _ = large.advance(steps);
+        let together = steps as f64 / start.elapsed().as_secs_f64();
+        let start = Instant::now();
+        let _ = plant_alone.advance(steps);
+        let alone = steps as f64 / start.elapsed().as_secs_f64();
         if round > 0 {
             pace.together.push(together);
             pace.alone.push(alone);

@@ -213,6 +213,29 @@ pub struct Pose<R> {
     pub(crate) rotation: Rotation<R>,
 }
 
+impl<R: Real> Pose<R> {
+    /// Its numbers: position and the rotation's rows.
+    #[inline(always)]
+    #[must_use]
+    pub fn numbers(&self) -> [R; 12] {
+        let Self { position: p, rotation: Rotation { x, y, z } } = self;
+        [p.x, p.y, p.z, x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z]
+    }
+
+    /// The pose of [`Self::numbers`].
+    #[inline(always)]
+    #[must_use]
+    pub fn from_numbers(numbers: [R; 12]) -> Self {
+        let [px, py, pz, xx, xy, xz, yx, yy, yz, zx, zy, zz] = numbers;
+        let rotation = Rotation {
+            x: Vec3::new(xx, xy, xz),
+            y: Vec3::new(yx, yy, yz),
+            z: Vec3::new(zx, zy, zz),
+        };
+        Self { position: Vec3::new(px, py, pz), rotation }
+    }
+}
+
 /// What tells the floating-point precisions apart.
 pub trait Named {
     /// The name users give: `f64`, `f32`.

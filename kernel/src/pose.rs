@@ -63,6 +63,13 @@ pub(crate) struct End<'s, P: Geometry> {
 }
 
 impl<'s, P: Geometry> End<'s, P> {
+    /// The end at a body whose points count as at rest.
+    #[inline(always)]
+    pub(crate) fn at(frame: &'s P::Frame) -> Self {
+        let (velocity, spin) = (P::Vector::ZERO, P::Moment::ZERO);
+        Self { frame: Some(frame), moved: None, velocity, spin }
+    }
+
     /// The end at a body; without `bodies` a body's points count as at rest. A moved anchor has its
     /// rate either way: the sweeps rely on it.
     #[inline(always)]

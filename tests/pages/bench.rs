@@ -174,23 +174,47 @@ fn ensembles_are_as_measured() {
     block("docs/ensembles.md", "ratios", &table(&head, &lines));
 }
 
+/// Chain by chain, precision by precision: times on each instruction set, and instructions on AVX2.
 #[test]
-fn lanes_across_one_model_are_as_tried() {
+fn lanes_across_one_model_are_as_measured() {
     let all = rows("docs/results/large.csv");
-    let line = |bodies: &Row| {
-        let found = |way: &str| {
-            let wanted = [("bodies", bodies.text("bodies")), ("way", way)];
-            all.iter().find(|row| row.is(&wanted)).unwrap()
+    let mut seen: Vec<[&str; 2]> = Vec::new();
+    let mut lines: Vec<Vec<String>> = Vec::new();
+    for row in &all {
+        let of = ["bodies", "precision"].map(|column| row.text(column));
+        if seen.contains(&of) {
+            continue;
+        }
+        seen.push(of);
+        let found = |set: &str, threads: &str| {
+            let [bodies, precision] = of;
+            let wanted = [("bodies", bodies), ("precision", precision), ("instructions", set)];
+            all.iter().find(|row| row.is(&wanted) && row.text("threads") == threads)
         };
-        let [kernel, lanes] = ["kernel", "lanes"].map(found);
-        let number = |row: &Row, column: &str| row.text(column).parse::<f64>().ok();
-        let ratio = |column: &str| {
-            let ratio = number(kernel, column).zip(number(lanes, column)).map(|(a, b)| a / b);
-            ratio.map_or("–".into(), |ratio| figure(ratio, 2))
+        let cell = |column: &str, set: &str, threads: &str, times: f64| {
+            let row = found(set, threads);
+            row.map_or("–".into(), |row| figure(times * row.number(column), 2))
         };
-        vec![grouped(bodies.text("bodies")), ratio("instructions"), ratio("least_us")]
-    };
-    let lines = all.iter().filter(|row| row.text("way") == "kernel").map(line).collect::<Vec<_>>();
-    let head = ["bodies", "kernel's instructions over lanes'", "kernel's least time over lanes'"];
+        let mut line = vec![grouped(of[0]), of[1].to_owned()];
+        line.extend(["baseline", "avx2"].map(|set| cell("median_ratio", set, "1", 1.0)));
+        line.push(cell("spread", "avx2", "1", 100.0));
+        line.push(cell("counted_ratio", "avx2", "1", 1.0));
+        line.push(cell("median_ratio", "avx512", "1", 1.0));
+        line.push(
+            found("avx2", "2")
+                .map_or("–".into(), |row| format!("{:.2}", row.number("over_one_thread"))),
+        );
+        lines.push(line);
+    }
+    let head = [
+        "bodies",
+        "numbers",
+        "baseline",
+        "AVX2",
+        "±%",
+        "instructions, AVX2",
+        "AVX-512",
+        "two threads over one",
+    ];
     block("docs/ensembles.md", "large", &table(&head, &lines));
 }

@@ -5,10 +5,11 @@
 
 use std::time::{Duration, Instant};
 
-use dbd_ensemble::{AnyEnsemble, EnsembleError, ensemble_in_f32, ensemble_in_f64, lanes_in_f64};
+use dbd_ensemble::{AnyEnsemble, EnsembleError, ensemble_in_f32, ensemble_in_f64};
 use dbd_plant::{Method, Plan, PrecisionName};
 use dbd_scene::Scene;
 
+use super::rows::lanes;
 use super::run::{Course, Ending, Observer, SimulationError};
 
 /// One of several runs.
@@ -17,19 +18,6 @@ pub struct Member<'m> {
     pub scene: &'m Scene,
     /// Hears of its samples; of those of a run that is left to itself, too.
     pub observer: &'m mut dyn Observer,
-}
-
-/// How many runs of a method go in lockstep on this machine; 1 where lanes do not step it.
-#[must_use]
-pub fn lanes(method: &Method) -> usize {
-    let leapfrog = Method::default();
-    match method.precision() {
-        PrecisionName::F64 if *method == leapfrog => lanes_in_f64(),
-        PrecisionName::F32 if *method == leapfrog.with_precision(PrecisionName::F32) => {
-            2 * lanes_in_f64()
-        }
-        _ => 1,
-    }
 }
 
 /// Runs one plan with all members. `None` for a member that has to run by itself: its structure is not the

@@ -25,9 +25,9 @@ mod universal;
 use crate::body::BodyState;
 pub(crate) use directions::springs;
 pub(crate) use in_line::are_in_line;
-pub use record::{At, Dampers, DampersLeft, DampersOfJoints, ExplicitDampers, Wrench};
-pub(crate) use record::{Record, Turns, apply};
-pub(crate) use stars::find_rests;
+pub use record::{At, Dampers, DampersLeft, DampersOfJoints, ExplicitDampers, Record, Wrench};
+pub(crate) use record::{Turns, apply};
+pub(crate) use stars::{between_bodies, find_rests};
 
 use crate::elements::gravity;
 use crate::elements::load::LoadFrame;

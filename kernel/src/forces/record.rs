@@ -16,11 +16,14 @@ pub struct Wrench<S: Space> {
 
 /// What a group does to its two bodies, world axes: force and torque of A, and of B the opposite of its
 /// own torque; its force is the opposite of A's.
-#[derive(Clone, Copy)]
-pub(crate) struct Record<S: Space> {
-    pub(crate) force: S::Vector,
-    pub(crate) torque_a: S::Moment,
-    pub(crate) torque_b: S::Moment,
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Record<S: Space> {
+    /// \[N\] force on A.
+    pub force: S::Vector,
+    /// \[N·m\] torque on A about its centre of mass.
+    pub torque_a: S::Moment,
+    /// \[N·m\] the opposite of the torque on B about its centre of mass.
+    pub torque_b: S::Moment,
 }
 
 impl<S: Space> Record<S> {

@@ -348,7 +348,7 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
 
 /// `scale·(h·D⁻¹)·Q` for the velocities of one body.
 #[inline(always)]
-fn kick_body<P: Geometry>(
+pub(crate) fn kick_body<P: Geometry>(
     state: &mut BodyState<P>,
     wrench: &Wrench<P::Space>,
     diagonal: &Diagonal<P::Space>,
@@ -361,7 +361,11 @@ fn kick_body<P: Geometry>(
 
 /// One body straight on, and as a free rotor of second order.
 #[inline(always)]
-fn drift_body<P: Geometry>(state: &mut BodyState<P>, body: &Body<P::Space>, time: P::Real) {
+pub(crate) fn drift_body<P: Geometry>(
+    state: &mut BodyState<P>,
+    body: &Body<P::Space>,
+    time: P::Real,
+) {
     P::translate(&mut state.position, P::velocity(&state.velocity) * time);
     rotation::free_rotor::<P>(body, &mut state.orientation, &mut state.angular_velocity, time);
 }
