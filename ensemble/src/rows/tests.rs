@@ -15,7 +15,7 @@ use crate::InstructionSet;
 use crate::batch::PlantOf;
 use crate::register::{Doubles, Register, Singles};
 #[cfg(target_arch = "x86_64")]
-use crate::register::{Doubles256, Singles256};
+use crate::register::{Doubles256, Doubles512, Singles256, Singles512};
 
 /// A scene that ships, and its step.
 fn shipped(name: &str) -> (SceneModel<F64>, f64) {
@@ -55,6 +55,11 @@ fn in_every_register(name: &str, model: &SceneModel<F64>, step: f64, runs: bool)
     if InstructionSet::Avx2.is_there() {
         ended.push(compare::<Doubles256>(name, model, step, 2).status());
         ended.push(compare::<Singles256>(name, model, step, 1).status());
+    }
+    #[cfg(target_arch = "x86_64")]
+    if InstructionSet::Avx512.is_there() {
+        ended.push(compare::<Doubles512>(name, model, step, 1).status());
+        ended.push(compare::<Singles512>(name, model, step, 2).status());
     }
     assert!(ended.iter().all(|status| status.is_running() == runs), "{name}: {ended:?}");
 }
