@@ -150,6 +150,14 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     fn spin(stored: &Self::Spin) -> Self::Moment;
     /// Adds an increment to a stored velocity.
     fn accelerate(stored: &mut Self::Velocity, increment: Self::Vector);
+    /// Whether gravity acts on velocities and not by weights. The forces on a body add up to multiples of the last
+    /// digit of the largest: a weight among them is rounded the same way step after step, and that does work.
+    const FALLS: bool = false;
+    /// Adds to a stored velocity what a body falls by, to be rounded with the next [`Self::accelerate`].
+    #[inline(always)]
+    fn fall(stored: &mut Self::Velocity, increment: Self::Vector) {
+        Self::accelerate(stored, increment);
+    }
     /// Adds an increment to a stored angular velocity.
     fn spin_up(stored: &mut Self::Spin, increment: Self::Moment);
     /// Adds a displacement to a stored position.

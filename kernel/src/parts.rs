@@ -13,14 +13,14 @@ use crate::geometry::Geometry;
 use crate::real::Real as _;
 use crate::{forces, step};
 
-/// Half a kick by a wrench whose torque is in body axes.
+/// Half a kick by a wrench with the weight, its torque in body axes.
 #[inline(always)]
 pub fn kick<P: Geometry>(
     state: &mut BodyState<P>,
     wrench: &Wrench<P::Space>,
     diagonal: &Diagonal<P::Space>,
 ) {
-    step::kick_body(state, wrench, diagonal, P::Real::HALF);
+    step::kick_body(state, wrench, diagonal, (P::Real::HALF, None));
 }
 
 /// A drift over `time` \[s\].

@@ -73,6 +73,8 @@ impl<P: Geometry> Kick<P> for NoKick {
 pub(crate) struct HalfKick<'s, S: Space> {
     pub(crate) wrenches: &'s [Wrench<S>],
     pub(crate) diagonals: &'s [Diagonal<S>],
+    /// \[m/s\] by what bodies fall, `None` where their weights are among the wrenches.
+    pub(crate) fall: Option<S::Vector>,
 }
 
 impl<P: Geometry> Kick<P> for HalfKick<'_, P::Space> {
@@ -81,7 +83,11 @@ impl<P: Geometry> Kick<P> for HalfKick<'_, P::Space> {
     #[inline(always)]
     fn of(&self, row: usize) -> Option<Increment<P::Space>> {
         let (wrench, diagonal) = (self.wrenches.get(row)?, self.diagonals.get(row)?);
-        Some(diagonal.increment(wrench.force, wrench.torque, P::Real::HALF))
+        let mut kick = diagonal.increment(wrench.force, wrench.torque, P::Real::HALF);
+        if let Some(fall) = self.fall {
+            kick.linear = kick.linear + fall;
+        }
+        Some(kick)
     }
 }
 

@@ -330,6 +330,11 @@ impl Geometry for Fixed {
     fn accelerate(stored: &mut Kept, increment: Vec3<f32>) {
         CompensatedF32::accelerate(stored, increment);
     }
+    const FALLS: bool = true;
+    #[inline(always)]
+    fn fall(stored: &mut Kept, increment: Vec3<f32>) {
+        stored.lost = stored.lost - increment;
+    }
     #[inline(always)]
     fn spin_up(stored: &mut Kept, increment: Vec3<f32>) {
         CompensatedF32::spin_up(stored, increment);

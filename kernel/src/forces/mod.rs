@@ -1,7 +1,8 @@
 //! One force evaluation: every element once, every body's wrench.
 //!
 //! `(model, pose, velocities, turn counts, step) => wrenches`. The order of sums, which is part
-//! of the bits: a body starts from its weight, then adds its loads in ascending order, then the
+//! of the bits: a body starts from its weight, or from nothing where a precision lets bodies fall otherwise
+//! ([`Geometry::FALLS`]), then adds its loads in ascending order, then the
 //! inputs and the records of its groups likewise, then its torsion springs'.
 //! Within a TSDA group each distinct point is placed once; the pulls on a point are added in
 //! the order of its elements; the record's force and torque on A add star by star, the torque
@@ -98,10 +99,18 @@ pub fn wrenches<M: ModelOwner>(
         Turns { counts: turns.as_mut(), at: At::Stage },
         Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() },
     )?;
+    if M::Precision::FALLS
+        && let Some(&gravity) = view.gravity.first()
+    {
+        for (body, wrench) in view.bodies.iter().zip(wrenches.as_mut()) {
+            wrench.force = wrench.force + gravity::weight(body.mass, gravity);
+        }
+    }
     Ok(wrenches)
 }
 
-/// One force evaluation: `(model, instant, turn counts) => frames, wrenches, settled turn counts`.
+/// One force evaluation: `(model, instant, turn counts) => frames, wrenches, settled turn counts`. No weights
+/// where [`Geometry::FALLS`].
 ///
 /// # Errors
 /// [`Cause::UndefinedTwist`] names the first torsion spring whose twist is undefined.
@@ -119,7 +128,7 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, D: Dampers>(
         place_bodies(bodies, frames);
     }
     let places = Places { frames: &*frames, signals };
-    let weight = if T::GRAVITY { model.gravity.first().copied() } else { None };
+    let weight = if T::GRAVITY && !P::FALLS { model.gravity.first().copied() } else { None };
     start(model, weight, (windows, step), places, wrenches);
     if in_line && in_line::may_be::<P, T>() {
         in_line::add::<P, T, D>(model, places, (bodies, rests), wrenches);
@@ -198,6 +207,8 @@ fn start<P: Geometry, T: Terms>(
     for (body, wrench) in model.bodies.iter().zip(wrenches.iter_mut()) {
         let force = match field {
             Some(gravity) => gravity::weight(body.mass, gravity),
+            // It changes nothing when it is added, and is no bits of zero, which would be cleared by a call.
+            None if P::FALLS => -P::Vector::ZERO,
             None => P::Vector::ZERO,
         };
         *wrench = Wrench { force, torque: P::Moment::ZERO };

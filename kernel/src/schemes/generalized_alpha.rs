@@ -302,10 +302,14 @@ impl GeneralizedAlpha {
         change: P::Real,
     ) {
         let Stepper { workspace, memory } = stepper;
+        let field = workspace.field();
         let rows = workspace.bodies.iter().zip(workspace.model.bodies);
         let rows = rows.zip(workspace.frames.iter()).zip(workspace.wrenches.iter_mut());
         for ((((state, body), frame), wrench), memory) in rows.zip(memory.iter()) {
-            let known = self.known::<P>(memory);
+            let mut known = self.known::<P>(memory);
+            if let Some(field) = field {
+                known.linear = known.linear + field;
+            }
             let w = P::spin(&state.angular_velocity) + memory.algorithmic.angular * change;
             let gyroscopic = w.commutator(body.inertia.scale(w));
             let torque = wrench.torque - gyroscopic + body.inertia.scale(known.angular);

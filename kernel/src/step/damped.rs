@@ -37,6 +37,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
 
     #[inline(always)]
     fn sweep_after_kick<const REVERSE: bool>(&mut self) {
+        let fall = self.fall(P::Real::HALF);
         let (wrenches, diagonals) = (&*self.wrenches, self.diagonals);
         if self.has_dampers() {
             let sweep = Sweep {
@@ -44,7 +45,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
                 places: Places { frames: self.frames, signals: self.signals },
                 turns: self.turns,
                 shares: self.shares,
-                kick: HalfKick { wrenches, diagonals },
+                kick: HalfKick { wrenches, diagonals, fall },
             };
             damping::sweep::<P, T, _, REVERSE>(&self.model, &sweep, self.bodies);
         }
@@ -76,10 +77,14 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
     /// A kick by half. At first it is made of the wrenches and takes their place.
     #[inline(always)]
     fn keep_kick(&mut self, fresh: bool) {
+        let fall = self.fall(P::Real::HALF);
         let rows = self.bodies.iter_mut().zip(self.wrenches.iter_mut());
         if fresh {
             for ((state, wrench), diagonal) in rows.zip(self.diagonals) {
-                let kick = diagonal.increment(wrench.force, wrench.torque, P::Real::HALF);
+                let mut kick = diagonal.increment(wrench.force, wrench.torque, P::Real::HALF);
+                if let Some(fall) = fall {
+                    kick.linear = kick.linear + fall;
+                }
                 *wrench = Wrench { force: kick.linear, torque: kick.angular };
                 P::accelerate(&mut state.velocity, kick.linear);
                 P::spin_up(&mut state.angular_velocity, kick.angular);

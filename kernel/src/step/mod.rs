@@ -20,7 +20,7 @@ use crate::real::Real;
 use crate::rotation;
 use crate::schedule::{self, KnotStep, LoadWindow, Signal, StageTime};
 use crate::solve::Seat;
-use crate::space::{BlockOf, Moment as _, Space as _};
+use crate::space::{BlockOf, Linear as _, Moment as _, Space as _};
 use crate::status::Cause;
 
 /// What a plant knows of its evaluations. Never part of the state: evaluating anew gives the same
@@ -227,10 +227,24 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
 
     #[inline(always)]
     fn kick_here(&mut self, scale: P::Real) {
+        let fall = self.fall(scale);
         let rows = self.bodies.iter_mut().zip(self.wrenches.iter()).zip(self.diagonals);
         for ((state, wrench), diagonal) in rows {
-            kick_body(state, wrench, diagonal, scale);
+            kick_body(state, wrench, diagonal, (scale, fall));
         }
+    }
+
+    /// \[m/s²\] the field of gravity, `None` where weights are among the wrenches.
+    #[inline(always)]
+    pub(crate) fn field(&self) -> Option<P::Vector> {
+        let field = || self.model.gravity.first().copied().unwrap_or(P::Vector::ZERO);
+        if P::FALLS && T::GRAVITY { Some(field()) } else { None }
+    }
+
+    /// \[m/s\] by what bodies fall in `scale` steps, likewise.
+    #[inline(always)]
+    pub(crate) fn fall(&self, scale: P::Real) -> Option<P::Vector> {
+        self.field().map(|gravity| gravity * (scale * self.h))
     }
 
     /// Moves every body freely for `time` \[s\]: straight on, and as a free rotor (second order).
@@ -248,10 +262,11 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
     pub fn kick_and_drift(&mut self, scale: P::Real, time: P::Real) {
         self.ledger.fresh = false;
         self.ledger.ready = false;
+        let fall = self.fall(scale);
         let rows = self.bodies.iter_mut().zip(self.model.bodies);
         let rows = rows.zip(self.wrenches.iter().zip(self.diagonals));
         for ((state, body), (wrench, diagonal)) in rows {
-            kick_body(state, wrench, diagonal, scale);
+            kick_body(state, wrench, diagonal, (scale, fall));
             drift_body(state, body, time);
         }
     }
@@ -278,10 +293,11 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
         }
         self.ledger.fresh = false;
         self.ledger.ready = false;
+        let fall = self.fall(scale);
         let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
         let rows = rows.zip(self.wrenches.iter().zip(self.diagonals));
         for (((state, body), frame), (wrench, diagonal)) in rows {
-            kick_body(state, wrench, diagonal, scale);
+            kick_body(state, wrench, diagonal, (scale, fall));
             drift_body(state, body, time);
             P::set_frame(frame, &state.position, &state.orientation);
         }
@@ -323,13 +339,14 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
         self.workspace.drift_of_order_four(time);
     }
 
-    /// Visits every body with its memory, its state, `(h·D⁻¹)·Q` with the gyroscopic term
+    /// Visits every body with its memory, its state, `(h·D⁻¹)·Q` with its weight and the gyroscopic term
     /// `−ω × (I·ω)` at its present rate, Q its wrench at the last evaluation, and h.
     #[inline(always)]
     pub fn each(
         &mut self,
         mut visit: impl FnMut(&mut S, &mut BodyState<P>, Increment<P::Space>, P::Real),
     ) {
+        let fall = self.workspace.fall(P::Real::ONE);
         let Workspace { bodies, model, wrenches, diagonals, ledger, h, .. } = &mut self.workspace;
         ledger.fresh = false;
         let rows = bodies
@@ -340,21 +357,27 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
         for (((state, memory), body), (wrench, diagonal)) in rows {
             let w = P::spin(&state.angular_velocity);
             let torque = wrench.torque - w.commutator(body.inertia.scale(w));
-            let increment = diagonal.increment(wrench.force, torque, P::Real::ONE);
+            let mut increment = diagonal.increment(wrench.force, torque, P::Real::ONE);
+            if let Some(fall) = fall {
+                increment.linear = increment.linear + fall;
+            }
             visit(memory, state, increment, *h);
         }
     }
 }
 
-/// `scale·(h·D⁻¹)·Q` for the velocities of one body.
+/// `scale·(h·D⁻¹)·Q` for the velocities of one body, and what it falls by meanwhile.
 #[inline(always)]
 pub(crate) fn kick_body<P: Geometry>(
     state: &mut BodyState<P>,
     wrench: &Wrench<P::Space>,
     diagonal: &Diagonal<P::Space>,
-    scale: P::Real,
+    (scale, fall): (P::Real, Option<P::Vector>),
 ) {
     let increment = diagonal.increment(wrench.force, wrench.torque, scale);
+    if let Some(fall) = fall {
+        P::fall(&mut state.velocity, fall);
+    }
     P::accelerate(&mut state.velocity, increment.linear);
     P::spin_up(&mut state.angular_velocity, increment.angular);
 }
