@@ -3,13 +3,15 @@
 //!
 //! `precisions [--steps N] [SCENE…]`: a table of comma-separated values on standard output. A run in a precision
 //! stands beside the begin of one in double precision of the very same constants and start, and energies are computed
-//! in double precision from what is stored. Where dampers act, the energy itself is looked at.
+//! in double precision from what is stored, with the constants of the steps ([`as_stepped`]) and, once more, with the
+//! model's own (`model_max_j`). Where dampers act, the energy itself is looked at.
 
 use std::fmt::Write as _;
 use std::process::ExitCode;
 use std::time::Instant;
 
 use dbd_bench::kept::{Energies, Keeper, Kept};
+use dbd_bench::stepped::as_stepped;
 use dbd_kernel::index::DamperIndex;
 use dbd_kernel::{
     BodyIndex, CompensatedF32, F32, F64, Fixed, Geometry, Leapfrog, Pefrl, Plant, Scheme,
@@ -19,7 +21,7 @@ use dbd_scene::{Scene, SceneModel, widen};
 
 /// Columns of the table.
 const HEADER: &str = "scene,scheme,stiffness,damped,from_origin_m,step_s,steps,precision,own_max_j,own_rms_j,\
-                      kept_max_j,kept_rms_j,apart_max_j,apart_rms_j,slope_w,off_m,host_ns";
+                      kept_max_j,kept_rms_j,apart_max_j,apart_rms_j,slope_w,off_m,host_ns,model_max_j";
 
 /// Scenes that are looked at.
 const SCENES: [&str; 5] = ["hexagon", "four-bar", "3rrr", "3ruu", "double-wishbone"];
@@ -156,8 +158,8 @@ impl Case {
         let name = format!("{} {} {}", self.scene, S::NAME, P::NAME);
         let of = |why: &dyn std::fmt::Debug| format!("{name}: {why:?}");
         let model: SceneModel<P> = self.model.convert();
-        let exact: SceneModel<F64> = model.convert();
-        let run = Run { scheme, step: self.step, steps, kept, exact: &exact };
+        let (exact, models) = (as_stepped(&model, self.step), model.convert());
+        let run = Run { scheme, step: self.step, steps, kept, exact: &exact, models: &models };
         let own = run.of(&model).map_err(|why| of(&why))?;
         let beside = Run { steps: steps.min(SHORT.max(run.compared_at())), ..run };
         let double = if P::NAME == F64::NAME { None } else { Some(beside.of(&exact)) };
@@ -188,7 +190,9 @@ impl Case {
         {
             let _ = write!(text, ",{value:.2e}");
         }
-        println!("{text},{:.0}", own.seconds * 1e9 / steps as f64);
+        let nanoseconds = own.seconds * 1e9 / steps as f64;
+        let [by_model, _] = spread(own.by_model.iter().map(|now| now - own.by_model[0]));
+        println!("{text},{nanoseconds:.0},{by_model:.2e}");
         Ok(())
     }
 }
@@ -200,7 +204,10 @@ struct Run<'m, S> {
     step: f64,
     steps: u64,
     kept: Kept,
+    /// With the constants of the steps.
     exact: &'m SceneModel<F64>,
+    /// With the model's own.
+    models: &'m SceneModel<F64>,
 }
 
 /// What came of a run.
@@ -208,6 +215,8 @@ struct Outcome {
     /// \[s\] between samples.
     interval: f64,
     energies: Vec<Energies>,
+    /// \[J\] the first of them with the model's own constants.
+    by_model: Vec<f64>,
     /// At [`COMPARED`], or at the end of a shorter run.
     compared: State<SceneModel<F64>>,
     /// \[s\] of stepping.
@@ -221,20 +230,24 @@ impl<S: Scheme + Copy> Run<'_, S> {
     }
 
     fn of<P: Geometry>(&self, model: &SceneModel<P>) -> Result<Outcome, String> {
-        let mut keeper =
-            Keeper::new(self.exact, self.kept, self.step).map_err(|why| format!("{why:?}"))?;
+        let keeper = |model| Keeper::new(model, self.kept, self.step);
+        let mut keeper_of_steps = keeper(self.exact).map_err(|why| format!("{why:?}"))?;
+        let mut keeper_of_model = keeper(self.models).map_err(|why| format!("{why:?}"))?;
         let mut plant =
             Plant::new(model, self.scheme, self.step).map_err(|why| format!("{why:?}"))?;
         let (each, at) = (EACH, self.compared_at().min(self.steps));
-        let (mut energies, mut compared, mut seconds) = (Vec::new(), None, 0.0);
+        let (mut energies, mut by_model) = (Vec::new(), Vec::new());
+        let (mut compared, mut seconds) = (None, 0.0);
         loop {
             let done = plant.state().step;
             if done == at && compared.is_none() {
                 compared = Some(widen(plant.state()));
             }
             if done % each == 0 {
-                let now = keeper.energies(&widen(plant.state()));
-                energies.push(now.ok_or_else(|| format!("no energy at step {done}"))?);
+                let state = widen(plant.state());
+                let none = || format!("no energy at step {done}");
+                energies.push(keeper_of_steps.energies(&state).ok_or_else(none)?);
+                by_model.push(keeper_of_model.energies(&state).ok_or_else(none)?.own);
             }
             if done >= self.steps {
                 break;
@@ -247,7 +260,7 @@ impl<S: Scheme + Copy> Run<'_, S> {
             status.ok().map_err(|failure| format!("{failure:?}"))?;
         }
         let compared = compared.ok_or("nothing to compare")?;
-        Ok(Outcome { interval: each as f64 * self.step, energies, compared, seconds })
+        Ok(Outcome { interval: each as f64 * self.step, energies, by_model, compared, seconds })
     }
 }
 

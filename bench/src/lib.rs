@@ -8,6 +8,7 @@
 //! - [`chain`]: chains of any length.
 //! - [`vectors`], [`plain`](mod@plain): the same steps, written plainly.
 //! - [`kept`]: the energy that a scheme keeps, by which rounding is seen.
+//! - [`stepped`]: the constants that a step has, for that energy.
 //!
 //! `examples/steps.rs` takes steps for `cargo xtask instructions`, which counts their instructions.
 
@@ -16,4 +17,5 @@ pub mod counted;
 pub mod flops;
 pub mod kept;
 pub mod plain;
+pub mod stepped;
 pub mod vectors;

@@ -137,6 +137,7 @@ fn long_runs_are_as_measured() {
                 figure(own.number("own_max_j") / double.number("own_max_j"), 2),
                 figure(own.number("kept_max_j"), 2),
                 figure(own.number("slope_w"), 2),
+                figure(own.number("model_max_j"), 2),
             ]);
         }
     }
@@ -148,6 +149,7 @@ fn long_runs_are_as_measured() {
         "of f64's",
         "of it rounding [J]",
         "drift [W]",
+        "by the model's constants [J]",
     ];
     let run = runs.of(["hexagon", "semi-implicit-euler", "9e6", "fixed"], false, "0");
     let over = format!("Over {} steps:\n\n", grouped(run.text("steps")));

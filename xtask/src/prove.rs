@@ -44,15 +44,18 @@ pub fn run(names: &[String]) -> Result<()> {
     Ok(())
 }
 
-/// The file with the rows of this table in place of those of the same proofs, by the first column.
+/// The file with the rows of this table in place of those of the same proofs, by the first column. A file with other
+/// columns is begun anew.
 pub fn merged(head: &str, present: &str, table: &str) -> String {
     let proof = |row: &str| row.split(',').next().unwrap_or_default().to_owned();
     let mut lines = table.lines();
     let header = lines.next().unwrap_or_default();
     let mut rows: Vec<&str> = lines.collect();
     let new: Vec<String> = rows.iter().map(|row| proof(row)).collect();
-    let kept = present.lines().filter(|line| !line.starts_with('#') && *line != header);
-    rows.extend(kept.filter(|line| !new.contains(&proof(line))));
+    let mut kept = present.lines().filter(|line| !line.starts_with('#'));
+    if kept.next() == Some(header) {
+        rows.extend(kept.filter(|line| !new.contains(&proof(line))));
+    }
     // By proof, the rows of each as they were told.
     rows.sort_by_key(|row| proof(row));
     format!("{head}{header}\n{}\n", rows.join("\n"))
@@ -69,5 +72,7 @@ mod tests {
         let rows: Vec<&str> = both.lines().skip(1).collect();
         assert_eq!(rows, ["proof,of", "angle,1", "root,3"]);
         assert!(first.ends_with("proof,of\nangle,1\nroot,2\nroot,1\n"), "{first}");
+        let others = merged(HEAD, &first, "proof,of,why\nroot,3,so\n");
+        assert!(others.ends_with("\nproof,of,why\nroot,3,so\n"), "{others}");
     }
 }
