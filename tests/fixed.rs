@@ -1,6 +1,7 @@
 //! Fixed point: every scene and scheme beside double precision, energies, places far from the origin, limits.
 
 use dbd_bench::kept::{Keeper, Kept};
+use dbd_kernel::forces::wrenches;
 use dbd_kernel::plant::{InputError, PlantError, StateError};
 use dbd_kernel::status::Cause;
 use dbd_kernel::{
@@ -200,4 +201,35 @@ fn who_flies_beyond_the_limits_is_stopped_by_name() {
     let mut state = plant.state().clone();
     state.bodies[0].position = Fixed::position_from_f64([0.0, -25.0, 0.0]);
     assert!(matches!(plant.set_state(state), Err(StateError::Extent(_))));
+}
+
+const ALONE: &str = r#"
+name = "alone"
+duration = 1.0
+step = 1e-4
+gravity = [0.3, 0.0, -9.81]
+[[body]]
+name = "body"
+mass = 0.7
+inertia = [0.01, 0.02, 0.03]
+position = [0.1, 0.2, 0.3]
+velocity = [0.0, 0.0, 4.0]
+"#;
+
+/// Gravity is no force of a step there; what asks for forces has the weights all the same.
+#[test]
+fn bodies_fall_by_velocity_and_weigh_what_they_weigh() {
+    let model: SceneModel<Fixed> = Scene::parse(ALONE, "alone").unwrap().model.convert();
+    let mut plant = Plant::new(&model, Leapfrog, 1e-4).unwrap();
+    let found = &wrenches(&model, plant.state(), 1e-4).unwrap()[0];
+    assert_eq!(found.force, model.gravity[0] * 0.7);
+    assert_eq!(found.torque, Vec3::new(0.0, 0.0, 0.0));
+    plant.advance(10_000).ok().unwrap();
+    let velocity = Fixed::velocity_to_f64(&plant.state().bodies[0].velocity);
+    let half = model.gravity[0] * (0.5 * 1e-4_f32);
+    for (own, (half, start)) in
+        velocity.into_iter().zip(half.to_f64().into_iter().zip([0.0, 0.0, 4.0]))
+    {
+        assert!((own - (start + 20_000.0 * half)).abs() < 1e-10, "{own:e}");
+    }
 }

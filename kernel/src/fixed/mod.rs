@@ -6,7 +6,8 @@
 //! two points their exact difference, rounded once to single precision. The centre of a star is placed beside where it
 //! rested in B at the start: with u the way from there and e what it was to a point of B,
 //! L² − L0² = (e² − L0²) − u·(2e − u), whose digits are those of u. Forces, rates and their increments
-//! are `f32`, velocities compensated sums ([`crate::compensated`]): laws, sweeps, schemes are those of `f32`.
+//! are `f32`, velocities compensated sums ([`crate::compensated`]), of gravity as well ([`Geometry::FALLS`]): laws,
+//! sweeps, schemes are those of `f32`.
 //!
 //! Integers have ends, and [`LIMITS`] says where: a model is checked when a plant of it is made, a state after
 //! every step ([`Cause::Extent`](crate::status::Cause)), and none ever wraps. Constants of models are made by
