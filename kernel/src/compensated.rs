@@ -3,7 +3,8 @@
 //! `(sum, lost) + increment => (sum, lost)` for positions, orientations, velocities and angular
 //! velocities (Kahan, *Comm. ACM* 8, 1965). Rotations, points and forces are those of
 //! [`F32`](crate::geometry::F32): what these round is noise, never a sum. Half of what is stored is
-//! what was lost, so a state has twice the words.
+//! what was lost, so a state has twice the words. Velocities of [`Fixed`](crate::fixed::Fixed) are stored like that,
+//! too, and added to with more care.
 
 use crate::attitude::Attitude;
 use crate::geometry::{Geometry, Pose};
@@ -44,6 +45,17 @@ fn add(sum: &mut f32, lost: &mut f32, increment: f32) {
     *sum = new;
 }
 
+/// An addition to a number of two words (Dekker, *Numer. Math.* 18, 1971): what is below the increment's last digit
+/// stays in what is lost. Kahan's rounds that off, often the same way step after step.
+#[inline(always)]
+fn add_to_both(sum: &mut f32, lost: &mut f32, increment: f32) {
+    let new = *sum + increment;
+    let owed = ((new - *sum) - increment) + *lost;
+    let nearest = new - owed;
+    *lost = (nearest - new) + owed;
+    *sum = nearest;
+}
+
 /// A number in two words, and back.
 const fn split(value: f64) -> (f32, f32) {
     let sum = value as f32;
@@ -69,6 +81,14 @@ impl Kept {
     pub const fn to_f64(&self) -> [f64; 3] {
         let Self { sum, lost } = self;
         [joined(sum.x, lost.x), joined(sum.y, lost.y), joined(sum.z, lost.z)]
+    }
+
+    /// Adds to both words.
+    #[inline(always)]
+    pub(crate) fn add_to_both(&mut self, increment: Vec3<f32>) {
+        add_to_both(&mut self.sum.x, &mut self.lost.x, increment.x);
+        add_to_both(&mut self.sum.y, &mut self.lost.y, increment.y);
+        add_to_both(&mut self.sum.z, &mut self.lost.z, increment.z);
     }
 
     #[inline(always)]
@@ -313,6 +333,35 @@ mod tests {
         for (component, truth) in kept.to_f64().into_iter().zip([1.001, -1.998, 0.297]) {
             assert!((component - truth).abs() < 1e-9, "{component} {truth}");
         }
+    }
+
+    /// What a body falls by joins what is lost; the last digit of its pulls is above it.
+    #[test]
+    fn both_words_keep_what_is_below_the_last_digit_of_an_increment() {
+        const STEPS: i64 = 100_000;
+        let unit = (-60.0_f64).exp2();
+        // Of 24 digits from 2^-34 on.
+        let (pulls, fall) =
+            ([0x00ff_ffff_i64 << 26, 0x00c0_0001 << 26, -0x01bf_fffe << 26], 1_i64 << 19);
+        let [mut both, mut kahan] = [Kept::from_f64([1.0; 3]); 2];
+        let mut exact = 1_i128 << 60;
+        for step in 0..STEPS {
+            let pull = pulls[step as usize % 3];
+            let increment = Vec3::from_f64([pull as f64 * unit; 3]);
+            assert_eq!(f64::from(increment.x), pull as f64 * unit);
+            for kept in [&mut both, &mut kahan] {
+                kept.lost = kept.lost - Vec3::from_f64([fall as f64 * unit; 3]);
+            }
+            both.add_to_both(increment);
+            kahan.add(increment);
+            exact += i128::from(pull + fall);
+            // The sum is the nearest.
+            assert!(both.lost.x.abs() <= f32::EPSILON / 2.0 * both.sum.x.abs());
+        }
+        let off = |kept: &Kept| (kept.to_f64()[2] / unit) as i128 - exact;
+        let fallen = i128::from(STEPS * fall);
+        assert!(off(&both).abs() < fallen / 1_000, "{} of {fallen}", off(&both));
+        assert!(off(&kahan).abs() > fallen / 10, "{} of {fallen}", off(&kahan));
     }
 
     #[test]

@@ -160,6 +160,11 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     }
     /// Adds an increment to a stored angular velocity.
     fn spin_up(stored: &mut Self::Spin, increment: Self::Moment);
+    /// [`Self::spin_up`] by nothing: takes in what a stored angular velocity is owed.
+    #[inline(always)]
+    fn settle(stored: &mut Self::Spin) {
+        Self::spin_up(stored, Self::Moment::ZERO);
+    }
     /// Adds a displacement to a stored position.
     fn translate(position: &mut Self::Position, displacement: Self::Vector);
 

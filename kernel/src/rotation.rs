@@ -49,7 +49,7 @@ pub fn free_rotor<P: Geometry>(
         // What moves in a plane turns about z alone, and this is all that the five would do.
         if w.z != zero {
             let turn = Turn::by(time * w.z);
-            P::spin_up(rate, P::Moment::ZERO);
+            P::settle(rate);
             let half = (turn.half_cos, turn.half_sin);
             P::turn_about::<2>(orientation, rate, time, half);
         }

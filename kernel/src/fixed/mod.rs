@@ -6,7 +6,7 @@
 //! two points their exact difference, rounded once to single precision. The centre of a star is placed beside where it
 //! rested in B at the start: with u the way from there and e what it was to a point of B,
 //! L² − L0² = (e² − L0²) − u·(2e − u), whose digits are those of u. Forces, rates and their increments
-//! are `f32`, velocities compensated sums ([`crate::compensated`]), of gravity as well ([`Geometry::FALLS`]): laws,
+//! are `f32`, velocities sums of two words ([`crate::compensated`]), of gravity as well ([`Geometry::FALLS`]): laws,
 //! sweeps, schemes are those of `f32`.
 //!
 //! Integers have ends, and [`LIMITS`] says where: a model is checked when a plant of it is made, a state after
@@ -329,7 +329,7 @@ impl Geometry for Fixed {
     }
     #[inline(always)]
     fn accelerate(stored: &mut Kept, increment: Vec3<f32>) {
-        CompensatedF32::accelerate(stored, increment);
+        stored.add_to_both(increment);
     }
     const FALLS: bool = true;
     #[inline(always)]
@@ -338,8 +338,11 @@ impl Geometry for Fixed {
     }
     #[inline(always)]
     fn spin_up(stored: &mut Kept, increment: Vec3<f32>) {
-        CompensatedF32::spin_up(stored, increment);
+        stored.add_to_both(increment);
     }
+    // A sum is the nearest as it is.
+    #[inline(always)]
+    fn settle(_: &mut Kept) {}
     #[inline(always)]
     fn translate(position: &mut FixedPlace, displacement: Vec3<f32>) {
         let most = const { (LIMITS.drift * LIMITS.drift) as f32 };
