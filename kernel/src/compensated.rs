@@ -340,7 +340,6 @@ mod tests {
     fn both_words_keep_what_is_below_the_last_digit_of_an_increment() {
         const STEPS: i64 = 100_000;
         let unit = (-60.0_f64).exp2();
-        // Of 24 digits from 2^-34 on.
         let (pulls, fall) =
             ([0x00ff_ffff_i64 << 26, 0x00c0_0001 << 26, -0x01bf_fffe << 26], 1_i64 << 19);
         let [mut both, mut kahan] = [Kept::from_f64([1.0; 3]); 2];
@@ -355,7 +354,6 @@ mod tests {
             both.add_to_both(increment);
             kahan.add(increment);
             exact += i128::from(pull + fall);
-            // The sum is the nearest.
             assert!(both.lost.x.abs() <= f32::EPSILON / 2.0 * both.sum.x.abs());
         }
         let off = |kept: &Kept| (kept.to_f64()[2] / unit) as i128 - exact;
