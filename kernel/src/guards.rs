@@ -34,7 +34,8 @@ pub(crate) fn first_fault<P: Geometry, T: Terms>(
     None
 }
 
-/// Whether all bodies are well for sure: all their numbers in one sum, all their turns in another.
+/// Whether all bodies are well for sure: all their numbers in one sum, all their turns in another, and one
+/// comparison for both.
 #[inline]
 fn are_well<P: Geometry>(bodies: &[BodyState<P>], h: P::Real, most: P::Real) -> bool {
     let (mut sums, mut squares) = (Sums::ZERO, P::Real::ZERO);
@@ -42,12 +43,15 @@ fn are_well<P: Geometry>(bodies: &[BodyState<P>], h: P::Real, most: P::Real) -> 
         state.position.visit(&mut sums);
         state.orientation.visit(&mut sums);
         state.velocity.visit(&mut sums);
+        sums.end();
         // What is no number or infinite of a spin is so of its square.
         let rate = P::spin(&state.angular_velocity);
         squares = squares + rate.dot(rate);
     }
-    // Half of what a body may turn, so that rounding has room.
-    sums.are_finite() && squares * (h * h) <= P::Real::HALF * most
+    // Half of what a body may turn, so that rounding has room. Taken away, for in double precision, which
+    // has its numbers in integers, taking a constant 0 away is no operation.
+    let nought = P::Real::from_f64(f64::from(sums.nought()));
+    sums.are_finite() && squares * (h * h) - nought <= P::Real::HALF * most
 }
 
 /// Body by body: what may be at fault need not be.

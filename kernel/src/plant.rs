@@ -200,7 +200,7 @@ where
             return self.fail(cause);
         }
         self.sample();
-        self.status
+        Status::Running
     }
 
     /// One step without the guards and whatever the status, which it leaves: for those who guard

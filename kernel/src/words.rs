@@ -121,22 +121,42 @@ impl WordVisitor for Finite {
     }
 }
 
-/// What is finite only where every number visited so far is.
+/// What tells whether every number visited so far is finite.
 pub(crate) struct Sums {
-    /// The sum of single-precision numbers: one addition each.
-    single: f32,
+    /// The sum of products of two single-precision numbers each, of which one that is not finite leaves
+    /// no other: two numbers by one operation.
+    products: f32,
+    /// The number that waits for a second one.
+    waiting: Option<f32>,
     /// Its highest bit is set by an exponent of ones, the mark of what is not finite, in the upper
     /// halves of double-precision numbers: in integers, for the target adds those in software.
     double: u32,
 }
 
 impl Sums {
-    pub(crate) const ZERO: Self = Self { single: 0.0, double: 0 };
+    pub(crate) const ZERO: Self = Self { products: 0.0, waiting: None, double: 0 };
 
-    /// Whether every number was finite for sure: the sum of finite numbers may overflow, too.
+    /// Ends a body: the next begins a product anew, so that the compiler knows who waits.
+    #[inline(always)]
+    pub(crate) fn end(&mut self) {
+        if let Some(x) = self.waiting.take() {
+            self.products += x;
+        }
+    }
+
+    /// Whether every double-precision number was finite.
     #[inline(always)]
     pub(crate) fn are_finite(&self) -> bool {
-        self.double >> 31 == 0 && self.single.is_finite()
+        self.double >> 31 == 0
+    }
+
+    /// 0 where every single-precision number until an end was finite for sure, else no number: products
+    /// and sums of finite numbers may overflow, too.
+    // As for a vector of space.
+    #[allow(clippy::eq_op)]
+    #[inline(always)]
+    pub(crate) fn nought(&self) -> f32 {
+        self.products - self.products
     }
 }
 
@@ -144,7 +164,10 @@ impl WordVisitor for Sums {
     #[inline(always)]
     fn word(&mut self, word: Word) {
         match word {
-            Word::F32(x) => self.single += x,
+            Word::F32(x) => match self.waiting.take() {
+                Some(other) => self.products += other * x,
+                None => self.waiting = Some(x),
+            },
             Word::F64(x) => {
                 let upper = (x.to_bits() >> 32) as u32;
                 self.double |= (upper & (u32::MAX >> 1)) + (1 << 20);
@@ -212,7 +235,8 @@ mod tests {
         let are_finite = |words: &dyn Fn(&mut Sums)| {
             let mut sums = Sums::ZERO;
             words(&mut sums);
-            sums.are_finite()
+            sums.end();
+            sums.are_finite() && sums.nought() == 0.0
         };
         for x in [0.0, -0.0, 5e-324, 1.0, f64::MAX, f64::MIN] {
             assert!(are_finite(&|sums| Vec3::new(x, x, x).visit(sums)), "{x:e}");
@@ -228,8 +252,11 @@ mod tests {
                 assert!(!are_finite(&|sums| v.visit(sums)), "{x}");
             }
         }
-        let opposite = Vec3::new(f32::INFINITY, f32::NEG_INFINITY, 0.0);
-        assert!(!are_finite(&|sums| opposite.visit(sums)));
+        let infinity = f32::INFINITY;
+        for (x, y, z) in [(infinity, -infinity, 0.0), (0.0, infinity, 0.0), (0.0, 0.0, -infinity)] {
+            assert!(!are_finite(&|sums| Vec3::new(x, y, z).visit(sums)));
+        }
+        assert!(are_finite(&|sums| Vec3::new(1e19_f32, -1e19, f32::MAX).visit(sums)));
     }
 
     #[test]
