@@ -137,6 +137,11 @@ pub trait Real:
         }
         values
     }
+    /// [`Self::roots`] for who has little else at hand: by a call where that is cheaper then.
+    #[inline(always)]
+    fn roots_apart<const N: usize>(values: [Self; N]) -> [Self; N] {
+        Self::roots(values)
+    }
     /// Whether the number is neither infinite nor NaN.
     fn is_finite(self) -> bool;
     /// The number's stored word.
@@ -384,6 +389,10 @@ impl Real for f32 {
     #[inline(always)]
     fn roots<const N: usize>(values: [Self; N]) -> [Self; N] {
         crate::square_root::roots_f32(values)
+    }
+    #[inline(always)]
+    fn roots_apart<const N: usize>(values: [Self; N]) -> [Self; N] {
+        crate::square_root::roots_apart_f32(values)
     }
     #[inline(always)]
     fn is_finite(self) -> bool {

@@ -19,8 +19,8 @@ pub fn sqrt_f32(x: f32) -> f32 {
 
 /// √x in single precision, by VSQRT: the hard-float ABI implies the FPU.
 // `s0` is named and passed through a core register because stable Rust refuses the register
-// class `sreg` on this target; a function in `global_asm!` would cost a call and the spilling of
-// every caller-saved register of the FPU.
+// class `sreg` on this target; a function would cost a call and the spilling of every caller-saved
+// register of the FPU: see `roots_apart_f32` for where there is nothing to spill.
 #[cfg(all(target_arch = "arm", target_os = "none", target_abi = "eabihf"))]
 #[allow(unsafe_code)]
 #[inline(always)]
@@ -83,6 +83,45 @@ fn roots_of_pair([a, b]: [f32; 2]) -> [f32; 2] {
     [f32::from_bits(root_a), f32::from_bits(root_b)]
 }
 
+/// [`roots_f32`] for who has so little else at hand that the registers hold it which a call leaves alone:
+/// a call takes numbers and gives roots where arithmetic has them, without a way through core registers.
+#[cfg(not(all(target_arch = "arm", target_os = "none", target_abi = "eabihf")))]
+#[inline(always)]
+pub fn roots_apart_f32<const N: usize>(values: [f32; N]) -> [f32; N] {
+    roots_f32(values)
+}
+
+#[cfg(all(target_arch = "arm", target_os = "none", target_abi = "eabihf"))]
+pub use call::roots_apart_f32;
+
+/// Roots by a call.
+#[cfg(all(target_arch = "arm", target_os = "none", target_abi = "eabihf"))]
+mod call {
+    #[repr(C)]
+    struct Pair(f32, f32);
+
+    // SAFETY: by the hard-float ABI two numbers are handed over and given back in `s0` and `s1`, which it
+    // writes and nothing else. Only functions know the target's FPU by themselves, hence the first line.
+    #[allow(unsafe_code)]
+    #[unsafe(naked)]
+    extern "C" fn roots_of_pair(_: f32, _: f32) -> Pair {
+        core::arch::naked_asm!(".fpu fpv4-sp-d16", "vsqrt.f32 s0, s0", "vsqrt.f32 s1, s1", "bx lr")
+    }
+
+    #[inline(always)]
+    pub fn roots_apart_f32<const N: usize>(mut values: [f32; N]) -> [f32; N] {
+        let (pairs, rest) = values.as_chunks_mut();
+        for pair in pairs {
+            let Pair(a, b) = roots_of_pair(pair[0], pair[1]);
+            *pair = [a, b];
+        }
+        for value in rest {
+            *value = super::sqrt_f32(*value);
+        }
+        values
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -95,7 +134,8 @@ mod tests {
             let r = sqrt_f32(x);
             let exact = sqrt_f64(f64::from(x));
             assert_eq!(r, exact as f32, "{x:e}");
-            assert_eq!(roots_f32([x, 2.0, x]), [r, core::f32::consts::SQRT_2, r]);
+            let roots = [r, core::f32::consts::SQRT_2, r];
+            assert_eq!([roots_f32([x, 2.0, x]), roots_apart_f32([x, 2.0, x])], [roots; 2]);
             x *= 1.37;
         }
         assert_eq!(sqrt_f64(2.0), core::f64::consts::SQRT_2);

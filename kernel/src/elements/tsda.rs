@@ -67,7 +67,8 @@ impl<R: Real> Tsda<R> {
         for (square, Reach { way, .. }) in squares.iter_mut().zip(reaches) {
             *square = way.dot(*way) + R::constant(LEAST_SQUARE);
         }
-        R::roots(squares)
+        // A joint of the plane has little else at hand.
+        if V::DIMENSION == 2 { R::roots_apart(squares) } else { R::roots(squares) }
     }
 
     /// [`Self::pull`] of several without clearance.
