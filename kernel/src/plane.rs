@@ -22,6 +22,7 @@ impl<R: Real> Space for Plane<R> {
     type Moment = Axial<R>;
     type Turn = Heading<R>;
     type Row = [R; 3];
+    type Filler = Filler;
 
     const NAME: &'static str = "planar";
     const PLANAR: bool = true;
@@ -58,6 +59,12 @@ impl<R: Real> Space for Plane<R> {
     #[inline(always)]
     fn take_across(_: R, _: Vec2<R>, _: &mut [[R; 3]; 3]) {}
 }
+
+/// Nothing, at an address that is a multiple of eight: three numbers of single precision beside it take the
+/// room of four.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(align(8))]
+pub struct Filler;
 
 /// A vector in the plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

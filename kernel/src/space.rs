@@ -131,6 +131,9 @@ pub trait Space: Copy + Debug + Default + PartialEq + 'static {
     type Turn: Turn<Real = Self::Real, Moment = Self::Moment>;
     /// One number per freedom of a body.
     type Row: Freedoms<Real = Self::Real>;
+    /// What a wrench ends with: nothing, or what makes its length a power of two, so that a body's is found
+    /// without a multiplication.
+    type Filler: Copy + Debug + Default + PartialEq + Send + 'static;
 
     /// The name users give: `spatial`, `planar`.
     const NAME: &'static str;
@@ -165,6 +168,7 @@ impl<R: Real> Space for R {
     type Moment = Vec3<R>;
     type Turn = Quaternion<R>;
     type Row = [R; 6];
+    type Filler = ();
 
     const NAME: &'static str = "spatial";
     const PLANAR: bool = false;

@@ -224,10 +224,8 @@ impl<V: Register> Part<V> {
                 (tx, ty, tz) = (tx + done[3], ty + done[4], tz + done[5]);
             }
             let pose = Pose::from_numbers(load(&poses, first));
-            let wrench = Wrench {
-                force: Vec3::new(fx, fy, fz),
-                torque: Float::<Lanes<V>>::moment_to_body(&pose, Vec3::new(tx, ty, tz)),
-            };
+            let torque = Float::<Lanes<V>>::moment_to_body(&pose, Vec3::new(tx, ty, tz));
+            let wrench = Wrench::new(Vec3::new(fx, fy, fz), torque);
             if ends {
                 parts::kick::<Float<Lanes<V>>>(state, &wrench, diagonal);
                 let turn = state.angular_velocity * h;

@@ -211,7 +211,7 @@ fn start<P: Geometry, T: Terms>(
             None if P::FALLS => -P::Vector::ZERO,
             None => P::Vector::ZERO,
         };
-        *wrench = Wrench { force, torque: P::Moment::ZERO };
+        *wrench = Wrench::new(force, P::Moment::ZERO);
     }
     if T::LOADS {
         for (load, window) in model.loads.iter().zip(windows) {

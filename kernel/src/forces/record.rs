@@ -12,6 +12,15 @@ pub struct Wrench<S: Space> {
     pub force: S::Vector,
     /// \[N·m\] torque about the centre of mass, body axes once the evaluation is complete.
     pub torque: S::Moment,
+    filler: S::Filler,
+}
+
+impl<S: Space> Wrench<S> {
+    /// A force \[N\], world axes, and a torque \[N·m\].
+    #[inline(always)]
+    pub fn new(force: S::Vector, torque: S::Moment) -> Self {
+        Self { force, torque, filler: Default::default() }
+    }
 }
 
 /// What a group does to its two bodies, world axes: force and torque of A, and of B the opposite of its

@@ -112,7 +112,7 @@ impl<S: Space> System<'_, S> {
 
 fn wrench<S: Space>(row: S::Row) -> Wrench<S> {
     let (force, torque) = S::parts(row);
-    Wrench { force, torque }
+    Wrench::new(force, torque)
 }
 
 #[cfg(test)]

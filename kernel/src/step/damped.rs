@@ -85,7 +85,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
                 if let Some(fall) = fall {
                     kick.linear = kick.linear + fall;
                 }
-                *wrench = Wrench { force: kick.linear, torque: kick.angular };
+                *wrench = Wrench::new(kick.linear, kick.angular);
                 P::accelerate(&mut state.velocity, kick.linear);
                 P::spin_up(&mut state.angular_velocity, kick.angular);
             }
