@@ -187,15 +187,14 @@ where
         if !self.status.is_running() {
             return self.status;
         }
+        // Counted before it is done: nothing of the counter is then kept through it.
         let step = self.state.step;
-        if step == u64::MAX {
-            return self.fail(Cause::Steps);
-        }
-        let cause = match self.attempt() {
+        let Some(next) = step.checked_add(1) else { return self.fail(Cause::Steps) };
+        self.state.step = next;
+        let cause = match self.attempt(step) {
             Ok(()) => self.fault(),
             Err(cause) => Some(cause),
         };
-        self.state.step = step + 1;
         if let Some(cause) = cause {
             return self.fail(cause);
         }
@@ -210,14 +209,16 @@ where
     /// What the scheme could not do.
     #[inline(always)]
     pub fn step_unguarded(&mut self) -> Result<(), Cause> {
-        let done = self.attempt();
-        self.state.step = self.state.step.wrapping_add(1);
+        let step = self.state.step;
+        self.state.step = step.wrapping_add(1);
+        let done = self.attempt(step);
         self.sample();
         done
     }
 
+    /// What the scheme does in the step of this number.
     #[inline(always)]
-    fn attempt(&mut self) -> Result<(), Cause> {
+    fn attempt(&mut self, step: u64) -> Result<(), Cause> {
         let model = self.model.view();
         let workspace = Workspace {
             model,
@@ -235,7 +236,7 @@ where
             signals: self.state.signals.as_mut(),
             bodies: self.state.bodies.as_mut(),
             turns: self.state.turns.as_mut(),
-            step: self.state.step,
+            step,
             frames: self.frames.as_mut(),
             wrenches: self.wrenches.as_mut(),
             in_line: self.in_line,
