@@ -86,9 +86,22 @@ impl Kept {
     /// Adds to both words.
     #[inline(always)]
     pub(crate) fn add_to_both(&mut self, increment: Vec3<f32>) {
-        add_to_both(&mut self.sum.x, &mut self.lost.x, increment.x);
-        add_to_both(&mut self.sum.y, &mut self.lost.y, increment.y);
-        add_to_both(&mut self.sum.z, &mut self.lost.z, increment.z);
+        self.add_to_both_across::<3>(increment);
+    }
+
+    /// The same but for component `AXIS`.
+    #[inline(always)]
+    pub(crate) fn add_to_both_across<const AXIS: usize>(&mut self, increment: Vec3<f32>) {
+        let Self { sum, lost } = self;
+        if AXIS != 0 {
+            add_to_both(&mut sum.x, &mut lost.x, increment.x);
+        }
+        if AXIS != 1 {
+            add_to_both(&mut sum.y, &mut lost.y, increment.y);
+        }
+        if AXIS != 2 {
+            add_to_both(&mut sum.z, &mut lost.z, increment.z);
+        }
     }
 
     #[inline(always)]
@@ -223,6 +236,7 @@ impl Geometry for CompensatedF32 {
     type Location = Vec3<f32>;
     type Frame = Pose<f32>;
     type Rest = ();
+    type Apart = ();
 
     const NAME: &'static str = "f32-compensated";
 

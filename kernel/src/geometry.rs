@@ -10,8 +10,9 @@ use core::fmt::Debug;
 use core::marker::PhantomData;
 
 use crate::attitude::Attitude;
+use crate::reach::{AtRest, Beside, Beyond, Reach};
 use crate::real::Real;
-use crate::space::{Linear, Moment, Space, Vector};
+use crate::space::{Linear as _, Moment, Space, Vector};
 use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::Words;
 
@@ -27,15 +28,6 @@ pub struct Limits {
     pub drift: f64,
     /// \[m\] the ground that an input moves.
     pub shift: f64,
-}
-
-/// The way from one point to another, and what is known of its length beside a free one.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Reach<V: Linear> {
-    /// \[m\] world axes.
-    pub way: V,
-    /// \[m²\] by how much its square is more than that of the free length, `None` where the way tells as well.
-    pub more: Option<V::Real>,
 }
 
 /// How a precision stores and combines positions and velocities, and which attitude goes with them.
@@ -64,6 +56,8 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     type Frame: Copy + Debug + Default + Send;
     /// What it keeps of a TSDA at rest, `()` where it keeps nothing.
     type Rest: Copy + Debug + Default + Send;
+    /// How one body stands to another, `()` where nothing is kept at rest.
+    type Apart: Copy + Default;
 
     /// The name users give: `f64`, `f32`.
     const NAME: &'static str;
@@ -107,26 +101,53 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     /// Whether TSDAs are kept at rest: how far the centre of a star is from where it rests in B is known better
     /// than how far it is from the points of B.
     const RESTS: bool = false;
-    /// A TSDA of a star at rest, whose centre is where `centre` is in the axes of the body of `frame`: near it,
-    /// and for all of a star where it is for the `first` of them, a point of that body and its rest.
-    fn rest(
+    /// The TSDAs of a star at rest, whose centre is at `centre`, in the axes of the body of `frame`, whose points
+    /// `tips` it is joined to.
+    fn find_rests(
         _frame: &Self::Frame,
         _centre: &Self::Location,
-        _tip: &Self::Local,
-        _first: Option<(&Self::Local, &Self::Rest)>,
-        _free_length: Self::Real,
-    ) -> Self::Rest {
-        Self::Rest::default()
+        _tips: &[Self::Local],
+        _free_lengths: &[Self::Real],
+        _rests: &mut [Self::Rest],
+    ) {
     }
-    /// Where the centre of a star rests, given a point of its body and its rest.
+    /// How A stands to B, `None` the ground, which may be moved: what all stars of a joint take.
     #[inline(always)]
-    fn centre(tip: &Self::Local, _rest: &Self::Rest) -> Self::Local {
-        *tip
+    fn apart(
+        _a: Option<&Self::Frame>,
+        _moved: Option<Self::Vector>,
+        _b: &Self::Frame,
+    ) -> Self::Apart {
+        Self::Apart::default()
     }
-    /// The way of a TSDA at rest whose centre is `off` \[m\] from where it rests; all in body axes.
+    /// Where the centre of a star, a point of A, is beside where it rests in B; `tip` is the star's first point of B.
     #[inline(always)]
-    fn reach_at_rest(_rest: &Self::Rest, off: Self::Vector) -> Reach<Self::Vector> {
-        Reach { way: off, more: None }
+    fn beside<const ARMS: usize>(
+        _apart: &Self::Apart,
+        (_a, _centre): (Option<&Self::Frame>, &Self::Local),
+        (_b, _tip): (&Self::Frame, &Self::Local),
+        _rests: &[Self::Rest; ARMS],
+    ) -> Beside<Self::Vector> {
+        Beside::default()
+    }
+    /// Where the centre of a second star is beyond that of the first.
+    #[inline(always)]
+    fn beyond<const ARMS: usize>(
+        (_a, _centres): (Option<&Self::Frame>, [&Self::Local; 2]),
+        (_b, _tip): (&Self::Frame, &Self::Local),
+        _rests: [&[Self::Rest; ARMS]; 2],
+    ) -> Beyond<Self::Vector> {
+        Beyond::default()
+    }
+    /// A TSDA at rest as its law has it.
+    #[inline(always)]
+    fn at_rest(_rest: &Self::Rest) -> AtRest<Self::Vector> {
+        AtRest::default()
+    }
+    /// \[m²\] below which square of what a star's centre is off its TSDAs are near their rest.
+    #[inline(always)]
+    fn near_rest(_rest: &Self::Rest) -> Self::Real {
+        Self::Real::ZERO
     }
     /// Body axes to world axes.
     fn to_world(frame: &Self::Frame, v: Self::Vector) -> Self::Vector;
@@ -160,6 +181,11 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     }
     /// Adds an increment to a stored angular velocity.
     fn spin_up(stored: &mut Self::Spin, increment: Self::Moment);
+    /// [`Self::spin_up`] by an increment that has no component about body axis `AXIS`.
+    #[inline(always)]
+    fn spin_up_across<const AXIS: usize>(stored: &mut Self::Spin, increment: Self::Moment) {
+        Self::spin_up(stored, increment);
+    }
     /// [`Self::spin_up`] by nothing: takes in what a stored angular velocity is owed.
     #[inline(always)]
     fn settle(stored: &mut Self::Spin) {
@@ -167,6 +193,12 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     }
     /// Adds a displacement to a stored position.
     fn translate(position: &mut Self::Position, displacement: Self::Vector);
+
+    /// Adds to a stored position what its velocity does in `time` \[s\].
+    #[inline(always)]
+    fn fly(position: &mut Self::Position, velocity: &Self::Velocity, time: Self::Real) {
+        Self::translate(position, Self::velocity(velocity) * time);
+    }
 
     /// Turns about body axis `AXIS` by its `rate` for `time` \[s\], given cosine and sine of half the angle.
     #[inline(always)]
@@ -178,6 +210,11 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     ) {
         let _ = (rate, time);
         Self::Orientation::turn_about::<AXIS>(orientation, cos, sin);
+    }
+    /// Brings an orientation back to unit length after [`Self::turn_about`], where that did not.
+    #[inline(always)]
+    fn renormalise(orientation: &mut Self::Orientation) {
+        orientation.renormalise();
     }
     /// Whether a position is within the limits, and no drift before it was beyond them.
     #[inline(always)]
@@ -276,6 +313,7 @@ impl<R: Real + Named, A: Attitude<Real = R, Turn = Quaternion<R>>> Geometry for 
     type Location = Vec3<R>;
     type Frame = Pose<R>;
     type Rest = ();
+    type Apart = ();
 
     const NAME: &'static str = R::NAME;
 

@@ -42,9 +42,9 @@ fn are_well<P: Geometry>(bodies: &[BodyState<P>], h: P::Real, most: P::Real) -> 
     for state in bodies {
         state.position.visit(&mut sums);
         state.orientation.visit(&mut sums);
-        state.velocity.visit(&mut sums);
+        // What of a velocity is no number or infinite is so of its value, and of a spin of its square.
+        P::velocity(&state.velocity).visit(&mut sums);
         sums.end();
-        // What is no number or infinite of a spin is so of its square.
         let rate = P::spin(&state.angular_velocity);
         squares = squares + rate.dot(rate);
     }

@@ -9,7 +9,7 @@
 //! - [`words`], `square_root`, [`real`], [`vector`], [`freedoms`], [`space`], [`plane`], [`arctangent`]: the
 //!   arithmetic, also of blocks of numbers, and the words in which it is stored.
 //! - `compositions`, [`index`]: coefficients, and names of a model's parts.
-//! - [`attitude`], [`geometry`], [`compensated`], [`fixed`], [`planar`], [`euler`], [`loose`]: a precision
+//! - [`attitude`], [`reach`], [`geometry`], [`compensated`], [`fixed`], [`planar`], [`euler`], [`loose`]: a precision
 //!   is a type: [`F64`], [`F32`], [`CompensatedF32`], [`Fixed`], in the plane [`Planar64`], [`Planar32`]; an
 //!   orientation is a quaternion or, as in the paper, angles.
 //! - [`body`], [`rotation`], `lockstep`: one rigid body, and how it turns, alone or in lanes.
@@ -97,6 +97,7 @@ pub mod planar;
 pub mod plane;
 pub mod plant;
 mod pose;
+pub mod reach;
 pub mod readouts;
 pub mod real;
 mod refusal;

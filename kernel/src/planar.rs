@@ -44,6 +44,7 @@ impl<R: Real + Named> Geometry for Planar<R> {
     type Location = Vec2<R>;
     type Frame = PlanarPose<R>;
     type Rest = ();
+    type Apart = ();
 
     const NAME: &'static str = R::NAME;
 

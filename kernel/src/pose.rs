@@ -113,6 +113,18 @@ impl<'s, P: Geometry> End<'s, P> {
         }
     }
 
+    /// How this end stands to a body's; `None` where the other is none.
+    #[inline(always)]
+    pub(crate) fn apart(&self, b: &Self) -> Option<P::Apart> {
+        Some(P::apart(self.frame, self.moved, b.frame?))
+    }
+
+    /// The frame of its body, `None` of the ground.
+    #[inline(always)]
+    pub(crate) fn frame(&self) -> Option<&'s P::Frame> {
+        self.frame
+    }
+
     /// This end where it is a body's, known to be one.
     #[inline(always)]
     pub(crate) fn body(&self) -> Option<Self> {

@@ -8,7 +8,7 @@
 
 use crate::elements::clearance::{beyond, engaged};
 use crate::elements::point_law::{PointLaw, Stretch, taut};
-use crate::geometry::Reach;
+use crate::reach::{AtRest, Reach};
 use crate::real::{Constant, Real};
 use crate::space::{Linear, Vector};
 
@@ -88,6 +88,35 @@ impl<R: Real> Tsda<R> {
             pulls[i] = reaches[i].way * (springs[i].stiffness * beyond * (R::ONE / divisor));
         }
         pulls
+    }
+
+    /// What the springs of a star pull its centre by without clearance, the centre `off` \[m\] from where it rests
+    /// and `square` \[m²\] that, less than a quarter of any of their ways long. With w the way at rest and o what it
+    /// is off, of the way w − o both the square and what it is more than that of the free length change by
+    /// o·o − 2·o·w: what is left of large numbers has the digits of small ones.
+    #[inline(always)]
+    pub(crate) fn pull_near_rest<V: Linear<Real = R>, const N: usize>(
+        springs: &[Self; N],
+        rests: &[AtRest<V>; N],
+        (off, square): (V, R),
+    ) -> V {
+        let twice = off + off;
+        let (mut squares, mut mores) = ([R::ZERO; N], [R::ZERO; N]);
+        for ((length, more), rest) in squares.iter_mut().zip(&mut mores).zip(rests) {
+            let change = square - twice.dot(rest.way);
+            (*length, *more) = (rest.square + change, rest.more + change);
+        }
+        let lengths = R::roots(squares);
+        // From the first term on.
+        let (mut pull, mut sum) = (V::ZERO, R::ZERO);
+        for i in 0..N {
+            // (L − L0)/L = (L² − L0²)/(L² + L·L0).
+            let of_way = springs[i].stiffness * mores[i]
+                / (squares[i] + lengths[i] * springs[i].free_length);
+            let along = rests[i].way * of_way;
+            (pull, sum) = if i == 0 { (along, of_way) } else { (pull + along, sum + of_way) };
+        }
+        pull - off * sum
     }
 
     /// \[m\] how much longer than its free length a reach of this `length` is.

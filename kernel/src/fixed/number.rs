@@ -68,9 +68,19 @@ pub(crate) fn exact_product(sum: f32, lost: f32, factor: f32) -> (f32, f32) {
     (a * p, a * q + (b - lost) * factor)
 }
 
+/// `value·2^(WHOLE + 32)` but for its last two bits, cut off towards zero: the upper word by `2^WHOLE`, what it leaves
+/// the lower. For what 64 bits hold.
+#[inline(always)]
+pub(crate) fn in_words<const WHOLE: i32>(value: f32) -> i64 {
+    let scaled = value * const { single_power(WHOLE) };
+    let whole = scaled as i32;
+    let part = (scaled - whole as f32) * const { single_power(30) };
+    (i64::from(whole) << 32).wrapping_add(i64::from(part as i32) << 2)
+}
+
 /// The nearest multiple of 2^32, over it, and what is left.
 #[inline(always)]
-fn halves(value: i64) -> (i32, i32) {
+pub(crate) fn halves(value: i64) -> (i32, i32) {
     let low = value as i32;
     (((value >> 32) as i32).wrapping_add(i32::from(low < 0)), low)
 }
@@ -82,17 +92,43 @@ pub(crate) fn nearest_f32<const BITS: i32>(value: i64) -> f32 {
     high as f32 * const { single_power(32 - BITS) } + low as f32 * const { single_power(-BITS) }
 }
 
+/// The sum of products of numbers in halves, in units of 2^64: within 2 of them. The sum of what is across is to
+/// stay below 2^63: that of components of one unit quaternion does.
+#[inline(always)]
+pub(crate) fn sum_of_products<const N: usize>(pairs: [((i32, i32), (i32, i32)); N]) -> i64 {
+    let (mut upper, mut across) = (0_i64, 0_i64);
+    for ((a, a_low), (b, b_low)) in pairs {
+        let [a, a_low, b, b_low] = [a, a_low, b, b_low].map(i64::from);
+        upper += a * b;
+        across += a * b_low;
+        across += a_low * b;
+    }
+    upper + (across >> 32)
+}
+
+/// The square of a number in halves, likewise.
+#[inline(always)]
+pub(crate) fn square_of_halves((high, low): (i32, i32)) -> i64 {
+    let [high, low] = [high, low].map(i64::from);
+    high * high + 2 * ((high * low) >> 32)
+}
+
 /// The sum of squares, in units of 2^64: within 3 of them. For components below 2^61.
 #[inline(always)]
 pub(crate) fn squared<const N: usize>(components: &[i64; N]) -> i64 {
+    sum_of_squares(components.map(halves))
+}
+
+/// The same of numbers in halves.
+#[inline(always)]
+pub(crate) fn sum_of_squares<const N: usize>(components: [(i32, i32); N]) -> i64 {
     let (mut upper, mut across) = (0_i64, 0_i64);
-    for &c in components {
-        let (high, low) = halves(c);
+    for (high, low) in components {
         let (high, low) = (i64::from(high), i64::from(low));
         upper += high * high;
         across += high * low;
     }
-    upper + (across >> 31)
+    upper + 2 * (across >> 32)
 }
 
 /// The square of a length below 32 m that single precision holds, in the units of [`squared`] of places:

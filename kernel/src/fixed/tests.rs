@@ -2,6 +2,7 @@ use super::number::tests::words;
 use super::*;
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
+use crate::elements::tsda::Tsda;
 use crate::index::BodyIndex;
 use crate::plant::Plant;
 use crate::schemes::Leapfrog;
@@ -247,14 +248,10 @@ fn stars_from_where_they_rested_pull_as_their_points_do() {
         let turn = FixedTurn::from_f64(unit(&mut numbers));
         let frame = Fixed::frame(&FixedPlace::new(at), &turn);
         let (start, _) = Fixed::place(&frame, &FixedPoint::new(local));
-        let mut first = None;
-        let rests = tips.map(|tip| {
-            let tip = FixedPoint::new(tip);
-            let rest = Fixed::rest(&frame, &start, &tip, first.as_ref().map(|(t, r)| (t, r)), 0.3);
-            first = first.or(Some((tip, rest)));
-            (tip, rest)
-        });
-        let centre = Fixed::centre(&rests[0].0, &rests[0].1);
+        let tips = tips.map(FixedPoint::new);
+        let mut rests = [Rest::default(); 3];
+        Fixed::find_rests(&frame, &start, &tips, &[0.3; 3], &mut rests);
+        let centre = FixedPoint { at: rests.map(|rest| -i64::from(rest.less)) };
         let near = difference(centre.at, FixedPoint::new(local).at);
         // As single precision holds the first way, of up to 0.9 m.
         assert!(near.iter().all(|c| c.abs() <= 8), "{near:?}");
@@ -263,10 +260,20 @@ fn stars_from_where_they_rested_pull_as_their_points_do() {
         let frame = Fixed::frame(&FixedPlace::new(at.map(|c| 0.5 - c)), &turn);
         let (resting, _) = Fixed::place(&frame, &centre);
         let moved = FixedPlace { at: sum(resting.at, FixedPlace::new(shift).at) };
-        let off = Fixed::to_body(&frame, Fixed::displacement(&resting, &moved));
+        let apart = difference(moved.at, frame.position);
+        let none = FixedPoint::default();
+        let beside = Fixed::beside(&apart, (None, &none), (&frame, &tips[0]), &rests);
+        let exact = Fixed::displacement(&resting, &moved);
+        assert_eq!(beside.off, exact);
+        // A star of its own with one point: where it rests is told by that.
+        let alone = Fixed::beside(&apart, (None, &none), (&frame, &tips[0]), &[rests[0]]);
+        assert_eq!(alone, beside);
+        let arm = beside.arm_b - nearest::<PLACE>(apart);
+        assert!(arm.dot(arm) == 0.0 && beside.arm_a == Vec3::ZERO);
+        let off = Fixed::to_body(&frame, beside.off);
         let far = f64::from(off.dot(off)).sqrt();
-        for (tip, rest) in rests {
-            let reach = Fixed::reach_at_rest(&rest, off);
+        for (tip, rest) in tips.into_iter().zip(rests) {
+            let reach = Fixed::at_rest(&rest).reach(off);
             let (tip, _) = Fixed::place(&frame, &tip);
             let way = Fixed::to_world(&frame, reach.way);
             let exact = Fixed::displacement(&moved, &tip);
@@ -287,8 +294,82 @@ fn a_star_that_lies_far_off_rests_at_a_point_that_a_body_may_have() {
     let frame = Fixed::frame(&FixedPlace::default(), &FixedTurn::default());
     for at in [[20.0, -20.0, 0.0], [24.0; 3], [-24.0; 3]] {
         let tip = FixedPoint::new([0.1, 0.2, -0.3]);
-        let rest = Fixed::rest(&frame, &FixedPlace::new(at), &tip, None, 1.0);
-        let centre = Fixed::local_to_f64(&Fixed::centre(&tip, &rest));
+        let mut rests = [Rest::default(); 3];
+        Fixed::find_rests(&frame, &FixedPlace::new(at), &[tip; 3], &[1.0; 3], &mut rests);
+        let centre = rests.map(|rest| f64::from(rest.less) / 27.0_f64.exp2());
         assert!(centre.iter().all(|c| c.abs() <= LIMITS.reach + 1e-6), "{centre:?}");
+    }
+}
+
+/// Of two stars of a joint, the second from the first: as by itself.
+#[test]
+fn a_second_star_is_as_far_beyond_the_first_as_it_is_off() {
+    let mut numbers = units(18);
+    for i in 0..10_000 {
+        let mut vector = |scale: f64| core::array::from_fn(|_| numbers.next().unwrap() * scale);
+        let [a, b] = [vector(3.0), vector(3.0)].map(FixedPlace::new);
+        let [centres, tips]: [[FixedPoint; 2]; 2] =
+            [0.5, 0.4].map(|scale| [(); 2].map(|()| FixedPoint::new(vector(scale))));
+        let turns = [(); 2].map(|()| FixedTurn::from_f64(unit(&mut numbers)));
+        let (a, b) = (Fixed::frame(&a, &turns[0]), Fixed::frame(&b, &turns[1]));
+        let of_a = if i % 2 == 0 { Some(&a) } else { None };
+        let rests = tips.map(|tip| {
+            let mut rests = [Rest::default(); 3];
+            let at = FixedPlace::new([0.1, 0.2, 0.3]);
+            Fixed::find_rests(&b, &at, &[tip; 3], &[1.0; 3], &mut rests);
+            rests
+        });
+        let apart = Fixed::apart(of_a, None, &b);
+        let [first, second] = [0, 1].map(|star| {
+            Fixed::beside(&apart, (of_a, &centres[star]), (&b, &tips[0]), &rests[star])
+        });
+        let (ends, stars) = ((of_a, centres.each_ref()), rests.each_ref());
+        let beyond = Fixed::beyond(ends, (&b, &tips[0]), stars);
+        for (by, beside) in
+            [(beyond.off, second.off - first.off), (beyond.way, second.arm_b - first.arm_b)]
+        {
+            let apart = (by - beside).dot(by - beside).sqrt();
+            assert!(apart < 3e-6, "{by:?} {beside:?}");
+        }
+    }
+}
+
+/// Near its rest a star pulls as it does by the ways of its springs.
+#[test]
+fn a_star_near_its_rest_pulls_as_its_springs_do() {
+    let mut numbers = units(19);
+    for i in 0..30_000 {
+        let mut vector =
+            |scale: f64| -> [f64; 3] { core::array::from_fn(|_| numbers.next().unwrap() * scale) };
+        let tips: [FixedPoint; 3] = core::array::from_fn(|_| FixedPoint::new(vector(0.4)));
+        let frame = Fixed::frame(&FixedPlace::default(), &FixedTurn::default());
+        let free_lengths: [f32; 3] = [[0.3, 0.1, 0.5], [0.2; 3]][i % 2];
+        let mut rests = [Rest::default(); 3];
+        Fixed::find_rests(&frame, &FixedPlace::default(), &tips, &free_lengths, &mut rests);
+        let off = Vec3::from_f64(vector([1e-7, 1e-4, 0.05][i % 3]));
+        let square = off.dot(off);
+        if square >= rests[0].near {
+            continue;
+        }
+        let springs = free_lengths.map(|free_length| Tsda { stiffness: 1e6, free_length });
+        let near = Tsda::pull_near_rest(&springs, &rests.map(|rest| rest.at), (off, square));
+        let (mut exact, mut size) = ([0.0_f64; 3], 0.0);
+        for (rest, spring) in rests.iter().zip(&springs) {
+            let ([x, y, z], [p, q, r]) = (rest.at.way.to_f64(), off.to_f64());
+            let way = [x - p, y - q, z - r];
+            let length = libm::sqrt(way.iter().map(|c| c * c).sum());
+            let free = f64::from(spring.free_length);
+            // The square of a way of single precision is not quite what the rest knows.
+            let more =
+                f64::from(rest.at.more) + (p * p + q * q + r * r - 2.0 * (p * x + q * y + r * z));
+            let tension = 1e6 * more / (length + free);
+            size += tension.abs();
+            for (sum, c) in exact.iter_mut().zip(way) {
+                *sum += tension * c / length;
+            }
+        }
+        for (c, exact) in near.to_f64().into_iter().zip(exact) {
+            assert!((c - exact).abs() < 1e-6 * size, "{off:?}: {c} {exact}");
+        }
     }
 }

@@ -5,7 +5,10 @@
 //! its own. A turn that is no rotation, one of several radians, leaves zero, which stays zero.
 
 use crate::attitude::Attitude;
-use crate::fixed::number::{from_f32, from_f64, product, squared, to_f32, to_f64};
+use crate::fixed::number::{
+    from_f32, from_f64, halves, in_words, product, square_of_halves, squared, sum_of_products,
+    sum_of_squares, to_f32, to_f64,
+};
 use crate::real::Real as _;
 use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::{Word, WordSource, WordVisitor, Words};
@@ -16,6 +19,8 @@ const BITS: i32 = 62;
 const LITTLE: i64 = 1 << (BITS - 48);
 /// 1 with 60 bits after the point.
 const ONE: i64 = 1 << 60;
+/// Half an angle that a turn takes at once.
+const MOST: f32 = 0.25;
 
 /// A unit quaternion, 62 bits after the point, scalar first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,36 +57,54 @@ impl FixedTurn {
     #[inline(always)]
     pub(crate) fn turn_exactly<const AXIS: usize>(&mut self, (whole, rest): (f32, f32)) {
         let half = whole + rest;
+        // The sine has room up to a half, and no step that is any good gets there.
+        if half.abs() <= MOST {
+            self.turn_a_little::<AXIS>((whole, rest));
+        } else {
+            self.turn_in_parts::<AXIS>((whole, rest));
+        }
+    }
+
+    /// The same in four parts, or none where it is several radians or no number.
+    #[cold]
+    #[inline(never)]
+    fn turn_in_parts<const AXIS: usize>(&mut self, (whole, rest): (f32, f32)) {
+        let half = whole + rest;
         if half.abs() > 1.0 || half.is_nan() {
             *self = Self { w: 0, v: [0; 3] };
             return;
         }
-        let fixed = from_f32::<30, 30>;
+        for _ in 0..4 {
+            self.turn_a_little::<AXIS>((0.25 * whole, 0.25 * rest));
+        }
+    }
+
+    #[inline(always)]
+    fn turn_a_little<const AXIS: usize>(&mut self, (whole, rest): (f32, f32)) {
+        let half = whole + rest;
         // What cosine and sine are beside 1 and the angle: Taylor polynomials.
         let square = half * half;
         let cosine = square.polynomial(&[-0.5, 1.0 / 24.0, -1.0 / 720.0]) * square;
         let sine = square.polynomial(&[-1.0 / 6.0, 1.0 / 120.0, -1.0 / 5_040.0]) * square * half;
-        let sine = fixed(whole).wrapping_add(fixed(rest)).wrapping_add(fixed(sine)) << 2;
-        let cosine = fixed(cosine) << 2;
-        let (w, [x, y, z]) = (self.w, self.v);
-        // With its sign, what an axis beside a component does to another.
-        let turned = |c: i64, across: i64| {
-            c.wrapping_add(product(c, cosine).wrapping_add(product(across, sine)) << 2)
+        let (w, [x, y, z]) = (halves(self.w), self.v.map(halves));
+        // What is missing of unit length comes back on the way: half of it of each component (Newton).
+        let missing = ONE.wrapping_sub(sum_of_squares([w, x, y, z]));
+        let cosine = halves(in_words::<32>(cosine).wrapping_add(missing << 3));
+        let sine = in_words::<32>(whole).wrapping_add(in_words::<32>(rest + sine));
+        let (sine, back) = (halves(sine), halves(sine.wrapping_neg()));
+        // By how much a component changes, with its sign what an axis does to it of another.
+        let change = |c: (i32, i32), across: (i32, i32), sine: (i32, i32)| {
+            sum_of_products([((c.0, 0), cosine), (across, sine)])
         };
-        *self = match AXIS {
-            0 => Self {
-                w: turned(w, x.wrapping_neg()),
-                v: [turned(x, w), turned(y, z), turned(z, y.wrapping_neg())],
-            },
-            1 => Self {
-                w: turned(w, y.wrapping_neg()),
-                v: [turned(x, z.wrapping_neg()), turned(y, w), turned(z, x)],
-            },
-            _ => Self {
-                w: turned(w, z.wrapping_neg()),
-                v: [turned(x, y), turned(y, x.wrapping_neg()), turned(z, w)],
-            },
+        let (by_w, by) = match AXIS {
+            0 => (change(w, x, back), [change(x, w, sine), change(y, z, sine), change(z, y, back)]),
+            1 => (change(w, y, back), [change(x, z, back), change(y, w, sine), change(z, x, sine)]),
+            _ => (change(w, z, back), [change(x, y, sine), change(y, x, back), change(z, w, sine)]),
         };
+        self.w = self.w.wrapping_add(by_w);
+        for (c, by) in self.v.iter_mut().zip(by) {
+            *c = c.wrapping_add(by);
+        }
     }
 
     /// The Hamilton product, to a few units of 2^-60.
@@ -107,18 +130,20 @@ impl FixedTurn {
     /// The matrix, 30 bits after the point, to the nearest.
     #[inline(always)]
     pub(crate) fn matrix(&self) -> [[i32; 3]; 3] {
-        let (w, [x, y, z]) = (self.w, self.v);
-        let (xx, yy, zz) = (squared(&[x]), squared(&[y]), squared(&[z]));
-        let (xy, xz, yz) = (product(x, y), product(x, z), product(y, z));
-        let (wx, wy, wz) = (product(w, x), product(w, y), product(w, z));
+        let (w, [x, y, z]) = (halves(self.w), self.v.map(halves));
+        let [xx, yy, zz] = [x, y, z].map(square_of_halves);
         // Twice what is given, and a half for the nearest.
-        let rounded = |c: i64| ((c.wrapping_add(1 << 28)) >> 29) as i32;
-        let half = ONE / 2;
-        [
-            [rounded(half - (yy + zz)), rounded(xy - wz), rounded(xz + wy)],
-            [rounded(xy + wz), rounded(half - (xx + zz)), rounded(yz - wx)],
-            [rounded(xz - wy), rounded(yz + wx), rounded(half - (xx + yy))],
-        ]
+        let (nearest, half) = (1 << 28, ONE / 2);
+        let rounded = |c: i64| (c >> 29) as i32;
+        let pair = |(a, b), (c, d)| {
+            let (along, turned) = (nearest + sum_of_products([(a, b)]), sum_of_products([(c, d)]));
+            [rounded(along + turned), rounded(along - turned)]
+        };
+        let [xy, yx] = pair((x, y), (w, z));
+        let [zx, xz] = pair((x, z), (w, y));
+        let [yz, zy] = pair((y, z), (w, x));
+        let none = half + nearest - (xx + yy + zz);
+        [[rounded(none + xx), yx, zx], [xy, rounded(none + yy), zy], [xz, yz, rounded(none + zz)]]
     }
 }
 

@@ -4,10 +4,11 @@
 
 use crate::elements::tsda::Tsda;
 use crate::forces::record::Record;
-use crate::geometry::{Geometry, Reach};
+use crate::geometry::Geometry;
 use crate::pose::{End, Spot};
+use crate::reach::{AtRest, Beside, Beyond, Reach};
 use crate::real::Real;
-use crate::space::{Linear, Space as _};
+use crate::space::{Linear, Space as _, Vector as _};
 
 /// The sum in ascending order. From the first term on: a start from 0 would cost an addition, and
 /// what records are added to is never −0, so that the sign of a zero is no matter.
@@ -84,32 +85,105 @@ impl<P: Geometry, const STARS: usize, const ARMS: usize> Springs<'_, P, STARS, A
         end_a: &End<'_, P>,
         end_b: &End<'_, P>,
     ) -> Record<P::Space> {
-        let (mut forces, mut torques_a) = ([P::Vector::ZERO; STARS], [P::Moment::ZERO; STARS]);
-        let mut torques_b = torques_a;
-        let rows = forces.iter_mut().zip(torques_a.iter_mut().zip(&mut torques_b));
-        let rows = rows.zip(centres.iter().zip(rests));
-        for (star, ((force, (torque_a, torque_b)), (centre, rests))) in rows.enumerate() {
-            let Some(first) = rests.first() else { continue };
-            let (centre, arm_a) = end_a.place(centre);
-            let (rest, arm_b) = end_b.place(&P::centre(tip, first));
-            let off = P::displacement(&rest, &centre);
-            let arm_b = arm_b + off;
-            let (off, mut each) = (end_b.to_axes(off), [(star, 0); ARMS]);
-            let (mut reaches, mut rates) = ([Reach::default(); ARMS], [P::Vector::ZERO; ARMS]);
-            let rows = reaches.iter_mut().zip(&mut each).zip(rests);
-            for (arm, ((reach, each), rest)) in rows.enumerate() {
-                *reach = P::reach_at_rest(rest, off);
-                each.1 = arm;
-            }
-            if self.dampers.is_some() {
-                let rate = end_b.point_velocity(arm_b) - end_a.point_velocity(arm_a);
-                rates = [end_b.to_axes(rate); ARMS];
-            }
-            *force = end_b.to_world(sum(&self.pulls(each, &reaches, &rates)));
-            *torque_a = end_a.moment(arm_a, *force);
-            *torque_b = end_b.moment(arm_b, *force);
+        let (Some(apart), Some(b)) = (end_a.apart(end_b), end_b.frame()) else {
+            return Record::ZERO;
+        };
+        let a = end_a.frame();
+        let (Some(centre), Some(of_first)) = (centres.first(), rests.first()) else {
+            return Record::ZERO;
+        };
+        let Beside { off, arm_a, arm_b } = P::beside(&apart, (a, centre), (b, tip), of_first);
+        let off = end_b.to_axes(off);
+        let pull = self.star((0, of_first), off, [(end_a, arm_a), (end_b, arm_b)]);
+        let (Some(other), Some(of_other)) = (centres.get(1), rests.get(1)) else {
+            let force = end_b.to_world(pull);
+            let (torque_a, torque_b) = (end_a.moment(arm_a, force), end_b.moment(arm_b, force));
+            return Record { force, torque_a, torque_b };
+        };
+        // What the other is beside the first is the same in either body but for what they give way.
+        let Beyond { off: by, way } =
+            P::beyond((a, [centre, other]), (b, tip), [of_first, of_other]);
+        let off = off + end_b.to_axes(by);
+        let ends = [(end_a, arm_a + way), (end_b, arm_b + way)];
+        let other = self.star((1, of_other), off, ends);
+        let (force, other) = (end_b.to_world(pull + other), end_b.to_world(other));
+        let turned = way.cross(other);
+        Record {
+            force,
+            torque_a: if a.is_some() { arm_a.cross(force) + turned } else { P::Moment::ZERO },
+            torque_b: arm_b.cross(force) + turned,
         }
-        Record { force: sum(&forces), torque_a: sum(&torques_a), torque_b: sum(&torques_b) }
+    }
+
+    /// What a star pulls its centre by that is `off` from where it rests; in the axes of B.
+    #[inline(always)]
+    fn star(
+        &self,
+        (star, rests): (usize, &[P::Rest; ARMS]),
+        off: P::Vector,
+        ends: [(&End<'_, P>, P::Vector); 2],
+    ) -> P::Vector {
+        if self.dampers.is_some() || self.clearance.is_some() {
+            self.star_of_any(star, rests, off, ends)
+        } else {
+            self.star_of_springs(star, rests, off)
+        }
+    }
+
+    /// A star of springs alone.
+    #[inline(always)]
+    fn star_of_springs(&self, star: usize, rests: &[P::Rest; ARMS], off: P::Vector) -> P::Vector {
+        let mut at_rest = [AtRest::default(); ARMS];
+        for (at, rest) in at_rest.iter_mut().zip(rests) {
+            *at = P::at_rest(rest);
+        }
+        let near = rests.first().map_or(P::Real::ZERO, P::near_rest);
+        let square = off.dot(off);
+        match self.springs.get(star) {
+            Some(springs) if square < near => {
+                Tsda::pull_near_rest(springs, &at_rest, (off, square))
+            }
+            Some(springs) => Self::star_far_off(springs, rests, off),
+            None => P::Vector::ZERO,
+        }
+    }
+
+    /// The same far off. Apart: what nearly always is near has the registers for itself.
+    #[cold]
+    #[inline(never)]
+    fn star_far_off(
+        springs: &[Tsda<P::Real>; ARMS],
+        rests: &[P::Rest; ARMS],
+        off: P::Vector,
+    ) -> P::Vector {
+        let mut reaches = [Reach::default(); ARMS];
+        for (reach, rest) in reaches.iter_mut().zip(rests) {
+            *reach = P::at_rest(rest).reach(off);
+        }
+        sum(&Tsda::pulls(springs, &reaches))
+    }
+
+    /// The same where dampers act or there is a clearance; its arms in world axes.
+    #[inline(always)]
+    fn star_of_any(
+        &self,
+        star: usize,
+        rests: &[P::Rest; ARMS],
+        off: P::Vector,
+        [(end_a, arm_a), (end_b, arm_b)]: [(&End<'_, P>, P::Vector); 2],
+    ) -> P::Vector {
+        let mut each = [(star, 0); ARMS];
+        let (mut reaches, mut rates) = ([Reach::default(); ARMS], [P::Vector::ZERO; ARMS]);
+        for (arm, ((reach, each), rest)) in reaches.iter_mut().zip(&mut each).zip(rests).enumerate()
+        {
+            *reach = P::at_rest(rest).reach(off);
+            each.1 = arm;
+        }
+        if self.dampers.is_some() {
+            let rate = end_b.point_velocity(arm_b) - end_a.point_velocity(arm_a);
+            rates = [end_b.to_axes(rate); ARMS];
+        }
+        sum(&self.pulls(each, &reaches, &rates))
     }
 
     /// The pulls of all stars at a point of B, and the torque on it.

@@ -14,6 +14,7 @@ use crate::forces::springs::Springs;
 use crate::geometry::Geometry;
 use crate::model::{Group, Law, ModelRef, Terms};
 use crate::pose::{End, MOST_ARMS, Places};
+use crate::real::Real as _;
 use crate::space::{Linear, Space, Vector as _};
 
 /// A group of TSDA stars.
@@ -57,18 +58,19 @@ pub(crate) fn find_rests<P: Geometry, T: Terms>(
         for star in 0..group.stars as usize {
             let Some(centre) = model.points.get(group.centre(star)) else { break };
             let (centre, _) = end_a.place(centre);
-            let mut first = None;
-            for arm in 0..group.arms as usize {
-                let element = group.element as usize + star * group.arms as usize + arm;
-                let tip = model.points.get(group.tips(star) + arm);
-                let spring = model.tsdas.get(element);
-                if let (Some(tip), Some(spring), Some(rest)) = (tip, spring, rests.get_mut(element))
-                {
-                    let nearest = first.as_ref().map(|(tip, rest)| (*tip, rest));
-                    *rest = P::rest(frame, &centre, tip, nearest, spring.free_length);
-                    first = first.or(Some((tip, *rest)));
-                }
+            let arms = group.arms as usize;
+            let first = group.element as usize + star * arms;
+            let (tips, springs) = (group.tips(star), model.tsdas.get(first..first + arms));
+            let (Some(tips), Some(springs), Some(rests)) =
+                (model.points.get(tips..tips + arms), springs, rests.get_mut(first..first + arms))
+            else {
+                break;
+            };
+            let mut free_lengths = [P::Real::ZERO; MOST_ARMS];
+            for (length, spring) in free_lengths.iter_mut().zip(springs) {
+                *length = spring.free_length;
             }
+            P::find_rests(frame, &centre, tips, &free_lengths, rests);
         }
     }
 }

@@ -4,13 +4,17 @@
 //! `(h·D⁻¹)·Q`, a drift changes poses; the diagonal ½·h·D⁻¹ is computed once per (model, step),
 //! D the diagonal of masses and principal inertias (Franco & Degani 2026, eq. 7–8).
 
+mod body;
 mod damped;
 mod solved;
+
+use body::move_apart;
+pub(crate) use body::{drift_body, kick_body};
 
 use core::ops::{Deref, DerefMut};
 
 pub use crate::body::Diagonal;
-use crate::body::{Body, BodyState, Increment};
+use crate::body::{BodyState, Increment};
 use crate::damping::{Lever, Share};
 use crate::forces::{self, At, Dampers, Evaluation, Instant, Turns, Wrench};
 use crate::geometry::Geometry;
@@ -217,7 +221,17 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
     /// Adds `scale·(h·D⁻¹)·Q` to the velocities, without the gyroscopic term.
     #[inline(always)]
     pub fn kick(&mut self, scale: P::Real) {
-        if P::Real::LANES == 1 { self.kick_apart(scale) } else { self.kick_here(scale) }
+        match (P::Real::LANES, P::RESTS) {
+            (1, true) => self.kick_alone(scale),
+            (1, false) => self.kick_apart(scale),
+            _ => self.kick_here(scale),
+        }
+    }
+
+    // What is long leaves the registers to what is longer.
+    #[inline(never)]
+    fn kick_alone(&mut self, scale: P::Real) {
+        self.kick_here(scale);
     }
 
     #[inline]
@@ -297,9 +311,14 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
         let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
         let rows = rows.zip(self.wrenches.iter().zip(self.diagonals));
         for (((state, body), frame), (wrench, diagonal)) in rows {
-            kick_body(state, wrench, diagonal, (scale, fall));
-            drift_body(state, body, time);
-            P::set_frame(frame, &state.position, &state.orientation);
+            if P::RESTS && scale == P::Real::HALF {
+                let fall = fall.unwrap_or(P::Vector::ZERO);
+                move_apart::<P, T>(state, body, frame, (wrench, diagonal), fall, time);
+            } else {
+                kick_body(state, wrench, diagonal, (scale, fall));
+                drift_body(state, body, time);
+                P::set_frame(frame, &state.position, &state.orientation);
+            }
         }
     }
 
@@ -309,7 +328,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
         self.ledger.fresh = false;
         self.ledger.ready = false;
         for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
-            P::translate(&mut state.position, P::velocity(&state.velocity) * time);
+            P::fly(&mut state.position, &state.velocity, time);
             let (q, w) = (&mut state.orientation, &mut state.angular_velocity);
             if P::Real::LANES == 1 {
                 rotation::free_rotor_of_order_four::<P>(body, q, w, time);
@@ -364,31 +383,4 @@ impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
             visit(memory, state, increment, *h);
         }
     }
-}
-
-/// `scale·(h·D⁻¹)·Q` for the velocities of one body, and what it falls by meanwhile.
-#[inline(always)]
-pub(crate) fn kick_body<P: Geometry>(
-    state: &mut BodyState<P>,
-    wrench: &Wrench<P::Space>,
-    diagonal: &Diagonal<P::Space>,
-    (scale, fall): (P::Real, Option<P::Vector>),
-) {
-    let increment = diagonal.increment(wrench.force, wrench.torque, scale);
-    if let Some(fall) = fall {
-        P::fall(&mut state.velocity, fall);
-    }
-    P::accelerate(&mut state.velocity, increment.linear);
-    P::spin_up(&mut state.angular_velocity, increment.angular);
-}
-
-/// One body straight on, and as a free rotor of second order.
-#[inline(always)]
-pub(crate) fn drift_body<P: Geometry>(
-    state: &mut BodyState<P>,
-    body: &Body<P::Space>,
-    time: P::Real,
-) {
-    P::translate(&mut state.position, P::velocity(&state.velocity) * time);
-    rotation::free_rotor::<P>(body, &mut state.orientation, &mut state.angular_velocity, time);
 }

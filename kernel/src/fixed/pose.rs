@@ -1,0 +1,53 @@
+//! The pose of a body in fixed point, as points are placed by it.
+//!
+//! `(place, orientation) => matrix in integers and in single precision; (pose, point) => way`.
+
+use crate::fixed::place::FixedPlace;
+use crate::fixed::turn::{FixedTurn, UNIT};
+use crate::vector::Rotation;
+
+/// The pose of a body in fixed point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FixedPose {
+    pub(super) position: [i64; 3],
+    /// \[2^-30\] rows in world axes.
+    pub(super) rotation: [[i32; 3]; 3],
+    /// The same in single precision.
+    pub(super) single: Rotation<f32>,
+}
+
+impl FixedPose {
+    // Number by number: what is made elsewhere is copied.
+    #[inline(always)]
+    pub(super) fn set(&mut self, place: &FixedPlace, orientation: &FixedTurn) {
+        let Self { position, rotation: [x, y, z], single } = self;
+        for (to, from) in position.iter_mut().zip(place.at) {
+            *to = from;
+        }
+        let [p, q, r] = orientation.matrix();
+        for (row, from) in [(x, p), (y, q), (z, r)] {
+            for (to, from) in row.iter_mut().zip(from) {
+                *to = from;
+            }
+        }
+        for (row, [x, y, z]) in [(&mut single.x, p), (&mut single.y, q), (&mut single.z, r)] {
+            row.x = x as f32 * UNIT;
+            row.y = y as f32 * UNIT;
+            row.z = z as f32 * UNIT;
+        }
+    }
+
+    /// A point of the body, 27 bits after the point, in world axes beyond a way there: exact.
+    #[inline(always)]
+    pub(super) fn turned(&self, point: [i32; 3], [x, y, z]: [i64; 3]) -> [i64; 3] {
+        let point = point.map(i64::from);
+        let beyond = |way: i64, row: [i32; 3]| {
+            let [x, y, z] = row.map(i64::from);
+            let [px, py, pz] = point;
+            way.wrapping_add(x * px).wrapping_add(y * py).wrapping_add(z * pz)
+        };
+        let [p, q, r] = self.rotation;
+        [beyond(x, p), beyond(y, q), beyond(z, r)]
+    }
+}

@@ -1,0 +1,126 @@
+//! Stars beside where they rest.
+//!
+//! `poses at the start => where the centre of a star rests in B; poses => how far it is off`. What a stiff joint
+//! gives way is the difference of places a metre away: exact in integers, and rounded once.
+
+use crate::fixed::number::{single_power, to_f64};
+use crate::fixed::place::{
+    FixedPlace, FixedPoint, LIMITS, PLACE, POINT, difference, nearest, single, sum,
+};
+use crate::fixed::pose::FixedPose;
+use crate::reach::{AtRest, Beside, Beyond};
+use crate::vector::Vec3;
+
+/// A TSDA at rest, and its share of what is known of its star.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rest {
+    /// In the axes of B. The way of the first of a star is a multiple of 2^-27 m.
+    pub(super) at: AtRest<Vec3<f32>>,
+    /// \[2^-27 m\] of a star of three a component of where its centre rests, negative: x, y, z.
+    pub(super) less: i32,
+    /// \[m²\] the sixteenth part of the least of its star's squares.
+    pub(super) near: f32,
+}
+
+/// A place in the axes of a body, to 2^-27 m; no further from its centre of mass than its points are.
+fn within(frame: &FixedPose, place: &FixedPlace) -> [i64; 3] {
+    let [dx, dy, dz] = difference(place.at, frame.position).map(i128::from);
+    let [x, y, z] = frame.rotation.map(|row| row.map(i128::from));
+    let along = |axis: usize| {
+        let sum = x[axis] * dx + y[axis] * dy + z[axis] * dz;
+        // 30 bits of the matrix and 57 of the place.
+        let most = (LIMITS.reach as i128) << POINT;
+        (sum >> (30 + PLACE - POINT)).clamp(-most, most) as i64
+    };
+    [along(0), along(1), along(2)]
+}
+
+/// The TSDAs of a star at rest, whose centre is at `centre`. It rests near it, where the first's way is a number
+/// of single precision.
+pub(super) fn find(
+    frame: &FixedPose,
+    centre: &FixedPlace,
+    tips: &[FixedPoint],
+    free_lengths: &[f32],
+    rests: &mut [Rest],
+) {
+    let Some(first) = tips.first() else { return };
+    let at = within(frame, centre);
+    let way = Vec3::from_f64(difference(first.at, at).map(|c| to_f64(c, POINT as u32)));
+    let less = less(first, &Rest { at: AtRest { way, ..AtRest::default() }, ..Rest::default() });
+    let mut near = f64::INFINITY;
+    for ((rest, tip), free_length) in rests.iter_mut().zip(tips).zip(free_lengths) {
+        let way = sum(tip.at, less.map(i64::from)).map(|c| to_f64(c, POINT as u32));
+        let [x, y, z] = way;
+        let (square, free) = (x * x + y * y + z * z, f64::from(*free_length));
+        rest.at = AtRest {
+            way: Vec3::from_f64(way),
+            square: square as f32,
+            more: (square - free * free) as f32,
+        };
+        near = near.min(square / 16.0);
+    }
+    for (rest, less) in rests.iter_mut().zip(less.into_iter().cycle()) {
+        (rest.less, rest.near) = (less, near as f32);
+    }
+}
+
+/// Where the centre of a star rests, negative, given its first point of B and that one's rest.
+#[inline(always)]
+pub(super) fn less(tip: &FixedPoint, first: &Rest) -> [i32; 3] {
+    // What single precision holds of a multiple of 2^-27 is one.
+    let Vec3 { x, y, z } = first.at.way * const { single_power(POINT) };
+    let [a, b, c] = tip.at.map(|c| c as i32);
+    [(x as i32).wrapping_sub(a), (y as i32).wrapping_sub(b), (z as i32).wrapping_sub(c)]
+}
+
+/// Where the centre of a star rests, negative.
+#[inline(always)]
+fn less_of<const ARMS: usize>(tip: &FixedPoint, rests: &[Rest; ARMS]) -> [i32; 3] {
+    match rests.as_slice() {
+        [x, y, z] => [x.less, y.less, z.less],
+        [first, ..] => less(tip, first),
+        [] => [0; 3],
+    }
+}
+
+/// Where the centre of a star is beside where it rests. All in one sum of integers: A beside B, the arm in A, and,
+/// once that has told the arm in B, less where it rests there.
+#[inline(always)]
+pub(super) fn beside<const ARMS: usize>(
+    apart: &[i64; 3],
+    (a, centre): (Option<&FixedPose>, &FixedPoint),
+    (b, tip): (&FixedPose, &FixedPoint),
+    rests: &[Rest; ARMS],
+) -> Beside<Vec3<f32>> {
+    let (arm, from_b) = match a {
+        Some(a) => {
+            let arm = a.turned(centre.at.map(|c| c as i32), [0; 3]);
+            (nearest::<PLACE>(arm), sum(*apart, arm))
+        }
+        None => (Vec3::ZERO, sum(*apart, centre.at.map(|c| c << (PLACE - POINT)))),
+    };
+    let off = b.turned(less_of(tip, rests), from_b);
+    Beside { off: single::<PLACE>(off), arm_a: arm, arm_b: nearest::<PLACE>(from_b) }
+}
+
+/// Where the centre of a second star is beyond that of the first.
+#[inline(always)]
+pub(super) fn beyond<const ARMS: usize>(
+    (a, [first, second]): (Option<&FixedPose>, [&FixedPoint; 2]),
+    (b, tip): (&FixedPose, &FixedPoint),
+    [of_first, of_second]: [&[Rest; ARMS]; 2],
+) -> Beyond<Vec3<f32>> {
+    let way = match a {
+        Some(a) => {
+            let [x, y, z] = second.at.map(|c| c as i32);
+            let [p, q, r] = first.at.map(|c| c as i32);
+            a.turned([x.wrapping_sub(p), y.wrapping_sub(q), z.wrapping_sub(r)], [0; 3])
+        }
+        None => difference(second.at, first.at).map(|c| c << (PLACE - POINT)),
+    };
+    let [x, y, z] = less_of(tip, of_second);
+    let [p, q, r] = less_of(tip, of_first);
+    let off = b.turned([x.wrapping_sub(p), y.wrapping_sub(q), z.wrapping_sub(r)], way);
+    Beyond { off: single::<PLACE>(off), way: nearest::<PLACE>(way) }
+}

@@ -1,0 +1,53 @@
+//! Kick and drift of one body.
+//!
+//! `(state, wrench, diagonal) => velocities; (state, time) => pose`, and the frame of the pose.
+
+use crate::body::{Body, BodyState, Diagonal};
+use crate::forces::Wrench;
+use crate::geometry::Geometry;
+use crate::model::Terms;
+use crate::real::Real as _;
+use crate::rotation;
+
+/// `scale·(h·D⁻¹)·Q` for the velocities of one body, and what it falls by meanwhile.
+#[inline(always)]
+pub(crate) fn kick_body<P: Geometry>(
+    state: &mut BodyState<P>,
+    wrench: &Wrench<P::Space>,
+    diagonal: &Diagonal<P::Space>,
+    (scale, fall): (P::Real, Option<P::Vector>),
+) {
+    let increment = diagonal.increment(wrench.force, wrench.torque, scale);
+    if let Some(fall) = fall {
+        P::fall(&mut state.velocity, fall);
+    }
+    P::accelerate(&mut state.velocity, increment.linear);
+    P::spin_up(&mut state.angular_velocity, increment.angular);
+}
+
+/// One body straight on, and as a free rotor of second order.
+#[inline(always)]
+pub(crate) fn drift_body<P: Geometry>(
+    state: &mut BodyState<P>,
+    body: &Body<P::Space>,
+    time: P::Real,
+) {
+    P::fly(&mut state.position, &state.velocity, time);
+    rotation::free_rotor::<P>(body, &mut state.orientation, &mut state.angular_velocity, time);
+}
+
+/// One body by half a kick and a drift, and its frame. Apart: what is long has the registers for itself.
+#[inline(never)]
+pub(super) fn move_apart<P: Geometry, T: Terms>(
+    state: &mut BodyState<P>,
+    body: &Body<P::Space>,
+    frame: &mut P::Frame,
+    (wrench, diagonal): (&Wrench<P::Space>, &Diagonal<P::Space>),
+    fall: P::Vector,
+    time: P::Real,
+) {
+    let fall = if P::FALLS && T::GRAVITY { Some(fall) } else { None };
+    kick_body(state, wrench, diagonal, (P::Real::HALF, fall));
+    drift_body(state, body, time);
+    P::set_frame(frame, &state.position, &state.orientation);
+}
