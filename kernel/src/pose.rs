@@ -137,6 +137,13 @@ impl<'s, P: Geometry> End<'s, P> {
         Self { frame: None, ..*self }
     }
 
+    /// This end where it is of ground that nothing moves, known to be.
+    #[inline(always)]
+    pub(crate) fn still(&self) -> Option<Self> {
+        let still = self.frame.is_none() && self.moved.is_none();
+        if still { Some(Self { frame: None, moved: None, ..*self }) } else { None }
+    }
+
     /// The moment of a force at the end of an arm; the ground takes none.
     #[inline(always)]
     pub(crate) fn moment(&self, arm: P::Vector, force: P::Vector) -> P::Moment {

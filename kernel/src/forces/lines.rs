@@ -9,8 +9,8 @@ use crate::model::{Group, ModelRef, Terms};
 use crate::pose::End;
 use crate::space::{Linear as _, Vector as _};
 
-/// A group of points on lines. The force on A acts at the foot: its torque is that of the star's
-/// whole pull at the line's point and of each pull along its slide.
+/// A group of points on lines. Twice the same, as with a revolute's stars: where the lines are the ground's
+/// and the points a body's, as along a rail, none of them asks.
 #[inline(always)]
 pub(super) fn lines<P: Geometry, T: Terms, D: Dampers>(
     model: &ModelRef<'_, P, T>,
@@ -18,33 +18,54 @@ pub(super) fn lines<P: Geometry, T: Terms, D: Dampers>(
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
 ) -> Record<P::Space> {
+    match (end_a.still(), end_b.body()) {
+        (Some(a), Some(b)) => walk::<P, T, D>(model, group, &a, &b),
+        _ => walk::<P, T, D>(model, group, end_a, end_b),
+    }
+}
+
+/// Star by star. The force on A acts at the foot: its torque is that of the star's whole pull at the
+/// line's point and of each pull along its slide.
+#[inline(always)]
+fn walk<P: Geometry, T: Terms, D: Dampers>(
+    model: &ModelRef<'_, P, T>,
+    group: &Group,
+    end_a: &End<'_, P>,
+    end_b: &End<'_, P>,
+) -> Record<P::Space> {
     let mut record = Record::ZERO;
     let (stars, arms) = (group.stars as usize, group.arms.max(1) as usize);
-    let (Some(points), Some(springs)) =
+    let (Some(points), Some(mut springs)) =
         (model.points.get(group.point as usize..), model.lines.get(group.element as usize..))
     else {
         return record;
     };
-    let Some((centres, tips)) = points.split_at_checked(stars) else {
+    let Some((centres, mut tips)) = points.split_at_checked(stars) else {
         return record;
     };
-    let dampers = match group.damper.row() {
+    let mut dampers = match group.damper.row() {
         Some(row) if D::ACT && T::DAMPERS => model.dampers.get(row..).unwrap_or(&[]),
         _ => &[],
     };
     let clearance = model.clearance(group);
-    let mut elements = tips.iter().zip(springs);
-    let mut dampers = dampers.iter();
     for centre in centres {
+        // Parts of the lists and no counted elements: these would be a division per group.
+        let (Some((own_tips, other_tips)), Some((own_springs, other_springs))) =
+            (tips.split_at_checked(arms), springs.split_at_checked(arms))
+        else {
+            break;
+        };
+        (tips, springs) = (other_tips, other_springs);
         let (centre, arm) = end_a.place(centre);
         let (mut pull_a, mut slid) = (P::Vector::ZERO, P::Vector::ZERO);
         let mut line = P::Vector::ZERO;
-        for (tip, spring) in elements.by_ref().take(arms) {
+        for (tip, spring) in own_tips.iter().zip(own_springs) {
             line = end_a.to_world(spring.direction);
             let (tip, tip_arm) = end_b.place(tip);
             let Projection { slide, deflection } =
                 Projection::new(P::displacement(&centre, &tip), line);
-            let pull = match dampers.next() {
+            let damping = if D::ACT { dampers.split_off_first() } else { None };
+            let pull = match damping {
                 Some(&damping) => {
                     let foot = end_a.arm_at(arm, line * slide);
                     let v_rel = end_b.point_velocity(tip_arm) - end_a.point_velocity(foot);
@@ -58,7 +79,8 @@ pub(super) fn lines<P: Geometry, T: Terms, D: Dampers>(
             record.torque_b = record.torque_b + tip_arm.cross(pull);
         }
         record.force = record.force + pull_a;
-        record.torque_a = record.torque_a + (arm.cross(pull_a) + line.cross(slid));
+        let torque = end_a.moment(arm, pull_a) + end_a.moment(line, slid);
+        record.torque_a = record.torque_a + torque;
     }
     record
 }
