@@ -35,6 +35,29 @@ pub(super) struct Springs<'m, P: Geometry, const STARS: usize, const ARMS: usize
     pub(super) clearance: Option<P::Real>,
 }
 
+impl<P: Geometry, const ARMS: usize> Springs<'_, P, 1, ARMS> {
+    /// Adds what the springs of one star pull to a record of stars before it.
+    #[inline(always)]
+    pub(super) fn add(
+        &self,
+        centre: &P::Local,
+        tips: &[P::Local; ARMS],
+        end_a: &End<'_, P>,
+        end_b: &End<'_, P>,
+        record: &mut Record<P::Space>,
+    ) {
+        let spot = [end_a.place(centre)];
+        let mut pull_a = P::Vector::ZERO;
+        for (arm, tip) in tips.iter().enumerate() {
+            let ([pull], torque) = self.arm(arm, tip, &spot, end_a, end_b);
+            pull_a = pull_a + pull;
+            record.torque_b = record.torque_b + torque;
+        }
+        record.force = record.force + pull_a;
+        record.torque_a = record.torque_a + end_a.moment(spot[0].1, pull_a);
+    }
+}
+
 impl<P: Geometry, const STARS: usize, const ARMS: usize> Springs<'_, P, STARS, ARMS> {
     /// What they pull between two ends: written out, each sum from its first term.
     #[inline(always)]

@@ -4,9 +4,9 @@
 //! added in the order of its elements; force and torque on A add star by star, the torque on B arm
 //! by arm.
 //!
-//! What nearly every group is, two stars that share three points or stars that share none, goes the
-//! straight line of [`block`]: its counts are known to the compiler, so that nothing is left of
-//! loops, bounds and lists. [`many`] takes the rest.
+//! What nearly every group is, two stars that share three points or one star, goes the straight line of
+//! [`block`]: its counts are known to the compiler, so that nothing is left of loops, bounds and lists.
+//! [`rare`] takes the rest.
 
 use crate::elements::tsda::Tsda;
 use crate::forces::record::{Dampers, Record};
@@ -27,7 +27,7 @@ pub(super) fn stars<P: Geometry, T: Terms, D: Dampers>(
     end_b: &End<'_, P>,
 ) -> Option<Record<P::Space>> {
     if P::RESTS && (rests.is_empty() || end_b.body().is_none()) {
-        return many::<P, T, D>(model, group, end_a, end_b);
+        return rare::<P, T, D>(model, group, end_a, end_b);
     }
     match (group.stars, group.arms, end_b.body()) {
         (2, 3, Some(b)) if group.shared && !P::Space::PLANAR => {
@@ -40,6 +40,23 @@ pub(super) fn stars<P: Geometry, T: Terms, D: Dampers>(
         (1, 1, Some(b)) if P::RESTS => block::<P, T, D, 1, 1>(model, rests, group, end_a, &b),
         (1, 3, _) if !P::Space::PLANAR => block::<P, T, D, 1, 3>(model, rests, group, end_a, end_b),
         (1, 1, _) => block::<P, T, D, 1, 1>(model, rests, group, end_a, end_b),
+        _ => rare::<P, T, D>(model, group, end_a, end_b),
+    }
+}
+
+/// What few groups are. More ways beside the usual ones cost those registers, 3 % of a step of a chain of
+/// balls: so [`apart`] is for models alone that have points on lines, too, whose joints are of all kinds.
+#[inline(always)]
+fn rare<P: Geometry, T: Terms, D: Dampers>(
+    model: &ModelRef<'_, P, T>,
+    group: &Group,
+    end_a: &End<'_, P>,
+    end_b: &End<'_, P>,
+) -> Option<Record<P::Space>> {
+    match (group.arms, end_b.body()) {
+        (3, Some(b)) if T::LINES && !P::RESTS && !group.shared => {
+            apart::<P, T, D, 3>(model, group, end_a, &b)
+        }
         _ => many::<P, T, D>(model, group, end_a, end_b),
     }
 }
@@ -50,8 +67,7 @@ pub(crate) fn find_rests<P: Geometry, T: Terms>(
     frames: &[P::Frame],
     rests: &mut [P::Rest],
 ) {
-    let signals = &[];
-    let places = Places { frames, signals };
+    let places = Places { frames, signals: &[] };
     for group in model.groups.iter().filter(|group| group.law == Law::Tsda) {
         let Some(frame) = frames.get(group.b.row()) else { continue };
         let end_a = End::new(model, places, group.a, None);
@@ -97,9 +113,12 @@ fn straight<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: u
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
 ) -> Option<Record<P::Space>> {
-    match end_a.body() {
-        Some(a) => block::<P, T, D, STARS, ARMS>(model, rests, group, &a, end_b),
-        None => block::<P, T, D, STARS, ARMS>(model, rests, group, &end_a.ground(), end_b),
+    // Ground that an input moves is asked for at each point, or goes the long way: see [`rare`].
+    let ground = if T::LINES { end_a.still() } else { Some(end_a.ground()) };
+    match (end_a.body(), ground) {
+        (Some(a), _) => block::<P, T, D, STARS, ARMS>(model, rests, group, &a, end_b),
+        (None, Some(a)) => block::<P, T, D, STARS, ARMS>(model, rests, group, &a, end_b),
+        (None, None) => rare::<P, T, D>(model, group, end_a, end_b),
     }
 }
 
@@ -159,6 +178,31 @@ pub(super) fn grid<V, const N: usize, const M: usize>(
     first: usize,
 ) -> Option<&[[V; N]; M]> {
     all.get(first..first + N * M)?.as_chunks().0.first_chunk()
+}
+
+/// Any number of stars with `ARMS` points of their own each, as a fixed joint has: as [`many`], but what is
+/// known of them is not asked at each point.
+#[inline(always)]
+fn apart<P: Geometry, T: Terms, D: Dampers, const ARMS: usize>(
+    model: &ModelRef<'_, P, T>,
+    group: &Group,
+    end_a: &End<'_, P>,
+    end_b: &End<'_, P>,
+) -> Option<Record<P::Space>> {
+    let clearance = model.clearance(group);
+    let mut record = Record::ZERO;
+    for star in 0..group.stars as usize {
+        let centre = model.points.get(group.centre(star))?;
+        let tips = model.points.get(group.tips(star)..)?.first_chunk::<ARMS>()?;
+        let springs = grid(model.tsdas, group.element as usize + star * ARMS)?;
+        let dampers = match group.damper.row() {
+            Some(row) if D::ACT && T::DAMPERS => Some(grid(model.dampers, row + star * ARMS)?),
+            _ => None,
+        };
+        let star = Springs { springs, rests: None, dampers, clearance };
+        star.add(centre, tips, end_a, end_b, &mut record);
+    }
+    Some(record)
 }
 
 /// Any number of stars, which share their points of B or have their own.
@@ -222,7 +266,7 @@ mod tests {
     const FIRST: BodyIndex = BodyIndex(0);
     const SECOND: BodyIndex = BodyIndex(1);
 
-    /// Two stars with three points, of which one coincides with a centre at the start.
+    /// Two stars share their points.
     fn group(between: [BodyIndex; 2], stars: u8, arms: u8) -> Group {
         Group {
             law: Law::Tsda,
@@ -230,7 +274,7 @@ mod tests {
             b: between[1],
             stars,
             arms,
-            shared: stars > 1,
+            shared: stars == 2,
             point: 0,
             element: 0,
             damper: DamperIndex(0),
@@ -265,18 +309,18 @@ mod tests {
         } else {
             states[1].position = Vec3::new(0.35, -0.12, 0.21);
         }
-        let model = Model::<F64, 2, 1, 5, 6, 0, 6, 0, 0, 0, 0, 0, 0, 1> {
+        let model = Model::<F64, 2, 1, 12, 9, 0, 9, 0, 0, 0, 1, 0, 0, 1> {
             bodies: [Body::<f64>::new(1.0, [1.0; 3]); 2],
             initial: states,
             gravity: [],
             groups: [group],
-            points,
+            points: core::array::from_fn(|i| points[i % 5] * (1.0 + 0.1 * (i / 5) as f64)),
             tsdas: core::array::from_fn(|i| spring(i as i32)),
             bushings: [],
             dampers: core::array::from_fn(|i| 10.0 + i as f64),
             torsions: [],
             loads: [],
-            lines: [],
+            lines: [Default::default()],
             inputs: [],
             knots: [],
             clearances: [1e-3],
@@ -303,7 +347,7 @@ mod tests {
     #[test]
     fn the_straight_line_has_the_bits_of_the_long_way() {
         for between in [[FIRST, SECOND], [WORLD, SECOND], [FIRST, WORLD]] {
-            for (stars, arms) in [(2, 3), (1, 3), (1, 1)] {
+            for (stars, arms) in [(2, 3), (1, 3), (1, 1), (3, 3)] {
                 let free = group(between, stars, arms);
                 let clear = Group { clearance: ClearanceIndex(0), ..free };
                 for group in [free, clear] {
