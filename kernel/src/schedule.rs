@@ -123,7 +123,7 @@ pub(crate) struct StageTime<R> {
 }
 
 /// Brings the signals of tables to a stage; whether any changed. Kept apart, but for lanes: a step
-/// calls it more than once. Not called where there is no input.
+/// calls it more than once. Not called where there is no table.
 #[inline(always)]
 pub(crate) fn sample<P: Geometry>(
     inputs: &[Input<P>],
@@ -132,7 +132,7 @@ pub(crate) fn sample<P: Geometry>(
     at: StageTime<P::Real>,
     signals: &mut [Signal<P::Real>],
 ) -> bool {
-    if inputs.is_empty() {
+    if inputs.is_empty() || knots.is_empty() {
         false
     } else if P::Real::LANES == 1 {
         sample_apart(inputs, knots, steps, at, signals)
