@@ -192,16 +192,18 @@ fn line<P: Geometry, T: Terms, K: Kick<P>>(
     let Some(group) = model.groups.get(usize::from(stop.of)) else { return };
     let first = group.point as usize;
     let [a, b] = if ends[0] == group.a { [first, first + 1] } else { [first + 1, first] };
-    let (Some(a), Some(b), Some(&coefficient), Some(body), Some(kick)) = (
+    let (Some(a), Some(b), Some(&coefficient), Some(body), Some(frame), Some(kick)) = (
         model.points.get(a),
         model.points.get(b),
         model.dampers.get(usize::from(stop.row)),
         model.bodies.get(ends[0].row()),
+        sweep.places.frames.get(ends[0].row()),
         sweep.kick.of(ends[0].row()),
     ) else {
         return;
     };
-    let [own, other] = ends.map(|end| End::new(model, sweep.places, end, None));
+    let own = End::<P>::at(frame);
+    let other = End::new(model, sweep.places, ends[1], None);
     let ((a, arm), (b, other_arm)) = (own.place(a), other.place(b));
     let d = P::displacement(&a, &b);
     let along = d * d.dot(d).sqrt().reciprocal_or_zero();
