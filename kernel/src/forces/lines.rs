@@ -10,7 +10,7 @@ use crate::pose::End;
 use crate::space::{Linear as _, Vector as _};
 
 /// A group of points on lines. Twice the same, as with a revolute's stars: where the lines are the ground's
-/// and the points a body's, as along a rail, none of them asks.
+/// and the points a body's, as along a rail, none of them asks; not in models of every kind, of which few have any.
 #[inline(always)]
 pub(super) fn lines<P: Geometry, T: Terms, D: Dampers>(
     model: &ModelRef<'_, P, T>,
@@ -19,7 +19,7 @@ pub(super) fn lines<P: Geometry, T: Terms, D: Dampers>(
     end_b: &End<'_, P>,
 ) -> Record<P::Space> {
     match (end_a.still(), end_b.body()) {
-        (Some(a), Some(b)) => walk::<P, T, D>(model, group, &a, &b),
+        (Some(a), Some(b)) if !T::ALL => walk::<P, T, D>(model, group, &a, &b),
         _ => walk::<P, T, D>(model, group, end_a, end_b),
     }
 }

@@ -45,7 +45,8 @@ pub(super) fn stars<P: Geometry, T: Terms, D: Dampers>(
 }
 
 /// What few groups are. More ways beside the usual ones cost those registers, 3 % of a step of a chain of
-/// balls: so [`apart`] is for models alone that have points on lines, too, whose joints are of all kinds.
+/// balls: so [`apart`] is for models alone that have points on lines, too, whose joints are of several kinds; not for
+/// those of every kind, whose size is known at run time: on a PC it costs these 2 % in single precision.
 #[inline(always)]
 fn rare<P: Geometry, T: Terms, D: Dampers>(
     model: &ModelRef<'_, P, T>,
@@ -54,7 +55,7 @@ fn rare<P: Geometry, T: Terms, D: Dampers>(
     end_b: &End<'_, P>,
 ) -> Option<Record<P::Space>> {
     match (group.arms, end_b.body()) {
-        (3, Some(b)) if T::LINES && !P::RESTS && !group.shared => {
+        (3, Some(b)) if T::LINES && !T::ALL && !P::RESTS && !group.shared => {
             apart::<P, T, D, 3>(model, group, end_a, &b)
         }
         _ => many::<P, T, D>(model, group, end_a, end_b),
@@ -114,11 +115,16 @@ fn straight<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: u
     end_b: &End<'_, P>,
 ) -> Option<Record<P::Space>> {
     // Ground that an input moves is asked for at each point, or goes the long way: see [`rare`].
-    let ground = if T::LINES { end_a.still() } else { Some(end_a.ground()) };
-    match (end_a.body(), ground) {
-        (Some(a), _) => block::<P, T, D, STARS, ARMS>(model, rests, group, &a, end_b),
-        (None, Some(a)) => block::<P, T, D, STARS, ARMS>(model, rests, group, &a, end_b),
-        (None, None) => rare::<P, T, D>(model, group, end_a, end_b),
+    if T::LINES && !T::ALL {
+        return match (end_a.body(), end_a.still()) {
+            (Some(a), _) => block::<P, T, D, STARS, ARMS>(model, rests, group, &a, end_b),
+            (None, Some(a)) => block::<P, T, D, STARS, ARMS>(model, rests, group, &a, end_b),
+            (None, None) => rare::<P, T, D>(model, group, end_a, end_b),
+        };
+    }
+    match end_a.body() {
+        Some(a) => block::<P, T, D, STARS, ARMS>(model, rests, group, &a, end_b),
+        None => block::<P, T, D, STARS, ARMS>(model, rests, group, &end_a.ground(), end_b),
     }
 }
 
