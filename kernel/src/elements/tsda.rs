@@ -90,10 +90,10 @@ impl<R: Real> Tsda<R> {
         pulls
     }
 
-    /// What the springs of a star pull its centre by without clearance, the centre `off` \[m\] from where it rests
-    /// and `square` \[m²\] that, less than a quarter of any of their ways long. With w the way at rest and o what it
-    /// is off, of the way w − o both the square and what it is more than that of the free length change by
-    /// o·o − 2·o·w: what is left of large numbers has the digits of small ones.
+    /// What the springs of a star pull its centre by, without clearance. The centre is `off` \[m\] from where it rests,
+    /// by less than a quarter of any of their ways at rest; `square` \[m²\] is `off` times itself. With w a way at rest
+    /// and o what the centre is off, the square of the way w − o is that of w and o·o − 2·o·w more, and so is its
+    /// difference to the square of the free length: it has the digits of o.
     #[inline(always)]
     pub(crate) fn pull_near_rest<V: Linear<Real = R>, const N: usize>(
         springs: &[Self; N],
