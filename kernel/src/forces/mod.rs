@@ -6,7 +6,8 @@
 //! inputs and the records of its groups likewise, then its torsion springs'.
 //! Within a TSDA group each distinct point is placed once; the pulls on a point are added in
 //! the order of its elements; the record's force and torque on A add star by star, the torque
-//! on B arm by arm, or, where a precision keeps stars at rest, star by star as well. Forces and torques are in world axes; a body's torque is turned into body
+//! on B arm by arm. Where a precision keeps stars at rest, the pulls of two stars add in the axes of B, and a
+//! torque is the first's arm times both and the way to the second times its own. Forces and torques are in world axes; a body's torque is turned into body
 //! axes once, at the end.
 
 mod bushing;
