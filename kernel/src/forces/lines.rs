@@ -49,17 +49,14 @@ fn walk<P: Geometry, T: Terms, D: Dampers>(
     };
     let clearance = model.clearance(group);
     for centre in centres {
-        // Parts of the lists and no counted elements: these would be a division per group.
-        let (Some((own_tips, other_tips)), Some((own_springs, other_springs))) =
-            (tips.split_at_checked(arms), springs.split_at_checked(arms))
-        else {
-            break;
-        };
-        (tips, springs) = (other_tips, other_springs);
+        // A part of the list and no counted elements: these would be a division per group.
+        let Some((own, others)) = tips.split_at_checked(arms) else { break };
+        tips = others;
         let (centre, arm) = end_a.place(centre);
         let (mut pull_a, mut slid) = (P::Vector::ZERO, P::Vector::ZERO);
         let mut line = P::Vector::ZERO;
-        for (tip, spring) in own_tips.iter().zip(own_springs) {
+        for tip in own {
+            let Some(spring) = springs.split_off_first() else { break };
             line = end_a.to_world(spring.direction);
             let (tip, tip_arm) = end_b.place(tip);
             let Projection { slide, deflection } =
