@@ -79,6 +79,16 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     ) {
         *frame = Self::frame(position, orientation);
     }
+    /// After the turns of a step [`Self::renormalise`], and then [`Self::set_frame`].
+    #[inline(always)]
+    fn set_next_frame(
+        frame: &mut Self::Frame,
+        position: &Self::Position,
+        orientation: &mut Self::Orientation,
+    ) {
+        Self::renormalise(orientation);
+        Self::set_frame(frame, position, orientation);
+    }
     /// The point's world location and its arm from the centre of mass in world axes \[m\].
     fn place(frame: &Self::Frame, local: &Self::Local) -> (Self::Location, Self::Vector);
     /// The location of a point of the ground.

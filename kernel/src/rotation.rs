@@ -40,6 +40,18 @@ pub fn free_rotor<P: Geometry>(
     if P::Space::PLANAR {
         return turn_in_plane::<P>(orientation, rate, time);
     }
+    turn_freely::<P>(body, orientation, rate, time);
+    P::renormalise(orientation);
+}
+
+/// [`free_rotor`] in space but for what is done [after the turns](Geometry::renormalise).
+#[inline(always)]
+pub(crate) fn turn_freely<P: Geometry>(
+    body: &Body<P::Space>,
+    orientation: &mut P::Orientation,
+    rate: &mut P::Spin,
+    time: P::Real,
+) {
     let zero = P::Real::ZERO;
     let w = P::spin(rate).in_space();
     if P::Real::LANES == 1 && w.x == zero && w.y == zero {
@@ -50,7 +62,7 @@ pub fn free_rotor<P: Geometry>(
             let half = (turn.half_cos, turn.half_sin);
             P::turn_about::<2>(orientation, rate, time, half);
         }
-        return P::renormalise(orientation);
+        return;
     }
     if P::RESTS {
         return five_turns_apart::<P>(body, orientation, rate, time);
@@ -82,7 +94,6 @@ fn five_turns<P: Geometry>(
     about_z::<P>(body, orientation, rate, time, none);
     about_y::<P>(body, orientation, rate, half, none);
     about_x::<P>(body, orientation, rate, half, none);
-    P::renormalise(orientation);
 }
 
 /// The free rigid rotor over `time` \[s\], which may be negative: fourth order, reversible; with

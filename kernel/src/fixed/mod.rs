@@ -12,6 +12,7 @@
 //! every step ([`Cause::Extent`](crate::status::Cause)), and none ever wraps. Constants of models are made by
 //! [`FixedPoint::new`], [`FixedPlace::new`], [`FixedTurn::new`] and `BodyState::<Fixed>::new`.
 
+mod matrix;
 mod number;
 mod place;
 mod turn;
@@ -235,9 +236,15 @@ impl Geometry for Fixed {
         };
         orientation.turn_exactly::<AXIS>(exact_product(sum, lost, 0.5 * time));
     }
-    // A turn does it on the way.
+    // A turn does the rest on the way.
     #[inline(always)]
-    fn renormalise(_: &mut FixedTurn) {}
+    fn renormalise(orientation: &mut FixedTurn) {
+        orientation.next_matrix();
+    }
+    #[inline(always)]
+    fn set_next_frame(frame: &mut FixedPose, position: &FixedPlace, orientation: &mut FixedTurn) {
+        frame.set_next(position, orientation);
+    }
     #[inline(always)]
     fn is_within(position: &FixedPlace) -> bool {
         const EXTENT: i32 = (LIMITS.extent as i32) << (PLACE - 32);

@@ -18,14 +18,29 @@ pub struct FixedPose {
 }
 
 impl FixedPose {
-    // Number by number: what is made elsewhere is copied.
+    /// Where a body is.
     #[inline(always)]
     pub(super) fn set(&mut self, place: &FixedPlace, orientation: &FixedTurn) {
+        self.set_matrix(place, orientation.matrix());
+    }
+
+    /// Where a body gets to.
+    #[inline(always)]
+    pub(super) fn set_next(&mut self, place: &FixedPlace, orientation: &mut FixedTurn) {
+        if orientation.is_about_z() {
+            self.set_matrix(place, orientation.next_matrix_about_z());
+        } else {
+            self.set_matrix(place, orientation.next_matrix());
+        }
+    }
+
+    // Number by number: what is made elsewhere is copied.
+    #[inline(always)]
+    fn set_matrix(&mut self, place: &FixedPlace, [p, q, r]: [[i32; 3]; 3]) {
         let Self { position, rotation: [x, y, z], single } = self;
         for (to, from) in position.iter_mut().zip(place.at) {
             *to = from;
         }
-        let [p, q, r] = orientation.matrix();
         for (row, from) in [(x, p), (y, q), (z, r)] {
             for (to, from) in row.iter_mut().zip(from) {
                 *to = from;

@@ -53,6 +53,41 @@ fn matrices_are_the_exact_ones_to_the_nearest() {
 }
 
 #[test]
+fn what_a_matrix_loses_the_next_makes_up_for() {
+    let mut numbers = units(13);
+    for case in 0..20 {
+        let start = unit(&mut numbers);
+        let [w, _, _, z] = start;
+        let n = libm::sqrt(w * w + z * z);
+        // Every other one turns about z alone, as in a plane.
+        let is_flat = case % 2 == 0;
+        let mut q = FixedTurn::from_f64(if is_flat { [w / n, 0.0, 0.0, z / n] } else { start });
+        // The sum over all poses of what entries are off, times 2^94.
+        let mut off = [[0_i128; 3]; 3];
+        for pose in 1..2_000 {
+            q.turn_exactly::<2>((1e-3 * numbers.next().unwrap() as f32, 0.0));
+            if !is_flat {
+                q.turn_exactly::<0>((1e-3 * numbers.next().unwrap() as f32, 0.0));
+            }
+            let mut other = q;
+            let matrix = q.next_matrix();
+            assert_eq!(q.matrix(), matrix, "made once more it is the same");
+            if is_flat {
+                assert_eq!((other.next_matrix_about_z(), other), (matrix, q), "{q:?}");
+            }
+            let (exact, _) = exact_matrix(&q);
+            for ((row, exact), off) in matrix.into_iter().zip(exact).zip(&mut off) {
+                for ((c, exact), off) in row.into_iter().zip(exact).zip(off) {
+                    *off += (i128::from(c) << 94) - exact;
+                    // One unit of 2^-30, and what an entry's sum and length are off in each pose.
+                    assert!(off.abs() < (1 << 94) + pose * (1 << 77), "{pose}: {off}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn turns_are_exact_to_what_they_were_given() {
     let mut numbers = units(12);
     for _ in 0..20_000 {

@@ -1,13 +1,14 @@
 //! A unit quaternion of fixed point, and the rotation of fixed point that it is.
 //!
-//! `(turn of single precision, quaternion) => quaternion, to 2^-60; quaternion => matrix, to 2^-31`.
+//! `(turn of single precision, quaternion) => quaternion, to 2^-60; quaternion => matrix, to 2^-30`.
 //! A turn is what a step adds and comes with the digits of single precision; what it is added to keeps
 //! its own. A turn that is no rotation, one of several radians, leaves zero, which stays zero.
 
 use crate::attitude::Attitude;
+use crate::fixed::matrix::{self, Carry};
 use crate::fixed::number::{
-    from_f32, from_f64, halves, in_words, product, square_of_halves, squared, sum_of_products,
-    sum_of_squares, to_f32, to_f64,
+    from_f32, from_f64, halves, in_words, product, squared, sum_of_products, sum_of_squares,
+    to_f32, to_f64,
 };
 use crate::real::Real as _;
 use crate::vector::{Quaternion, Rotation, Vec3};
@@ -30,11 +31,12 @@ pub struct FixedTurn {
     pub w: i64,
     /// Vector part.
     pub v: [i64; 3],
+    carry: Carry,
 }
 
 impl Default for FixedTurn {
     fn default() -> Self {
-        Self { w: 1 << BITS, v: [0; 3] }
+        Self::from_words(1 << BITS, [0; 3])
     }
 }
 
@@ -44,13 +46,20 @@ impl FixedTurn {
     pub const fn new(orientation: [f64; 4]) -> Self {
         let [w, x, y, z] = orientation;
         let bits = BITS as u32;
-        Self { w: from_f64(w, bits), v: [from_f64(x, bits), from_f64(y, bits), from_f64(z, bits)] }
+        let vector = [from_f64(x, bits), from_f64(y, bits), from_f64(z, bits)];
+        Self::from_words(from_f64(w, bits), vector)
+    }
+
+    /// Scalar and vector part of a unit quaternion as they are stored.
+    #[must_use]
+    pub const fn from_words(w: i64, v: [i64; 3]) -> Self {
+        Self { w, v, carry: Carry::NEAREST }
     }
 
     /// The conjugate.
     #[inline(always)]
     fn conjugate(&self) -> Self {
-        Self { w: self.w, v: self.v.map(i64::wrapping_neg) }
+        Self { v: self.v.map(i64::wrapping_neg), ..*self }
     }
 
     /// Turns about a body axis by half the angle in two numbers, to 2^-35 of it.
@@ -71,7 +80,7 @@ impl FixedTurn {
     fn turn_in_parts<const AXIS: usize>(&mut self, (whole, rest): (f32, f32)) {
         let half = whole + rest;
         if half.abs() > 1.0 || half.is_nan() {
-            *self = Self { w: 0, v: [0; 3] };
+            *self = Self::from_words(0, [0; 3]);
             return;
         }
         for _ in 0..4 {
@@ -92,6 +101,15 @@ impl FixedTurn {
         let cosine = halves(in_words::<32>(cosine).wrapping_add(missing << 3));
         let sine = in_words::<32>(whole).wrapping_add(in_words::<32>(rest + sine));
         let (sine, back) = (halves(sine), halves(sine.wrapping_neg()));
+        if AXIS == 2 && self.is_about_z() {
+            // Of what moves in a plane the others stay nothing.
+            let change = |c: (i32, i32), across: (i32, i32), sine: (i32, i32)| {
+                sum_of_products([((c.0, 0), cosine), (across, sine)])
+            };
+            self.w = self.w.wrapping_add(change(w, z, back));
+            self.v[2] = self.v[2].wrapping_add(change(z, w, sine));
+            return;
+        }
         // By how much a component changes, with its sign what an axis does to it of another.
         let change = |c: (i32, i32), across: (i32, i32), sine: (i32, i32)| {
             sum_of_products([((c.0, 0), cosine), (across, sine)])
@@ -124,26 +142,51 @@ impl FixedTurn {
                 sum([product(a, by), product(ay, b), product(az, bx), product(ax, bz)]),
                 sum([product(a, bz), product(az, b), product(ax, by), product(ay, bx)]),
             ],
+            ..*self
         }
     }
 
-    /// The matrix, 30 bits after the point, to the nearest.
+    /// Whether it turns about z alone, as what moves in a plane.
     #[inline(always)]
-    pub(crate) fn matrix(&self) -> [[i32; 3]; 3] {
-        let (w, [x, y, z]) = (halves(self.w), self.v.map(halves));
-        let [xx, yy, zz] = [x, y, z].map(square_of_halves);
-        // Twice what is given, and a half for the nearest.
-        let (nearest, half) = (1 << 28, ONE / 2);
-        let rounded = |c: i64| (c >> 29) as i32;
-        let pair = |(a, b), (c, d)| {
-            let (along, turned) = (nearest + sum_of_products([(a, b)]), sum_of_products([(c, d)]));
-            [rounded(along + turned), rounded(along - turned)]
-        };
-        let [xy, yx] = pair((x, y), (w, z));
-        let [zx, xz] = pair((x, z), (w, y));
-        let [yz, zy] = pair((y, z), (w, x));
-        let none = half + nearest - (xx + yy + zz);
-        [[rounded(none + xx), yx, zx], [xy, rounded(none + yy), zy], [xz, yz, rounded(none + zz)]]
+    pub(super) fn is_about_z(&self) -> bool {
+        let [x, y, _] = self.v;
+        x | y == 0
+    }
+
+    /// The matrix, 30 bits after the point.
+    #[inline(always)]
+    pub(super) fn matrix(&self) -> [[i32; 3]; 3] {
+        matrix::here(self.w, self.v, &self.carry)
+    }
+
+    /// After the turns of a step: the matrix, and what it loses is kept for the next.
+    #[inline(always)]
+    pub(super) fn next_matrix(&mut self) -> [[i32; 3]; 3] {
+        matrix::next(self.w, self.v, &mut self.carry)
+    }
+
+    /// [`Self::next_matrix`] where it [is about z](Self::is_about_z).
+    #[inline(always)]
+    pub(super) fn next_matrix_about_z(&mut self) -> [[i32; 3]; 3] {
+        matrix::next_about_z(self.w, self.v[2], &mut self.carry)
+    }
+
+    /// Newton's step towards unit length, where it is not that to 2^-48.
+    #[inline(always)]
+    fn lengthen(&mut self) {
+        let [x, y, z] = self.v;
+        // Half of what is missing, 62 bits after the point.
+        let missing = ONE.wrapping_sub(squared(&[self.w, x, y, z])) << 1;
+        if (-LITTLE..LITTLE).contains(&missing) {
+            return;
+        }
+        if let Ok(little) = i32::try_from(missing) {
+            let more = |c: i64| c.wrapping_add(((c >> 32) * i64::from(little)) >> 30);
+            *self = Self { w: more(self.w), v: self.v.map(more), ..*self };
+        } else {
+            let more = |c: i64| c.wrapping_add(product(c, missing) << 2);
+            *self = Self { w: more(self.w), v: self.v.map(more), ..*self };
+        }
     }
 }
 
@@ -164,6 +207,7 @@ impl Words for FixedTurn {
         for c in self.v {
             visitor.word(Word::U64(c as u64));
         }
+        self.carry.visit(visitor);
     }
 
     fn fill(&mut self, source: &mut impl WordSource) {
@@ -171,6 +215,7 @@ impl Words for FixedTurn {
         for c in &mut self.v {
             *c = source.take(8) as i64;
         }
+        self.carry.fill(source);
     }
 }
 
@@ -198,30 +243,18 @@ impl Attitude for FixedTurn {
     fn turn(&mut self, turn: Quaternion<f32>) {
         let length = turn.w * turn.w + turn.v.dot(turn.v);
         if !(0.75..1.25).contains(&length) {
-            *self = Self { w: 0, v: [0; 3] };
+            *self = Self::from_words(0, [0; 3]);
             return;
         }
         let fixed = from_f32::<30, 30>;
         let Vec3 { x, y, z } = turn.v;
         let [w, x, y, z] = [turn.w, x, y, z].map(|c| fixed(c) << 2);
-        *self = self.product(&Self { w, v: [x, y, z] });
+        *self = self.product(&Self::from_words(w, [x, y, z]));
     }
-    /// One Newton step towards unit length, where it is not that to 2^-48.
     #[inline(always)]
     fn renormalise(&mut self) {
-        let [x, y, z] = self.v;
-        // Half of what is missing, 62 bits after the point.
-        let missing = ONE.wrapping_sub(squared(&[self.w, x, y, z])) << 1;
-        if (-LITTLE..LITTLE).contains(&missing) {
-            return;
-        }
-        if let Ok(little) = i32::try_from(missing) {
-            let more = |c: i64| c.wrapping_add(((c >> 32) * i64::from(little)) >> 30);
-            *self = Self { w: more(self.w), v: self.v.map(more) };
-        } else {
-            let more = |c: i64| c.wrapping_add(product(c, missing) << 2);
-            *self = Self { w: more(self.w), v: self.v.map(more) };
-        }
+        self.lengthen();
+        self.next_matrix();
     }
     #[inline(always)]
     fn is_lost(&self) -> bool {

@@ -36,6 +36,25 @@ pub(crate) fn drift_body<P: Geometry>(
     rotation::free_rotor::<P>(body, &mut state.orientation, &mut state.angular_velocity, time);
 }
 
+/// [`drift_body`], and the frame of where it gets to.
+#[inline(always)]
+pub(crate) fn drift_to_frame<P: Geometry>(
+    state: &mut BodyState<P>,
+    body: &Body<P::Space>,
+    frame: &mut P::Frame,
+    time: P::Real,
+) {
+    if P::RESTS {
+        let BodyState { position, orientation, velocity, angular_velocity } = state;
+        P::fly(position, velocity, time);
+        rotation::turn_freely::<P>(body, orientation, angular_velocity, time);
+        P::set_next_frame(frame, position, orientation);
+    } else {
+        drift_body(state, body, time);
+        P::set_frame(frame, &state.position, &state.orientation);
+    }
+}
+
 /// One body by half a kick and a drift, and its frame. Apart: what is long has the registers for itself.
 #[inline(never)]
 pub(super) fn move_apart<P: Geometry, T: Terms>(
@@ -48,6 +67,5 @@ pub(super) fn move_apart<P: Geometry, T: Terms>(
 ) {
     let fall = if P::FALLS && T::GRAVITY { Some(fall) } else { None };
     kick_body(state, wrench, diagonal, (P::Real::HALF, fall));
-    drift_body(state, body, time);
-    P::set_frame(frame, &state.position, &state.orientation);
+    drift_to_frame(state, body, frame, time);
 }

@@ -9,7 +9,7 @@ mod damped;
 mod solved;
 
 use body::move_apart;
-pub(crate) use body::{drift_body, kick_body};
+pub(crate) use body::{drift_body, drift_to_frame, kick_body};
 
 use core::ops::{Deref, DerefMut};
 
@@ -292,8 +292,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
         self.ledger.ready = false;
         let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
         for ((state, body), frame) in rows {
-            drift_body(state, body, time);
-            P::set_frame(frame, &state.position, &state.orientation);
+            drift_to_frame(state, body, frame, time);
         }
     }
 
@@ -316,8 +315,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
                 move_apart::<P, T>(state, body, frame, (wrench, diagonal), fall, time);
             } else {
                 kick_body(state, wrench, diagonal, (scale, fall));
-                drift_body(state, body, time);
-                P::set_frame(frame, &state.position, &state.orientation);
+                drift_to_frame(state, body, frame, time);
             }
         }
     }

@@ -182,7 +182,7 @@ impl SourceGeometry for Fixed {
         Single::turn(q)
     }
     fn orientation(turn: &FixedTurn) -> String {
-        format!("dbd_kernel::fixed::FixedTurn {{ w: {}, v: {:?} }}", turn.w, turn.v)
+        format!("dbd_kernel::fixed::FixedTurn::from_words({}, {:?})", turn.w, turn.v)
     }
     fn local(point: &FixedPoint) -> String {
         format!("dbd_kernel::fixed::FixedPoint {{ at: {:?} }}", point.at)
