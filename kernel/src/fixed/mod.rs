@@ -2,11 +2,11 @@
 //!
 //! `positions, orientations, points in integers => exact differences => single precision`. Where
 //! bodies are is stored in integers of 64 bits, metres to 2^-57 and unit quaternions to 2^-62; a rotation
-//! has 30 bits after the point, a point 27. A point's place is the exact sum of products, the way between
-//! two points their exact difference, rounded once to single precision. The centre of a star is placed beside where it
-//! rested in B at the start ([`crate::reach::AtRest`]). Forces, rates and their increments
-//! are `f32`, velocities sums of two words ([`crate::compensated`]), of gravity as well ([`Geometry::FALLS`]): laws,
-//! sweeps, schemes are those of `f32`.
+//! has 30 bits after the point, and what it loses is added to the next; a point has 27. A point's place is the exact
+//! sum of products, the way between two points their exact difference, rounded once to single precision. The centre
+//! of a star is placed beside where it rested in B at the start ([`crate::reach::AtRest`]). Forces, rates and their
+//! increments are `f32`, velocities sums of two words ([`crate::compensated`]), of gravity as well
+//! ([`Geometry::FALLS`]): laws, sweeps, schemes are those of `f32`.
 //!
 //! Integers have ends, and [`LIMITS`] says where: a model is checked when a plant of it is made, a state after
 //! every step ([`Cause::Extent`](crate::status::Cause)), and none ever wraps. Constants of models are made by
