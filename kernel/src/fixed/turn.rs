@@ -101,19 +101,16 @@ impl FixedTurn {
         let cosine = halves(in_words::<32>(cosine).wrapping_add(missing << 3));
         let sine = in_words::<32>(whole).wrapping_add(in_words::<32>(rest + sine));
         let (sine, back) = (halves(sine), halves(sine.wrapping_neg()));
-        if AXIS == 2 && self.is_about_z() {
-            // Of what moves in a plane the others stay nothing.
-            let change = |c: (i32, i32), across: (i32, i32), sine: (i32, i32)| {
-                sum_of_products([((c.0, 0), cosine), (across, sine)])
-            };
-            self.w = self.w.wrapping_add(change(w, z, back));
-            self.v[2] = self.v[2].wrapping_add(change(z, w, sine));
-            return;
-        }
         // By how much a component changes, with its sign what an axis does to it of another.
         let change = |c: (i32, i32), across: (i32, i32), sine: (i32, i32)| {
             sum_of_products([((c.0, 0), cosine), (across, sine)])
         };
+        if AXIS == 2 && self.is_about_z() {
+            // Of what moves in a plane the others stay nothing.
+            self.w = self.w.wrapping_add(change(w, z, back));
+            self.v[2] = self.v[2].wrapping_add(change(z, w, sine));
+            return;
+        }
         let (by_w, by) = match AXIS {
             0 => (change(w, x, back), [change(x, w, sine), change(y, z, sine), change(z, y, back)]),
             1 => (change(w, y, back), [change(x, z, back), change(y, w, sine), change(z, x, sine)]),
