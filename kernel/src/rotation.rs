@@ -223,7 +223,7 @@ pub(crate) fn turn_unless<P: Geometry>(
 ) {
     let start = *orientation;
     P::Orientation::turn(orientation, turn);
-    P::Orientation::keep(orientation, resting, &start);
+    keep::<P>(orientation, resting, &start);
 }
 
 /// Turns about an axis, with cosine and sine of half the angle, all but the resting lanes.
@@ -237,7 +237,19 @@ fn turn_about<P: Geometry, const AXIS: usize>(
 ) {
     let start = *orientation;
     P::turn_about::<AXIS>(orientation, rate, time, half);
-    P::Orientation::keep(orientation, resting, &start);
+    keep::<P>(orientation, resting, &start);
+}
+
+/// Resting lanes have their start again. Where none rests nothing is stored: x86 stores by a mask, and slowly.
+#[inline(always)]
+fn keep<P: Geometry>(
+    orientation: &mut P::Orientation,
+    resting: TruthOf<P>,
+    start: &P::Orientation,
+) {
+    if P::Real::LANES == 1 || resting.any() {
+        P::Orientation::keep(orientation, resting, start);
+    }
 }
 
 // In lanes `without` an axis turns nothing.
