@@ -7,8 +7,8 @@
 use crate::attitude::Attitude;
 use crate::fixed::matrix::{self, Carry};
 use crate::fixed::number::{
-    from_f32, from_f64, halves, in_words, product, squared, sum_of_products, sum_of_squares,
-    to_f32, to_f64,
+    from_f32, from_f64, halves, in_words, nearest_f32, product, squared, sum_of_products,
+    sum_of_squares, to_f64,
 };
 use crate::real::Real as _;
 use crate::vector::{Quaternion, Rotation, Vec3};
@@ -227,9 +227,10 @@ impl Attitude for FixedTurn {
         let Rotation { x, y, z } = in_whole(&self.matrix());
         Rotation { x: x * UNIT, y: y * UNIT, z: z * UNIT }
     }
+    // Torsion springs take their angle from it: what were cut off would be work, always the same way.
     #[inline(always)]
     fn quaternion(&self) -> Quaternion<f32> {
-        let [w, x, y, z] = [self.w, self.v[0], self.v[1], self.v[2]].map(to_f32::<BITS>);
+        let [w, x, y, z] = [self.w, self.v[0], self.v[1], self.v[2]].map(nearest_f32::<BITS>);
         Quaternion::new(w, x, y, z)
     }
     #[inline(always)]
