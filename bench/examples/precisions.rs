@@ -1,13 +1,15 @@
 //! What rounding does to the energy of scenes, precision by precision: what `cargo xtask precisions` keeps in
 //! `docs/results/precisions.csv`.
 //!
-//! `precisions [--steps N] [SCENE…]`: a table of comma-separated values on standard output. A run in a precision
-//! stands beside the begin of one in double precision of the very same constants and start, and energies are computed
-//! in double precision from what is stored, with the constants of the steps ([`as_stepped`]) and, once more, with the
-//! model's own (`model_max_j`). Where dampers act, the energy itself is looked at.
+//! `precisions [--steps N] [--product P] [SCENE…]`: a table of comma-separated values on standard output; at
+//! most N steps, each P over the bound of the highest frequency. A run in a precision stands beside the begin of one in
+//! double precision of the very same constants and start, and energies are computed in double precision from what is
+//! stored, with the constants of the steps ([`as_stepped`]) and, once more, with the model's own (`model_max_j`). Where
+//! dampers act, the energy itself is looked at.
 
 use std::fmt::Write as _;
 use std::process::ExitCode;
+use std::str::FromStr;
 use std::time::Instant;
 
 use dbd_bench::kept::{Energies, Keeper, Kept};
@@ -56,11 +58,13 @@ fn main() -> ExitCode {
 
 fn run(arguments: &[String]) -> Result<(), String> {
     let mut names = arguments.to_vec();
-    let mut longest = LONG;
-    if let Some(at) = names.iter().position(|word| word == "--steps") {
-        let given = names.get(at + 1).and_then(|word| word.parse().ok()).filter(|n| *n >= SHORT);
-        longest = given.ok_or_else(|| format!("--steps takes a number of at least {SHORT}"))?;
-        names.drain(at..at + 2);
+    let longest = option(&mut names, "--steps", LONG)?;
+    if longest < SHORT {
+        return Err(format!("--steps takes a number of at least {SHORT}"));
+    }
+    let product = option(&mut names, "--product", PRODUCT)?;
+    if !(0.0..1.0).contains(&product) || product == 0.0 {
+        return Err("--product takes a number between 0 and 1".into());
     }
     if let Some(name) = names.iter().find(|name| !SCENES.contains(&name.as_str())) {
         return Err(format!("there is no scene {name:?} here, only {}", SCENES.join(", ")));
@@ -73,7 +77,7 @@ fn run(arguments: &[String]) -> Result<(), String> {
         for stiffness in STIFFNESSES {
             for damped in [false, true] {
                 for from_origin in PLACES {
-                    let case = Case::new(scene, stiffness, damped, from_origin)?;
+                    let case = Case::new(scene, stiffness, damped, from_origin, product)?;
                     let most = if damped { SHORT } else { longest.min(STEPS) };
                     case.compare(Leapfrog, Kept::KickDriftKick, most)?;
                     if damped || from_origin > 0.0 {
@@ -90,6 +94,14 @@ fn run(arguments: &[String]) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+/// The value of an option, taken out of the words.
+fn option<T: FromStr>(words: &mut Vec<String>, name: &str, default: T) -> Result<T, String> {
+    let Some(at) = words.iter().position(|word| word == name) else { return Ok(default) };
+    let given = words.get(at + 1).and_then(|word| word.parse().ok());
+    words.drain(at..(at + 2).min(words.len()));
+    given.ok_or_else(|| format!("{name} takes a number"))
 }
 
 /// A scene with its joints' springs and dampers, at a place.
@@ -109,6 +121,7 @@ impl Case {
         stiffness: f64,
         damped: bool,
         from_origin: f64,
+        product: f64,
     ) -> Result<Self, String> {
         let file = format!("scenes/{scene}.toml");
         let text = std::fs::read_to_string(&file).map_err(|why| format!("{file}: {why}"))?;
@@ -137,7 +150,7 @@ impl Case {
         }
         moved(&mut model, [from_origin, -from_origin, from_origin]);
         let bound = frequency::bound(&model, &State::initial(&model));
-        Ok(Self { scene, stiffness, damped, from_origin, model, step: rounded(PRODUCT / bound) })
+        Ok(Self { scene, stiffness, damped, from_origin, model, step: rounded(product / bound) })
     }
 
     /// The rows of all precisions for a scheme.
