@@ -28,19 +28,17 @@ fn rows<R: Number>(bodies: usize) {
     let steps = (WORK / bodies) as u64;
     let steps = (steps / BLOCK).max(1) * BLOCK;
     for set in InstructionSet::ALL.into_iter().filter(|set| set.is_there()) {
-        let mut one_thread = None;
         for threads in [1, 2] {
             let [of, rounds] = [threads, ROUNDS].map(|n| NonZeroUsize::new(n).unwrap());
             let course = Course { set, threads: of, steps, rounds };
             let pace = pace_of_large::<R>(&model(bodies), chain::STEP, course).unwrap();
             let (ratio, best, lanes) = (pace.ratio(), pace.best_ratio(), R::lanes(set));
-            let one = *one_thread.get_or_insert(ratio);
             println!(
                 "{bodies},{},{},{lanes},{threads},{ratio:.2},{:.3},{best:.2},{:.2}",
                 R::NAME,
                 set.name(),
                 pace.spread(),
-                ratio / one
+                pace.over_one_thread().unwrap_or(1.0)
             );
         }
     }

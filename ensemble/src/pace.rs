@@ -5,6 +5,7 @@
 //! turn, from the same state.
 
 use std::num::NonZeroUsize;
+use std::thread;
 use std::time::Instant;
 
 use dbd_kernel::geometry::Float;
@@ -23,47 +24,56 @@ use crate::number::Number;
 pub struct Course {
     /// The instruction set.
     pub set: InstructionSet,
-    /// How many threads step the ensemble; those that step alone have one.
+    /// How many threads step the ensemble; those that step alone have one. Threads start anew in each round: a round
+    /// is to take much longer than that.
     pub threads: NonZeroUsize,
     /// Steps of each instance in a round.
     pub steps: u64,
-    /// Rounds, of which each times both.
+    /// Rounds, of which each times all.
     pub rounds: NonZeroUsize,
 }
 
-/// Steps per second, of all instances together.
+/// Steps per second, of all instances together. Threads of a large model are not beside plants on threads: it is one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pace {
     /// Instances, a full batch for each thread.
     pub instances: usize,
     /// Of the ensemble, round by round.
     pub together: Vec<f64>,
+    /// Of the same ensemble on one thread, round by round; empty where it has no more.
+    pub on_one_thread: Vec<f64>,
     /// Of its instances one after the other on one thread, round by round.
     pub alone: Vec<f64>,
+    /// Of its instances, each by itself, on as many threads, round by round; empty where it has no more.
+    pub alone_on_threads: Vec<f64>,
 }
 
 impl Pace {
     /// How many times faster the ensemble is: the median of the rounds' ratios.
     #[must_use]
     pub fn ratio(&self) -> f64 {
-        let ratios = self.ratios();
-        ratios.get(ratios.len() / 2).copied().unwrap_or(f64::NAN)
+        median(&ratios(&self.together, &self.alone)).unwrap_or(f64::NAN)
+    }
+
+    /// How many times faster its threads are than one of them: the median of the rounds' ratios; `None` where it
+    /// has one.
+    #[must_use]
+    pub fn over_one_thread(&self) -> Option<f64> {
+        median(&ratios(&self.together, &self.on_one_thread))
+    }
+
+    /// The same of instances that share nothing, each by itself: what the machine's cores have to give.
+    #[must_use]
+    pub fn alone_over_one_thread(&self) -> Option<f64> {
+        median(&ratios(&self.alone_on_threads, &self.alone))
     }
 
     /// How far the middle half of the rounds' ratios lies apart, half of it over the median.
     #[must_use]
     pub fn spread(&self) -> f64 {
-        let ratios = self.ratios();
+        let ratios = ratios(&self.together, &self.alone);
         let at = |quarters: usize| ratios.get(quarters * ratios.len() / 4).copied();
         at(1).zip(at(3)).map_or(f64::NAN, |(low, high)| 0.5 * (high - low) / self.ratio())
-    }
-
-    /// The rounds' ratios, the least first.
-    fn ratios(&self) -> Vec<f64> {
-        let rounds = self.together.iter().zip(&self.alone);
-        let mut ratios: Vec<f64> = rounds.map(|(together, alone)| together / alone).collect();
-        ratios.sort_by(f64::total_cmp);
-        ratios
     }
 
     /// The ratio of the fastest rounds of each: what other programs took least from.
@@ -72,6 +82,67 @@ impl Pace {
         let most = |rates: &[f64]| rates.iter().copied().fold(f64::NAN, f64::max);
         most(&self.together) / most(&self.alone)
     }
+
+    /// No round yet.
+    fn of(instances: usize) -> Self {
+        let [together, on_one_thread, alone, alone_on_threads] = [const { Vec::new() }; 4];
+        Self { instances, together, on_one_thread, alone, alone_on_threads }
+    }
+
+    /// Takes in a round of `done` steps.
+    fn push(&mut self, done: f64, times: &Times) {
+        self.together.push(done / times.together);
+        self.on_one_thread.extend(times.on_one_thread.map(|time| done / time));
+        self.alone.push(done / times.alone);
+        self.alone_on_threads.extend(times.alone_on_threads.map(|time| done / time));
+    }
+}
+
+/// \[s\] what a round took.
+struct Times {
+    together: f64,
+    on_one_thread: Option<f64>,
+    alone: f64,
+    alone_on_threads: Option<f64>,
+}
+
+/// \[s\] what some work takes.
+fn seconds(work: impl FnOnce()) -> f64 {
+    let start = Instant::now();
+    work();
+    start.elapsed().as_secs_f64()
+}
+
+/// Steps of plants one after the other.
+fn each<R: Number, S: InLanes>(plants: &mut [PlantOf<R, S>], steps: u64) {
+    for plant in plants {
+        let _ = plant.advance(steps);
+    }
+}
+
+/// The same on several threads, this one among them.
+fn each_on<R: Number, S: InLanes + Send>(
+    plants: &mut [PlantOf<R, S>],
+    threads: NonZeroUsize,
+    steps: u64,
+) {
+    let share = plants.len().div_ceil(threads.get()).max(1);
+    let (own, others) = plants.split_at_mut(share.min(plants.len()));
+    thread::scope(|scope| {
+        others.chunks_mut(share).for_each(|plants| _ = scope.spawn(move || each(plants, steps)));
+        each(own, steps);
+    });
+}
+
+/// The rounds' ratios, the least first.
+fn ratios(rates: &[f64], of: &[f64]) -> Vec<f64> {
+    let mut ratios: Vec<f64> = rates.iter().zip(of).map(|(rate, of)| rate / of).collect();
+    ratios.sort_by(f64::total_cmp);
+    ratios
+}
+
+fn median(sorted: &[f64]) -> Option<f64> {
+    sorted.get(sorted.len() / 2).copied()
 }
 
 /// Times an ensemble of alike instances of `model` against the same plants by themselves.
@@ -86,34 +157,34 @@ pub fn pace<R: Number, S: InLanes + Send + 'static>(
 ) -> Result<Pace, EnsembleError> {
     let Course { set, threads, steps, rounds } = course;
     let instances = R::lanes(set) * threads.get();
-    let models = vec![model.clone(); instances];
-    let mut plants = Vec::with_capacity(instances);
-    for model in &models {
-        let plant: PlantOf<R, S> = Plant::new(Box::new(model.clone()), scheme, step_size)
-            .map_err(|_| EnsembleError::Step { step: step_size })?;
-        plants.push(plant);
-    }
-    let mut ensemble = Ensemble::with_instructions(models, scheme, step_size, set)?;
-    let mut pace = Pace { instances, together: Vec::new(), alone: Vec::new() };
-    let done = steps as f64 * instances as f64;
+    let plants: Result<Vec<PlantOf<R, S>>, _> =
+        (0..instances).map(|_| Plant::new(Box::new(model.clone()), scheme, step_size)).collect();
+    let mut plants = plants.map_err(|_| EnsembleError::Step { step: step_size })?;
+    let ensemble =
+        || Ensemble::with_instructions(vec![model.clone(); instances], scheme, step_size, set);
+    let mut on_threads = ensemble()?;
+    let mut on_one = if threads.get() > 1 { Some(ensemble()?) } else { None };
+    let mut pace = Pace::of(instances);
     // The first round brings code and data in.
     for round in 0..=rounds.get() {
-        (0..instances).for_each(|instance| ensemble.plant_mut(instance).reset());
-        plants.iter_mut().for_each(Plant::reset);
-        // Lanes are filled before their first step.
-        ensemble.advance(1);
-        plants.iter_mut().for_each(|plant| _ = plant.step());
-        let start = Instant::now();
-        ensemble.advance_on(threads, steps);
-        let together = done / start.elapsed().as_secs_f64();
-        let start = Instant::now();
-        for plant in &mut plants {
-            let _ = plant.advance(steps);
+        for ensemble in on_one.iter_mut().chain([&mut on_threads]) {
+            (0..instances).for_each(|instance| ensemble.plant_mut(instance).reset());
+            // Lanes are filled before their first step.
+            ensemble.advance(1);
         }
-        let alone = done / start.elapsed().as_secs_f64();
+        for plant in &mut plants {
+            plant.reset();
+            let _ = plant.step();
+        }
+        let times = Times {
+            together: seconds(|| on_threads.advance_on(threads, steps)),
+            on_one_thread: on_one.as_mut().map(|one| seconds(|| one.advance(steps))),
+            alone: seconds(|| each(&mut plants, steps)),
+            alone_on_threads: (threads.get() > 1)
+                .then(|| seconds(|| each_on(&mut plants, threads, steps))),
+        };
         if round > 0 {
-            pace.together.push(together);
-            pace.alone.push(alone);
+            pace.push(steps as f64 * instances as f64, &times);
         }
     }
     Ok(pace)
@@ -136,22 +207,26 @@ pub fn pace_of_large<R: Number>(
         Plant::new(Box::new(model.clone()), Leapfrog, step_size).expect("a step")
     };
     let mut plant_alone = plant();
-    let mut large = Large::with_instructions(plant(), set)?.on(threads);
-    let mut pace = Pace { instances: 1, together: Vec::new(), alone: Vec::new() };
+    let mut on_threads = Large::with_instructions(plant(), set)?.on(threads);
+    let mut on_one =
+        if threads.get() > 1 { Some(Large::with_instructions(plant(), set)?) } else { None };
+    let mut pace = Pace::of(1);
     for round in 0..=rounds.get() {
-        large.plant_mut().reset();
+        for large in on_one.iter_mut().chain([&mut on_threads]) {
+            large.plant_mut().reset();
+            // Lanes are filled before their first step.
+            let _ = large.advance(1);
+        }
         plant_alone.reset();
-        // Lanes are filled before their first step.
-        let _ = (large.advance(1), plant_alone.step());
-        let start = Instant::now();
-        let _ = large.advance(steps);
-        let together = steps as f64 / start.elapsed().as_secs_f64();
-        let start = Instant::now();
-        let _ = plant_alone.advance(steps);
-        let alone = steps as f64 / start.elapsed().as_secs_f64();
+        let _ = plant_alone.step();
+        let times = Times {
+            together: seconds(|| _ = on_threads.advance(steps)),
+            on_one_thread: on_one.as_mut().map(|one| seconds(|| _ = one.advance(steps))),
+            alone: seconds(|| _ = plant_alone.advance(steps)),
+            alone_on_threads: None,
+        };
         if round > 0 {
-            pace.together.push(together);
-            pace.alone.push(alone);
+            pace.push(steps as f64, &times);
         }
     }
     Ok(pace)

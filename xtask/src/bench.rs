@@ -102,7 +102,8 @@ fn ensembles(of: &str, rows: &str) -> String {
     format!(
         "# Steps per second of an ensemble over those of its instances one after the other on one thread, taken in turn in one\n\
          # process: the median of the rounds' ratios, half the range of their middle half over it, the ratio of the fastest\n\
-         # rounds, and of two threads that over one; written by `cargo xtask bench`, {of}.\n{}\n",
+         # rounds, what two threads bring over one, and what they bring the instances by themselves; written by\n\
+         # `cargo xtask bench`, {of}.\n{}\n",
         rows.trim_end()
     )
 }

@@ -1,7 +1,7 @@
 //! Many instances of a system in lockstep and on threads, beside the same ones one after the other.
 //!
-//! `(system, rounds) => ratios of steps per second, with what they ought to be`. Both take turns in one process; where
-//! two threads have no two quiet cores, their figure says so.
+//! `(system, rounds) => ratios of steps per second, with what they ought to be`. All take turns in one process. What
+//! threads bring an ensemble is beside what they bring its instances by themselves, which share nothing.
 
 use std::num::NonZeroUsize;
 
@@ -11,8 +11,10 @@ use serde::Serialize;
 use super::systems::System;
 use super::turns::{Figure, ratio};
 
-/// Bodies × steps of an instance in a round, where nobody says how many steps.
-const WORK: u64 = 6_000;
+/// Threads, and bodies × steps of an instance in a round, where nobody says how many steps: a round of two threads is
+/// long beside their start.
+const COURSES: [(NonZeroUsize, u64); 2] =
+    [(NonZeroUsize::MIN, 6_000), (NonZeroUsize::MIN.saturating_add(1), 60_000)];
 
 /// More bodies than these are not asked of every instance.
 const BODIES: usize = 100;
@@ -32,8 +34,10 @@ pub struct Together {
     pub instances: usize,
     /// Its steps per second over those of its instances one after the other on one thread, round by round.
     pub over_alone: Option<Figure>,
-    /// Its steps per second over those of one thread, of all rounds the median; of more threads than one.
+    /// Its steps per second over those of one thread, the median of the rounds' ratios; of more threads than one.
     pub over_one_thread: Option<f64>,
+    /// The same of its instances, each by itself: what the cores have to give.
+    pub alone_over_one_thread: Option<f64>,
 }
 
 /// Ensembles of the first system that is small enough; none where it cannot be stepped in lockstep.
@@ -44,14 +48,13 @@ pub fn measured(systems: &[System], rounds: usize, steps: Option<u64>) -> Vec<To
         return ensembles;
     };
     let Some(rounds) = NonZeroUsize::new(rounds) else { return ensembles };
-    let steps = steps.unwrap_or((WORK / system.size.bodies.max(1) as u64).max(1));
+    let bodies = system.size.bodies.max(1) as u64;
     for (precision, pace) in [("f64", pace_in_f64 as fn(_, _, _) -> _), ("f32", pace_in_f32)] {
         for set in InstructionSet::ALL.into_iter().filter(|set| set.is_there()) {
-            let mut one_thread = None;
-            for threads in [NonZeroUsize::MIN, NonZeroUsize::MIN.saturating_add(1)] {
+            for (threads, work) in COURSES {
+                let steps = steps.unwrap_or((work / bodies).max(1));
                 let course = Course { set, threads, steps, rounds };
                 let Ok(pace) = pace(&system.model, system.size.step_s, course) else { continue };
-                let own = Figure::of(pace.together.clone()).map(|rate| rate.median);
                 ensembles.push(Together {
                     name: system.size.name.clone(),
                     precision,
@@ -59,9 +62,9 @@ pub fn measured(systems: &[System], rounds: usize, steps: Option<u64>) -> Vec<To
                     threads: threads.get(),
                     instances: pace.instances,
                     over_alone: ratio(&pace.together, &pace.alone),
-                    over_one_thread: one_thread.and_then(|one: f64| Some(own? / one)),
+                    over_one_thread: pace.over_one_thread(),
+                    alone_over_one_thread: pace.alone_over_one_thread(),
                 });
-                one_thread = one_thread.or(own);
             }
         }
     }

@@ -6,7 +6,6 @@ use serde::Serialize;
 
 use super::ensembles::Together;
 use super::fit::exponent;
-use super::turns::Figure;
 use super::ways::Row;
 
 /// A figure and what it ought to be.
@@ -36,7 +35,12 @@ pub enum Verdict {
     NotMet,
     /// The times scatter too much to tell.
     TooNoisy,
+    /// It is not, and the cores had other work: threads of plants that share nothing gained too little, too.
+    CoresBusy,
 }
+
+/// What two threads of plants that share nothing gain where both their cores have nothing else to do.
+const FREE: f64 = 1.9;
 
 /// How far the exponent of growth may be from 1.
 const GROWTH: f64 = 0.03;
@@ -68,6 +72,7 @@ impl Goal {
             Verdict::Met => "met",
             Verdict::NotMet => "not met",
             Verdict::TooNoisy => "times scatter too much to tell",
+            Verdict::CoresBusy => "not met, the cores had other work",
         };
         format!("{figure:.2} ± {scatter:.2}, goal {goal}: {verdict}")
     }
@@ -81,19 +86,25 @@ pub fn goals(rows: &[Row], ensembles: &[Together]) -> Vec<Goal> {
 
 /// Ensembles on AVX2, which is what was aimed at.
 fn lockstep(ensemble: &Together) -> Option<Goal> {
-    let Together { precision, instructions, threads, over_alone, over_one_thread, .. } = ensemble;
+    let Together { precision, instructions, threads, .. } = ensemble;
     if *instructions != "avx2" {
         return None;
     }
-    let figure = (*over_alone)?;
-    let (figure, least) = match (*threads, *precision) {
-        (1, "f64") => (figure, 3.2),
-        (1, _) => (figure, 5.0),
-        _ => (Figure { median: (*over_one_thread)?, ..figure }, 1.8),
+    let over_alone = ensemble.over_alone?;
+    let goal = |beside: &str, figure: f64, least: f64| {
+        let what = format!("{threads} × {precision} on {instructions} over {beside}");
+        Goal::new(what, figure, figure * over_alone.spread, [Some(least), None])
     };
-    let beside = if *threads == 1 { "one by one" } else { "one thread" };
-    let what = format!("{threads} × {precision} on {instructions} over {beside}");
-    Some(Goal::new(what, figure.median, figure.median * figure.spread, [Some(least), None]))
+    if *threads == 1 {
+        let least = if *precision == "f64" { 3.2 } else { 5.0 };
+        return Some(goal("one by one", over_alone.median, least));
+    }
+    let mut goal = goal("one thread", ensemble.over_one_thread?, 1.8);
+    let free = ensemble.alone_over_one_thread.is_none_or(|cores| cores >= FREE);
+    if goal.verdict != Verdict::Met && !free {
+        goal.verdict = Verdict::CoresBusy;
+    }
+    Some(goal)
 }
 
 /// How the time of a step grows with the bodies of a chain.
@@ -132,6 +143,7 @@ fn grown(points: &[(f64, f64, f64)]) -> Option<(f64, f64)> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::turns::Figure;
     use super::*;
 
     #[test]
@@ -145,6 +157,28 @@ mod tests {
         assert_eq!(verdict(1.04, 0.02), Verdict::TooNoisy);
         let text = Goal::new(String::new(), 3.5, 0.1, [Some(3.2), None]).text();
         assert_eq!(text, "3.50 ± 0.10, goal at least 3.2: met");
+    }
+
+    #[test]
+    fn threads_that_cores_do_not_carry_are_told_from_threads_that_wait() {
+        let figure = Figure { least: 5.0, median: 5.5, spread: 0.01 };
+        let verdict = |gained: f64, cores: f64| {
+            let ensemble = Together {
+                name: String::new(),
+                precision: "f64",
+                instructions: "avx2",
+                threads: 2,
+                instances: 8,
+                over_alone: Some(figure),
+                over_one_thread: Some(gained),
+                alone_over_one_thread: Some(cores),
+            };
+            lockstep(&ensemble).unwrap().verdict
+        };
+        assert_eq!(verdict(1.9, 1.7), Verdict::Met);
+        assert_eq!(verdict(1.6, 1.7), Verdict::CoresBusy);
+        assert_eq!(verdict(1.6, 1.95), Verdict::NotMet);
+        assert_eq!(verdict(1.795, 1.95), Verdict::TooNoisy);
     }
 
     #[test]

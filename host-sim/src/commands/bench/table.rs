@@ -32,7 +32,7 @@ impl Outcome {
 
     fn together(&self, look: Look) -> String {
         let Some(first) = self.ensembles.first() else { return String::new() };
-        let lines: Vec<[String; 6]> = self
+        let lines: Vec<[String; 8]> = self
             .ensembles
             .iter()
             .map(|ensemble| {
@@ -43,10 +43,21 @@ impl Outcome {
                     ensemble.instances.to_string(),
                     cell(ensemble.over_alone.map(|ratio| ratio.median), 2),
                     cell(ensemble.over_alone.map(|ratio| 100.0 * ratio.spread), 0),
+                    cell(ensemble.over_one_thread, 2),
+                    cell(ensemble.alone_over_one_thread, 2),
                 ]
             })
             .collect();
-        let head = ["numbers", "instructions", "threads", "instances", "faster", "±%"];
+        let head = [
+            "numbers",
+            "instructions",
+            "threads",
+            "instances",
+            "faster",
+            "±%",
+            "over one thread",
+            "one by one",
+        ];
         let title =
             format!("\nensembles of {}, beside the same instances one by one\n", first.name);
         title + &look.columns(Some(head), &lines)
