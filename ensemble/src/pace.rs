@@ -1,7 +1,7 @@
 //! How fast lanes are beside plants by themselves: an ensemble beside its instances one after the other, a large model
 //! in lanes beside its plant.
 //!
-//! `(model, scheme, h, instruction set, threads) => steps per second of both`. Both in one process, in
+//! `(model, scheme, h, instruction set, threads) => steps per second of each`. All in one process, in
 //! turn, from the same state.
 
 use std::num::NonZeroUsize;

@@ -36,6 +36,8 @@ pub struct Together {
     pub over_alone: Option<Figure>,
     /// Its steps per second over those of one thread, the median of the rounds' ratios; of more threads than one.
     pub over_one_thread: Option<f64>,
+    /// Half the range of the middle half of those ratios over it.
+    pub over_one_thread_spread: Option<f64>,
     /// The same of its instances, each by itself: what the cores have to give.
     pub alone_over_one_thread: Option<f64>,
 }
@@ -55,6 +57,7 @@ pub fn measured(systems: &[System], rounds: usize, steps: Option<u64>) -> Vec<To
                 let steps = steps.unwrap_or((work / bodies).max(1));
                 let course = Course { set, threads, steps, rounds };
                 let Ok(pace) = pace(&system.model, system.size.step_s, course) else { continue };
+                let over_one_thread = ratio(&pace.together, &pace.on_one_thread);
                 ensembles.push(Together {
                     name: system.size.name.clone(),
                     precision,
@@ -62,7 +65,8 @@ pub fn measured(systems: &[System], rounds: usize, steps: Option<u64>) -> Vec<To
                     threads: threads.get(),
                     instances: pace.instances,
                     over_alone: ratio(&pace.together, &pace.alone),
-                    over_one_thread: pace.over_one_thread(),
+                    over_one_thread: over_one_thread.map(|figure| figure.median),
+                    over_one_thread_spread: over_one_thread.map(|figure| figure.spread),
                     alone_over_one_thread: pace.alone_over_one_thread(),
                 });
             }

@@ -90,16 +90,17 @@ fn lockstep(ensemble: &Together) -> Option<Goal> {
     if *instructions != "avx2" {
         return None;
     }
-    let over_alone = ensemble.over_alone?;
-    let goal = |beside: &str, figure: f64, least: f64| {
+    let goal = |beside: &str, figure: f64, spread: f64, least: f64| {
         let what = format!("{threads} × {precision} on {instructions} over {beside}");
-        Goal::new(what, figure, figure * over_alone.spread, [Some(least), None])
+        Goal::new(what, figure, figure * spread, [Some(least), None])
     };
     if *threads == 1 {
         let least = if *precision == "f64" { 3.2 } else { 5.0 };
-        return Some(goal("one by one", over_alone.median, least));
+        let over_alone = ensemble.over_alone?;
+        return Some(goal("one by one", over_alone.median, over_alone.spread, least));
     }
-    let mut goal = goal("one thread", ensemble.over_one_thread?, 1.8);
+    let (figure, spread) = ensemble.over_one_thread.zip(ensemble.over_one_thread_spread)?;
+    let mut goal = goal("one thread", figure, spread, 1.8);
     let free = ensemble.alone_over_one_thread.is_none_or(|cores| cores >= FREE);
     if goal.verdict != Verdict::Met && !free {
         goal.verdict = Verdict::CoresBusy;
@@ -143,7 +144,6 @@ fn grown(points: &[(f64, f64, f64)]) -> Option<(f64, f64)> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::turns::Figure;
     use super::*;
 
     #[test]
@@ -161,7 +161,6 @@ mod tests {
 
     #[test]
     fn threads_that_cores_do_not_carry_are_told_from_threads_that_wait() {
-        let figure = Figure { least: 5.0, median: 5.5, spread: 0.01 };
         let verdict = |gained: f64, cores: f64| {
             let ensemble = Together {
                 name: String::new(),
@@ -169,8 +168,9 @@ mod tests {
                 instructions: "avx2",
                 threads: 2,
                 instances: 8,
-                over_alone: Some(figure),
+                over_alone: None,
                 over_one_thread: Some(gained),
+                over_one_thread_spread: Some(0.01),
                 alone_over_one_thread: Some(cores),
             };
             lockstep(&ensemble).unwrap().verdict
