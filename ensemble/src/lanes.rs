@@ -32,24 +32,6 @@ impl<V: Register> Lanes<V> {
         self.0.lane(lane)
     }
 
-    /// The first numbers of a slice.
-    ///
-    /// # Panics
-    /// Where they are fewer than lanes.
-    #[inline(always)]
-    pub(crate) fn load(numbers: &[V::Number]) -> Self {
-        Self(V::load(numbers))
-    }
-
-    /// Writes the first numbers of a slice.
-    ///
-    /// # Panics
-    /// Where they are fewer than lanes.
-    #[inline(always)]
-    pub(crate) fn store(self, numbers: &mut [V::Number]) {
-        self.0.store(numbers);
-    }
-
     /// Constants of a register as those of its lanes.
     #[allow(unsafe_code)]
     const fn of(registers: &'static [V]) -> &'static [Self] {

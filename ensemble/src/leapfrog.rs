@@ -1,15 +1,13 @@
-//! Leapfrog's ensembles and large models and how fast they are, compiled here once for all that ask.
+//! Leapfrog's ensembles and how fast they are, compiled here once for all callers.
 //!
-//! `(models, h) => ensemble, (model, h) => large model of whatever precision; (model, h, instruction set, threads) =>
-//! steps per second of both`, see [`crate::pace()`].
+//! `(models, h) => ensemble of either precision; (model, h, instruction set, threads) => steps per second`, see
+//! [`crate::pace()`].
 
-use dbd_kernel::geometry::Float;
-use dbd_kernel::{F32, F64, Leapfrog, Plant, State, Status};
+use dbd_kernel::{F32, F64, Leapfrog, State, Status};
 use dbd_scene::{SceneModel, widen};
 
 use crate::ensemble::{Ensemble, EnsembleError};
 use crate::instructions::InstructionSet;
-use crate::large::Large;
 use crate::number::Number;
 use crate::pace::{Course, Pace, pace};
 
@@ -54,43 +52,6 @@ impl<R: Number> AnyEnsemble for Ensemble<R, Leapfrog> {
     fn evaluations(&self, instance: usize) -> Option<u64> {
         self.evaluations(instance)
     }
-}
-
-/// A large model whose precision is known when the program runs.
-pub trait AnyLarge: Send {
-    /// `steps` steps, or as many as succeed.
-    fn advance(&mut self, steps: u64) -> Status;
-
-    /// The state in double precision, the stored words widened exactly.
-    fn state(&self) -> State<SceneModel<F64>>;
-}
-
-impl<R: Number> AnyLarge for Large<R> {
-    fn advance(&mut self, steps: u64) -> Status {
-        self.advance(steps)
-    }
-
-    fn state(&self) -> State<SceneModel<F64>> {
-        widen(self.plant().state())
-    }
-}
-
-/// A model in lanes in double precision, on the best instruction set of this machine. `None` where it does not
-/// [fit](crate::fits) or the step is none.
-#[must_use]
-pub fn large_in_f64(model: &SceneModel<F64>, step_size: f64) -> Option<Box<dyn AnyLarge>> {
-    large(model.clone(), step_size)
-}
-
-/// A model that is rounded to single precision, likewise.
-#[must_use]
-pub fn large_in_f32(model: &SceneModel<F64>, step_size: f64) -> Option<Box<dyn AnyLarge>> {
-    large(model.convert::<F32>(), step_size)
-}
-
-fn large<R: Number>(model: SceneModel<Float<R>>, step_size: f64) -> Option<Box<dyn AnyLarge>> {
-    let plant = Plant::new(Box::new(model), Leapfrog, step_size).ok()?;
-    Some(Box::new(Large::new(plant).ok()?))
 }
 
 /// Instances in double precision, on the best instruction set of this machine.

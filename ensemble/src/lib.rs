@@ -7,9 +7,8 @@
 //! - `register`, `lanes`: one register of an instruction set, and the number that the kernel takes.
 //! - `alike`, `gather`: models of one structure become the model of lanes, states likewise and back.
 //! - `in_lanes`, `batch`: which schemes lanes step; as many instances as a register has lanes, stepped as one.
-//! - `rows`: one large model, its joints and bodies beside one another.
 //! - `instructions`, `number`: what a machine has, and which batches a number has there.
-//! - `ensemble`, `large`, `pace`, `leapfrog`: many instances, one large model, how fast they are, and leapfrog's compiled once.
+//! - `ensemble`, `pace`, `leapfrog`: many instances, how fast they are, and leapfrog's compiled once.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod alike;
@@ -19,26 +18,21 @@ mod gather;
 mod in_lanes;
 mod instructions;
 mod lanes;
-mod large;
 // Six registers' steps, which the unit tests would compile once more.
 #[cfg(not(test))]
 mod leapfrog;
 mod number;
 mod pace;
 mod register;
-mod rows;
 
 pub use alike::Difference;
 pub use batch::PlantOf;
 pub use ensemble::{Ensemble, EnsembleError};
 pub use in_lanes::InLanes;
 pub use instructions::InstructionSet;
-pub use large::{Large, LargeError, Refused};
 #[cfg(not(test))]
 pub use leapfrog::{
-    AnyEnsemble, AnyLarge, ensemble_in_f32, ensemble_in_f64, lanes_in_f64, large_in_f32,
-    large_in_f64, pace_in_f32, pace_in_f64,
+    AnyEnsemble, ensemble_in_f32, ensemble_in_f64, lanes_in_f64, pace_in_f32, pace_in_f64,
 };
 pub use number::Number;
-pub use pace::{Course, Pace, pace, pace_of_large};
-pub use rows::{Unfit, fits};
+pub use pace::{Course, Pace, pace};

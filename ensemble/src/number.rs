@@ -2,16 +2,13 @@
 //!
 //! `(instruction set, plants) => batch`.
 
-use std::num::NonZeroUsize;
-
+use dbd_kernel::Real;
 use dbd_kernel::geometry::Named;
-use dbd_kernel::{Leapfrog, Real};
 
 use crate::batch::{Batch, Members, PlantOf};
 use crate::in_lanes::InLanes;
 use crate::instructions::InstructionSet;
 use crate::register;
-use crate::rows::{InRows, Rowed};
 
 /// A number that has registers: `f64` and `f32`.
 pub trait Number: Real + Named + sealed::Batches {
@@ -20,9 +17,7 @@ pub trait Number: Real + Named + sealed::Batches {
 }
 
 pub(crate) mod sealed {
-    use dbd_kernel::Leapfrog;
-
-    use super::{Batch, InLanes, InstructionSet, NonZeroUsize, PlantOf, Rowed};
+    use super::{Batch, InLanes, InstructionSet, PlantOf};
 
     /// What only this crate does with a number.
     pub trait Batches: super::Real + super::Named {
@@ -32,14 +27,6 @@ pub(crate) mod sealed {
             set: InstructionSet,
             plants: Vec<PlantOf<Self, S>>,
         ) -> Box<dyn Batch<Self, S>>;
-
-        /// A large model's plant in rows.
-        #[allow(private_interfaces)]
-        fn rows(
-            set: InstructionSet,
-            plant: PlantOf<Self, Leapfrog>,
-            threads: NonZeroUsize,
-        ) -> Box<dyn Rowed<Self>>;
     }
 }
 
@@ -77,31 +64,6 @@ macro_rules! number {
                     #[cfg(not(target_arch = "x86_64"))]
                     InstructionSet::Avx2 | InstructionSet::Avx512 => {
                         Box::new(Members::<register::$array, S>::new(plants))
-                    }
-                }
-            }
-
-            #[allow(private_interfaces)]
-            fn rows(
-                set: InstructionSet,
-                plant: PlantOf<Self, Leapfrog>,
-                threads: NonZeroUsize,
-            ) -> Box<dyn Rowed<Self>> {
-                match set {
-                    InstructionSet::Baseline => {
-                        Box::new(InRows::<register::$array>::new(plant, threads))
-                    }
-                    #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx2 => {
-                        Box::new(InRows::<register::$narrow>::new(plant, threads))
-                    }
-                    #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx512 => {
-                        Box::new(InRows::<register::$wide>::new(plant, threads))
-                    }
-                    #[cfg(not(target_arch = "x86_64"))]
-                    InstructionSet::Avx2 | InstructionSet::Avx512 => {
-                        Box::new(InRows::<register::$array>::new(plant, threads))
                     }
                 }
             }

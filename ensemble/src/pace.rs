@@ -1,5 +1,4 @@
-//! How fast lanes are beside plants by themselves: an ensemble beside its instances one after the other, a large model
-//! in lanes beside its plant.
+//! How fast an ensemble is beside its instances one after the other.
 //!
 //! `(model, scheme, h, instruction set, threads) => steps per second of each`. All in one process, in
 //! turn, from the same state.
@@ -8,15 +7,14 @@ use std::num::NonZeroUsize;
 use std::thread;
 use std::time::Instant;
 
+use dbd_kernel::Plant;
 use dbd_kernel::geometry::Float;
-use dbd_kernel::{Leapfrog, Plant};
 use dbd_scene::SceneModel;
 
 use crate::batch::PlantOf;
 use crate::ensemble::{Ensemble, EnsembleError};
 use crate::in_lanes::InLanes;
 use crate::instructions::InstructionSet;
-use crate::large::{Large, Refused};
 use crate::number::Number;
 
 /// What is measured.
@@ -33,7 +31,7 @@ pub struct Course {
     pub rounds: NonZeroUsize,
 }
 
-/// Steps per second, of all instances together. Threads of a large model are not beside plants on threads: it is one.
+/// Steps per second, of all instances together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pace {
     /// Instances, a full batch for each thread.
@@ -185,48 +183,6 @@ pub fn pace<R: Number, S: InLanes + Send + 'static>(
         };
         if round > 0 {
             pace.push(steps as f64 * instances as f64, &times);
-        }
-    }
-    Ok(pace)
-}
-
-/// Times a large model in lanes against its plant by itself, leapfrog.
-///
-/// # Errors
-/// [`Refused`] where the model does not fit or the machine lacks the instruction set.
-///
-/// # Panics
-/// Where the step is none.
-pub fn pace_of_large<R: Number>(
-    model: &SceneModel<Float<R>>,
-    step_size: f64,
-    course: Course,
-) -> Result<Pace, Refused<R>> {
-    let Course { set, threads, steps, rounds } = course;
-    let plant = || -> PlantOf<R, Leapfrog> {
-        Plant::new(Box::new(model.clone()), Leapfrog, step_size).expect("a step")
-    };
-    let mut plant_alone = plant();
-    let mut on_threads = Large::with_instructions(plant(), set)?.on(threads);
-    let mut on_one =
-        if threads.get() > 1 { Some(Large::with_instructions(plant(), set)?) } else { None };
-    let mut pace = Pace::of(1);
-    for round in 0..=rounds.get() {
-        for large in on_one.iter_mut().chain([&mut on_threads]) {
-            large.plant_mut().reset();
-            // Lanes are filled before their first step.
-            let _ = large.advance(1);
-        }
-        plant_alone.reset();
-        let _ = plant_alone.step();
-        let times = Times {
-            together: seconds(|| _ = on_threads.advance(steps)),
-            on_one_thread: on_one.as_mut().map(|one| seconds(|| _ = one.advance(steps))),
-            alone: seconds(|| _ = plant_alone.advance(steps)),
-            alone_on_threads: None,
-        };
-        if round > 0 {
-            pace.push(steps as f64, &times);
         }
     }
     Ok(pace)

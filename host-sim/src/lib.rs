@@ -15,8 +15,8 @@
 //! - [`error`]: what ends a command early.
 //! - [`cli`]: arguments in, exit code out.
 //!
-//! The feature `comparison` brings methods that are there for comparison only, see `dbd-plant`; `parquet` the table
-//! of a sweep as a Parquet file, too.
+//! The feature `comparison` brings methods that are there for comparison only, see `dbd-plant`; `lanes` steps
+//! alike cases of a sweep in lockstep; `parquet` writes the table of a sweep as a Parquet file, too.
 
 pub mod arguments;
 pub mod cli;

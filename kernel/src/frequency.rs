@@ -69,7 +69,7 @@ pub fn estimate<M: ModelOwner>(model: &M, state: &State<M>, iterations: u32) -> 
 fn torques<M: ModelOwner>(model: &M, state: &State<M>) -> Option<M::PerBody<Wrench<SpaceOf<M>>>> {
     let mut frames = model.per_body(FrameOf::<M>::default());
     let mut wrenches = model.per_body(Wrench::default());
-    forces::evaluate::<M::Precision, M::Terms, DampersLeft>(
+    forces::evaluate_out_of_line::<M::Precision, M::Terms, DampersLeft>(
         &model.view(),
         Instant {
             step: 0,
@@ -119,7 +119,7 @@ fn largest_by_magnitude<M: ModelOwner>(
                 sign * scale,
                 moved.bodies.as_mut(),
             );
-            let turned = forces::evaluate::<M::Precision, M::Terms, DampersLeft>(
+            let turned = forces::evaluate_out_of_line::<M::Precision, M::Terms, DampersLeft>(
                 &view,
                 Instant {
                     step: 0,

@@ -92,7 +92,6 @@ mod lockstep;
 #[cfg(feature = "micromath")]
 pub mod loose;
 pub mod model;
-pub mod parts;
 pub mod planar;
 pub mod plane;
 pub mod plant;

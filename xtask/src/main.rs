@@ -99,13 +99,9 @@ enum Command {
     /// Counts how the work of reading and looking at a scene grows with its bodies, by valgrind's
     /// callgrind; writes docs/results/growth.csv, fails where it grows faster than the bodies.
     Growth,
-    /// Times steps, ensembles and large models on this machine, which should do nothing else; writes
-    /// docs/results/bench.json, docs/results/ensembles.csv and docs/results/large.csv.
-    Bench {
-        /// Only large models.
-        #[arg(long)]
-        large: bool,
-    },
+    /// Times steps and ensembles on this machine, which should do nothing else; writes docs/results/bench.json and
+    /// docs/results/ensembles.csv.
+    Bench,
     /// Gives random input to the reader of scenes, to snapshots, to steps and to the command line, on
     /// all cores; fails where anything fails.
     Fuzz(fuzz::Campaign),
@@ -170,8 +166,7 @@ fn main() -> ExitCode {
         Command::Cost { scenes, compare, .. } => cost::run(&scenes, compare),
         Command::Instructions { baseline } => instructions::run(baseline),
         Command::Growth => growth::run(),
-        Command::Bench { large: false } => bench::run(),
-        Command::Bench { large: true } => bench::large(),
+        Command::Bench => bench::run(),
         Command::Fuzz(campaign) => fuzz::run(&campaign),
         Command::Bits { names } => bits::machines::run(&names),
         Command::Precisions { scenes } => precisions::run(&scenes),

@@ -92,16 +92,6 @@ macro_rules! array {
                 self.0[lane]
             }
             #[inline(always)]
-            fn load(numbers: &[$number]) -> Self {
-                let mut lanes = [0.0; $lanes];
-                lanes.copy_from_slice(&numbers[..$lanes]);
-                Self(lanes)
-            }
-            #[inline(always)]
-            fn store(self, numbers: &mut [$number]) {
-                numbers[..$lanes].copy_from_slice(&self.0);
-            }
-            #[inline(always)]
             fn truth(lanes: impl Fn(usize) -> bool) -> Truths<$lanes> {
                 Truths(from_fn(lanes))
             }

@@ -32,10 +32,6 @@ pub(crate) trait Register: Copy + Send + Sync + 'static {
     fn from_lanes(lanes: impl Fn(usize) -> Self::Number) -> Self;
     /// The number in a lane.
     fn lane(self, lane: usize) -> Self::Number;
-    /// The first numbers of a slice, which has as many.
-    fn load(numbers: &[Self::Number]) -> Self;
-    /// Writes the first numbers of a slice, which has as many.
-    fn store(self, numbers: &mut [Self::Number]);
     /// A truth per lane.
     fn truth(lanes: impl Fn(usize) -> bool) -> Self::Truth;
     /// The truths, lane 0 lowest.

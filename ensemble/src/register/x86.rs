@@ -117,16 +117,6 @@ macro_rules! register {
                 self.to_array()[lane]
             }
             #[inline(always)]
-            fn load(numbers: &[$number]) -> Self {
-                let mut lanes = [0.0; $lanes];
-                lanes.copy_from_slice(&numbers[..$lanes]);
-                Self::of_array(lanes)
-            }
-            #[inline(always)]
-            fn store(self, numbers: &mut [$number]) {
-                numbers[..$lanes].copy_from_slice(&self.to_array());
-            }
-            #[inline(always)]
             fn truth(lanes: impl Fn(usize) -> bool) -> $truth {
                 // SAFETY: see above.
                 $truth(unsafe { $from!($lanes, lanes) })

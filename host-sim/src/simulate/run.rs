@@ -15,8 +15,6 @@ use dbd_scene::{Scene, SceneModel};
 use miette::Diagnostic;
 use thiserror::Error;
 
-use super::rows::Rows;
-
 /// A run is looked at about this often, whatever its sampling interval.
 const LOOKS: u64 = 1000;
 
@@ -101,21 +99,6 @@ pub fn simulate(
     plan: &Plan,
     observer: &mut dyn Observer,
 ) -> Result<Ending, SimulationError> {
-    let rows = Rows::new(scene, method, plan, unseen(plan).min(plan.stride));
-    simulate_with(rows, scene, method, plan, observer)
-}
-
-/// [`simulate`] with steps of a chosen kind.
-///
-/// # Errors
-/// As [`simulate`].
-fn simulate_with(
-    mut rows: Rows,
-    scene: &Scene,
-    method: &Method,
-    plan: &Plan,
-    observer: &mut dyn Observer,
-) -> Result<Ending, SimulationError> {
     let mut course = Course::new(scene, method, plan)?;
     let mut wall = Duration::ZERO;
     let trouble = loop {
@@ -125,13 +108,13 @@ fn simulate_with(
             Err(trouble) => break Some(trouble),
         };
         let start = Instant::now();
-        let status = rows.advance(course.plant.as_mut(), steps);
+        let status = course.plant.advance(steps);
         wall += start.elapsed();
         if let Status::Failed(failure) = status {
             break Some(Trouble::Step(failure.cause));
         }
     };
-    let evaluations = rows.evaluations(course.plant.as_ref());
+    let evaluations = course.plant.evaluations();
     Ok(course.ending(evaluations, wall, trouble))
 }
 
@@ -242,61 +225,6 @@ impl<'s> Sample<'s> {
             extension: verdict.extension,
             extensions: &[],
             hash: plant.hash(),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::io;
-
-    use dbd_bench::chain::{self, Joints};
-    use dbd_plant::PrecisionName;
-    use dbd_plant::plan::{Request, StepRequest, plan};
-
-    use super::*;
-    use crate::simulate::rows::FEWEST;
-
-    /// Keeps all hashes and energies.
-    #[derive(Debug, Default, PartialEq)]
-    struct Seen(Vec<(u64, f64)>);
-
-    impl Observer for Seen {
-        fn sample(&mut self, sample: &Sample<'_>) -> io::Result<()> {
-            self.0.push((sample.hash, sample.energy.total()));
-            Ok(())
-        }
-    }
-
-    /// A run in lanes and one without, of the same chain.
-    fn both(changes: &[String], precision: PrecisionName) -> (Seen, Ending) {
-        let text = chain::text(FEWEST, Joints::Revolute);
-        let scene = Scene::parse_with(&text, "chain.toml", changes).unwrap();
-        let method = Method::default().with_precision(precision);
-        let step = StepRequest::Given(chain::STEP);
-        let request =
-            Request { step, duration: 200.0 * chain::STEP, every: Some(40.0 * chain::STEP) };
-        let plan = plan(&request).unwrap();
-        let rows = Rows::of(&scene, &method, plan.step);
-        assert!(rows.are_there());
-        let mut seen = Seen::default();
-        let ending = simulate_with(rows, &scene, &method, &plan, &mut seen).unwrap();
-        // Too few steps between looks: by its plant.
-        let mut alone = Seen::default();
-        let own = simulate(&scene, &method, &plan, &mut alone).unwrap();
-        assert_eq!(seen, alone);
-        assert_eq!(Ending { wall: own.wall, ..ending }, own);
-        (seen, own)
-    }
-
-    #[test]
-    fn a_run_in_lanes_is_the_run_of_its_plant() {
-        for precision in [PrecisionName::F64, PrecisionName::F32] {
-            let (seen, ending) = both(&[], precision);
-            assert_eq!((seen.0.len(), ending.steps, ending.evaluations), (6, 200, 201));
-            // It comes apart on its way.
-            let (_, ending) = both(&["joint.*.stiffness=3e9".to_owned()], precision);
-            assert!(ending.trouble.is_some() && ending.steps > 1, "{ending:?}");
         }
     }
 }

@@ -1,16 +1,20 @@
-//! Alike runs in lockstep, one per SIMD lane.
+//! Alike runs in lockstep, one per SIMD lane, which the feature `lanes` brings.
 //!
 //! `(method, scenes, plan) => samples to each observer, endings`. Each run has the bits of a run by itself. What lanes
-//! cannot step, and what fails or has trouble on its way, is left to [`simulate`](super::simulate).
+//! cannot step, and what fails on its way, is left to [`simulate`](super::simulate); without the feature that is
+//! every run.
 
-use std::time::{Duration, Instant};
+#[cfg(feature = "lanes")]
+mod lockstep;
 
-use dbd_ensemble::{AnyEnsemble, EnsembleError, ensemble_in_f32, ensemble_in_f64};
-use dbd_plant::{Method, Plan, PrecisionName};
 use dbd_scene::Scene;
 
-use super::rows::lanes;
-use super::run::{Course, Ending, Observer, SimulationError};
+use super::run::Observer;
+
+#[cfg(feature = "lanes")]
+pub use lockstep::{lanes, simulate_together};
+#[cfg(not(feature = "lanes"))]
+pub use one_by_one::{lanes, simulate_together};
 
 /// One of several runs.
 pub struct Member<'m> {
@@ -20,168 +24,28 @@ pub struct Member<'m> {
     pub observer: &'m mut dyn Observer,
 }
 
-/// Runs one plan with all members. `None` for a member that has to run by itself: its structure is not the
-/// first one's, or it does not come to the end.
-///
-/// # Errors
-/// Where there is no plant of the method with the plan's step, or an observer fails.
-pub fn simulate_together(
-    method: &Method,
-    plan: &Plan,
-    members: &mut [Member<'_>],
-) -> Result<Vec<Option<Ending>>, SimulationError> {
-    let mut endings: Vec<Option<Ending>> = members.iter().map(|_| None).collect();
-    let mut rows = alike(method, members);
-    let Some(mut ensemble) = ensemble(method, plan, members, &mut rows) else {
-        return Ok(endings);
-    };
-    let courses: Result<Vec<_>, _> =
-        rows.iter().map(|row| Course::new(members[*row].scene, method, plan)).collect();
-    let mut courses: Vec<Option<Course<'_>>> = courses?.into_iter().map(Some).collect();
-    let mut wall = Duration::ZERO;
-    loop {
-        // All have one plan, so all that go on have as far to go.
-        let mut next = 0;
-        for (instance, row) in rows.iter().enumerate() {
-            let Some(course) = &mut courses[instance] else { continue };
-            match course.look(members[*row].observer)? {
-                Ok(0) => {
-                    let evaluations = ensemble.evaluations(instance);
-                    if let Some((course, evaluations)) = courses[instance].take().zip(evaluations) {
-                        endings[*row] = Some(course.ending(evaluations, wall, None));
-                    }
-                }
-                Ok(steps) => next = steps,
-                Err(_) => courses[instance] = None,
-            }
-        }
-        if next == 0 {
-            return Ok(endings);
-        }
-        let start = Instant::now();
-        ensemble.advance(next);
-        wall += start.elapsed();
-        for (instance, course) in courses.iter_mut().enumerate() {
-            let Some(going) = course else { continue };
-            let arrived = ensemble.status(instance).is_running()
-                && going.plant.set_state(&ensemble.state(instance)).is_ok();
-            if !arrived {
-                *course = None;
-            }
-        }
-    }
-}
+#[cfg(not(feature = "lanes"))]
+mod one_by_one {
+    use dbd_plant::{Method, Plan};
 
-/// The members that may go with the first one: lanes step the method, and tables give the same values at the
-/// same times, so that all evaluate forces as often.
-fn alike(method: &Method, members: &[Member<'_>]) -> Vec<usize> {
-    let Some(first) = members.first().filter(|_| lanes(method) > 1) else { return Vec::new() };
-    let goes =
-        |scene: &Scene| scene.planar.is_none() && scene.model.knots == first.scene.model.knots;
-    (0..members.len()).filter(|row| goes(members[*row].scene)).collect()
-}
+    use super::Member;
+    use crate::simulate::{Ending, SimulationError};
 
-/// An ensemble of these members, without those of another structure, which leave `rows`; `None` of fewer than
-/// two.
-fn ensemble(
-    method: &Method,
-    plan: &Plan,
-    members: &[Member<'_>],
-    rows: &mut Vec<usize>,
-) -> Option<Box<dyn AnyEnsemble>> {
-    let new = match method.precision() {
-        PrecisionName::F32 => ensemble_in_f32,
-        _ => ensemble_in_f64,
-    };
-    while rows.len() > 1 {
-        let models = rows.iter().map(|row| members[*row].scene.model.clone()).collect();
-        match new(models, plan.step) {
-            Ok(ensemble) => return Some(ensemble),
-            Err(EnsembleError::Structure { instance, .. }) => drop(rows.remove(instance)),
-            Err(_) => return None,
-        }
-    }
-    None
-}
-
-#[cfg(test)]
-mod tests {
-    use std::io;
-
-    use dbd_plant::SchemeName;
-    use dbd_plant::plan::{Request, StepRequest, plan};
-
-    use super::*;
-    use crate::simulate::{Sample, simulate};
-
-    /// Keeps all hashes and read-outs.
-    #[derive(Debug, Default, PartialEq)]
-    struct Seen(Vec<(u64, Vec<f64>, f64)>);
-
-    impl Observer for Seen {
-        fn sample(&mut self, sample: &Sample<'_>) -> io::Result<()> {
-            self.0.push((sample.hash, sample.readings.to_vec(), sample.energy.total()));
-            Ok(())
-        }
+    /// How many runs of a method go in lockstep: without the feature `lanes` each runs by itself.
+    #[must_use]
+    pub fn lanes(_: &Method) -> usize {
+        1
     }
 
-    /// A scene thrice, one that fails on its way and one that does not go with them.
-    fn scenes(name: &str, other: &str) -> Vec<Scene> {
-        let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-        let text = std::fs::read_to_string(path).unwrap();
-        let scene = |changes: &[&str]| {
-            let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
-            Scene::parse_with(&text, "scene.toml", &changes).unwrap()
-        };
-        vec![
-            scene(&[]),
-            scene(&["gravity[1]=-9"]),
-            scene(&["joint.*.stiffness=1e14"]),
-            scene(&["gravity[1]=-8"]),
-            scene(&[other]),
-        ]
-    }
-
-    #[test]
-    fn a_run_in_lockstep_is_the_run_alone() {
-        let (undamped, table) = (
-            "joint.*.damping=0",
-            "input.close.table=[[0, 0], [0.1, 1], [0.15, 60], [0.7, 60], [0.75, 0]]",
-        );
-        for (name, other, precision) in [
-            ("cart-pendulum", undamped, PrecisionName::F64),
-            ("cart-pendulum", undamped, PrecisionName::F32),
-            ("gripper", table, PrecisionName::F64),
-        ] {
-            let scenes = scenes(name, other);
-            let method = Method::default().with_precision(precision);
-            let step = StepRequest::Given(scenes[0].step.unwrap());
-            let duration = 300.0 * scenes[0].step.unwrap();
-            let every = Some(7.0 * scenes[0].step.unwrap());
-            let plan = plan(&Request { step, duration, every }).unwrap();
-            let mut seen: Vec<Seen> = scenes.iter().map(|_| Seen::default()).collect();
-            let members = scenes.iter().zip(&mut seen);
-            let mut members: Vec<_> =
-                members.map(|(scene, observer)| Member { scene, observer }).collect();
-            let together = simulate_together(&method, &plan, &mut members).unwrap();
-            let came_to_the_end: Vec<bool> = together.iter().map(Option::is_some).collect();
-            assert_eq!(came_to_the_end, [true, true, false, true, false], "{precision:?}");
-            for (row, ending) in together.into_iter().enumerate() {
-                let mut alone = Seen::default();
-                let own = simulate(&scenes[row], &method, &plan, &mut alone).unwrap();
-                if let Some(ending) = ending {
-                    assert_eq!(Ending { wall: own.wall, ..ending }, own);
-                    assert_eq!(seen[row], alone);
-                }
-                assert_eq!(own.trouble.is_some(), row == 2, "{own:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn lanes_step_leapfrog_alone() {
-        let other = Method::new(SchemeName::Rk4, None, PrecisionName::F64).unwrap();
-        assert_eq!(lanes(&other), 1);
-        assert!(lanes(&Method::default()) > 1);
+    /// `None` for every member: each runs by itself.
+    ///
+    /// # Errors
+    /// None.
+    pub fn simulate_together(
+        _: &Method,
+        _: &Plan,
+        members: &mut [Member<'_>],
+    ) -> Result<Vec<Option<Ending>>, SimulationError> {
+        Ok(members.iter().map(|_| None).collect())
     }
 }

@@ -92,18 +92,6 @@ pub(crate) fn find_rests<P: Geometry, T: Terms>(
     }
 }
 
-/// What two stars that share three points pull between two bodies, without dampers and clearance: as
-/// [`stars`] has it for floating-point numbers.
-#[inline(always)]
-pub(crate) fn between_bodies<P: Geometry>(
-    [a, b]: [&P::Frame; 2],
-    (centres, tips): (&[P::Local; 2], &[P::Local; 3]),
-    springs: &[[Tsda<P::Real>; 3]; 2],
-) -> Record<P::Space> {
-    let (a, b) = (End::<P>::at(a), End::<P>::at(b));
-    Springs { springs, rests: None, dampers: None, clearance: None }.record(centres, tips, &a, &b)
-}
-
 /// A revolute's stars. Twice the same: where an end is known to be a body or the ground, none of its
 /// points asks. The ground is nearly always the first.
 #[inline(always)]

@@ -2,22 +2,14 @@
 //!
 //! `(system, rounds) => ratios of steps per second, with what they ought to be`. All take turns in one process. What
 //! threads bring an ensemble is beside what they bring its instances by themselves, which share nothing.
+//! [`Together`] is measured where the feature `lanes` is on.
 
-use std::num::NonZeroUsize;
-
-use dbd_ensemble::{Course, InstructionSet, pace_in_f32, pace_in_f64};
 use serde::Serialize;
 
-use super::systems::System;
-use super::turns::{Figure, ratio};
+use super::turns::Figure;
 
-/// Threads, and bodies × steps of an instance in a round, where nobody says how many steps: a round of two threads is
-/// long beside their start.
-const COURSES: [(NonZeroUsize, u64); 2] =
-    [(NonZeroUsize::MIN, 6_000), (NonZeroUsize::MIN.saturating_add(1), 60_000)];
-
-/// More bodies than these are not asked of every instance.
-const BODIES: usize = 100;
+#[cfg(feature = "lanes")]
+pub use measured::measured;
 
 /// An ensemble.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -42,35 +34,63 @@ pub struct Together {
     pub alone_over_one_thread: Option<f64>,
 }
 
-/// Ensembles of the first system that is small enough; none where it cannot be stepped in lockstep.
+/// None: without the feature `lanes` nothing steps in lockstep.
+#[cfg(not(feature = "lanes"))]
 #[must_use]
-pub fn measured(systems: &[System], rounds: usize, steps: Option<u64>) -> Vec<Together> {
-    let mut ensembles = Vec::new();
-    let Some(system) = systems.iter().find(|system| system.size.bodies <= BODIES) else {
-        return ensembles;
-    };
-    let Some(rounds) = NonZeroUsize::new(rounds) else { return ensembles };
-    let bodies = system.size.bodies.max(1) as u64;
-    for (precision, pace) in [("f64", pace_in_f64 as fn(_, _, _) -> _), ("f32", pace_in_f32)] {
-        for set in InstructionSet::ALL.into_iter().filter(|set| set.is_there()) {
-            for (threads, work) in COURSES {
-                let steps = steps.unwrap_or((work / bodies).max(1));
-                let course = Course { set, threads, steps, rounds };
-                let Ok(pace) = pace(&system.model, system.size.step_s, course) else { continue };
-                let over_one_thread = ratio(&pace.together, &pace.on_one_thread);
-                ensembles.push(Together {
-                    name: system.size.name.clone(),
-                    precision,
-                    instructions: set.name(),
-                    threads: threads.get(),
-                    instances: pace.instances,
-                    over_alone: ratio(&pace.together, &pace.alone),
-                    over_one_thread: over_one_thread.map(|figure| figure.median),
-                    over_one_thread_spread: over_one_thread.map(|figure| figure.spread),
-                    alone_over_one_thread: pace.alone_over_one_thread(),
-                });
+pub fn measured(_: &[super::systems::System], _: usize, _: Option<u64>) -> Vec<Together> {
+    Vec::new()
+}
+
+#[cfg(feature = "lanes")]
+mod measured {
+    use std::num::NonZeroUsize;
+
+    use dbd_ensemble::{Course, InstructionSet, pace_in_f32, pace_in_f64};
+
+    use super::Together;
+    use crate::commands::bench::systems::System;
+    use crate::commands::bench::turns::ratio;
+
+    /// Threads, and bodies × steps of an instance in a round, where nobody says how many steps: a round of two threads is
+    /// long beside their start.
+    const COURSES: [(NonZeroUsize, u64); 2] =
+        [(NonZeroUsize::MIN, 6_000), (NonZeroUsize::MIN.saturating_add(1), 60_000)];
+
+    /// More bodies than these are not asked of every instance.
+    const BODIES: usize = 100;
+
+    /// Ensembles of the first system that is small enough; none where it cannot be stepped in lockstep.
+    #[must_use]
+    pub fn measured(systems: &[System], rounds: usize, steps: Option<u64>) -> Vec<Together> {
+        let mut ensembles = Vec::new();
+        let Some(system) = systems.iter().find(|system| system.size.bodies <= BODIES) else {
+            return ensembles;
+        };
+        let Some(rounds) = NonZeroUsize::new(rounds) else { return ensembles };
+        let bodies = system.size.bodies.max(1) as u64;
+        for (precision, pace) in [("f64", pace_in_f64 as fn(_, _, _) -> _), ("f32", pace_in_f32)] {
+            for set in InstructionSet::ALL.into_iter().filter(|set| set.is_there()) {
+                for (threads, work) in COURSES {
+                    let steps = steps.unwrap_or((work / bodies).max(1));
+                    let course = Course { set, threads, steps, rounds };
+                    let Ok(pace) = pace(&system.model, system.size.step_s, course) else {
+                        continue;
+                    };
+                    let over_one_thread = ratio(&pace.together, &pace.on_one_thread);
+                    ensembles.push(Together {
+                        name: system.size.name.clone(),
+                        precision,
+                        instructions: set.name(),
+                        threads: threads.get(),
+                        instances: pace.instances,
+                        over_alone: ratio(&pace.together, &pace.alone),
+                        over_one_thread: over_one_thread.map(|figure| figure.median),
+                        over_one_thread_spread: over_one_thread.map(|figure| figure.spread),
+                        alone_over_one_thread: pace.alone_over_one_thread(),
+                    });
+                }
             }
         }
+        ensembles
     }
-    ensembles
 }
