@@ -54,6 +54,13 @@ impl Dimension {
         })
     }
 
+    /// That of a square root; `None` where a power is odd.
+    pub(super) fn root(self) -> Option<Self> {
+        let Self { metre, kilogram, second, radian } = self;
+        let is_even = [metre, kilogram, second, radian].iter().all(|power| power % 2 == 0);
+        is_even.then(|| Self::new(metre / 2, kilogram / 2, second / 2, radian / 2))
+    }
+
     /// Powers of an angle that another has more, where they differ in nothing else.
     pub(crate) fn angles_to(self, other: Self) -> Option<i8> {
         let same = Self { radian: other.radian, ..self } == other;

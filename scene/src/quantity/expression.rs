@@ -5,8 +5,10 @@
 //! ```text
 //! sum     = product (("+" | "-") product)*
 //! product = factor (("*" | "/") factor)*
-//! factor  = ("+" | "-")* (number unit? | unit | name | "(" sum ")")
-//! unit    = name of a unit (("^" whole number) | raised digits)?
+//! factor  = ("+" | "-")* value power?
+//! value   = number unit? | unit | name | function? "(" sum ")"
+//! unit    = name of a unit power?
+//! power   = ("^" whole number) | raised digits
 //! ```
 //!
 //! `·`, `×` and a point between units are `*`, `÷` is `/`, `−` is `-`.
@@ -16,6 +18,7 @@ use std::ops::Range;
 use crate::quantity::decimal::Decimal;
 use crate::quantity::dimension::Dimension;
 use crate::quantity::fault::Fault;
+use crate::quantity::function::{self, Function};
 use crate::quantity::operand::{Operand, Worth};
 use crate::quantity::scope::Scope;
 use crate::quantity::unit::{self, Scale, Unit};
@@ -83,8 +86,8 @@ impl<'t> Parser<'t> {
         match found {
             ',' => self.fault(length, "a comma in a number", "a number has a decimal point: 0.5"),
             '^' | '²' | '³' => {
-                let help = "only a unit has a power: \"5 mm^2\"; a product is written out: L * L";
-                self.fault(length, "a power of what is no unit", help)
+                let help = "brackets around what is raised: (L^2)^3, (5 mm^2)^2";
+                self.fault(length, "a power of a power can be read in two ways", help)
             }
             _ => {
                 let message = format!("`{found}` is no part of a value");
@@ -168,10 +171,38 @@ impl<'t> Parser<'t> {
             is_negative ^= sign != '+';
             self.skip();
         }
-        let operand = self.atom()?;
+        let operand = self.raised()?;
         let place = start.unwrap_or(operand.place.start)..operand.place.end;
         let operand = Operand { place, ..operand };
         Ok(if is_negative { operand.negated() } else { operand })
+    }
+
+    /// A value with its power, if it has one: a unit has taken up its own.
+    fn raised(&mut self) -> Result<Operand<'t>, Fault> {
+        let base = self.atom()?;
+        if base.is_bare && matches!(base.worth, Worth::Unit(_)) || base.has_unit() {
+            return Ok(base);
+        }
+        let start = self.place;
+        let (is_negative, size, length) = power(self.rest());
+        if length == 0 {
+            return Ok(base);
+        }
+        match size.filter(|size| (1..=function::HIGHEST).contains(size)) {
+            Some(size) => {
+                self.place += length;
+                let size = size as i8;
+                function::power(base, if is_negative { -size } else { size }, self.place)
+            }
+            None => {
+                let help = format!(
+                    "a value has a whole power from 1 to {0} or -1 to -{0}: L^2; sqrt(A) is a root",
+                    function::HIGHEST
+                );
+                let place = base.place.start..start + length;
+                Err(Fault::new(place, "a power that no value has", help))
+            }
+        }
     }
 
     fn atom(&mut self) -> Result<Operand<'t>, Fault> {
@@ -213,6 +244,18 @@ impl<'t> Parser<'t> {
                 let (dimension, place) = (quantity.dimension, start..self.place);
                 Ok(Operand { worth, dimension, place, is_bare: true })
             }
+            Some(Known::Function(function)) => {
+                self.place += word.len();
+                self.has_number = true;
+                if self.next() != Some('(') {
+                    let message = format!("`{word}` is a function: its argument is missing");
+                    let help = format!("the argument in brackets: {word}(…)");
+                    return Err(Fault::new(start..start + word.len(), message, help));
+                }
+                let argument = self.bracket()?;
+                let place = start..self.place;
+                Ok(Operand { place, ..function.of(argument)? })
+            }
             None => Err(self.unknown(word)),
         }
     }
@@ -228,7 +271,7 @@ impl<'t> Parser<'t> {
                     end = self.place;
                 }
                 // The product says that a sign is missing.
-                Some(Known::Name(_)) => {}
+                Some(Known::Name(_) | Known::Function(_)) => {}
                 None => return Err(self.unknown(word)),
             }
         }
@@ -259,18 +302,9 @@ impl<'t> Parser<'t> {
     fn unit(&mut self, unit: &'static Unit) -> Result<(Scale, Dimension), Fault> {
         let start = self.place;
         self.place += unit.name.len();
-        let rest = self.rest();
-        let blank = rest.len() - rest.trim_start().len();
-        let (is_negative, size, length) = match rest[blank..].strip_prefix('^') {
-            Some(power) => {
-                let sign = usize::from(power.starts_with(['+', '-']));
-                let digits = power[sign..].bytes().take_while(u8::is_ascii_digit).count();
-                let size = power[sign..sign + digits].parse().ok();
-                (power.starts_with('-'), size, blank + 1 + sign + digits)
-            }
-            None => raised(rest),
-        };
+        let (is_negative, size, length) = power(self.rest());
         let power = match size {
+            _ if length == 0 => Some(1),
             Some(0) | None => None,
             Some(size) if size > HIGHEST => None,
             Some(size) => Some(size),
@@ -299,7 +333,8 @@ impl<'t> Parser<'t> {
             let value = scope::PI.1;
             return Some(Known::Name(Quantity { value, dimension: Dimension::default() }));
         }
-        self.scope?.get(word).map(Known::Name)
+        let named = self.scope.and_then(|scope| scope.get(word)).map(Known::Name);
+        named.or_else(|| function::find(word).map(Known::Function))
     }
 
     /// The refusal of a word that names nothing.
@@ -322,9 +357,24 @@ impl<'t> Parser<'t> {
 enum Known {
     Unit(&'static Unit),
     Name(Quantity),
+    Function(Function),
 }
 
-/// The power in raised digits: its sign, its size and its bytes; 1 where there is none.
+/// The power that a text begins with: its sign, its size, `None` where that is no number, and its bytes, 0 where
+/// there is none.
+fn power(text: &str) -> (bool, Option<u64>, usize) {
+    let blank = text.len() - text.trim_start().len();
+    let Some(power) = text[blank..].strip_prefix('^') else { return raised(text) };
+    let sign = usize::from(power.starts_with(['+', '-']));
+    let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
+    let whole = digits(&power[sign..]);
+    let fraction = power[sign + whole..].strip_prefix('.').map_or(0, digits);
+    let size = if fraction == 0 { power[sign..sign + whole].parse().ok() } else { None };
+    let length = sign + whole + if fraction == 0 { 0 } else { 1 + fraction };
+    (power.starts_with('-'), size, blank + 1 + length)
+}
+
+/// The power in raised digits, likewise.
 fn raised(text: &str) -> (bool, Option<u64>, usize) {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let unsigned = text.strip_prefix('⁻').unwrap_or(text);
@@ -336,7 +386,7 @@ fn raised(text: &str) -> (bool, Option<u64>, usize) {
     }
     let sign = text.len() - unsigned.len();
     match length {
-        0 if sign == 0 => (false, Some(1), 0),
+        0 if sign == 0 => (false, None, 0),
         0 => (true, None, sign),
         _ => (sign > 0, Some(size), sign + length),
     }

@@ -3,13 +3,14 @@
 //! `(text, names) => SI value and dimension, or a fault with its place in the text`. Lengths, masses, times
 //! and angles are dimensions of their own; a number without a unit has none. `*` and `/` go before `+`
 //! and `-`, each from left to right, and a unit right behind a number goes before all: `5 N / 2 mm`
-//! is 2500 N/m. A number with its units is converted at once; every further operation
+//! is 2500 N/m. A value has whole powers and roots, an angle a sine, cosine and tangent. A number with its units is converted at once; every further operation
 //! rounds once. Nothing here knows of files or scenes.
 
 mod decimal;
 mod dimension;
 mod expression;
 mod fault;
+mod function;
 mod operand;
 mod scope;
 mod unit;

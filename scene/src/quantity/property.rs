@@ -15,6 +15,8 @@ enum Tree {
     Number(u32, i32, usize),
     Name(usize),
     Negative(Box<Tree>),
+    Power(Box<Tree>, i32),
+    Root(Box<Tree>),
     /// `+`, `-`, `*` or `/`.
     Of(char, Box<(Tree, Tree)>),
 }
@@ -56,7 +58,10 @@ fn trees() -> impl Strategy<Value = Tree> {
             Tree::Of(sign, (tree, times).into())
         });
         prop_oneof![
-            1 => inner.prop_map(|tree| Tree::Negative(tree.into())),
+            1 => inner.clone().prop_map(|tree| Tree::Negative(tree.into())),
+            1 => (inner.clone(), prop::sample::select(vec![-3, -2, -1, 1, 2, 3, 5]))
+                .prop_map(|(tree, power)| Tree::Power(tree.into(), power)),
+            1 => inner.prop_map(|tree| Tree::Root(Tree::Power(tree.into(), 2).into())),
             4 => (prop::sample::select(vec!['*', '*', '/', '/', '+']), pair)
                 .prop_map(|(sign, pair)| Tree::Of(sign, pair.into())),
             3 => like,
@@ -78,6 +83,22 @@ fn evaluated(tree: &Tree) -> Option<(f64, [i32; 4])> {
         Tree::Negative(tree) => {
             let (value, powers) = evaluated(tree)?;
             (-value, powers)
+        }
+        Tree::Power(tree, power) => {
+            let (value, powers) = evaluated(tree)?;
+            if value == 0.0 && *power < 0 {
+                return None;
+            }
+            let product = (1..power.abs()).fold(value, |product, _| product * value);
+            let value = if *power < 0 { 1.0 / product } else { product };
+            (value, powers.map(|of_unit| of_unit * power))
+        }
+        Tree::Root(tree) => {
+            let (value, powers) = evaluated(tree)?;
+            if value < 0.0 || powers.iter().any(|power| power % 2 != 0) {
+                return None;
+            }
+            (value.sqrt(), powers.map(|power| power / 2))
         }
         Tree::Of(sign, pair) => {
             let (left, of_left) = evaluated(&pair.0)?;
@@ -110,6 +131,8 @@ fn written(tree: &Tree, blanks: u64) -> String {
             Tree::Of(..) => format!("-{}", closed(tree)),
             _ => format!("-{}{}", blank(2), inner(tree)),
         },
+        Tree::Power(tree, power) => format!("{}{}^{power}", closed(tree), blank(6)),
+        Tree::Root(tree) => format!("sqrt{}{}", blank(6), closed(tree)),
         Tree::Of(sign, pair) => {
             let is_product = matches!(sign, '*' | '/');
             let is_sum = |tree: &Tree| matches!(tree, Tree::Of('+' | '-', _));

@@ -134,6 +134,45 @@ fn units_and_dimensions_are_what_they_are_shown_as() {
 }
 
 #[test]
+fn values_have_powers_roots_and_angles_sines() {
+    let scope = scope(&[("L", 0.3, "m"), ("sin", 4.0, ""), ("a", 3.0, "m"), ("b", 4.0, "m")]);
+    for (text, expected, shown) in [
+        ("L^2", 0.3 * 0.3, "m²"),
+        ("L²", 0.3 * 0.3, "m²"),
+        ("2 * L ^3", 2.0 * (0.3 * 0.3 * 0.3), "m³"),
+        ("-L^2", -(0.3 * 0.3), "m²"),
+        ("(-L)^2", 0.3 * 0.3, "m²"),
+        ("L^-2", 1.0 / (0.3 * 0.3), "1/m²"),
+        ("(2 mm)^2", 0.002 * 0.002, "m²"),
+        ("2 mm^2", 2e-6, "m²"),
+        ("2^9", 512.0, ""),
+        ("sqrt(a^2 + b^2)", 5.0, "m"),
+        ("sqrt(2)", core::f64::consts::SQRT_2, ""),
+        // Those of whole degrees are exact.
+        ("L * cos(60 deg)", 0.15, "m"),
+        ("tan(45°)", 1.0, ""),
+        ("cos(-90 deg)", 0.0, ""),
+        ("cos(0.5)", 0.5_f64.cos(), ""),
+        ("atan(b / b)", core::f64::consts::FRAC_PI_4, "rad"),
+        ("asin(-1)", -core::f64::consts::FRAC_PI_2, "rad"),
+        ("acos(cos(60 deg))", (60.0_f64).to_radians(), "rad"),
+        // A parameter goes before a function of its name.
+        ("sin * 2", 8.0, ""),
+    ] {
+        let found = within(text, Some(&scope)).unwrap_or_else(|fault| panic!("{text}: {fault}"));
+        assert!(
+            (found.value - expected).abs() <= f64::EPSILON * expected.abs(),
+            "{text}: {}",
+            found.value
+        );
+        assert_eq!(found.dimension.to_string(), shown, "{text}");
+    }
+    // A square root twice is the fourth root; what was measured in rad² has a root in rad.
+    assert_eq!(evaluate("sqrt(sqrt(16 m^4))").unwrap().value, 2.0);
+    assert_eq!(evaluate("sqrt(4 rad^2)").unwrap().dimension.to_string(), "rad");
+}
+
+#[test]
 fn what_is_wrong_is_named_at_its_place() {
     let scope =
         scope(&[("length", 0.3, "m"), ("k", 9e6, ""), ("huge", 1e300, ""), ("nil", 0.0, "m")]);
@@ -156,7 +195,27 @@ fn what_is_wrong_is_named_at_its_place() {
         ("length 3", "3", "no sign stands between `length` and `3`", "length * 3"),
         ("1.2.3", ".3", "no sign stands between `1.2` and `.3`", "`*`"),
         ("1,5", ",", "a comma in a number", "0.5"),
-        ("length^2", "^", "a power of what is no unit", "L * L"),
+        ("length^", "length^", "a power that no value has", "L^2"),
+        ("length^0", "length^0", "a power that no value has", "from 1 to 9"),
+        ("length^10", "length^10", "a power that no value has", "sqrt(A)"),
+        ("length^0.5", "length^0.5", "a power that no value has", "sqrt(A)"),
+        ("5 m^0.5", "m^0.5", "a power that no unit has", "from 1 to 9"),
+        ("(length)^2^2", "^", "a power of a power", "(L^2)^3"),
+        ("nil^-2", "nil^-2", "divided by 0", "another base"),
+        ("huge^2", "huge^2", "too large", "1.8e308"),
+        ("(1 m^9)^9", "(1 m^9)^9", "beyond all measure", "at most 24"),
+        ("sqrt(length)", "(length)", "a value in m has no square root", "a * a"),
+        ("sqrt(-4)", "(-4)", "the square root of -4", "0 or more"),
+        ("sqrt 4", "sqrt", "its argument is missing", "sqrt(…)"),
+        ("sqrt()", ")", "missing before `)`", ""),
+        ("sqrt(4", "(", "a bracket is not closed", ")"),
+        ("2 sqrt(4)", "sqrt", "no sign stands between `2` and `sqrt`", "2 * sqrt"),
+        ("sin(2 m)", "(2 m)", "a value in m is no angle", "sin(30 deg)"),
+        ("tan(90 deg)", "(90 deg)", "the tangent is infinite", "another angle"),
+        ("asin(2)", "(2)", "no angle has it", "from -1 to 1"),
+        ("atan(2 mm)", "(2 mm)", "a value in m is no ratio", "rise / run"),
+        ("exp(2)", "exp", "`exp` is neither", ""),
+        ("sin(1e400)", "(1e400)", "too large", "1.8e308"),
         ("5 m^", "m^", "a power that no unit has", "from 1 to 9"),
         ("5 m^0", "m^0", "a power that no unit has", "from 1 to 9"),
         ("5 m^10", "m^10", "a power that no unit has", "m^2"),
@@ -192,7 +251,7 @@ fn what_is_wrong_is_named_at_its_place() {
         ("1 N / 1e999 mm", "1e999 mm", "too large", "1.8e308"),
         ("-1e308 - 1e308", "-1e308 - 1e308", "too large", "1.8e308"),
         ("1e306 km", "1e306 km", "too large", "1.8e308"),
-        ("2 × length²", "²", "a power of what is no unit", "L * L"),
+        ("2 × length²³", "length²³", "a power that no value has", "from 1 to 9"),
     ] {
         let Err(fault) = within(text, Some(&scope)) else {
             assert!(message.is_empty(), "{text}");
