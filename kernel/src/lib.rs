@@ -1,7 +1,7 @@
 //! Discrete Body Dynamics for firmware: `no_std`, allocation-free, deterministic.
 //!
 //! A mechanism is rigid bodies joined by translational spring-dampers (TSDAs); there are no
-//! constraints and no matrices (Franco & Degani, Appl. Sci. 2026, 16, 2297). The same scene,
+//! constraints, and explicit schemes need no matrix (Franco & Degani, Appl. Sci. 2026, 16, 2297). The same scene,
 //! scheme, precision and step give the same bits on every target.
 //!
 //! The modules in the order of the road; each uses only those before it (a test holds it to that):
