@@ -171,7 +171,7 @@ fn read(
     let derived = is_derived.then(|| DerivedBody {
         name: name.to_owned(),
         shape: uniform.map(|section| section.name),
-        solid: uniform.filter(|_| link.is_none()).and_then(|section| section.solid.clone()),
+        solid: uniform.and_then(|section| section.solid.clone()),
         length: link.as_ref().map(|link| link.length.nearest()),
         mass,
         inertia: inertia.moments,

@@ -9,7 +9,7 @@ pub struct DerivedBody {
     pub name: String,
     /// The shape that its inertia is of, e.g. `rod`; `None` where that is given.
     pub shape: Option<&'static str>,
-    /// The solid that its `shape` is; `None` of a link, of a rod without thickness, and where the inertia is given.
+    /// The solid that its `shape` is; `None` of a rod without thickness, and where the inertia is given.
     pub solid: Option<Solid>,
     /// \[m\] between the ends of a link.
     pub length: Option<f64>,

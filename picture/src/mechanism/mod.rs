@@ -80,3 +80,37 @@ impl Mechanism {
         mechanism
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A door on its hinge: as long as its link and as high as its section.
+    #[test]
+    fn a_link_has_the_size_of_its_shape() {
+        let text = r#"
+            name = "door"
+            duration = 1.0
+            [[body]]
+            name = "door"
+            link = { from = [0, 0, 0], to = [1.2, 0, 0], shape = "box", section = ["40 mm", "1 m"], mass = 25 }
+            [[joint]]
+            name = "hinge"
+            type = "revolute"
+            between = ["world", "door"]
+            at = [0, 0, 0]
+            axis = [0, 0, 1]
+            span = 0.8
+            stiffness = 2e6
+        "#;
+        let mechanism = Mechanism::of(&Scene::parse(text, "door.toml").unwrap());
+        let [solid] = &mechanism.bodies[0].shapes[..] else { panic!("{:?}", mechanism.bodies) };
+        let corners = solid.corners();
+        for (axis, half) in [0.6, 0.02, 0.5].into_iter().enumerate() {
+            for end in [-half, half] {
+                let is_there = corners.iter().any(|corner| (corner[axis] - end).abs() < 1e-12);
+                assert!(is_there, "axis {axis}, {end}: {corners:?}");
+            }
+        }
+    }
+}
