@@ -11,7 +11,7 @@ use crate::elements::input::InputKind;
 use crate::forces::{self, ExplicitDampers, Record};
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, InputIndex};
-use crate::model::{FrameOf, Group, ModelOwner, ModelRef, RealOf, SpaceOf, Terms};
+use crate::model::{FrameOf, Group, ModelOwner, ModelRef, RealOf, Terms};
 use crate::plant::Plant;
 use crate::pose::{End, Places, place_bodies, placed, twist_of};
 use crate::real::Real;
@@ -54,7 +54,7 @@ pub enum Readout<P: Geometry> {
         /// Its number in the group.
         element: u16,
     },
-    /// \[N\] the force of a joint on its second body, world.
+    /// \[N\] the force of a joint on its second body, world: springs, dampers and actuators.
     JointForce {
         /// The joint's group.
         group: u16,
@@ -187,14 +187,9 @@ pub fn read<M: ModelOwner>(
             Some(Reading::Scalar(tension))
         }
         Readout::JointForce { group } => {
-            let group = view.groups.get(group as usize)?;
-            let record: Record<SpaceOf<M>> = forces::record::<
-                M::Precision,
-                M::Terms,
-                ExplicitDampers,
-            >(&view, places, (bodies, &[]), group)
-            .unwrap_or(Record::ZERO);
-            Some(Reading::Vector((-record.force).in_space()))
+            let row = group as usize;
+            let group = view.groups.get(row)?;
+            Some(Reading::Vector(force(&view, places, bodies, (row, group)).in_space()))
         }
         Readout::Imu { body, point } => {
             let constants = view.bodies.get(body.row())?;
@@ -250,6 +245,19 @@ fn tension<P: Geometry, T: Terms>(
     Some(tension)
 }
 
+/// The force of a group on its second body: springs, dampers and actuators.
+#[inline(always)]
+fn force<P: Geometry, T: Terms>(
+    view: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    bodies: &[BodyState<P>],
+    (row, group): (usize, &Group),
+) -> P::Vector {
+    let record = forces::record::<P, T, ExplicitDampers>(view, places, (bodies, &[]), group)
+        .unwrap_or(Record::ZERO);
+    -forces::with_actuators(view, places, row, record.force)
+}
+
 /// Visits the tension \[N\] of every TSDA in the order of the groups, as
 /// [`Readout::TsdaForce`] reads it, with the index of its group.
 pub fn each_tension<M: ModelOwner>(
@@ -284,13 +292,6 @@ pub fn each_force<M: ModelOwner>(
     place_bodies::<M::Precision>(bodies, frames.as_mut());
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
     for (row, group) in view.groups.iter().enumerate() {
-        let record: Record<SpaceOf<M>> = forces::record::<M::Precision, M::Terms, ExplicitDampers>(
-            &view,
-            places,
-            (bodies, &[]),
-            group,
-        )
-        .unwrap_or(Record::ZERO);
-        visit(row, (-record.force).in_space());
+        visit(row, force(&view, places, bodies, (row, group)).in_space());
     }
 }

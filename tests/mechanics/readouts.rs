@@ -6,7 +6,9 @@ use dbd_kernel::index::InputIndex;
 use dbd_kernel::model::Law;
 use dbd_kernel::readouts::{Reading, Readout, each_force, each_tension, read};
 use dbd_kernel::space::Linear as _;
-use dbd_kernel::{BodyIndex, BodyState, F64, Geometry, Leapfrog, Plant, Vec3};
+use dbd_kernel::{
+    BodyIndex, BodyState, F32, F64, Geometry, Leapfrog, Planar32, Planar64, Plant, Real as _, Vec3,
+};
 use dbd_tests::{Bench, at, scene, scene_names, turned};
 
 const WORLD: BodyIndex = BodyIndex::WORLD;
@@ -86,6 +88,69 @@ fn tensions_and_joint_forces() {
     assert!((tension.scalar().unwrap() - (100.0 * 0.2 + 4.0 * 0.5)).abs() < 1e-12);
     let force = plant.read(&Readout::JointForce { group: 0 }).unwrap().vector().unwrap();
     assert!(near(force, [-22.0, 0.0, 0.0], 1e-12), "on the second body: {force:?}");
+}
+
+/// An oblique TSDA between two moving bodies with two actuators, a second one without, in space
+/// or in the plane: the joint's force is the tension along its line, and what moves the body.
+fn pulled<P: Geometry>(damping: f64, tolerance: f64) {
+    let mut model = Bench::<P>::new();
+    let state = |x: [f64; 3], v: [f64; 3]| {
+        BodyState::<P>::from_f64(x, [1.0, 0.0, 0.0, 0.0], v, [0.0, 0.0, 0.7])
+    };
+    let a = model.add_body(2.0, [0.1; 3], state([0.0; 3], [0.3, -0.2, 0.0])).unwrap();
+    let b = model.add_body(1.5, [0.2; 3], state([0.6, 0.9, 0.0], [-0.4, 0.5, 0.0])).unwrap();
+    let points = [[0.1, 0.05, 0.0], [-0.05, 0.1, 0.0]];
+    model.add_tsda([a, b], points, 80.0, damping, 0.7).unwrap();
+    model.add_tsda([WORLD, a], points, 60.0, damping, 0.2).unwrap();
+    let pull = InputKind::Actuator { group: 0, element: 0 };
+    model.add_input(pull, 7.0).unwrap();
+    model.add_table(pull, &[[0.0, -3.0], [1.0, 9.0]], true).unwrap();
+    let mut plant = Plant::new(&model, Leapfrog, 1e-3).unwrap();
+    plant.advance(40).ok().unwrap();
+    let close = |x: f64, y: f64| (x - y).abs() < tolerance;
+    let mut on_b = Vec3::<f64>::ZERO;
+    for group in 0..2 {
+        let tension = plant.read(&Readout::TsdaForce { group, element: 0 }).unwrap();
+        let tension = tension.scalar().unwrap().to_f64();
+        let force = plant.read(&Readout::JointForce { group }).unwrap().vector().unwrap();
+        let force = Vec3::from_f64(force.to_f64());
+        let ends = [[a, b], [WORLD, a]][usize::from(group)];
+        let at = |end: usize| match ends[end] {
+            WORLD => Vec3::<f64>::from_f64(points[end]),
+            body => {
+                let point = P::local_from_f64(points[end]);
+                let point = plant.read(&Readout::Point { body, point }).unwrap().vector().unwrap();
+                Vec3::<f64>::from_f64(point.to_f64())
+            }
+        };
+        let d = at(0) - at(1);
+        let along = d * (tension / d.dot(d).sqrt());
+        for (x, y) in force.to_f64().into_iter().zip(along.to_f64()) {
+            assert!(close(x, y), "group {group}, damping {damping}: {force:?} {along:?}");
+        }
+        assert!(tension.abs() > 1.0);
+        if group == 0 {
+            on_b = force;
+        }
+    }
+    // What moves the second body is that force alone.
+    let point = P::local_from_f64([0.0; 3]);
+    let Some(Reading::Imu { specific_force, .. }) = plant.read(&Readout::Imu { body: b, point })
+    else {
+        panic!("no reading");
+    };
+    let felt = Vec3::<f64>::from_f64(specific_force.to_f64());
+    assert!(close(1.5 * felt.dot(felt).sqrt(), on_b.dot(on_b).sqrt()), "{felt:?} {on_b:?}");
+}
+
+#[test]
+fn the_force_of_a_tsda_is_its_tension_along_its_line() {
+    for damping in [0.0, 5.0] {
+        pulled::<F64>(damping, 1e-10);
+        pulled::<F32>(damping, 1e-4);
+        pulled::<Planar64>(damping, 1e-10);
+        pulled::<Planar32>(damping, 1e-4);
+    }
 }
 
 #[test]

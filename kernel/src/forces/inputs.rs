@@ -47,20 +47,48 @@ pub(crate) fn push<P: Geometry, T: Terms>(
                 let record = Record { force: P::Vector::ZERO, torque_a: torque, torque_b: torque };
                 apply(wrenches, a.row(), b.row(), &record);
             }
-            InputKind::Actuator { group, element } => {
-                let row = group as usize;
-                let element = model
-                    .groups
-                    .get(row)
-                    .and_then(|group| placed(model, places, (row, group), element as usize));
-                let Some(element) = element else { continue };
-                let d = element.stretch.displacement;
-                let force = d * (value * d.dot(d).sqrt().reciprocal_or_zero());
-                let torque_a = element.arm_a.cross(force);
-                let record = Record { force, torque_a, torque_b: element.arm_b.cross(force) };
-                apply(wrenches, element.group.a.row(), element.group.b.row(), &record);
+            InputKind::Actuator { group, .. } => {
+                let Some(group) = model.groups.get(group as usize) else { continue };
+                if let Some(record) = actuator(model, places, input.kind, value) {
+                    apply(wrenches, group.a.row(), group.b.row(), &record);
+                }
             }
             InputKind::Anchor { .. } => {}
         }
     }
+}
+
+/// What an actuator of the tension `value` \[N\] does to the two bodies of its TSDA.
+#[inline(always)]
+fn actuator<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    kind: InputKind<P>,
+    value: P::Real,
+) -> Option<Record<P::Space>> {
+    let InputKind::Actuator { group, element } = kind else { return None };
+    let row = group as usize;
+    let element = placed(model, places, (row, model.groups.get(row)?), element as usize)?;
+    let d = element.stretch.displacement;
+    let force = d * (value * d.dot(d).sqrt().reciprocal_or_zero());
+    let torque_a = element.arm_a.cross(force);
+    Some(Record { force, torque_a, torque_b: element.arm_b.cross(force) })
+}
+
+/// A group's `force` \[N\] on its first body with that of its actuators, world axes.
+#[inline(always)]
+pub(crate) fn with_actuators<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    row: usize,
+    mut force: P::Vector,
+) -> P::Vector {
+    for (input, signal) in model.inputs.iter().zip(places.signals) {
+        if matches!(input.kind, InputKind::Actuator { group, .. } if group as usize == row)
+            && let Some(record) = actuator(model, places, input.kind, signal.value)
+        {
+            force = force + record.force;
+        }
+    }
+    force
 }

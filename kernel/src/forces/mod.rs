@@ -27,6 +27,7 @@ mod universal;
 use crate::body::BodyState;
 pub(crate) use directions::springs;
 pub(crate) use in_line::are_in_line;
+pub(crate) use inputs::with_actuators;
 pub use record::{At, Dampers, DampersLeft, DampersOfJoints, ExplicitDampers, Record, Wrench};
 pub(crate) use record::{Turns, apply};
 pub(crate) use stars::find_rests;
