@@ -30,17 +30,20 @@ pub struct Energy<R> {
     pub line: R,
     /// \[J\] torsion springs, preload included.
     pub torsion: R,
-    /// \[J\] world-frame force loads while they act.
+    /// \[J\] `−F·x` of world-frame force loads while they act. Not part of the potential energy: it
+    /// appears and vanishes with a load's window, and its zero is where the world's origin is. While a
+    /// load acts, its work is minus the change of this.
     pub load: R,
 }
 
 impl<R: Real> Energy<R> {
-    /// All but the kinetic energy.
+    /// The energy of gravity and springs, which is a function of the pose alone.
     pub fn potential(&self) -> R {
-        self.gravity + self.tsda + self.bushing + self.line + self.torsion + self.load
+        self.gravity + self.tsda + self.bushing + self.line + self.torsion
     }
 
-    /// Kinetic and potential energy.
+    /// Kinetic and potential energy: continuous where a load begins or ends, as loads, inputs and
+    /// dampers change it by their work alone.
     pub fn total(&self) -> R {
         self.kinetic + self.potential()
     }

@@ -97,7 +97,7 @@ impl Budget {
             + parts.iter().map(|part| part.abs()).sum::<f64>()
             + 0.5 * SHARE * SHARE * (stiffness * size * size + turning);
         let before = Seen::of(model, start, 0.0);
-        let initial = [energy.potential() - energy.load, energy.total() - energy.load];
+        let initial = [energy.potential(), energy.total()];
         Self { held, initial, released: 0.0, supplied: 0.0, unit, reaches, distances, before }
     }
 
@@ -110,15 +110,14 @@ impl Budget {
         time: f64,
     ) -> Option<f64> {
         let [potential, total] = self.initial;
-        // A load's potential comes and goes with its window: its work is counted instead.
-        self.released = self.released.max(potential - (energy.potential() - energy.load));
+        self.released = self.released.max(potential - energy.potential());
         for (distance, body) in self.distances.iter_mut().zip(&state.bodies) {
             *distance = distance.max(length(body.position));
         }
         let now = Seen::of(model, state, time);
         self.supplied += self.supply(model, &now);
         self.before = now;
-        let growth = energy.total() - energy.load - total;
+        let growth = energy.total() - total;
         let measure = GROWN * (self.held + self.released + self.supplied);
         (growth > measure && growth > measure + self.rounding(model, time)).then_some(growth)
     }

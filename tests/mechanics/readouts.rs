@@ -7,7 +7,8 @@ use dbd_kernel::model::Law;
 use dbd_kernel::readouts::{Reading, Readout, each_force, each_tension, read};
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
-    BodyIndex, BodyState, F32, F64, Geometry, Leapfrog, Planar32, Planar64, Plant, Real as _, Vec3,
+    BodyIndex, BodyState, F32, F64, Geometry, Leapfrog, Load, LoadFrame, Planar32, Planar64, Plant,
+    Real as _, Vec3,
 };
 use dbd_tests::{Bench, at, scene, scene_names, turned};
 
@@ -239,4 +240,45 @@ fn all_tensions_and_forces_are_those_read_one_by_one() {
         assert!(tensions == expected_tensions && forces == expected_forces, "{name}");
         assert!(tensions.iter().any(|(_, tension)| tension.abs() > 1.0), "{name}");
     }
+}
+
+/// A load far from the origin that begins and ends: between two steps the total energy changes by
+/// the load's work alone.
+fn loaded<P: Geometry>() {
+    let mut model = Bench::<P>::new();
+    let body = model.add_body(1.0, [1.0; 3], at([1e5, 0.0, 0.0])).unwrap();
+    model.add_tsda([WORLD, body], [[1e5, 1.0, 0.0], [0.0; 3]], 10.0, 0.0, 1.0).unwrap();
+    let force = P::Vector::from_f64([10.0, 2.0, 0.0]);
+    let (torque, frame) = (P::Moment::ZERO, LoadFrame::World);
+    model.add_load(Load { body, frame, force, torque, from: 0.5, until: 0.75 }).unwrap();
+    let h = 1e-3;
+    let mut plant = Plant::new(&model, Leapfrog, h).unwrap();
+    let look = |plant: &Plant<&Bench<P>, Leapfrog>| {
+        let now = energy(&model, plant.state(), h);
+        assert!((now.total().to_f64() - (now.kinetic + now.potential()).to_f64()).abs() < 1e-12);
+        let point = P::local_from_f64([0.0; 3]);
+        let x = plant.read(&Readout::Point { body, point }).unwrap().vector().unwrap();
+        (now.total().to_f64(), x.to_f64())
+    };
+    let (mut before, mut x) = look(&plant);
+    let (mut work, mut begun) = (0.0, before);
+    for n in 0..1_000 {
+        plant.step().ok().unwrap();
+        let (total, now) = look(&plant);
+        let acts = (500..750).contains(&n);
+        let done = if acts { 10.0 * (now[0] - x[0]) + 2.0 * (now[1] - x[1]) } else { 0.0 };
+        assert!((total - before - done).abs() < 1e-2, "step {n}: {before} {total}, work {done}");
+        work += done;
+        (before, x) = (total, now);
+        if n == 499 {
+            begun = total;
+        }
+    }
+    assert!(work > 1.0 && (before - begun - work).abs() < 2e-2, "{begun} {before} {work}");
+}
+
+#[test]
+fn the_total_energy_is_continuous_where_a_load_begins_and_ends() {
+    loaded::<F64>();
+    loaded::<Planar64>();
 }

@@ -1,8 +1,8 @@
 //! A force and a torque on one body, constant over a window of time \[from, until).
 //!
 //! `(load, frame) => (force, torque)` in world axes. [`crate::schedule`] makes the window one of
-//! whole steps. A force in world axes has the potential `−F·x` while it acts; a force in body axes
-//! and a torque have none.
+//! whole steps. A force in world axes has the potential `−F·x` while it acts, which
+//! [`crate::energy`] keeps apart; a force in body axes and a torque have none.
 
 use crate::index::BodyIndex;
 use crate::real::Real as _;
