@@ -15,6 +15,10 @@
 //! stable at any stiffness and damping as long as the bodies turn little in a step; it damps what
 //! vibrates fast, by design, and keeps linear momentum of free bodies alone to rounding.
 //!
+//! With dampers the remembered a predicts the whole step: forces are taken at `û + γ·h·a` and at the pose with
+//! `β·h²·a`, and the matrix gives `a⁺ − a`. Of û alone whatever the matrix has of C that is not that of the pose,
+//! a lumped joint's, would be an error of first order.
+//!
 //! A first step knows no accelerations. Those of `M⁻¹·F` would be wrong by far: joints that are all but rigid hold
 //! the bodies only once they have moved, and what they were thrown in a step shakes them for many more. So forces
 //! are taken at `q ∘ exp(τ·h·u)`, `½·τ² = β/μ`, where the same matrix closes the joints, and
@@ -199,7 +203,13 @@ impl Scheme for GeneralizedAlpha {
         }
         let constant = P::Real::constant;
         let h = stepper.h;
-        let (near, far) = (h * constant(self.rest_of_beta), h * constant(self.rest_of_gamma));
+        // With dampers the remembered a predicts the whole step, without them the part of it that is known.
+        let predicted = stepper.has_dampers();
+        let (near, far) = if predicted {
+            (h * P::Real::HALF, h)
+        } else {
+            (h * constant(self.rest_of_beta), h * constant(self.rest_of_gamma))
+        };
         let drift = if begins { h * constant(self.first) } else { h };
         let rows = stepper.workspace.bodies.iter_mut().zip(stepper.memory.iter());
         for (state, memory) in rows {
@@ -214,12 +224,12 @@ impl Scheme for GeneralizedAlpha {
         stepper.sample_inputs(P::Real::ONE);
         stepper.evaluate_once::<ExplicitDampers>(At::Boundary, false)?;
         let pencil = self.pencil(h);
-        self.right_sides(stepper, pencil.damping);
+        self.right_sides(stepper, pencil, predicted);
         stepper.solve(pencil)?;
         if begins {
             self.end_first(stepper);
         } else {
-            self.end(stepper, pencil);
+            self.end(stepper, pencil, predicted);
         }
         stepper.ledger.begun = true;
         if stepper.is_pushed() {
@@ -247,14 +257,19 @@ impl GeneralizedAlpha {
         &self,
         stepper: &mut Stepper<'_, '_, P, T, GeneralizedAlphaMemory<P>>,
         Pencil { mass, damping: change, stiffness: reach }: Pencil<P::Real>,
+        predicted: bool,
     ) {
-        stepper.correct(|state, memory, next| {
+        stepper.correct(|state, memory, mut next| {
             let known = self.known::<P>(memory);
             P::translate(&mut state.position, next.linear * reach);
             let half = next.angular * (P::Real::HALF * reach);
             rotation::turn_by::<P>(&mut state.orientation, half);
             P::accelerate(&mut state.velocity, next.linear * change);
             P::spin_up(&mut state.angular_velocity, next.angular * change);
+            if predicted {
+                next.linear = next.linear + memory.algorithmic.linear;
+                next.angular = next.angular + memory.algorithmic.angular;
+            }
             memory.real = Increment {
                 linear: next.linear * mass - known.linear,
                 angular: next.angular * mass - known.angular,
@@ -294,12 +309,13 @@ impl GeneralizedAlpha {
         }
     }
 
-    /// `F + M·s` in place of the wrenches, torques in world axes.
+    /// `F + M·s` in place of the wrenches, `F + M·(s − μ·a)` where a predicts the step, torques in world axes.
     #[inline(always)]
     fn right_sides<P: Geometry, T: Terms>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, GeneralizedAlphaMemory<P>>,
-        change: P::Real,
+        Pencil { mass, damping: change, .. }: Pencil<P::Real>,
+        predicted: bool,
     ) {
         let Stepper { workspace, memory } = stepper;
         let field = workspace.field();
@@ -307,10 +323,16 @@ impl GeneralizedAlpha {
         let rows = rows.zip(workspace.frames.iter()).zip(workspace.wrenches.iter_mut());
         for ((((state, body), frame), wrench), memory) in rows.zip(memory.iter()) {
             let mut known = self.known::<P>(memory);
+            let mut w = P::spin(&state.angular_velocity);
+            if predicted {
+                known.linear = known.linear - memory.algorithmic.linear * mass;
+                known.angular = known.angular - memory.algorithmic.angular * mass;
+            } else {
+                w = w + memory.algorithmic.angular * change;
+            }
             if let Some(field) = field {
                 known.linear = known.linear + field;
             }
-            let w = P::spin(&state.angular_velocity) + memory.algorithmic.angular * change;
             let gyroscopic = w.commutator(body.inertia.scale(w));
             let torque = wrench.torque - gyroscopic + body.inertia.scale(known.angular);
             wrench.force = wrench.force + known.linear * body.mass;
