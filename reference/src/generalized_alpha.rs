@@ -8,6 +8,9 @@
 //! 2. `((1−α_m)/(1−α_f)·M + γ·h·C + β·h²·K)·a⁺ = F(q̂, û) + M·(α_f·d − α_m·a)/(1−α_f)`
 //! 3. `u⁺ = û + γ·h·a⁺`, `q⁺ = q̂ ∘ exp(β·h²·a⁺)`, `d⁺ = ((1−α_m)·a⁺ + α_m·a − α_f·d)/(1−α_f)`
 //!
+//! With dampers the remembered a predicts the whole step: F is taken at û + γ·h·a and at the pose with β·h²·a, and the
+//! solution is a⁺ − a, which the matrix's damping, one of lumped joints, multiplies to first order in h only.
+//!
 //! C and K as in [`crate::implicit`], so that a factor exists for every step. They leave the gyroscopic torque out,
 //! whose change within the step would be lost; F has it at û + γ·h·a, not at û: without that a tumbling body is
 //! followed to first order only. Second order in the slow motion, and
@@ -34,6 +37,8 @@ pub struct GeneralizedAlpha<'m> {
     /// Algorithmic and true acceleration of each body; none before the first step.
     memory: Vec<[Vector6<f64>; 2]>,
     matrix: BlockMatrix,
+    /// Whether any spring has a damper.
+    is_damped: bool,
 }
 
 /// The coefficients of a ρ∞.
@@ -65,7 +70,13 @@ impl<'m> GeneralizedAlpha<'m> {
     pub fn new(mechanism: &'m Mechanism, state: State, step: f64, rho: f64) -> Self {
         let weights = Weights::of(rho);
         let matrix = BlockMatrix::of(mechanism);
-        Self { mechanism, state, step, steps: 0, weights, memory: Vec::new(), matrix }
+        let mut is_damped = false;
+        let at = mechanism.at(&state, Clock::between(0.0, [0.0, step]));
+        for element in &mechanism.elements {
+            element.springs(&at, &mut |spring| is_damped |= spring.damping > 0.0);
+        }
+        drop(at);
+        Self { mechanism, state, step, steps: 0, weights, memory: Vec::new(), matrix, is_damped }
     }
 
     /// Takes the accelerations that the present state has in the coming step: what was known is of another
@@ -109,22 +120,24 @@ impl<'m> GeneralizedAlpha<'m> {
         }
         let piece = self.piece();
         let before: Vec<_> = self.velocities();
-        self.state.set_velocities(&before, &self.memory, (0.5 - w.beta) * h);
+        let (near, far) = if self.is_damped { (0.5, 1.0) } else { (0.5 - w.beta, 1.0 - w.gamma) };
+        self.state.set_velocities(&before, &self.memory, near * h);
         self.state.drift(h);
-        self.state.set_velocities(&before, &self.memory, (1.0 - w.gamma) * h);
+        self.state.set_velocities(&before, &self.memory, far * h);
         self.steps += 1;
 
-        let next = self.accelerations(piece);
+        let solution = self.accelerations(piece);
         let predicted = self.velocities();
-        for (row, [a, d]) in self.memory.iter_mut().enumerate() {
-            let next = next[row];
+        for ([a, d], solution) in self.memory.iter_mut().zip(&solution) {
+            let next = if self.is_damped { *a + solution } else { *solution };
             *d = (next * (1.0 - w.alpha_m) + *a * w.alpha_m - *d * w.alpha_f) / (1.0 - w.alpha_f);
             *a = next;
         }
         let rest = vec![Vector6::zeros(); predicted.len()];
-        self.state.set_velocities(&rest, &self.memory, w.beta * h);
+        let solution: Vec<_> = solution.iter().map(|solution| [*solution; 2]).collect();
+        self.state.set_velocities(&rest, &solution, w.beta * h);
         self.state.drift(h);
-        self.state.set_velocities(&predicted, &self.memory, w.gamma * h);
+        self.state.set_velocities(&predicted, &solution, w.gamma * h);
         self.mechanism.settle(&mut self.state);
     }
 
@@ -158,12 +171,16 @@ impl<'m> GeneralizedAlpha<'m> {
             let mass = join(Vector3::repeat(body.mass), body.inertia);
             // The matrix knows nothing of the gyroscopic torque, which then is that of u⁺ to second order.
             let rate = at.rate(row);
-            let coming = rate + a.fixed_rows::<3>(3) * (w.gamma * h);
+            let known_part = if self.is_damped { 0.0 } else { w.gamma * h };
+            let coming = rate + a.fixed_rows::<3>(3) * known_part;
             let gyroscopic = |rate: Vector3<f64>| rate.cross(&body.inertia.component_mul(&rate));
             let change = gyroscopic(rate) - gyroscopic(coming);
             let change = join(Vector3::zeros(), change.component_div(&body.inertia));
-            let known =
+            let mut known =
                 joined(response) + change + (d * w.alpha_f - a * w.alpha_m) / (1.0 - w.alpha_f);
+            if self.is_damped {
+                known -= a * w.mass;
+            }
             self.matrix.add(row, row, &Matrix6::from_diagonal(&(mass * w.mass)));
             self.matrix.add_right(&mut right, row, &mass.component_mul(&known));
         }
