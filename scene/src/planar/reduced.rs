@@ -175,7 +175,8 @@ fn direction(arm: &Arm) -> Vec3<f64> {
 }
 
 /// Two arms in place of many, or one where the star is stiff in one direction only; `None` where its
-/// dampers have other principal directions than its springs.
+/// dampers have other principal directions than its springs, and where its stiffness and damping are zero, or
+/// too small or too large for their sums: such a star keeps its arms.
 ///
 /// At rest they are as stiff and damp as much in every direction. Their length is free: the mean of
 /// `L0/cos` of the elements, which lean by that cosine. For a pin, K its stiffness, the energy of third
@@ -190,6 +191,9 @@ fn condensed(star: &[Arm]) -> Option<Vec<Arm>> {
     };
     let (stiff, damp) = (sum(|arm| arm.stiffness), sum(|arm| arm.damping));
     let whole = |[xx, _, yy]: [f64; 3]| xx + yy;
+    if !(whole(stiff) + whole(damp)).is_finite() {
+        return None;
+    }
     let [xx, xy, yy] = if whole(stiff) > 0.0 { stiff } else { damp };
     let (first, scale) = (direction(star.first()?), xx + yy);
     let is_round = (xx - yy).abs() <= ALIKE * scale && xy.abs() <= ALIKE * scale;
@@ -220,7 +224,8 @@ fn condensed(star: &[Arm]) -> Option<Vec<Arm>> {
     };
     let acts =
         |arm: &Arm| arm.stiffness > ALIKE * whole(stiff) || arm.damping > ALIKE * whole(damp);
-    Some([main, across].map(arm).into_iter().filter(acts).collect())
+    let two: Vec<Arm> = [main, across].map(arm).into_iter().filter(acts).collect();
+    (!two.is_empty()).then_some(two)
 }
 
 /// Points that are as far along their lines.
@@ -297,5 +302,37 @@ impl Row {
         let foot = self.feet.iter().sum::<f64>() / self.feet.len() as f64;
         let from = line * self.along + across * foot;
         Arm { from, to: from + across * self.deflection, points: None, ..self.arm }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A pin's star of three elements, 120 degrees apart.
+    fn pin(stiffness: f64, damping: f64) -> Vec<Element> {
+        let element = |i: f64| {
+            let angle = core::f64::consts::TAU * i / 3.0;
+            let to = Vec3::new(libm::cos(angle), libm::sin(angle), 0.5) * 0.1;
+            let from = Vec3::ZERO;
+            let free_length = length(to);
+            Element { from, to, centre: from, tip: to, line: None, stiffness, damping, free_length }
+        };
+        [0.0, 1.0, 2.0].map(element).to_vec()
+    }
+
+    #[test]
+    fn no_strength_leaves_a_star_without_arms() {
+        let strengths = [0.0, -0.0, f64::from_bits(1), 1e-300, 1e5, 1.7e308];
+        for stiffness in strengths {
+            for damping in strengths {
+                let found = reduced(Law::Tsda, &pin(stiffness, damping), 0.0, 1e-9).unwrap();
+                let case = format!("stiffness {stiffness:e}, damping {damping:e}: {found:?}");
+                assert!(found.stars.iter().all(|star| !star.is_empty()), "{case}");
+                let arms = || found.stars.iter().flatten();
+                assert!(arms().all(|arm| arm.stiffness.is_finite()), "{case}");
+                assert!(arms().all(|arm| arm.damping.is_finite()), "{case}");
+            }
+        }
     }
 }
