@@ -64,10 +64,10 @@ pub(super) fn reduced(
         (Law::PointOnLine, Some(line)) if 1.0 - line.z.abs() > ALIKE => {
             Err("has a line that leans against the plane".into())
         }
-        (Law::PointBushing, _) => Ok(bushings(elements, near)),
+        (Law::PointBushing, _) => bushings(elements, clearance, near),
         (Law::PointOnLine, _) if elements.iter().all(|e| e.free_length == 0.0) => {
             // Normal to the plane a line is a point of it.
-            Ok(bushings(elements, near))
+            bushings(elements, clearance, near)
         }
         _ => stars(elements, clearance, near),
     }
@@ -85,14 +85,19 @@ fn is_near(a: Vec3<f64>, b: Vec3<f64>, near: f64) -> bool {
     length(a - b) <= near
 }
 
-fn bushings(elements: &[Element], near: f64) -> Reduced {
+fn bushings(elements: &[Element], clearance: f64, near: f64) -> Result<Reduced, Obstacle> {
+    if clearance > 0.0 {
+        return Err(
+            "has a clearance about a point of the plane, which no element of the plane has".into(),
+        );
+    }
     let mut arms: Vec<Arm> = Vec::new();
     for element in elements {
         let arm = arm(element, element.stiffness, element.damping, 0.0);
         add(&mut arms, arm, near);
     }
     let stars = arms.into_iter().map(|arm| vec![arm]).collect();
-    Reduced { law: Law::PointBushing, line: None, stars, clearance: 0.0, is_exact: true }
+    Ok(Reduced { law: Law::PointBushing, line: None, stars, clearance: 0.0, is_exact: true })
 }
 
 fn arm(element: &Element, stiffness: f64, damping: f64, free_length: f64) -> Arm {
