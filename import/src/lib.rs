@@ -56,7 +56,7 @@ use std::path::Path;
 
 pub use error::{ImportError, Refusal};
 pub use omission::{Kind, Omission};
-pub use options::{Options, Weld};
+pub use options::{Options, TOLERANCE, Weld};
 
 use crate::element::Document;
 use crate::error::Fault;

@@ -14,6 +14,10 @@ pub enum Weld {
     Fixed,
 }
 
+/// By how much a loop may stay open, as a fraction of the mechanism's size: CAD programs write poses
+/// with about six digits, and the errors of several add up in a loop.
+pub const TOLERANCE: f64 = 1e-4;
+
 /// What is stated rather than read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
@@ -25,6 +29,8 @@ pub struct Options {
     pub damping: f64,
     /// \[m\] span of each joint, > 0; else twice the radius of gyration of the smaller of its bodies.
     pub span: Option<f64>,
+    /// \[m\] by how much a loop may stay open, > 0; else [`TOLERANCE`] times the size of the mechanism.
+    pub tolerance: Option<f64>,
     /// \[s\] simulated time, > 0.
     pub duration: f64,
     /// What becomes of bodies without joints.
@@ -42,6 +48,7 @@ impl Default for Options {
             stiffness: 1e7,
             damping: 0.0,
             span: None,
+            tolerance: None,
             duration: 1.0,
             weld: Weld::Merge,
             keyframe: None,

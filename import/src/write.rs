@@ -7,10 +7,10 @@ use std::fmt::Write as _;
 use nalgebra::Vector3;
 
 use crate::mass::Solid;
-use crate::mechanism::{Mechanism, Side, Signal, Source, Type};
+use crate::mechanism::{Mechanism, Side, Signal, Source, Type, rounded};
 use crate::notation::{line, number, snapped, text, vector};
 use crate::omission::Kind;
-use crate::options::Weld;
+use crate::options::{TOLERANCE, Weld};
 use crate::place::{Place, Texts};
 use crate::settings::Settings;
 
@@ -90,7 +90,9 @@ fn top(
         let _ = writeln!(out, "gravity = {}", vector(settings.gravity, 0.0));
     }
     if mechanism.links.iter().any(|link| !link.is_closed()) {
-        out.push_str("\n# Closes the joints that have two places.\n[assemble]\n");
+        let tolerance = options.tolerance.unwrap_or_else(|| rounded(TOLERANCE * mechanism.size()));
+        out.push_str("\n# Closes the joints that have two places, up to this gap in m.\n");
+        let _ = writeln!(out, "[assemble]\ntolerance = {}", number(tolerance));
     }
 }
 

@@ -231,3 +231,45 @@ fn the_command_refuses_lists_and_writes() {
     let (exit, _, err) = call(&[&xml, "--ignore", "all", "--span", "1e-300"]);
     assert!(exit == Exit::Refused && err.contains("becomes is refused"), "{err}");
 }
+
+/// A triangle of two links whose sites do not meet by `gap` [m] wherever the links are turned.
+fn triangle(gap: f64) -> String {
+    let reach = 0.4 + gap;
+    format!(
+        "<mujoco><worldbody><site name='pin' pos='{reach} 0 0'/>\
+         <body name='a'><joint axis='0 1 0'/><inertial pos='0.1 0 0' mass='1' diaginertia='1 1 1'/>\
+         <body name='b' pos='0.2 0 0'><joint axis='0 1 0'/>\
+         <inertial pos='0.1 0 0' mass='1' diaginertia='1 1 1'/><site name='tip' pos='0.2 0 0'/>\
+         </body></body></worldbody>\
+         <equality><connect name='loop' site1='pin' site2='tip'/></equality></mujoco>"
+    )
+}
+
+/// Loops close up to a fraction of the mechanism's size or to what is stated; where one does not, its scene
+/// is written even so.
+#[test]
+fn loops_close_within_a_tolerance() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (xml, toml) = (path("a.xml"), path("a.toml"));
+    let written = || fs::read_to_string(&toml).unwrap_or_default();
+    fs::write(&xml, triangle(1e-6)).unwrap();
+    let (exit, _, err) = call(&[&xml, "--out", &toml]);
+    assert_eq!(exit, Exit::Done, "{err}");
+    assert!(err.contains("loops open by up to 1.0e-6 m"), "{err}");
+    dbd_scene::Scene::parse(&written(), "a").unwrap();
+    let (exit, _, err) = call(&[&xml, "--out", &toml, "--tolerance", "1e-9"]);
+    assert_eq!(exit, Exit::Refused);
+    assert!(err.contains("stays open by") && err.contains("--tolerance"), "{err}");
+    assert!(written().contains("tolerance = 1e-9") && written().contains("[[joint]]"));
+    assert!(dbd_scene::Scene::parse(&written(), "a").is_err());
+    fs::remove_file(&toml).unwrap();
+    fs::write(&xml, triangle(0.05)).unwrap();
+    let (exit, _, err) = call(&[&xml, "--out", &toml]);
+    assert!(exit == Exit::Refused && err.contains("stays open by"), "{err}");
+    assert!(written().contains("name = \"loop\""));
+    // As the message says.
+    let given = err.split("--tolerance ").nth(1).unwrap().split('`').next().unwrap();
+    let (exit, _, err) = call(&[&xml, "--out", &toml, "--tolerance", given]);
+    assert_eq!(exit, Exit::Done, "{given}: {err}");
+}

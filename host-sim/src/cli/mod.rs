@@ -28,7 +28,7 @@ use crate::commands::compare::CompareArguments;
 use crate::commands::completions::script;
 use crate::commands::export::{self, ExportArguments};
 use crate::commands::fmu::{FmuArguments, fmu};
-use crate::commands::import::{self, ImportArguments};
+use crate::commands::import::{self, Import, ImportArguments};
 use crate::commands::list::list;
 use crate::commands::new::{FirmwareArguments, NewCommand, SceneArguments, firmware, scene};
 use crate::commands::schema;
@@ -248,16 +248,16 @@ fn import_file(arguments: &ImportArguments, console: &mut Console<'_>) -> Result
         console.print(&import::list(arguments)?)?;
         return Ok(Exit::Done);
     }
-    let imported = import::import(arguments)?;
+    let Import { imported, closed, open } = import::import(arguments)?;
     if !imported.omitted.is_empty() {
         console.note(&format!("left out:\n{}", omission::table(&imported.omitted).trim_end()));
     }
-    imported.notes.iter().for_each(|note| console.note(note));
+    imported.notes.iter().chain(&closed).for_each(|note| console.note(note));
     match &arguments.out {
         Some(file) => import::write(file, &imported.scene)?,
         None => console.print(&imported.scene)?,
     }
-    Ok(Exit::Done)
+    open.map_or(Ok(Exit::Done), |open| Err(open.into()))
 }
 
 fn new_firmware(

@@ -54,8 +54,16 @@ impl AssembledCheck {
     /// Of a scene that has a table `assemble`.
     #[must_use]
     pub fn of(scene: &Scene) -> Option<Self> {
-        let Assembled { moved, open, set_moving, iterations, freedoms, held_twice, length } =
-            scene.assembled.clone()?;
+        let Assembled {
+            moved,
+            open,
+            left: _,
+            set_moving,
+            iterations,
+            freedoms,
+            held_twice,
+            length,
+        } = scene.assembled.clone()?;
         let moved = moved.into_iter();
         let open = open.into_iter();
         Some(Self {

@@ -12,7 +12,7 @@ use clap::{Args, ValueEnum, ValueHint};
 use dbd_import::{Imported, Kind, Options, Weld, omission};
 use dbd_output::file::write_at;
 use dbd_plant::time::Time;
-use dbd_scene::{Scene, SceneError};
+use dbd_scene::{Assembled, OpenJoint, Scene, SceneError};
 use miette::{Diagnostic, LabeledSpan, SourceCode};
 use thiserror::Error;
 
@@ -43,6 +43,9 @@ pub struct ImportArguments {
     /// Size of all joints, m [default: each twice the radius of gyration of the smaller of its bodies]
     #[arg(long, value_name = "m", value_parser = above_zero, allow_hyphen_values = true)]
     pub span: Option<f64>,
+    /// By how much a loop may stay open, m [default: 1e-4 of the mechanism's size]
+    #[arg(long, value_name = "m", value_parser = above_zero, allow_hyphen_values = true)]
+    pub tolerance: Option<f64>,
     /// What becomes of a body without a joint
     #[arg(long, value_enum, default_value = "merge")]
     pub weld: WeldArgument,
@@ -115,6 +118,16 @@ pub enum ImportError {
         /// Why; part of the message and therefore not a source, which would say it twice.
         error: SceneError,
     },
+    /// A loop does not close; the scene is handed on even so.
+    #[error("a loop of {} stays open by {gap:.1e} m at {joint}: its scene does not load", file.display())]
+    Open {
+        /// The file.
+        file: PathBuf,
+        /// The joint that is open most.
+        joint: String,
+        /// \[m\] by how much, an angle times the length of `[assemble]` included.
+        gap: f64,
+    },
     /// The file to write holds something else.
     #[error("{} holds what host-sim has not imported", file.display())]
     Taken {
@@ -138,6 +151,11 @@ impl Diagnostic for ImportError {
             Self::Scene { error, .. } => Diagnostic::help(error),
             Self::Taken { .. } => Some(Box::new("--out takes another name, or remove that file")),
             Self::Write { .. } => None,
+            Self::Open { gap, .. } => Some(Box::new(format!(
+                "the scene is written: correct its points or poses, or allow the gap with \
+                 `--tolerance {:.0e}`, in the scene with `tolerance` in [assemble]",
+                2.0 * gap
+            ))),
         }
     }
 
@@ -169,6 +187,7 @@ impl ImportArguments {
             stiffness: self.stiffness,
             damping: self.damping,
             span: self.span,
+            tolerance: self.tolerance,
             duration: self.duration.seconds(),
             weld: match self.weld {
                 WeldArgument::Merge => Weld::Merge,
@@ -180,17 +199,67 @@ impl ImportArguments {
     }
 }
 
+/// What a file becomes, and how its loops close.
+pub struct Import {
+    /// The scene and what it leaves out.
+    pub imported: Imported,
+    /// The joints that were open at the file's pose and are closed, in words.
+    pub closed: Option<String>,
+    /// [`ImportError::Open`], where a loop does not close.
+    pub open: Option<ImportError>,
+}
+
+/// \[m\] no mechanism is open by so much.
+const ANY_GAP: f64 = 1e9;
+
 /// Imports a file, and loads what it becomes.
 ///
 /// # Errors
-/// [`ImportError`], but for those of files that are written.
-pub fn import(arguments: &ImportArguments) -> Result<Imported, ImportError> {
-    let imported = dbd_import::import(&arguments.file, &arguments.options())?;
+/// [`ImportError`], but for those of files that are written and for [`ImportError::Open`].
+pub fn import(arguments: &ImportArguments) -> Result<Import, ImportError> {
+    let options = arguments.options();
+    let imported = dbd_import::import(&arguments.file, &options)?;
     let called = format!("{} as a scene", arguments.file.display());
-    let loaded = Scene::parse(&imported.scene, &called);
-    let refused = |error| ImportError::Scene { file: arguments.file.clone(), error };
-    loaded.map_err(refused)?;
-    Ok(imported)
+    match Scene::parse(&imported.scene, &called) {
+        Ok(scene) => Ok(Import { closed: closed(&scene), imported, open: None }),
+        // A scene that loads once any gap is allowed is open and nothing else.
+        Err(error) => {
+            let file = arguments.file.clone();
+            let options = Options { tolerance: Some(ANY_GAP), ..options };
+            let widened = dbd_import::import(&arguments.file, &options)?;
+            let open = Scene::parse(&widened.scene, &called).ok().and_then(|scene| worst(&scene));
+            match open {
+                Some((joint, gap)) => {
+                    let open = Some(ImportError::Open { file, joint, gap });
+                    Ok(Import { imported, closed: None, open })
+                }
+                None => Err(ImportError::Scene { file, error }),
+            }
+        }
+    }
+}
+
+/// \[m\] the gap of a joint, its angle times the length of `[assemble]`.
+fn size(open: &OpenJoint, assembled: &Assembled) -> f64 {
+    open.distance + assembled.length * open.angle
+}
+
+/// The joint that an assembled scene leaves open most, and by how much.
+fn worst(scene: &Scene) -> Option<(String, f64)> {
+    let assembled = scene.assembled.as_ref()?;
+    let left = assembled.left.as_ref()?;
+    Some((left.joint.clone(), size(left, assembled)))
+}
+
+/// By how much the loops of a scene were open, and are.
+fn closed(scene: &Scene) -> Option<String> {
+    let assembled = scene.assembled.as_ref()?;
+    let before = assembled.open.iter().map(|open| size(open, assembled)).fold(0.0, f64::max);
+    let (joint, gap) = worst(scene)?;
+    Some(format!(
+        "loops open by up to {before:.1e} m at the file's pose are closed; {joint} keeps the largest \
+         gap, {gap:.1e} m"
+    ))
 }
 
 /// What in a file has no counterpart, one line each.

@@ -33,6 +33,8 @@ pub struct Assembled {
     pub moved: Vec<Moved>,
     /// The joints that were open, in the order of the scene.
     pub open: Vec<OpenJoint>,
+    /// The joint that stays open most at the poses found; `None` without joints.
+    pub left: Option<OpenJoint>,
     /// The bodies that were given velocities that the joints allow, in the order of the scene.
     pub set_moving: Vec<String>,
     /// Steps that were computed.
@@ -123,12 +125,19 @@ pub(crate) fn read(
         let name = table.optional("name", Text::Any).ok().flatten().unwrap_or_default();
         (distance + length * angle > ROUNDING).then_some(OpenJoint { joint: name, distance, angle })
     });
+    let left = tables.iter().zip(&outcome.openings).map(|(table, opening)| OpenJoint {
+        joint: table.label().to_owned(),
+        distance: opening.distance,
+        angle: opening.angle,
+    });
+    let size = |open: &OpenJoint| open.distance + length * open.angle;
+    let left = left.max_by(|a, b| size(a).total_cmp(&size(b)));
     let Outcome { iterations, freedoms, held_twice, .. } = outcome;
     let open = open.collect();
     let moved = place(assembly, &given, &outcome);
     let joints = Joints { tables: &tables, closures: &closures, length };
     let set_moving = rates::set(root, &table, &joints, &outcome.poses, assembly)?;
-    Ok(Some(Assembled { moved, open, set_moving, iterations, freedoms, held_twice, length }))
+    Ok(Some(Assembled { moved, open, left, set_moving, iterations, freedoms, held_twice, length }))
 }
 
 /// Moves the bodies of the assembly to where they have come.
