@@ -123,7 +123,11 @@ impl<'e> Attributes<'e> {
         least: usize,
         most: usize,
     ) -> Result<Option<Vec<f64>>, Fault> {
-        let Some(attribute) = self.get(name) else { return Ok(None) };
+        // As in MuJoCo a blank value is none, and that of the class counts.
+        let own = self.element.attribute(name).filter(|own| !own.value.trim().is_empty());
+        let default = || self.defaults.iter().find(|attribute| attribute.name == name);
+        let given = own.or_else(default).filter(|given| !given.value.trim().is_empty());
+        let Some(attribute) = given else { return Ok(None) };
         let expected = || match (least, most) {
             (1, 1) => "a number".to_owned(),
             _ if least == most => format!("{least} numbers with blanks between them"),
@@ -186,7 +190,8 @@ impl<'e> Attributes<'e> {
         Ok(match self.word(name, &["false", "true", "auto"])? {
             Some(0) => false,
             Some(1) => true,
-            _ => automatic && self.get(range).is_some(),
+            // As in MuJoCo: `range="0 0"` is how a file takes back the range of a class.
+            _ => automatic && self.numbers(range, 2, 2)?.is_some_and(|range| range[0] < range[1]),
         })
     }
 }

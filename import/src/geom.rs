@@ -51,7 +51,8 @@ impl Look {
         pose: Isometry3<f64>,
         words: &str,
     ) -> Result<Option<Self>, Fault> {
-        let rgba = given.numbers("rgba", 4, 4)?;
+        // A colour moves nothing: one that cannot be read is left to the picture's default.
+        let rgba = given.numbers("rgba", 4, 4).ok().flatten();
         if rgba.as_ref().is_some_and(|rgba| rgba[3] <= 0.0) {
             return Ok(None);
         }

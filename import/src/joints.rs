@@ -3,6 +3,8 @@
 //! `joint => revolute, spherical or translational joint; its stiffness => torsion spring, or spring along
 //! the axis`. A body's weight that is taken off it becomes a load.
 
+use nalgebra::Vector3;
+
 use crate::body::{Freedom, Joint};
 use crate::mechanism::{Line, Link, Load, Mechanism, Torsion, Type, rounded};
 use crate::omission::{Kind, Omissions};
@@ -120,20 +122,41 @@ pub(crate) fn spring_along(mechanism: &mut Mechanism<'_>, lead: usize, slide: &s
     name
 }
 
-/// Weight that is taken off bodies: a constant force where it acts at the centre of mass of a part.
+/// \[m\] a force that acts this close to a part's centre of mass, in radii of gyration, acts at it.
+const CENTRED: f64 = 1e-9;
+
+/// Weight that is taken off bodies: a constant force where it acts at the centre of mass of a part, as it
+/// does for bodies that are rigid with each other and have the same fraction taken off.
 fn weightless(mechanism: &mut Mechanism<'_>, settings: &Settings, omissions: &mut Omissions) {
-    for (number, body) in mechanism.tree.bodies.iter().enumerate().skip(1) {
-        let Some(part) = mechanism.side(number).filter(|_| body.weightless != 0.0) else {
-            continue;
-        };
-        let words = format!("gravcomp={} of body `{}`", body.weightless, body.name);
-        if mechanism.parts.parts[part].bodies.len() > 1 {
-            let what =
-                format!("{words}, whose centre of mass is not that of all that is rigid with it");
-            omissions.add(Kind::GravityCompensation, body.place, what);
+    let (tree, parts) = (mechanism.tree, mechanism.parts);
+    for (number, part) in parts.parts.iter().enumerate() {
+        let of = |body: &usize| &tree.bodies[*body];
+        let light: Vec<usize> =
+            part.bodies.iter().copied().filter(|body| of(body).weightless != 0.0).collect();
+        let Some(first) = light.first() else { continue };
+        let [mut lifted, mut moment] = [0.0, 0.0];
+        let mut arm = Vector3::zeros();
+        for body in &light {
+            let mass = of(body).weightless * of(body).mass.mass;
+            let centre = mechanism.point(*body, of(body).mass.centre);
+            let from = centre - mechanism.placed(number).translation.vector;
+            lifted += mass;
+            arm += from * mass;
+            moment += from.norm() * mass.abs();
+        }
+        let words: Vec<String> = light
+            .iter()
+            .map(|body| format!("gravcomp={} of body `{}`", of(body).weightless, of(body).name))
+            .collect();
+        let (words, place) = (words.join(", "), of(first).place);
+        if arm.norm() > CENTRED * (moment + lifted.abs() * part.mass.gyration()) {
+            let what = format!(
+                "{words}: it does not act at the centre of mass of all that is rigid with it"
+            );
+            omissions.add(Kind::GravityCompensation, place, what);
             continue;
         }
-        let force = settings.gravity * (-body.weightless * body.mass.mass);
-        mechanism.loads.push(Load { part, force, source: (words, body.place) });
+        let force = settings.gravity * -lifted;
+        mechanism.loads.push(Load { part: number, force, source: (words, place) });
     }
 }

@@ -190,7 +190,9 @@ impl Settings {
     ) -> Result<Option<UnitQuaternion<f64>>, Fault> {
         const WAYS: [&str; 5] = ["quat", "axisangle", "euler", "xyaxes", "zaxis"];
         // A way that the element gives goes before one of its class.
-        let own = WAYS.into_iter().filter(|way| given.element.attribute(way).is_some());
+        let is_given =
+            |way: &&str| given.element.text(way).is_some_and(|text| !text.trim().is_empty());
+        let own = WAYS.into_iter().filter(is_given);
         let ways: Vec<&str> = own.collect();
         if let [_, second, ..] = ways[..] {
             let message = "is turned in two ways";
@@ -200,7 +202,7 @@ impl Settings {
         let way = ways.first().copied().or(WAYS.into_iter().find(|way| given.get(way).is_some()));
         let Some(way) = way else { return Ok(None) };
         let count = [4, 4, 3, 6, 3][WAYS.iter().position(|one| *one == way).unwrap_or(0)];
-        let values = given.numbers(way, count, count)?.unwrap_or_default();
+        let Some(values) = given.numbers(way, count, count)? else { return Ok(None) };
         let place = given.get(way).map_or(given.element.place, |attribute| attribute.place);
         let unit = |vector: Vector3<f64>| {
             Unit::try_new(vector, 1e-150).ok_or_else(|| {

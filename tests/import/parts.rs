@@ -146,6 +146,43 @@ fn weight_that_is_taken_off_is_a_load() {
     assert!(made.scene.contains("# Left out, armature (line 2): hinge `a`: armature 0.01 kg·m²"));
 }
 
+/// What MuJoCo takes for nothing is nothing here: blank values, ranges without extent; a colour never counts.
+#[test]
+fn blank_values_colours_and_empty_ranges_refuse_nothing() {
+    for geom in ["rgba=''", "rgba=' '", "rgba='1 0'", "pos=''", "density=''", "euler=''"] {
+        let text = mujoco(&body("a", "<freejoint/>", &format!("<geom size='1' {geom}/>")), "");
+        let options = Options { ignored: vec![Kind::Contact], ..Options::default() };
+        assert_eq!(loaded(&of(&text, &options)).model.initial.len(), 1, "{geom}");
+    }
+    for (range, omitted) in [("0 0", 0), ("1 0", 0), ("", 0), ("-1 1", 1)] {
+        let text = mujoco(&body("a", &format!("<joint range='{range}'/>"), ""), "");
+        let options = Options { ignored: vec![Kind::Limit], ..Options::default() };
+        assert_eq!(of(&text, &options).omitted.len(), omitted, "{range}");
+    }
+}
+
+/// Weight taken off bodies that are rigid with each other acts at their common centre of mass where its
+/// fraction is the same; elsewhere no constant force stands for it.
+#[test]
+fn weight_taken_off_rigid_bodies_alike_is_one_load() {
+    let text = |fraction: &str| {
+        mujoco(
+            &format!(
+                "<body gravcomp='0.5'><freejoint/><inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>\
+                 <body gravcomp='{fraction}' pos='1 0 0'>\
+                 <inertial pos='0 0 0' mass='3' diaginertia='1 1 1'/></body></body>"
+            ),
+            "",
+        )
+    };
+    let scene = loaded(&of(&text("0.5"), &Options::default()));
+    let [load] = &scene.model.loads[..] else { panic!("{:?}", scene.model.loads) };
+    assert!((load.force.to_f64()[2] - 0.5 * 4.0 * 9.81).abs() < 1e-12, "{load:?}");
+    let options = Options { ignored: vec![Kind::GravityCompensation], ..Options::default() };
+    let made = of(&text("0.25"), &options);
+    assert_eq!((made.omitted.len(), loaded(&made).model.loads.len()), (1, 0));
+}
+
 /// Geoms become geometry where they are, whatever the axes of the body: boxes, capsules, cylinders and balls with their
 /// colours; what cannot be seen, and what a scene has no solid for, does not.
 #[test]
