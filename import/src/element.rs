@@ -6,12 +6,15 @@
 use std::path::Path;
 
 use crate::error::{Fault, ImportError};
+use crate::file;
 use crate::place::{Place, Texts};
 
 /// As deep as elements may stand in each other; MuJoCo's own reader takes as many.
 const DEPTH: usize = 500;
 /// So many elements and texts of one file are read.
 const NODES: u32 = 10_000_000;
+/// An element has at most so many attributes: the reader of XML compares each with all others.
+const ATTRIBUTES: usize = 1000;
 
 /// An element.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -74,7 +77,7 @@ impl Document {
     /// Reads a text and what it includes.
     pub(crate) fn read(text: &str, name: &str, folder: &Path) -> Result<Self, ImportError> {
         let mut texts = Texts::default();
-        let mut root = parse(text, name, &mut texts)?;
+        let mut root = parse(text, name, None, &mut texts)?;
         if root.name != "mujoco" {
             let found = format!("begins with <{}>", root.name);
             let help = match root.name.as_str() {
@@ -103,8 +106,7 @@ fn include(element: &mut Element, folder: &Path, texts: &mut Texts) -> Result<()
             let help = "<include file=\"…\"/>, from the folder of the first file";
             return Err(Fault::at(child.place, "includes no file", help).refuse(texts));
         };
-        let path = folder.join(&file.value);
-        let name = path.display().to_string();
+        let name = folder.join(&file.value).display().to_string();
         let refuse = |message: String, help: &str, texts: &Texts| {
             Err(Fault::at(file.place, message, help).refuse(texts))
         };
@@ -112,14 +114,18 @@ fn include(element: &mut Element, folder: &Path, texts: &mut Texts) -> Result<()
             let message = format!("includes {name} a second time");
             return refuse(message, "a file is included once, and not by itself", texts);
         }
-        let text = match std::fs::read_to_string(&path) {
+        let text = match file::within(folder, &file.value).and_then(|path| file::read_text(&path)) {
             Ok(text) => text,
             Err(reason) => {
                 let message = format!("cannot read {name}: {reason}");
-                return refuse(message, "a path from the folder of the first file", texts);
+                return refuse(
+                    message,
+                    "a path from and within the folder of the first file",
+                    texts,
+                );
             }
         };
-        let mut included = parse(&text, &name, texts)?;
+        let mut included = parse(&text, &name, Some(file.place), texts)?;
         include(&mut included, folder, texts)?;
         children.append(&mut included.children);
     }
@@ -127,20 +133,39 @@ fn include(element: &mut Element, folder: &Path, texts: &mut Texts) -> Result<()
     Ok(())
 }
 
-/// Reads one text.
-fn parse(text: &str, name: &str, texts: &mut Texts) -> Result<Element, ImportError> {
+/// Reads one text. What another includes may be any file, so until it is known to be XML its text is not
+/// shown: faults stand where it is included.
+fn parse(
+    text: &str,
+    name: &str,
+    included: Option<Place>,
+    texts: &mut Texts,
+) -> Result<Element, ImportError> {
     let file = texts.add(name, text);
-    if let Some(fault) = too_deep(text, file) {
-        return Err(fault.refuse(texts));
+    let fault = match (xml(text, file), included) {
+        (Ok(document), _) => {
+            return Ok(element(document.root_element(), file, &Lines::of(text)));
+        }
+        (Err(fault), None) => fault,
+        (Err(fault), Some(place)) => {
+            let message = format!("{name} cannot be read as XML, see its line {}", fault.line());
+            Fault::at(place, message, "MJCF is well-formed XML in UTF-8")
+        }
+    };
+    Err(fault.refuse(texts))
+}
+
+/// The document of a text, or why it is none that is read.
+fn xml(text: &str, file: usize) -> Result<roxmltree::Document<'_>, Fault> {
+    if let Some(fault) = too_large(text, file) {
+        return Err(fault);
     }
     let options = roxmltree::ParsingOptions { nodes_limit: NODES, ..Default::default() };
-    let document = roxmltree::Document::parse_with_options(text, options).map_err(|error| {
+    roxmltree::Document::parse_with_options(text, options).map_err(|error| {
         let place = position(text, file, error.pos());
         let message = format!("is no XML: {}", error_text(&error));
-        Fault::at(place, message, "MJCF is well-formed XML in UTF-8").refuse(texts)
-    })?;
-    let lines = Lines::of(text);
-    Ok(element(document.root_element(), file, &lines))
+        Fault::at(place, message, "MJCF is well-formed XML in UTF-8")
+    })
 }
 
 /// What the reader says, without the place, which is shown.
@@ -163,9 +188,9 @@ fn position(text: &str, file: usize, at: roxmltree::TextPos) -> Place {
     Place { file, start, end, line }
 }
 
-/// Where elements stand deeper in each other than [`DEPTH`]: found before the text is read as XML, for
+/// Where elements stand deeper in each other than [`DEPTH`] or have more than [`ATTRIBUTES`]: found before the text is read as XML, for
 /// readers of XML call themselves at each level.
-fn too_deep(text: &str, file: usize) -> Option<Fault> {
+fn too_large(text: &str, file: usize) -> Option<Fault> {
     let (mut depth, mut byte) = (0_usize, 0);
     let ends = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>"), ("<!", ">")];
     while let Some(found) = text[byte..].find('<') {
@@ -182,15 +207,40 @@ fn too_deep(text: &str, file: usize) -> Option<Fault> {
         } else if !tag.ends_with("/>") {
             depth += 1;
         }
-        if depth > DEPTH {
+        let problem = if depth > DEPTH {
+            Some((
+                format!("stands in more than {DEPTH} elements"),
+                "bodies in bodies, no deeper than that",
+            ))
+        } else if attributes(tag) > ATTRIBUTES {
+            Some((format!("has more than {ATTRIBUTES} attributes"), "an element of MJCF"))
+        } else {
+            None
+        };
+        if let Some((message, help)) = problem {
             let line = text[..start].matches('\n').count() + 1;
-            let place = Place { file, start, end: start + length, line };
-            let message = format!("stands in more than {DEPTH} elements");
-            return Some(Fault::at(place, message, "bodies in bodies, no deeper than that"));
+            // A tag without an end is not shown to the end of the text.
+            let place = Place { file, start, end: start + 1, line };
+            return Some(Fault::at(place, message, help));
         }
         byte = start + length;
     }
     None
+}
+
+/// So many attributes has a tag: each has one sign of equality outside quotes.
+fn attributes(tag: &str) -> usize {
+    let mut quote = None;
+    let mut count = 0;
+    for letter in tag.chars() {
+        match (quote, letter) {
+            (None, '"' | '\'') => quote = Some(letter),
+            (Some(open), _) if open == letter => quote = None,
+            (None, '=') => count += 1,
+            _ => {}
+        }
+    }
+    count
 }
 
 /// The bytes of a tag, quotes with `>` in them included.

@@ -111,6 +111,11 @@ impl Fault {
         Self { place, message: message.into(), help: help.into() }
     }
 
+    /// The line of its place.
+    pub(crate) fn line(&self) -> usize {
+        self.place.line
+    }
+
     /// The refusal, with the text around it.
     pub(crate) fn refuse(self, texts: &Texts) -> ImportError {
         let (file, text) = texts.file(self.place.file);

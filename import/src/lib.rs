@@ -8,6 +8,7 @@
 //! - [`mod@place`]: texts and places in them.
 //! - [`omission`]: what has no counterpart, by kinds.
 //! - [`error`]: what is refused, and where.
+//! - `file`: files that a model names.
 //! - `element`: elements of XML, files that include each other as one.
 //! - `schema`: names of elements and attributes.
 //! - `defaults`: classes of attributes, and attributes as numbers.
@@ -37,6 +38,7 @@ mod body;
 mod contact;
 mod defaults;
 mod element;
+mod file;
 mod geom;
 mod joints;
 mod lacks;
@@ -81,7 +83,7 @@ pub struct Imported {
 pub fn import(file: &Path, options: &Options) -> Result<Imported, ImportError> {
     let name = file.display().to_string();
     let unreadable = |reason| ImportError::Unreadable { file: name.clone(), reason };
-    let text = std::fs::read_to_string(file).map_err(unreadable)?;
+    let text = file::read_text(file).map_err(unreadable)?;
     let folder = file.parent().unwrap_or(Path::new(""));
     import_text(&text, &name, folder, options)
 }

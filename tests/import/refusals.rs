@@ -273,3 +273,49 @@ fn loops_close_within_a_tolerance() {
     let (exit, _, err) = call(&[&xml, "--out", &toml, "--tolerance", given]);
     assert_eq!(exit, Exit::Done, "{given}: {err}");
 }
+
+/// An include reads regular files of the model's folder, and shows no text of one that is no XML.
+#[test]
+fn includes_stay_in_the_folder_and_show_no_other_text() {
+    let outer = tempfile::tempdir().unwrap();
+    let folder = outer.path().join("model");
+    fs::create_dir(&folder).unwrap();
+    fs::write(outer.path().join("secret"), "secret line\n").unwrap();
+    fs::write(folder.join("key"), "secret line\n").unwrap();
+    fs::write(folder.join("half"), "<mujoco><secret></mujoco>\n").unwrap();
+    fs::create_dir(folder.join("sub")).unwrap();
+    let outside = outer.path().join("secret").display().to_string();
+    let named = |file: &str| {
+        let text = with("", "", &format!("<include file='{file}'/>"));
+        match import_text(&text, "test.xml", &folder, &Options::default()) {
+            Err(ImportError::Refused(refusal)) => {
+                let shown = format!("{} {}", refusal.message, refusal.help);
+                assert!(!shown.contains("secret line") && !shown.contains("<secret>"), "{shown}");
+                // What is shown beside the message is the text that includes.
+                assert_eq!(refusal.line, 10);
+                shown
+            }
+            other => panic!("{file}: {other:?}"),
+        }
+    };
+    assert!(named("../secret").contains("outside"));
+    assert!(named(&outside).contains("outside"));
+    assert!(named("/dev/zero").contains("outside"));
+    assert!(named("sub").contains("regular"));
+    assert!(named("key").contains("line 1"));
+    assert!(named("half").contains("line 1"));
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(&outside, folder.join("link")).unwrap();
+        assert!(named("link").contains("outside"));
+        let (exit, _, err) = call(&["/dev/zero"]);
+        assert!(exit == Exit::Refused && err.contains("regular"), "{err}");
+    }
+}
+
+#[test]
+fn attributes_of_an_element_are_limited() {
+    let many: String = (0..2000).map(|number| format!(" a{number}=''")).collect();
+    let (line, _, message, _) = refusal(&format!("<mujoco{many}/>"));
+    assert_eq!((line, message.as_str()), (1, "has more than 1000 attributes"));
+}
