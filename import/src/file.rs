@@ -1,4 +1,4 @@
-//! Files that a model names.
+//! Files that a user or a model names.
 //!
 //! `path => text`. A device or a pipe may have no end, and opening it may never return: only regular files
 //! up to [`MAX_BYTES`] are read.
@@ -7,14 +7,14 @@ use std::fs::{self, File};
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-/// A model's text has at most this size.
-const MAX_BYTES: u64 = 64 << 20;
+/// \[byte\] a text has at most this size.
+pub const MAX_BYTES: u64 = 64 << 20;
 
 /// The text of a regular file.
 ///
 /// # Errors
 /// Where it is no regular file, larger than [`MAX_BYTES`], or no UTF-8.
-pub(crate) fn read_text(path: &Path) -> io::Result<String> {
+pub fn read_text(path: &Path) -> io::Result<String> {
     if !fs::metadata(path)?.is_file() {
         return Err(io::Error::other("it is not a regular file"));
     }

@@ -8,7 +8,7 @@
 //! - [`mod@place`]: texts and places in them.
 //! - [`omission`]: what has no counterpart, by kinds.
 //! - [`error`]: what is refused, and where.
-//! - `file`: files that a model names.
+//! - `file`: files that a user or a model names.
 //! - `element`: elements of XML, files that include each other as one.
 //! - `schema`: names of elements and attributes.
 //! - `defaults`: classes of attributes, and attributes as numbers.
@@ -29,6 +29,7 @@
 //! - `assembled`: springs of a mechanism whose loops are open at the file's pose.
 
 pub mod error;
+pub mod file;
 pub mod omission;
 pub mod options;
 pub mod place;
@@ -38,7 +39,6 @@ mod body;
 mod contact;
 mod defaults;
 mod element;
-mod file;
 mod geom;
 mod joints;
 mod lacks;

@@ -308,6 +308,10 @@ fn includes_stay_in_the_folder_and_show_no_other_text() {
     {
         std::os::unix::fs::symlink(&outside, folder.join("link")).unwrap();
         assert!(named("link").contains("outside"));
+        let (mut out, mut err) = (Vec::new(), Vec::new());
+        let mut console = Console::plain(&mut out, &mut err);
+        assert_eq!(main_with(["host-sim", "check", "/dev/zero"], &mut console), Exit::Refused);
+        assert!(String::from_utf8(err).unwrap().contains("regular"));
         let (exit, _, err) = call(&["/dev/zero"]);
         assert!(exit == Exit::Refused && err.contains("regular"), "{err}");
     }

@@ -8,6 +8,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use dbd_import::file::read_text;
 use dbd_scene::{Scene, SceneError, nearest, shortened};
 use miette::{Diagnostic, LabeledSpan, SourceCode};
 use thiserror::Error;
@@ -212,7 +213,7 @@ impl Catalogue {
 
 fn from_file(path: &Path, changes: &[String]) -> Result<Found, LoadError> {
     let name = path.display().to_string();
-    let text = match fs::read_to_string(path) {
+    let text = match read_text(path) {
         Ok(text) => text,
         Err(reason) => return Err(SceneError::Unreadable { file: name, reason }.into()),
     };
