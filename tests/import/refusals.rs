@@ -115,17 +115,7 @@ fn what_has_no_counterpart_is_listed_by_line_with_its_size() {
     let expected = [
         (6, Kind::Joints, "slide `second` of body `a` beside h: one joint per body is taken"),
         (7, Kind::Contact, "geom `ball`, sphere, radius 0.1 m: may touch 1 other"),
-        (
-            8,
-            Kind::GravityCompensation,
-            "gravcomp=1 of body `b`, whose centre of mass is not that of all that is rigid with it",
-        ),
         (8, Kind::Spring, "ball `j`: damping 0.3 N·m·s/rad"),
-        (
-            8,
-            Kind::GravityCompensation,
-            "gravcomp=1 of body `tip`, whose centre of mass is not that of all that is rigid with it",
-        ),
         (8, Kind::Unknown, "`mass` of body `tip`"),
         (8, Kind::Mesh, "geom, mesh: its mass and inertia in body `tip`"),
         (8, Kind::Contact, "geom, mesh: may touch 1 other"),
@@ -147,7 +137,7 @@ fn what_has_no_counterpart_is_listed_by_line_with_its_size() {
     // All of them together can be left out.
     let ignored = Kind::ALL.to_vec();
     let all = Options { ignored, ..Options::default() };
-    assert_eq!(import_text(&text, "test.xml", Path::new(""), &all).unwrap().omitted.len(), 21);
+    assert_eq!(import_text(&text, "test.xml", Path::new(""), &all).unwrap().omitted.len(), 19);
 }
 
 /// What is turned off in the file is not missed.
