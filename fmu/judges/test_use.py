@@ -34,3 +34,9 @@ def test_mistakes_are_refused_and_the_host_lives_on(made, version):
         plant.step(0.0, 1.1e-3)
     plant.step(0.0, 1e-3)
     plant.free()
+
+
+def test_an_interval_that_is_no_multiple_ends_the_simulation(made, version):
+    """FMPy repeats a discarded step of FMI 2 for ever."""
+    with pytest.raises(FMICallException):
+        simulate_fmu(made("cart-pendulum", version).path, stop_time=0.5, output_interval=1 / 60)

@@ -17,8 +17,6 @@ use crate::xml::{CATEGORIES, Fmi};
 
 /// `fmi2OK`, `fmi3OK`.
 pub const OK: c_int = 0;
-/// Nothing was done; another step may do.
-pub const DISCARD: c_int = 2;
 /// Refused, or failed; the instance can be reset.
 pub const ERROR: c_int = 3;
 /// A defect of ours; the instance is of no use any more.
@@ -64,9 +62,8 @@ fn words(panic: &(dyn std::any::Any + Send)) -> String {
 }
 
 fn show(log: &Log, status: c_int, function: &str, message: &str) {
-    let [(errors, _), (discards, _)] = CATEGORIES;
-    let category = if status == DISCARD { discards } else { errors };
-    log.write(status, category, &format!("{function}: {message}"));
+    let [(errors, _)] = CATEGORIES;
+    log.write(status, errors, &format!("{function}: {message}"));
 }
 
 /// Makes a component and gives its handle; null with a message where that is refused.
@@ -124,7 +121,6 @@ pub fn call(
     } else {
         match catch_unwind(AssertUnwindSafe(|| work(&mut held))) {
             Ok(Ok(())) => return OK,
-            Ok(Err(Refusal::Discard(message))) => (DISCARD, message),
             Ok(Err(Refusal::Error(message))) => (ERROR, message),
             Err(panic) => {
                 held.is_broken = true;
@@ -138,7 +134,7 @@ pub fn call(
     status
 }
 
-/// Checks names of categories. Errors and discarded steps are always shown.
+/// Checks names of categories. Errors are always shown.
 pub(crate) fn check_categories<'c>(
     names: impl Iterator<Item = Option<Cow<'c, str>>>,
 ) -> Result<(), Refusal> {
@@ -205,7 +201,6 @@ impl Held {
         let done = self.component.step(point, size);
         self.last_step = match &done {
             Ok(()) => (OK, CString::default()),
-            Err(Refusal::Discard(text)) => (DISCARD, c_text(text)),
             Err(Refusal::Error(text)) => (ERROR, c_text(text)),
         };
         done

@@ -8,6 +8,7 @@ use std::path::Path;
 
 use dbd_instance::instance::NEAR;
 use dbd_instance::{Instance, InstanceError};
+use dbd_scene::time::{display, rounded};
 
 use crate::description::{Description, Role};
 use crate::resource::Resource;
@@ -27,11 +28,10 @@ pub enum Mode {
     Terminated,
 }
 
-/// Why a call did not do its work.
+/// Why a call did not do its work. Never `Discard`: importers repeat a discarded step from the last successful
+/// time, for ever where that has not moved.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Refusal {
-    /// Nothing was done and the importer may try otherwise, with a step that fits.
-    Discard(String),
     /// It is wrong, or has failed.
     Error(String),
 }
@@ -45,10 +45,7 @@ impl Refusal {
 
 impl From<InstanceError> for Refusal {
     fn from(error: InstanceError) -> Self {
-        match error {
-            InstanceError::Multiple { .. } => Self::Discard(error.sentence()),
-            _ => Self::Error(error.sentence()),
-        }
+        Self::Error(error.sentence())
     }
 }
 
@@ -261,8 +258,8 @@ impl Component {
     /// Goes from the communication point on by a communication step.
     ///
     /// # Errors
-    /// [`Refusal::Discard`] where that is no whole number of the plant's steps; an error where the point is
-    /// not where the plant is, or a step fails. Nothing is changed but in the last case.
+    /// Where that is no whole number of the plant's steps, the point is not where the plant is, or a step fails.
+    /// Nothing is changed but in the last case.
     pub fn step(&mut self, point: f64, size: f64) -> Result<(), Refusal> {
         self.expect(&[Mode::Stepping])?;
         let now = self.time();
@@ -277,7 +274,10 @@ impl Component {
                  back"
             )));
         }
-        Ok(self.instance.advance_to(point + size - self.start_time)?)
+        self.instance.advance_to(point + size - self.start_time).map_err(|error| match error {
+            InstanceError::Multiple { step, .. } => Refusal::Error(no_multiple(size, step)),
+            other => other.into(),
+        })
     }
 
     /// Ends the run.
@@ -302,4 +302,21 @@ impl Component {
         self.is_waiting = false;
         Ok(self.note_parameters()?)
     }
+}
+
+/// What to say of a communication step that is no whole number of the plant's steps: both ways out.
+fn no_multiple(size: f64, step: f64) -> String {
+    let steps = size / step;
+    let seconds = |time| rounded(time, 12).to_string();
+    let nearest = [steps.floor(), steps.ceil()].map(|count| count * step);
+    let fitting: Vec<String> =
+        nearest.into_iter().filter(|time| *time > 0.0).map(seconds).collect();
+    format!(
+        "a communication step of {size:?} s is no whole number of the plant's steps of {}; set the importer's \
+         communication step (output interval) to {} s, or make the FMU with a step that divides it: \
+         host-sim fmu --step {}",
+        display(step),
+        fitting.join(" s or "),
+        seconds(size / steps.ceil()),
+    )
 }

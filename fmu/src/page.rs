@@ -18,7 +18,7 @@ pub fn page(of: &Description, resource: &Resource) -> String {
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{name}</title></head>\n<body>\n\
          <h1>{name}</h1>\n<p>{description}</p>\n\
          <p>A plant of Discrete Body Dynamics for co-simulation. Its step is {:?} s; communication steps are whole \
-         numbers of it, others are discarded. Scheme: {}. Damping: {}. Precision: {}. Inputs are held until they are \
+         numbers of it, others are refused. Scheme: {}. Damping: {}. Precision: {}. Inputs are held until they are \
          set again. Parameters are fixed once initialisation has ended.</p>\n\
          <table>\n<tr><th>variable<th>reference<th>kind<th>unit<th>start<th>what it is</tr>\n",
         of.step,

@@ -19,10 +19,7 @@ pub enum Fmi {
 /// The name of the library's file, without its ending.
 pub const IDENTIFIER: &str = "dbd_fmu";
 /// The kinds of messages: their names and what they are.
-pub const CATEGORIES: [(&str, &str); 2] = [
-    ("logStatusError", "what is refused or has failed"),
-    ("logStatusDiscard", "steps that are no whole number of the plant's"),
-];
+pub const CATEGORIES: [(&str, &str); 1] = [("logStatusError", "what is refused or has failed")];
 
 /// A text as XML writes it in an attribute or an element.
 #[must_use]

@@ -8,7 +8,7 @@ use std::ffi::{CStr, c_void};
 use std::fs;
 use std::ptr::{null, null_mut};
 
-use dbd_fmu::calls::{DISCARD, ERROR, OK};
+use dbd_fmu::calls::{ERROR, OK};
 use dbd_fmu::{Fmi, fmi2, fmi3, fmi3_absent};
 use dbd_instance::{Blueprint, Settings};
 use host::{Host, scene, unpacked};
@@ -79,16 +79,18 @@ fn values_that_are_none_are_refused_and_change_nothing() {
 }
 
 #[test]
-fn a_step_that_is_no_multiple_is_discarded_with_the_reason() {
+fn a_step_that_is_no_multiple_is_an_error_with_the_remedy() {
     for fmi in BOTH {
         let fmu = unpacked(scene("cart-pendulum"), Settings::default(), fmi);
         let (host, step) = (fmu.stepping(), fmu.description.step);
         assert_eq!(host.step(0.0, 10.0 * step), OK);
         let before = host.everything();
-        assert_eq!(host.step(10.0 * step, 2.5 * step), DISCARD);
+        assert_eq!(host.step(10.0 * step, 2.5 * step), ERROR);
         says(
             &host,
-            "is no whole number of steps of 500us; the nearest that are: 0.006 s and 0.0065",
+            "a communication step of 0.00125 s is no whole number of the plant's steps of 500us; set the importer's \
+             communication step (output interval) to 0.001 s or 0.0015 s, or make the FMU with a step that divides it: \
+             host-sim fmu --step 0.000416666666667",
         );
         if fmi == Fmi::Two {
             let (mut status, mut time, mut ended, mut text) = (0, 0.0, 7, null());
@@ -101,7 +103,7 @@ fn a_step_that_is_no_multiple_is_discarded_with_the_reason() {
                 assert_eq!(fmi2::fmi2GetIntegerStatus(host.handle, 2, &mut status), ERROR);
                 assert!(CStr::from_ptr(text).to_str().unwrap().contains("whole number"));
             }
-            assert_eq!((status, time, ended), (DISCARD, 10.0 * step, 0));
+            assert_eq!((status, time, ended), (ERROR, 10.0 * step, 0));
         }
         for (point, size) in [
             (10.0 * step, -step),
@@ -114,6 +116,31 @@ fn a_step_that_is_no_multiple_is_discarded_with_the_reason() {
         }
         assert!(host.everything() == before);
         assert_eq!(host.step(10.0 * step, step), OK, "{}", host.said());
+        host.free();
+    }
+}
+
+#[test]
+fn an_interval_that_does_not_fit_moves_nothing_until_one_does() {
+    for fmi in BOTH {
+        let fmu = unpacked(scene("cart-pendulum"), Settings::default(), fmi);
+        let (host, step) = (fmu.stepping(), fmu.description.step);
+        let before = host.everything();
+        // Neither 0 s nor a step of 0 s is a remedy.
+        assert_eq!(host.step(0.0, 0.3 * step), ERROR);
+        says(&host, "to 0.0005 s, or make the FMU");
+        for interval in [1.0 / 60.0, 1e-3 / 3.0, 1.7 * step] {
+            assert_eq!(host.step(0.0, interval), ERROR, "{interval}");
+            assert!(host.everything() == before);
+            // The step that the message names divides the interval.
+            let said = host.said();
+            let named: f64 = said.rsplit("--step ").next().unwrap().trim().parse().unwrap();
+            let settings = Settings { step: Some(named), ..Settings::default() };
+            let remade = unpacked(scene("cart-pendulum"), settings, fmi);
+            let other = remade.stepping();
+            assert_eq!(other.step(0.0, interval), OK, "{}", other.said());
+            other.free();
+        }
         host.free();
     }
 }
