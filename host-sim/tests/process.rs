@@ -189,7 +189,7 @@ fn a_signal_leaves_nothing_half_written() {
     // A thousand million steps.
     fs::write(here.path().join("ball.toml"), ball("1e6")).unwrap();
     let results = here.path().join("out/ball");
-    for (signal, number) in [("INT", 2), ("TERM", 15)] {
+    for (signal, number) in [("HUP", 1), ("INT", 2), ("QUIT", 3), ("TERM", 15)] {
         let mut command = program(here.path(), &["run", "ball.toml", "--every", "1s"]);
         let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
         let begun = Instant::now();
@@ -203,6 +203,33 @@ fn a_signal_leaves_nothing_half_written() {
         // A shell says 130 or 143 of it.
         assert_eq!(status.signal(), Some(number));
     }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_closed_terminal_does_not_end_a_run_that_ignores_it() {
+    let here = tempfile::tempdir().unwrap();
+    fs::write(here.path().join("ball.toml"), ball("1e6")).unwrap();
+    let results = here.path().join("out/ball");
+    let mut command = Command::new("sh");
+    command.args([
+        "-c",
+        "trap '' HUP; exec \"$0\" run ball.toml --every 1s",
+        env!("CARGO_BIN_EXE_host-sim"),
+    ]);
+    command.current_dir(here.path()).stdout(Stdio::null()).stderr(Stdio::null());
+    let mut child = command.spawn().unwrap();
+    let begun = Instant::now();
+    while !results.is_dir() {
+        assert!(begun.elapsed() < Duration::from_secs(120), "no trace is begun");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    send("HUP", &mut child);
+    std::thread::sleep(Duration::from_millis(300));
+    let ended = child.try_wait().unwrap();
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(ended.is_none(), "{ended:?}");
 }
 
 #[cfg(unix)]

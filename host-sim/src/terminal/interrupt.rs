@@ -1,18 +1,23 @@
-//! What happens where a program is told to end: Ctrl-C (SIGINT) or SIGTERM.
+//! What happens where a program is told to end: Ctrl-C (SIGINT), SIGTERM, a closed terminal (SIGHUP), SIGQUIT.
 //!
 //! `signal => files that are not complete are removed => the signal's own end`. The process then dies
-//! of the signal, as if nobody had waited for it: shells see 130 or 143, and scripts stop, too.
+//! of the signal, as if nobody had waited for it: shells see 130 or 143, for example, and scripts stop, too.
 
 /// From now on a signal that ends the program removes first what is not complete.
 #[cfg(unix)]
 pub fn clean_up_on_signals() {
     use dbd_output::file::give_up_all;
-    use signal_hook::consts::{SIGINT, SIGTERM};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM};
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
 
     // Without it the program works all the same.
-    let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
+    let mut handled = vec![SIGINT, SIGQUIT, SIGTERM];
+    // A handler would end a run under nohup, which ignores SIGHUP, with its terminal.
+    if ignored_signals().is_some_and(|ignored| ignored & (1 << (SIGHUP - 1)) == 0) {
+        handled.push(SIGHUP);
+    }
+    let Ok(mut signals) = Signals::new(handled) else { return };
     std::thread::spawn(move || {
         if let Some(signal) = signals.forever().next() {
             let _held = give_up_all();
@@ -21,6 +26,14 @@ pub fn clean_up_on_signals() {
             std::process::exit(128 + signal);
         }
     });
+}
+
+/// The mask of the signals that are ignored, bit 0 for signal 1; `None` where the system has no `/proc`.
+#[cfg(unix)]
+fn ignored_signals() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"))?;
+    u64::from_str_radix(mask.trim(), 16).ok()
 }
 
 /// Elsewhere the system ends a program without asking.
