@@ -18,7 +18,7 @@
 //!   writes them; plain data and its hash.
 //! - `pose`, [`forces`], [`damping`]: where points lie; one evaluation; dampers as impulses.
 //! - [`solve`], [`keep`]: the linear system of a scheme that has one; what a scheme keeps in its plant.
-//! - [`step`], [`parts`], [`schemes`]: kick and drift; those of one body, and one joint; how they make a step.
+//! - [`step`], [`schemes`]: kick and drift; how they make a step.
 //! - [`frequency`]: how fast a model can vibrate.
 //! - `guards`, [`extents`], `refusal`, [`plant`]: what a step must not have made; what a precision cannot
 //!   hold; why a plant refuses what it is given; model, scheme, step and state together.

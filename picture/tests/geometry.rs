@@ -201,7 +201,9 @@ fn a_shape_is_seen() {
     let mechanism = Mechanism::of(&Scene::parse(text, "a.toml").unwrap());
     let shown = serde_json::to_value(&mechanism).unwrap();
     let kinds: Vec<_> = (0..5).map(|row| shown["bodies"][row]["shapes"].clone()).collect();
-    assert_eq!((&kinds[0], &kinds[4]), (&serde_json::json!([]), &serde_json::json!([])));
+    // A link is as long as it lies between its ends, and as thick as its section.
+    assert_eq!(kinds[0][0]["ends"], serde_json::json!([[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]));
+    assert_eq!((&kinds[0][0]["radius"], &kinds[4]), (&0.05.into(), &serde_json::json!([])));
     assert_eq!(kinds[1][0]["half"], serde_json::json!([0.05, 0.15, 0.1]));
     assert_eq!(kinds[2][0]["ends"], serde_json::json!([[0.0, 0.0, -0.25], [0.0, 0.0, 0.25]]));
     assert_eq!((&kinds[2][0]["radius"], &kinds[2][0]["kind"]), (&0.2.into(), &"cylinder".into()));

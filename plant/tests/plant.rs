@@ -91,8 +91,13 @@ fn every_method_goes_on_from_what_it_left_and_begins_again() {
         assert_eq!(other.hash(), one.hash(), "{method:?}");
         other.set_state(&state).unwrap();
         assert_eq!(other.steps(), 20);
-        // Angles are converted to a quaternion and back, and rounded then.
-        assert!(other.hash() == hash || method.orientation() != OrientationName::Quaternion);
+        // Angles are converted to a quaternion and back, and rounded then; a word of fixed point has more digits than
+        // a double, of which its position keeps 53.
+        let is_quaternion = method.orientation() == OrientationName::Quaternion;
+        if is_quaternion && method.precision() != PrecisionName::Fixed {
+            assert_eq!(other.hash(), hash, "{method:?}");
+        }
+        assert_eq!(other.state().bodies[0].position, state.bodies[0].position, "{method:?}");
         one.reset();
         assert_eq!((one.hash(), one.steps(), one.evaluations()), (start, 0, 0));
         // Bytes of another method are refused.

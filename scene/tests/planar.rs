@@ -259,6 +259,15 @@ fn a_planar_scene_that_leaves_its_plane_is_refused_with_the_place_and_by_how_muc
         ),
         (
             pinned(PLACE, AT, "")
+                + "[[point_on_line]]\nbetween = [\"world\", \"arm\"]\nline_point = [1, 0.1, 0]\n\
+             line_direction = [0, 0, 1]\npoint = [0.5, 0, 0]\nstiffness = 9\nfree_length = 0\n\
+             clearance = 0.2\n",
+            "[[point_on_line]]",
+            "point_on_line 1 leaves the plane z = 0: it has a clearance about a point of the plane, which no \
+             element of the plane has",
+        ),
+        (
+            pinned(PLACE, AT, "")
                 + "[[torsion_spring]]\nbetween = [\"world\", \"arm\"]\naxis = [0, 1, 1]\n\
              stiffness = 9\n",
             "[0, 1, 1]",
