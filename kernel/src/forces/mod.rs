@@ -150,8 +150,8 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, D: Dampers>(
     Ok(())
 }
 
-/// [`evaluate`] for callers outside a step, which do not need its speed: inlined there, too, the evaluation took
-/// a sixth of the time that `dbd-plant` takes to compile.
+/// [`evaluate`] for callers outside a step, which do not need its speed: compiled once for all of them, not inlined
+/// into each.
 ///
 /// # Errors
 /// As [`evaluate`].
