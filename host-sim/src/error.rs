@@ -13,6 +13,7 @@ use crate::commands::fmu::FmuError;
 use crate::commands::import::ImportError;
 use crate::commands::new::NewError;
 use crate::commands::picture::PictureError;
+use crate::commands::reproduce::ReproduceError;
 use crate::commands::run::RunError;
 use crate::commands::sweep::error::SweepError;
 use crate::commands::trade::TradeError;
@@ -72,6 +73,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Trade(#[from] TradeError),
+    /// The paper's results could not be measured again, or not be written.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Reproduce(#[from] ReproduceError),
     /// Nothing was measured.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -126,6 +131,8 @@ impl Error {
                 | SweepError::Report(_)
                 | SweepError::Write(_) => Exit::Failed,
             },
+            Self::Reproduce(ReproduceError::Write { .. }) => Exit::Failed,
+            Self::Reproduce(_) => Exit::Refused,
             Self::Trade(error) => match error {
                 TradeError::Folder(_) | TradeError::Survey(SurveyError::Window(_)) => Exit::Refused,
                 TradeError::Survey(_) | TradeError::Write(_) => Exit::Failed,

@@ -11,7 +11,7 @@
 //! - [`comparison`]: two of them beside each other.
 //! - [`examples`]: the examples in the help of each command.
 //! - [`arguments`]: what several commands take.
-//! - [`commands`]: `list`, `check`, `run`, `compare`, `sweep`, `trade`, `bench`, `export`, `fmu`, `import`, `new`, `completions`.
+//! - [`commands`]: `list`, `check`, `run`, `compare`, `sweep`, `trade`, `reproduce`, `bench`, `export`, `fmu`, `import`, `new`, `completions`.
 //! - [`error`]: what ends a command early.
 //! - [`cli`]: arguments in, exit code out.
 //!

@@ -222,7 +222,8 @@ pub fn key(scene: &Scene, longest: f64, unit: f64) -> u64 {
 }
 
 /// What tells this build from another: size and time of the program.
-fn build() -> String {
+#[must_use]
+pub fn build() -> String {
     let data = std::env::current_exe().and_then(std::fs::metadata);
     let time = |data: &std::fs::Metadata| data.modified().ok()?.duration_since(UNIX_EPOCH).ok();
     match data {

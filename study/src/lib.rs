@@ -26,6 +26,7 @@
 //! - [`command`]: how to run it.
 //! - [`chart`], [`page`]: what people look at.
 //! - [`files`]: writes it and `trade.csv`.
+//! - [`paper`]: the results of the method's paper, measured again.
 
 pub mod advice;
 pub mod cache;
@@ -42,6 +43,7 @@ pub mod modes;
 pub mod need;
 pub mod order;
 pub mod page;
+pub mod paper;
 pub mod point;
 pub mod precisions;
 pub mod stability;

@@ -7,6 +7,7 @@ mod check;
 mod compare;
 mod first_steps;
 mod named;
+mod reproduce;
 mod run;
 mod trade;
 
@@ -21,6 +22,7 @@ use crate::cli::check::{CheckArguments, check_scene};
 use crate::cli::compare::compare;
 use crate::cli::first_steps::first_steps;
 use crate::cli::named::load;
+use crate::cli::reproduce::{ReproduceArguments, reproduce_items};
 use crate::cli::run::{RunArguments, run_scene};
 use crate::cli::trade::{TradeArguments, trade_scene};
 use crate::commands::bench::{BenchArguments, bench};
@@ -78,6 +80,10 @@ enum Command {
     /// where steps were counted, and trade-*.cache; prints what to choose
     #[command(after_help = examples::TRADE)]
     Trade(TradeArguments),
+    /// Measures the results of the method's paper again: writes OUT/reproduce/reproduce.{html,md,json} and files of
+    /// each item, prints the paper's value, this one's and a verdict
+    #[command(after_help = examples::REPRODUCE)]
+    Reproduce(ReproduceArguments),
     /// Measures what a step costs here: the kernel in turn with the std reference and a plain loop
     #[command(after_help = examples::BENCH)]
     Bench(BenchArguments),
@@ -135,6 +141,7 @@ where
         Command::Run(arguments) => run_scene(&catalogue, &arguments, console),
         Command::Check(arguments) => check_scene(&catalogue, &arguments, console),
         Command::Trade(arguments) => trade_scene(&catalogue, &arguments, console),
+        Command::Reproduce(arguments) => reproduce_items(&arguments, console),
         Command::Bench(arguments) => bench_systems(&catalogue, &arguments, console),
         Command::Sweep(arguments) => sweep_scene(&catalogue, &arguments, console),
         Command::Compare(arguments) => compare(&catalogue, &arguments, console),

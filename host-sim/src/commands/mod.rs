@@ -13,6 +13,7 @@
 //! - [`sweep`]: many values of a scene, a row per case.
 //! - [`compare`]: two recorded runs in one report.
 //! - [`trade`]: speed against accuracy.
+//! - [`mod@reproduce`]: the results of the method's paper, measured again.
 //! - [`mod@bench`]: what a step costs this machine.
 //! - [`export`]: Rust source of a scene's const model and its plant.
 //! - [`mod@fmu`]: a scene becomes an FMU for other tools.
@@ -37,6 +38,7 @@ pub mod modes;
 pub mod new;
 pub mod picture;
 pub mod planar;
+pub mod reproduce;
 pub mod run;
 pub mod schema;
 pub mod stability;

@@ -30,6 +30,8 @@ pub const LIST: &str = examples!("list.txt");
 pub const NEW_FIRMWARE: &str = examples!("new-firmware.txt");
 /// Of `new scene`.
 pub const NEW_SCENE: &str = examples!("new-scene.txt");
+/// Of `reproduce`.
+pub const REPRODUCE: &str = examples!("reproduce.txt");
 /// Of `run`.
 pub const RUN: &str = examples!("run.txt");
 /// Of `schema`.

@@ -1,0 +1,255 @@
+//! Section 2.4: the spectrum of spring extensions after a change of free lengths.
+
+use std::f64::consts::TAU;
+
+use dbd_kernel::State;
+use dbd_kernel::energy::each_extension;
+use dbd_plant::{SchemeName, plant_of_model};
+use dbd_scene::Scene;
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex;
+
+use crate::modes::modes;
+use crate::paper::finding::{Curve, Finding, Map, Plot, Row, Tolerance, assumptions};
+use crate::paper::{Context, PaperError, advance, scheme};
+use crate::stability::frozen;
+
+/// \[Hz\] section 2.4.
+const DOMINANT: f64 = 752.0;
+
+/// \[m\] by which free lengths change.
+const CHANGE: f64 = 1e-3;
+
+/// Samples of a signal: a power of two.
+const SAMPLES: usize = 1 << 13;
+
+/// \[Hz\] resolution and highest frequency of the spectrum follow.
+const INTERVAL: f64 = 5e-5;
+
+/// \[Hz\] the plots' highest frequency.
+const SHOWN: f64 = 2000.0;
+
+/// The magnitude spectrum of a signal.
+#[derive(Clone, Debug)]
+pub(super) struct Spectrum {
+    /// \[m\] extensions of one spring of each joint, in order of the joints.
+    signals: Vec<Vec<f64>>,
+    /// \[Hz\], and the root of the signals' summed power, the largest 1.
+    pub points: Vec<[f64; 2]>,
+}
+
+impl Spectrum {
+    /// \[Hz\] of the largest magnitude.
+    pub(super) fn dominant(&self) -> f64 {
+        let largest = self.points.iter().max_by(|a, b| a[1].total_cmp(&b[1]));
+        largest.map_or(0.0, |[frequency, _]| *frequency)
+    }
+
+    /// The signal with the largest power at the dominant frequency.
+    fn loudest(&self) -> &[f64] {
+        let power = |signal: &&Vec<f64>| signal.iter().map(|x| x * x).sum::<f64>();
+        let found = self.signals.iter().max_by(|a, b| power(a).total_cmp(&power(b)));
+        found.map_or(&[], Vec::as_slice)
+    }
+}
+
+/// The spectrum of a scene's pose at t = 0, frozen, after the free lengths of all springs of its joint
+/// `joint` have changed.
+pub(super) fn of(scene: &Scene, joint: usize) -> Result<Spectrum, PaperError> {
+    let mut model = frozen(&scene.model, &State::initial(&scene.model));
+    // Every other element: equal changes of all of a joint's springs would cancel by symmetry.
+    let groups = scene.joints[joint].groups.clone();
+    for row in groups {
+        let group = model.groups[row];
+        let first = usize::from(group.element);
+        for element in (first..first + group.elements()).step_by(2) {
+            if let Some(spring) = model.tsdas.get_mut(element) {
+                spring.free_length += CHANGE;
+            }
+        }
+    }
+    let mut plant = plant_of_model(&model, &scheme(SchemeName::Leapfrog)?, INTERVAL / 4.0)?;
+    let firsts: Vec<usize> = scene.joints.iter().map(|joint| joint.groups.start).collect();
+    let mut signals = vec![Vec::with_capacity(SAMPLES); firsts.len()];
+    for _ in 0..SAMPLES {
+        let state = plant.state();
+        let mut last = None;
+        each_extension(plant.model(), &state, |group, extension| {
+            if last != Some(group) {
+                for (signal, first) in signals.iter_mut().zip(&firsts) {
+                    if *first == group {
+                        signal.push(extension);
+                    }
+                }
+            }
+            last = Some(group);
+        });
+        advance(plant.as_mut(), 4)?;
+    }
+    let points = summed(&signals);
+    Ok(Spectrum { signals, points })
+}
+
+/// A Hann window, mean taken off.
+fn windowed(signal: &[f64]) -> Vec<Complex<f64>> {
+    let count = signal.len() as f64;
+    let mean = signal.iter().sum::<f64>() / count;
+    let weight = |n: usize| 0.5 - 0.5 * (TAU * n as f64 / count).cos();
+    signal.iter().enumerate().map(|(n, x)| Complex::new((x - mean) * weight(n), 0.0)).collect()
+}
+
+/// Frequencies up to [`SHOWN`], and the root of the signals' summed power over its largest.
+fn summed(signals: &[Vec<f64>]) -> Vec<[f64; 2]> {
+    let fft = FftPlanner::new().plan_fft_forward(SAMPLES);
+    let mut power = vec![0.0; SAMPLES / 2];
+    for signal in signals.iter().filter(|signal| signal.len() == SAMPLES) {
+        let mut spectrum = windowed(signal);
+        fft.process(&mut spectrum);
+        power.iter_mut().zip(&spectrum).for_each(|(sum, value)| *sum += value.norm_sqr());
+    }
+    let largest = power.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let frequency = |bin: usize| bin as f64 / (SAMPLES as f64 * INTERVAL);
+    let points =
+        power.iter().enumerate().map(|(bin, power)| [frequency(bin), (power / largest).sqrt()]);
+    points.filter(|[frequency, _]| *frequency > 0.0 && *frequency <= SHOWN).collect()
+}
+
+/// Morlet wavelet magnitudes: time \[ms\] by frequency \[kHz\].
+fn scalogram(signal: &[f64]) -> Option<Map> {
+    /// Oscillations of the wavelet within its width.
+    const CENTRE: f64 = 6.0;
+    const COLUMNS: usize = 120;
+    const ROWS: usize = 60;
+    let mut planner = FftPlanner::new();
+    let (forward, back) = (planner.plan_fft_forward(SAMPLES), planner.plan_fft_inverse(SAMPLES));
+    if signal.len() != SAMPLES {
+        return None;
+    }
+    let mut spectrum = windowed(signal);
+    forward.process(&mut spectrum);
+    let frequencies: Vec<f64> = (1..=ROWS).map(|n| SHOWN * n as f64 / ROWS as f64).collect();
+    let mut values = Vec::with_capacity(ROWS);
+    for frequency in &frequencies {
+        let scale = CENTRE / (TAU * frequency);
+        let mut row: Vec<Complex<f64>> = spectrum
+            .iter()
+            .enumerate()
+            .map(|(bin, value)| {
+                let omega = TAU * bin as f64 / (SAMPLES as f64 * INTERVAL);
+                let weight = if bin < SAMPLES / 2 {
+                    (-0.5 * (scale * omega - CENTRE).powi(2)).exp()
+                } else {
+                    0.0
+                };
+                value * weight
+            })
+            .collect();
+        back.process(&mut row);
+        let step = SAMPLES / COLUMNS;
+        values.push((0..COLUMNS).map(|n| row[n * step + step / 2].norm()).collect::<Vec<f64>>());
+    }
+    let largest = values.iter().flatten().copied().fold(f64::MIN_POSITIVE, f64::max);
+    values.iter_mut().flatten().for_each(|value| *value /= largest);
+    let time = |n: usize| 1e3 * INTERVAL * (SAMPLES / COLUMNS) as f64 * (n as f64 + 0.5);
+    Some(Map {
+        x: (0..COLUMNS).map(time).collect(),
+        y: frequencies.iter().map(|frequency| 1e-3 * frequency).collect(),
+        values,
+    })
+}
+
+/// Fig. 4.
+pub(super) fn spectrum(context: &Context<'_>) -> Result<Finding, PaperError> {
+    let scene = context.scene("3ruu")?;
+    let mut found = Vec::new();
+    for joint in 0..scene.joints.len() {
+        found.push((joint, of(&scene, joint)?));
+    }
+    let nearest = |a: &f64, b: &f64| (a - DOMINANT).abs().total_cmp(&(b - DOMINANT).abs());
+    let dominants: Vec<f64> = found.iter().map(|(_, spectrum)| spectrum.dominant()).collect();
+    let ours = dominants.iter().copied().min_by(nearest).unwrap_or(0.0);
+    let (joint, spectrum) = &found[dominants.iter().position(|f| *f == ours).unwrap_or(0)];
+    let frequencies = modes(&scene.model, &State::initial(&scene.model))
+        .map(|modes| modes.frequencies)
+        .unwrap_or_default();
+    let mode = frequencies.iter().copied().min_by(nearest).unwrap_or(0.0);
+    let highest = frequencies.last().copied().unwrap_or(0.0);
+    let least = dominants.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = dominants.iter().copied().fold(0.0, f64::max);
+    let tolerance = Tolerance { within: 0.05, factor: 2.0 };
+    let rows = vec![
+        Row::compared("dominant frequency", "Hz", DOMINANT, ours, tolerance).noted(format!(
+            "springs of joint {} changed, the one of {} that comes nearest; others give {least:.0} to {most:.0} Hz",
+            scene.joints[*joint].name,
+            scene.joints.len()
+        )),
+        Row::compared("nearest mode of the pose", "Hz", DOMINANT, mode, tolerance),
+        Row::open(
+            "which springs were changed",
+            "",
+            None,
+            None,
+            "the text says selected springs; the dominant frequency depends on the choice",
+        ),
+        Row::extra("highest mode of the pose, which limits the step", "Hz", highest),
+    ];
+    let curve = Curve {
+        name: "spring extensions of all joints".into(),
+        paper: false,
+        line: true,
+        points: spectrum.points.iter().map(|[f, m]| [1e-3 * f, *m]).collect(),
+    };
+    let paper = Curve {
+        name: "paper: 752 Hz".into(),
+        paper: true,
+        line: true,
+        points: vec![[1e-3 * DOMINANT, 0.0], [1e-3 * DOMINANT, 1.0]],
+    };
+    let plots = vec![
+        Plot {
+            name: "a".into(),
+            title: "Magnitude spectrum".into(),
+            axes: ["frequency [kHz]".into(), "magnitude over its largest".into()],
+            logarithmic: [false, false],
+            curves: vec![paper, curve],
+            map: None,
+        },
+        Plot {
+            name: "b".into(),
+            title: "Wavelet scalogram".into(),
+            axes: ["time [ms]".into(), "frequency [kHz]".into()],
+            logarithmic: [false, false],
+            curves: Vec::new(),
+            map: scalogram(spectrum.loudest()),
+        },
+    ];
+    Ok(Finding {
+        assumptions: assumptions(&[
+            "About the pose at t = 0 without gravity and preloads, 1 MN/m, undamped; every other spring of one joint is lengthened by 1 mm.",
+            "Hann window, 0.41 s in samples of 50 µs; Morlet wavelet with six oscillations.",
+        ]),
+        rows,
+        plots,
+        ..Finding::default()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tone_is_found_where_it_is_in_both_pictures() {
+        let tone = |n: usize| (TAU * 700.0 * INTERVAL * n as f64).sin();
+        let signal: Vec<f64> = (0..SAMPLES).map(tone).collect();
+        let points = summed(std::slice::from_ref(&signal));
+        let spectrum = Spectrum { signals: Vec::new(), points };
+        assert!((spectrum.dominant() - 700.0).abs() < 2.5, "{}", spectrum.dominant());
+        let map = scalogram(&signal).unwrap();
+        let middle = map.x.len() / 2;
+        let row = (0..map.y.len())
+            .max_by(|a, b| map.values[*a][middle].total_cmp(&map.values[*b][middle]));
+        assert!((map.y[row.unwrap()] - 0.7).abs() < 0.04);
+        assert!(scalogram(&signal[1..]).is_none());
+    }
+}
