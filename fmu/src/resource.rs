@@ -6,6 +6,7 @@ use std::io;
 use std::path::Path;
 
 use dbd_instance::{Blueprint, Instance, InstanceError, Settings};
+use dbd_scene::file::read_text;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -79,7 +80,7 @@ impl Resource {
     /// [`ResourceError`].
     pub fn read(folder: &Path) -> Result<Self, ResourceError> {
         let read = |file: &'static str| {
-            let text = std::fs::read_to_string(folder.join(file));
+            let text = read_text(folder.join(file));
             text.map_err(|reason| ResourceError::Unreadable { file, reason })
         };
         let Plan { file, changes, settings } =

@@ -21,6 +21,9 @@ use crate::mismatch::{Damage, Mismatch};
 use crate::recording::Recording;
 use crate::text::Golden;
 
+/// \[byte\] no golden file has this size.
+const MAX_BYTES: u64 = 1 << 30;
+
 /// A golden file by its path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GoldenFile {
@@ -200,7 +203,7 @@ impl GoldenFile {
             return Err(GoldenError::OnServer { path });
         }
         let bless = blessing == Blessing::Yes && !matches!(tolerance, Tolerance::AnyMethod(_));
-        let text = match fs::read(&path) {
+        let text = match dbd_scene::file::read(&path, MAX_BYTES) {
             Ok(bytes) => {
                 let text = Golden::of_bytes(&bytes).map(|_| ()).map_err(owned);
                 match text {

@@ -5,6 +5,8 @@
 
 use std::path::Path;
 
+use dbd_scene::file::read_text;
+
 use crate::error::{Fault, ImportError};
 use crate::file;
 use crate::place::{Place, Texts};
@@ -114,7 +116,7 @@ fn include(element: &mut Element, folder: &Path, texts: &mut Texts) -> Result<()
             let message = format!("includes {name} a second time");
             return refuse(message, "a file is included once, and not by itself", texts);
         }
-        let text = match file::within(folder, &file.value).and_then(|path| file::read_text(&path)) {
+        let text = match file::within(folder, &file.value).and_then(|path| read_text(&path)) {
             Ok(text) => text,
             Err(reason) => {
                 let message = format!("cannot read {name}: {reason}");

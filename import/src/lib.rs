@@ -29,7 +29,6 @@
 //! - `assembled`: springs of a mechanism whose loops are open at the file's pose.
 
 pub mod error;
-pub mod file;
 pub mod omission;
 pub mod options;
 pub mod place;
@@ -39,6 +38,7 @@ mod body;
 mod contact;
 mod defaults;
 mod element;
+mod file;
 mod geom;
 mod joints;
 mod lacks;
@@ -83,7 +83,7 @@ pub struct Imported {
 pub fn import(file: &Path, options: &Options) -> Result<Imported, ImportError> {
     let name = file.display().to_string();
     let unreadable = |reason| ImportError::Unreadable { file: name.clone(), reason };
-    let text = file::read_text(file).map_err(unreadable)?;
+    let text = dbd_scene::file::read_text(file).map_err(unreadable)?;
     let folder = file.parent().unwrap_or(Path::new(""));
     import_text(&text, &name, folder, options)
 }

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
+use dbd_scene::file::read_text;
 use dbd_scene::{Scene, SceneError};
 
 /// A scene's text with changes of its values.
@@ -31,7 +32,7 @@ impl Blueprint {
     /// Where the file cannot be read.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, SceneError> {
         let file = path.as_ref().display().to_string();
-        match std::fs::read_to_string(path) {
+        match read_text(path) {
             Ok(text) => Ok(Self::new(file, text)),
             Err(reason) => Err(SceneError::Unreadable { file, reason }),
         }

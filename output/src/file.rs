@@ -145,7 +145,7 @@ pub fn sweep(folder: &Path, names: &[&str]) {
         if names.iter().any(|of| is_pending(&of)) {
             let path = entry.path();
             // Whoever writes to it has its lock.
-            if fs::File::open(&path).is_ok_and(|file| file.try_lock().is_ok()) {
+            if path.is_file() && fs::File::open(&path).is_ok_and(|file| file.try_lock().is_ok()) {
                 let _ = fs::remove_file(path);
             }
         }

@@ -12,6 +12,9 @@ pub(crate) struct FolderLock(#[allow(dead_code, reason = "held, not read")] Opti
 impl FolderLock {
     /// Waits for the lock of a folder.
     pub(crate) fn of(folder: &Path) -> Self {
-        Self(File::open(folder).ok().filter(|folder| folder.lock().is_ok()))
+        // To open a pipe would wait for its other end.
+        let folder = Some(folder).filter(|folder| folder.is_dir());
+        let folder = folder.and_then(|folder| File::open(folder).ok());
+        Self(folder.filter(|folder| folder.lock().is_ok()))
     }
 }

@@ -216,7 +216,7 @@ impl Build {
         let asked = self.step.as_deref().map(step).transpose()?;
         // As it was given, in messages too, wherever cargo runs the script.
         let called = self.scene.display().to_string();
-        let text = std::fs::read_to_string(self.path())
+        let text = crate::file::read_text(self.path())
             .map_err(|reason| SceneError::Unreadable { file: called.clone(), reason });
         let mut scene = text
             .and_then(|text| Scene::parse_with(&text, &called, &self.changes))

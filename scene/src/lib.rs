@@ -18,6 +18,7 @@ pub mod export;
 mod extents;
 mod facts;
 mod fault;
+pub mod file;
 mod file_lines;
 mod geometry;
 mod hinge;
@@ -171,10 +172,10 @@ impl Scene {
     /// Where the file cannot be read or the scene is refused.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, SceneError> {
         let path = path.as_ref();
-        let file = path.display().to_string();
-        match std::fs::read_to_string(path) {
-            Ok(text) => Self::parse(&text, &file),
-            Err(reason) => Err(SceneError::Unreadable { file, reason }),
+        let called = path.display().to_string();
+        match file::read_text(path) {
+            Ok(text) => Self::parse(&text, &called),
+            Err(reason) => Err(SceneError::Unreadable { file: called, reason }),
         }
     }
 

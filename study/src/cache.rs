@@ -108,6 +108,9 @@ impl Cache {
     pub fn open(folder: &Path, key: u64) -> io::Result<Self> {
         let mut options = OpenOptions::new();
         let path = path(folder, key);
+        if path.exists() && !path.is_file() {
+            return Err(io::Error::other(format!("{} is not a regular file", path.display())));
+        }
         let mut file = options.read(true).write(true).create(true).truncate(false).open(path)?;
         file.try_lock().map_err(|error| match error {
             TryLockError::WouldBlock => io::ErrorKind::WouldBlock.into(),

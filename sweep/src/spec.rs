@@ -3,10 +3,10 @@
 //! `text => scene, axes in their order, changes, columns, statistics`. Axes stand in the order of the file; of
 //! a grid the last varies fastest. What has one value throughout is an axis of one value.
 
-use std::fs;
 use std::ops::Range as Place;
 use std::path::Path;
 
+use dbd_scene::file::read_text;
 use dbd_scene::{nearest, shortened};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -80,7 +80,7 @@ impl Spec {
     /// Where it cannot be read or is refused.
     pub fn load(path: &Path) -> Result<Self, SpecError> {
         let file = path.display().to_string();
-        match fs::read_to_string(path) {
+        match read_text(path) {
             Ok(text) => Ok(Self::parse(&text, &file)?),
             Err(reason) => Err(SpecError::Unreadable { file, reason }),
         }

@@ -12,6 +12,7 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use dbd_output::file::PendingFile;
+use dbd_scene::file;
 
 use crate::key::{Digest, Key};
 use crate::shard::Shard;
@@ -91,7 +92,7 @@ impl Store {
 
     /// Takes in a file's rows; how long it is with its whole lines.
     fn take(&mut self, path: &Path, mend: bool) -> io::Result<u64> {
-        let bytes = fs::read(path)?;
+        let bytes = file::read(path, u64::MAX)?;
         let Lines { whole, damaged, length } = Lines::of(&bytes);
         for (key, record) in &whole {
             match self.rows.get(key) {

@@ -3,6 +3,8 @@
 mod bench;
 mod check;
 mod compare;
+#[cfg(unix)]
+mod files;
 mod fmu;
 mod gltf;
 mod golden;

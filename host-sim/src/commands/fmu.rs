@@ -14,6 +14,7 @@ use dbd_instance::{Blueprint, Settings};
 use dbd_output::file::PendingFile;
 use dbd_plant::time::{Time, display};
 use dbd_plant::{DampingName, Named as _, PrecisionName, SchemeName};
+use dbd_scene::file::read;
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -153,11 +154,14 @@ pub fn fmu(found: &Found, arguments: &FmuArguments) -> Result<String, FmuError> 
     ))
 }
 
+/// \[byte\] no library of an FMU has this size.
+const MAX_LIBRARY: u64 = 1 << 30;
+
 /// The libraries of these files; without any the one beside this program.
 fn libraries(files: &[PathBuf]) -> Result<Vec<Library>, FmuError> {
     let beside = || std::env::current_exe().unwrap_or_default().with_file_name(LIBRARY);
     let files = if files.is_empty() { vec![beside()] } else { files.to_vec() };
-    let read = |file: PathBuf| match std::fs::read(&file) {
+    let read = |file: PathBuf| match read(&file, MAX_LIBRARY) {
         Ok(bytes) => Ok(Library::new(file.display().to_string(), bytes)?),
         Err(reason) => Err(FmuError::Library { file, reason }),
     };

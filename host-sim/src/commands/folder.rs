@@ -9,6 +9,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use dbd_output::file;
+use dbd_scene::file::read_text;
 use miette::Diagnostic;
 use serde::Deserialize;
 use thiserror::Error;
@@ -127,7 +128,7 @@ impl Destination {
 
 impl Owner {
     fn of(file: &Path) -> Option<Self> {
-        serde_json::from_str(&fs::read_to_string(file).ok()?).ok()
+        serde_json::from_str(&read_text(file).ok()?).ok()
     }
 
     /// Whether it is the scene of this name from this file, changed since or not.

@@ -3,11 +3,11 @@
 //! `OUT/SCENE/trade.{json,svg} => advice and chart for the run's page`. A survey of another text of the
 //! scene's file, or with other values changed, says nothing about the run and is left out, as one is that cannot be read.
 
-use std::fs;
 use std::path::Path;
 
 use dbd_report::data::Survey;
 use dbd_scene::Scene;
+use dbd_scene::file::read_text;
 use serde::Deserialize;
 use serde_json::json;
 
@@ -36,13 +36,13 @@ struct Advised {
 /// The survey in a folder, where it is of this text of a scene's file with the same values changed.
 #[must_use]
 pub fn surveyed(folder: &Path, scene: &Scene, file: &SceneFile) -> Option<Survey> {
-    let text = fs::read_to_string(folder.join("trade.json")).ok()?;
+    let text = read_text(folder.join("trade.json")).ok()?;
     let found: Found = serde_json::from_str(&text).ok()?;
     let set: Vec<_> = SetValue::of(scene).iter().map(|value| json!(value)).collect();
     if found.scene_hash != file.hash || found.set != set {
         return None;
     }
-    let chart = fs::read_to_string(folder.join("trade.svg")).ok()?;
+    let chart = read_text(folder.join("trade.svg")).ok()?;
     let chart =
         Some(chart).filter(|chart| chart.starts_with("<svg ") && chart.len() <= LARGEST_CHART);
     let advice = found.advice.into_iter().map(|advised| (advised.sentence, advised.command));

@@ -4,12 +4,12 @@
 //! those that put another file in its place, network folders, and links alike, and a scene is small.
 
 use std::fmt;
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::Duration;
 
+use dbd_scene::file::{MAX_BYTES, read};
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -91,12 +91,14 @@ impl Watched {
     }
 
     fn look(&self) -> Seen {
-        fs::read(&self.file).map_err(|error| error.kind())
+        read(&self.file, MAX_BYTES).map_err(|error| error.kind())
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     /// Written in place, replaced by another file, away for a moment: each change is seen once it is whole.

@@ -2,7 +2,6 @@
 //!
 //! `text => head, rows`. So a run that a chip has printed is compared as it came.
 
-use std::fs;
 use std::path::Path;
 
 use dbd_golden::subject::BodyNumbers;
@@ -15,7 +14,7 @@ use crate::recorded::row::Row;
 use crate::recorded::unreadable::Unreadable;
 
 /// A golden file is looked at by people: none is larger.
-const MOST_BYTES: u64 = 1 << 30;
+const MAX_GOLDEN_BYTES: u64 = 1 << 30;
 
 /// What a golden file begins with.
 pub const FIRST: &str = "# dbd golden ";
@@ -26,10 +25,7 @@ pub const FIRST: &str = "# dbd golden ";
 /// Where it cannot be read, is damaged, or holds none.
 pub fn read(file: &Path) -> Result<(Head, Vec<Row>), Unreadable> {
     let failed = |reason| Unreadable::system(file, &reason);
-    if fs::metadata(file).map_err(failed)?.len() > MOST_BYTES {
-        return Err(Unreadable::new(file, "is far larger than any golden file"));
-    }
-    let bytes = fs::read(file).map_err(failed)?;
+    let bytes = dbd_scene::file::read(file, MAX_GOLDEN_BYTES).map_err(failed)?;
     // What a console shows besides may be anything.
     let text = String::from_utf8_lossy(&bytes);
     let Some(record) = recording::within(&text).or(text.starts_with(FIRST).then_some(&text)) else {

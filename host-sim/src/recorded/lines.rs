@@ -7,6 +7,8 @@ use std::fs::File;
 use std::io::{BufRead as _, BufReader, Read as _};
 use std::path::{Path, PathBuf};
 
+use dbd_scene::file::open;
+
 use crate::recorded::unreadable::Unreadable;
 use crate::report::trace::TextHash;
 
@@ -41,11 +43,7 @@ impl Lines {
     /// Where it cannot be read, or is no UTF-8 text as its first bytes show.
     pub fn open(file: &Path) -> Result<Self, Unreadable> {
         let failed = |reason| Unreadable::system(file, &reason);
-        let opened = File::open(file).map_err(failed)?;
-        if opened.metadata().map_err(failed)?.is_dir() {
-            return Err(Unreadable::new(file, "is a folder"));
-        }
-        let mut input = BufReader::new(opened);
+        let mut input = BufReader::new(open(file).map_err(failed)?);
         let start = input.fill_buf().map_err(failed)?;
         if start.is_empty() {
             return Err(Unreadable::new(file, "is empty"));

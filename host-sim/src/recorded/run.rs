@@ -2,9 +2,11 @@
 //!
 //! `folder of a run | trace.csv | summary.json | golden file | console's log => head, rows`.
 
-use std::fs::{self, File};
+use std::fs;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
+
+use dbd_scene::file::open;
 
 use crate::recorded::golden;
 use crate::recorded::head::Head;
@@ -94,7 +96,7 @@ fn files(path: &Path) -> Result<Files, Unreadable> {
         _ => {
             // A trace by another name would be without its summary.
             let mut start = [0; 5];
-            let read = File::open(path).and_then(|mut file| file.read(&mut start));
+            let read = open(path).and_then(|mut file| file.read(&mut start));
             read.map_err(|reason| Unreadable::system(path, &reason))?;
             match &start {
                 b"time," => both(path, path.to_owned(), beside(SUMMARY)),

@@ -3,18 +3,14 @@
 //! `file => keys`. Keys of later versions are passed over; a later format of the trace is refused. What earlier
 //! versions did not write is `None`.
 
-use std::fs::File;
-use std::io::Read as _;
 use std::path::Path;
 
+use dbd_scene::file::{MAX_BYTES, read};
 use serde::Deserialize;
 
 use crate::recorded::unreadable::Unreadable;
 use crate::report::summary::SetValue;
 use crate::report::trace::FORMAT;
-
-/// No summary is larger.
-const MOST_BYTES: u64 = 64 << 20;
 
 /// What a summary says of its run, as far as it is needed.
 #[derive(Clone, Debug, Deserialize)]
@@ -83,12 +79,7 @@ impl RunSummary {
     /// Where it cannot be read, is none, or of a later format.
     pub fn read(file: &Path) -> Result<Self, Unreadable> {
         let failed = |reason| Unreadable::system(file, &reason);
-        let mut text = Vec::new();
-        let opened = File::open(file).map_err(failed)?;
-        opened.take(MOST_BYTES + 1).read_to_end(&mut text).map_err(failed)?;
-        if text.len() as u64 > MOST_BYTES {
-            return Err(Unreadable::new(file, "is far larger than any summary of a run"));
-        }
+        let text = read(file, MAX_BYTES).map_err(failed)?;
         let summary: Self = serde_json::from_slice(&text).map_err(|error| {
             // The place is said by ours; serde's own stands at the end of its words.
             let words = error.to_string();

@@ -8,7 +8,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use dbd_import::file::read_text;
+use dbd_scene::file::{read_stream, read_text};
 use dbd_scene::{Scene, SceneError, nearest, shortened};
 use miette::{Diagnostic, LabeledSpan, SourceCode};
 use thiserror::Error;
@@ -226,7 +226,7 @@ fn from_file(path: &Path, changes: &[String]) -> Result<Found, LoadError> {
 
 fn from_standard_input(changes: &[String]) -> Result<Found, LoadError> {
     let place = "standard input";
-    let text = match io::read_to_string(io::stdin()) {
+    let text = match read_stream(io::stdin()) {
         Ok(text) => text,
         Err(reason) => return Err(SceneError::Unreadable { file: place.into(), reason }.into()),
     };

@@ -2,10 +2,10 @@
 //!
 //! The report of two other runs is never replaced unasked: `compare.json` says whose it is.
 
-use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use dbd_output::file;
+use dbd_scene::file::read_text;
 use serde::Deserialize;
 
 use crate::commands::compare::record::whole;
@@ -65,7 +65,7 @@ impl Place {
     /// # Errors
     /// Where it does.
     pub fn claim(&self, folder: &Path) -> Result<(), FolderError> {
-        let owner = fs::read_to_string(folder.join(SEAL)).ok();
+        let owner = read_text(folder.join(SEAL)).ok();
         let owner = owner.and_then(|text| serde_json::from_str::<Owner>(&text).ok());
         match owner.map(|owner| [owner.a.path, owner.b.path]) {
             Some(files) if files != self.files && !self.overwrite => {

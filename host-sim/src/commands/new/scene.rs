@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
 use dbd_output::file::write_at;
+use dbd_scene::file::read_text;
 
 use super::{NewError, filled, name};
 use crate::commands::schema;
@@ -73,7 +74,7 @@ fn is_free(file: &Path) -> bool {
         return true;
     }
     let title = format!("\"title\": \"{}\"", schema::TITLE);
-    std::fs::read_to_string(file).is_ok_and(|text| text.contains(&title))
+    read_text(file).is_ok_and(|text| text.contains(&title))
 }
 
 /// A scene's text with another name and without the line that names a schema.

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use dbd_output::file;
 use dbd_output::set::FileSet;
+use dbd_scene::file::read_text;
 use dbd_sweep::shard::Shard;
 use dbd_sweep::store::Store;
 use dbd_sweep::table::Table;
@@ -51,7 +52,7 @@ impl SweepFolder {
     /// Where it holds the table of another sweep, which is not to be replaced.
     pub fn of(out: &Path, file: &SceneFile, overwrite: bool) -> Result<Self, FolderError> {
         let place = out.join(&file.stem);
-        let owner = fs::read_to_string(place.join(SEAL)).ok();
+        let owner = read_text(place.join(SEAL)).ok();
         let owner: Option<Owner> = owner.and_then(|text| serde_json::from_str(&text).ok());
         if let Some(Owner { sweep_file, sweep_hash }) = owner.filter(|_| !overwrite) {
             // A copy is the same sweep, and so is a file that was moved with its results.
