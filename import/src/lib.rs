@@ -6,6 +6,7 @@
 //! before it alone:
 //!
 //! - [`mod@place`]: texts and places in them.
+//! - `notation`: numbers and texts as TOML has them.
 //! - [`omission`]: what has no counterpart, by kinds.
 //! - [`error`]: what is refused, and where.
 //! - `file`: files that a user or a model names.
@@ -22,7 +23,6 @@
 //! - `pose`: joint coordinates become poses.
 //! - [`options`]: what is stated rather than read.
 //! - `part`: bodies without joints become one with their parents.
-//! - `notation`: numbers and texts as TOML has them.
 //! - `mechanism`: joints, springs, inputs, read-outs between parts.
 //! - `joints`, `loops`, `signals`: what brings them in, from the tree, equalities, actuators and sensors.
 //! - `write`: the scene's text.

@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 
 use nalgebra::{Isometry3, Vector3};
 
+use crate::notation::fitting;
 use crate::options::Options;
 use crate::part::Parts;
 use crate::place::Place;
@@ -179,8 +180,9 @@ impl<'m> Mechanism<'m> {
 
     /// A name that no joint or element has yet: the one wanted, or that with a number.
     pub(crate) fn own_name(&mut self, wanted: &str) -> String {
+        let wanted = fitting(wanted);
         let numbered = (2..).map(|number| format!("{wanted}-{number}"));
-        let mut names = std::iter::once(wanted.to_owned()).chain(numbered);
+        let mut names = std::iter::once(wanted.clone()).chain(numbered);
         let name = names.find(|name| !self.names.contains(name)).unwrap_or_default();
         self.names.insert(name.clone());
         name
@@ -192,8 +194,9 @@ impl<'m> Mechanism<'m> {
             let body = self.tree.bodies.iter().any(|body| body.name == *name);
             body || others.iter().any(|signal| signal.name == *name)
         };
+        let wanted = fitting(wanted);
         let numbered = (2..).map(|number| format!("{wanted}-{kind}-{number}"));
-        let mut names = [wanted.to_owned(), format!("{wanted}-{kind}")].into_iter().chain(numbered);
+        let mut names = [wanted.clone(), format!("{wanted}-{kind}")].into_iter().chain(numbered);
         names.find(|name| !taken(name)).unwrap_or_default()
     }
 

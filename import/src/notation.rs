@@ -2,6 +2,7 @@
 //!
 //! `value => text`.
 
+use dbd_scene::is_name;
 use nalgebra::Vector3;
 
 /// Coordinates below this share of the mechanism's size are rounding.
@@ -9,6 +10,9 @@ const ROUNDING: f64 = 1e-15;
 
 /// A name is at most so many bytes long.
 const LONGEST: usize = 200;
+
+/// Bytes of a name that are left for what tells it from others.
+const ROOM: usize = 20;
 
 /// A text on one line without marks that no comment and no name can hold.
 pub(crate) fn line(text: &str) -> String {
@@ -29,6 +33,22 @@ pub(crate) fn text(text: &str) -> String {
     }
     quoted.push('"');
     quoted
+}
+
+/// A name that a scene takes: the one wanted, without what nobody sees of it and what a spreadsheet takes for the
+/// beginning of a formula.
+pub(crate) fn fitting(wanted: &str) -> String {
+    if is_name(wanted) {
+        return wanted.to_owned();
+    }
+    // Behind another letter: the first one has further rules.
+    let is_seen = |letter: &char| is_name(&format!("a{letter}"));
+    let mut name: String = wanted.chars().filter(is_seen).collect();
+    while name.len() > LONGEST - ROOM {
+        name.pop();
+    }
+    let name = name.trim().trim_start_matches(['=', '+', '-', '@']).trim_start();
+    if is_name(name) { name.to_owned() } else { "unnamed".to_owned() }
 }
 
 /// A number as TOML has it.

@@ -14,6 +14,7 @@ use crate::error::Fault;
 use crate::geom::{Look, Surface};
 use crate::lacks;
 use crate::mass::{Mass, Solid};
+use crate::notation::fitting;
 use crate::omission::{Kind, Omissions};
 use crate::place::Place;
 use crate::settings::{InertiaSource, Settings};
@@ -192,6 +193,11 @@ impl Reader<'_> {
             let place = given.place("name");
             return Err(Fault::at(place, message, "a name of its own, not \"world\""));
         }
+        let fits = fitting(&name);
+        let numbered = (2..).map(|number| format!("{fits}-{number}"));
+        let taken = |name: &String| self.tree.bodies.iter().any(|body| body.name == *name);
+        let mut names = std::iter::once(fits.clone()).chain(numbered);
+        let name = names.find(|name| !taken(name)).unwrap_or(fits);
         if given.flag("mocap", false)? {
             let what = format!("body `{name}`, which is moved from outside, stands still");
             self.omissions.add(Kind::Mocap, element.place, what);

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 use crate::mass::Solid;
 use crate::mechanism::{Mechanism, Side, Signal, Source, Type, rounded};
-use crate::notation::{line, number, snapped, text, vector};
+use crate::notation::{fitting, line, number, snapped, text, vector};
 use crate::omission::Kind;
 use crate::options::{TOLERANCE, Weld};
 use crate::place::{Place, Texts};
@@ -83,7 +83,7 @@ fn top(
     }
     let stem = short.rsplit_once('.').map_or(short, |(stem, _)| stem);
     let name = options.name.as_deref().or(settings.model.as_deref()).unwrap_or(stem);
-    let _ = writeln!(out, "\nname = {}", text(name));
+    let _ = writeln!(out, "\nname = {}", text(&fitting(name)));
     let _ = writeln!(out, "description = {}", text(&format!("imported from {short}")));
     let _ = writeln!(out, "duration = {}", number(options.duration));
     if settings.gravity != Vector3::zeros() {

@@ -79,6 +79,7 @@ pub use readout::ReadoutInfo;
 pub use runtime::{SceneModel, widen};
 pub use shortened::shortened;
 pub use solid::Solid;
+pub use text::is_name;
 
 use dbd_kernel::F64;
 

@@ -221,3 +221,24 @@ fn geoms_become_geometry() {
     let Solid::Sphere { at, radius } = ball.solid else { panic!("{ball:?}") };
     assert!(near(place(ball.body, at), [1.0, 0.0, 2.0]) && radius == 0.5);
 }
+
+/// What nobody sees of a name, and what a spreadsheet would compute, is left out; names stay apart.
+#[test]
+fn names_fit_a_scene() {
+    let long = "l".repeat(250);
+    let body = |name: &str| {
+        format!(
+            "<body name='{name}'><joint name='{name}'/>\
+             <inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/></body>"
+        )
+    };
+    let names = ["-arm", "arm", "=1+1", "a\u{200b}b", "\u{2060}", &long];
+    let bodies: String = names.into_iter().map(body).collect();
+    let text = format!("<mujoco model='@m'><worldbody>{bodies}</worldbody></mujoco>");
+    let scene = loaded(&of(&text, &Options::default()));
+    let short = "l".repeat(180);
+    let expected = ["arm", "arm-2", "1+1", "ab", "unnamed", &short];
+    assert_eq!(scene.body_names, expected);
+    assert_eq!(scene.joints.iter().map(|joint| joint.name.as_str()).collect::<Vec<_>>(), expected);
+    assert_eq!(scene.name, "m");
+}

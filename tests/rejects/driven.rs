@@ -168,6 +168,11 @@ const CASES: &[Case] = &[
     case("name = \"tip\"", "name = «\"tip\\u0007\"", "`name` of readout 2 holds a line break or another invisible character", "visible text"),
     case("name = \"push\"", "name = «\"pu\\u202Esh\"", "`name` of input 1 holds", "visible text"),
     case("name = \"driven\"", "name = «\"dri\\rven\"", "`name` of the scene holds", "visible text"),
+    case("name = \"arm\"\nmass", "name = «\"\\u200B\"\nmass", "`name` of body 1 holds", "visible text"),
+    case("name = \"push\"", "name = «\"pu\\u2060sh\"", "`name` of input 1 holds", "visible text"),
+    case("name = \"tip\"", "name = «\"\\u3164\"", "`name` of readout 2 holds", "visible text"),
+    case("name = \"tip\"", "name = «\"=1+1\"", "`name` of readout 2 begins with `=`", "begin with a letter"),
+    case("name = \"arm\"\nmass", "name = «\"@arm\"\nmass", "`name` of body 1 begins with", "a formula"),
     case("name = \"arm\"\nmass", "name = «\"\\tarm\"\nmass", "`name` of body 1 holds", "visible text"),
 
     // What every input has.

@@ -7,6 +7,7 @@ use crate::error::SceneError;
 use crate::nearest::nearest;
 use crate::quantity::{Dimension, Quantity};
 use crate::shortened::shortened;
+use crate::text::name::check_name;
 use crate::text::number::Measure;
 use crate::text::value::{Kind, Value};
 
@@ -55,9 +56,6 @@ fn called(dimension: Dimension) -> String {
     if dimension.is_none() { "a plain number".into() } else { format!("a value in {dimension}") }
 }
 
-/// Bytes of a name in UTF-8: a folder may have it, with room for what systems add; 255 is the end.
-pub(super) const LONGEST_NAME: usize = 200;
-
 /// A string; with something in it where it is a name.
 #[derive(Clone, Copy)]
 pub(crate) enum Text {
@@ -79,32 +77,11 @@ impl Kind for Text {
 
     fn read(&self, value: &Value<'_>) -> Result<String, SceneError> {
         let text = value.get().as_str().ok_or_else(|| value.wrong_type(&self.expected()))?;
-        if matches!(self, Self::Name) && text.trim().is_empty() {
-            return Err(value.refuse("is empty", &self.expected()));
-        }
-        if matches!(self, Self::Name) && text.chars().any(is_invisible) {
-            let problem = "holds a line break or another invisible character";
-            let help = "a name is one line of visible text: it heads a column, and stands in \
-                        exported source";
-            return Err(value.refuse_with(problem, help));
-        }
-        if matches!(self, Self::Name) && text.len() > LONGEST_NAME {
-            let problem = format!("is a name of {} bytes", text.len());
-            let help = format!(
-                "a name has at most {LONGEST_NAME} bytes: as many letters of English, half as many \
-                 of most other alphabets"
-            );
-            return Err(value.refuse_with(&problem, help));
+        if matches!(self, Self::Name) {
+            check_name(text).map_err(|fault| value.refuse_with(&fault.problem, fault.help))?;
         }
         Ok(text.to_owned())
     }
-}
-
-/// Whether a character breaks a line or steers what shows it: control characters, Unicode's line
-/// and paragraph separators and those that turn the direction of writing, which compilers refuse.
-pub(super) fn is_invisible(c: char) -> bool {
-    let steers = matches!(c, '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}');
-    c.is_control() || steers
 }
 
 /// `true` or `false`.

@@ -4,11 +4,13 @@
 //! a value must be; a [`Table`] asks for it by key. Nothing here knows of bodies or joints.
 
 mod kinds;
+mod name;
 mod number;
 mod table;
 mod value;
 
 pub(crate) use kinds::{Choice, Direction, Switch, Text};
+pub use name::is_name;
 pub(crate) use number::{Measure, Number, Numbers, Seconds};
 pub(crate) use table::{Table, root};
 pub(crate) use value::{Kind, Value};

@@ -12,7 +12,7 @@ use toml::de::{DeString, DeTable, DeValue};
 use crate::error::{SceneError, Source};
 use crate::nearest::nearest;
 use crate::shortened::shortened;
-use crate::text::kinds::{LONGEST_NAME, is_invisible};
+use crate::text::name::{check_name, is_name};
 use crate::text::value::{Kind, Value};
 
 /// A table and what messages call it.
@@ -270,9 +270,7 @@ impl<'t> Table<'t> {
                 return Err(entry.wrong_type(&format!("a table, opened by [[{key}]]")));
             };
             let label = match entries.get("name").and_then(|name| name.get_ref().as_str()) {
-                Some(name) if !name.trim().is_empty() && !name.contains(is_invisible) => {
-                    format!("{key} `{}`", shortened(name))
-                }
+                Some(name) if is_name(name) => format!("{key} `{}`", shortened(name)),
                 _ => format!("{key} {}", i + 1),
             };
             let table = Table::new(self.source, entries, entry.span(), label);
@@ -288,11 +286,9 @@ impl<'t> Table<'t> {
         let mut named = Vec::new();
         for (key, entry) in entries {
             let name = key.get_ref().as_ref();
-            let is_name = !name.trim().is_empty() && !name.contains(is_invisible);
-            if !is_name || name.len() > LONGEST_NAME {
-                let problem = format!("{} has a name that is none", self.label);
-                let help = format!("one line of visible text, at most {LONGEST_NAME} bytes");
-                return Err(self.source.refuse(key.span(), problem, help));
+            if let Err(fault) = check_name(name) {
+                let problem = format!("{} has a name that {}", self.label, fault.problem);
+                return Err(self.source.refuse(key.span(), problem, fault.help));
             }
             let key = format!("`{}`", shortened(name));
             let owner = self.label.clone();

@@ -81,7 +81,7 @@ fn points_are_refused_at_their_place() {
         ("A = [0, 0, 0]", "A = «[0, 0]", "`A` of [points] has 2 entries", "3 finite numbers in m"),
         ("A = [0, 0, 0]", "A = [0, «true, 0]", "`A`[1] of [points] is a boolean", "a finite number in m"),
         ("A = [0, 0, 0]", "A = «[0, 1e151, 0]", "`A` of [points] is out of reach", "at most 1e150 m"),
-        ("A = [0, 0, 0]", "A = [0, 0, 0]\n«\" \" = [0, 0, 0]", "[points] has a name that is none", "one line of visible text"),
+        ("A = [0, 0, 0]", "A = [0, 0, 0]\n«\" \" = [0, 0, 0]", "[points] has a name that is empty", "a name in quotes"),
         ("A = [0, 0, 0]", "A = «\"B2\"", "`A` of [points] names no point: \"B2\"", "did you mean"),
         ("B = [1, 0, 0]", "B = «{ from = \"C\", offset = [1, 0, 0] }", "`B` of [points] stands on itself: point `B` on point `C` on point `B`", "does not depend on the others"),
         ("B = [1, 0, 0]", "B = «{ frame = \"bar\", at = [1, 0, 0] }", "`B` of [points] stands on itself: point `B` on body `bar` on point `B`", "does not depend on the others"),
