@@ -25,7 +25,7 @@ pub fn bless(file: &str, step: f64) -> Outcome {
         golden: Some(golden),
         ..RunOptions::new(Method::default())
     };
-    run(&scene, &options, &mut |_, _| ()).unwrap()
+    run(&scene, &options, &mut |_, _, _| ()).unwrap()
 }
 
 /// A folder with the scene's and the golden file's paths.

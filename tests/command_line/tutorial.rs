@@ -89,7 +89,7 @@ impl Reader {
             golden: Some(golden),
             ..RunOptions::new(Method::default())
         };
-        run(&scene, &options, &mut |_, _| ()).unwrap();
+        run(&scene, &options, &mut |_, _, _| ()).unwrap();
     }
 
     /// Writes a line into the scene, below `every`.

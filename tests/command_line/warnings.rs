@@ -27,7 +27,7 @@ fn nothing_is_said_of_the_scenes_that_ship() {
             ..RunOptions::new(Method::default())
         };
         let outcome =
-            run(&scene, &RunOptions { every: options.duration, ..options }, &mut |_, _| ());
+            run(&scene, &RunOptions { every: options.duration, ..options }, &mut |_, _, _| ());
         let summary = outcome.unwrap().summary;
         assert_eq!((summary.warnings, summary.status.as_str()), (Vec::new(), "ok"), "{name}");
     }

@@ -10,7 +10,7 @@ use dbd_plant::{DampingName, Method, Named as _, OrientationName, PrecisionName,
 use crate::arguments::{SceneArgument, names};
 use crate::cli::named::{ResultsArguments, damped, leaving, load};
 use crate::commands::golden::GoldenOptions;
-use crate::commands::run::{Outcome, RunOptions, run};
+use crate::commands::run::{Outcome, RunOptions, Stage, run};
 use crate::error::Error;
 use crate::simulate::EnergyLimit;
 use crate::terminal::{Catalogue, Console, Exit, Found, Look, Progress};
@@ -104,8 +104,18 @@ pub(super) fn run_scene(
         gltf: arguments.gltf,
         called: Some(arguments.scene.scene.clone()),
     };
-    let mut progress = Progress::new(console.terminal && !arguments.quiet);
-    let outcome = run(&scene, &options, &mut |steps, all| progress.update(steps, all));
+    let mut silence = std::io::sink();
+    let lines: &mut dyn std::io::Write =
+        if arguments.quiet { &mut silence } else { &mut *console.err };
+    let mut progress = Progress::of_many(console.terminal && !arguments.quiet, "steps", lines);
+    let mut before = Stage::Stepping;
+    let outcome = run(&scene, &options, &mut |stage, done, all| {
+        if stage != before {
+            before = stage;
+            progress.restart("evaluations at most in search of a step that works");
+        }
+        progress.update(done, all);
+    });
     progress.finish();
     let outcome = outcome?;
     let printed = if arguments.json {

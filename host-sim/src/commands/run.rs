@@ -205,7 +205,16 @@ fn refused(scene: &Scene, options: &RunOptions, error: PlanError) -> RunError {
     placed.map_or(RunError::Plan(error), |error| RunError::Setting(error.into()))
 }
 
-/// Runs a scene. `progress` hears of steps done and steps to do, now and then.
+/// What a run does at the moment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// It steps; steps are counted.
+    Stepping,
+    /// It has failed and looks for a step that works; evaluations of elements and bodies are counted.
+    Searching,
+}
+
+/// Runs a scene. `progress` hears now and then of what is done and what is to do at most in a stage.
 ///
 /// # Errors
 /// Bad input before anything is written; or results that cannot be written. A run that fails is
@@ -213,7 +222,7 @@ fn refused(scene: &Scene, options: &RunOptions, error: PlanError) -> RunError {
 pub fn run(
     scene: &Scene,
     options: &RunOptions,
-    progress: &mut dyn FnMut(u64, u64),
+    progress: &mut dyn FnMut(Stage, u64, u64),
 ) -> Result<Outcome, RunError> {
     let frequencies = Frequencies::of(scene);
     let plan =
@@ -245,7 +254,7 @@ pub fn run(
         statistics: Statistics::default(),
         watch: options.watch_energy.map(|limit| EnergyWatch::new(scene, limit)),
         golden,
-        progress: &mut |steps| progress(steps, plan.steps),
+        progress: &mut |steps| progress(Stage::Stepping, steps, plan.steps),
     };
     let ending = simulate(scene, &options.method, &plan, &mut recorder)?;
     let Recorder { trace, recording, statistics, watch, golden, .. } = recorder;
@@ -256,9 +265,10 @@ pub fn run(
         files.add(file);
     }
     let every = options.every.or(scene.every);
-    let failure = ending
-        .trouble
-        .map(|trouble| FailedRun::new(scene, &options.method, &plan, every, &ending, trouble));
+    let failure = ending.trouble.map(|trouble| {
+        let mut searched = |done, all| progress(Stage::Searching, done, all);
+        FailedRun::new(scene, &options.method, &plan, every, &ending, trouble, &mut searched)
+    });
     let mut summary =
         summarise(scene, &options.method, &plan, &frequencies, &ending, &statistics, &failure);
     summary.trace_hash = trace_hash;
@@ -291,16 +301,16 @@ pub fn run(
 }
 
 /// Passes samples on to trace, recording and statistics.
-struct Recorder<'p> {
+struct Recorder<'o, 'p> {
     trace: Option<TraceWriter<PendingFile>>,
     recording: Option<Recording>,
     statistics: Statistics,
     watch: Option<EnergyWatch>,
-    golden: Option<GoldenWatch<'p>>,
+    golden: Option<GoldenWatch<'o>>,
     progress: &'p mut dyn FnMut(u64),
 }
 
-impl Observer for Recorder<'_> {
+impl Observer for Recorder<'_, '_> {
     fn sample(&mut self, sample: &Sample<'_>) -> io::Result<()> {
         self.statistics.push(sample);
         if let Some(watch) = &mut self.watch {

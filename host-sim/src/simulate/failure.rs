@@ -4,7 +4,8 @@
 //! the cause where it is beyond what the scheme bears at t = 0, or where a shorter one works. A step
 //! is only named after a run with it over the same
 //! duration has come to its end; the candidates are the advised step, shortened to a round one that
-//! fits, and its halves, all shorter than the one that failed.
+//! fits, and its halves, all shorter than the one that failed. All of them together take no longer than the
+//! failed run took, or a few seconds.
 
 use std::fmt;
 use std::io;
@@ -22,9 +23,9 @@ use crate::simulate::run::{Ending, Observer, Sample, simulate};
 /// How often the advised step is halved.
 const HALVINGS: u32 = 4;
 
-/// Candidates that would take more evaluations of an element or body are not tried: at 10 ns
-/// each, that is the better part of a minute.
-const MOST_EVALUATIONS: f64 = 4e9;
+/// Candidates may take so many evaluations of an element or body, however soon the run failed: at 10 ns each,
+/// 2 s.
+const LEAST_BUDGET: f64 = 2e8;
 
 /// A run that failed.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,7 +61,7 @@ pub enum Remedy {
 
 impl FailedRun {
     /// Describes the failure and looks for a step that works; `every` is the sampling interval
-    /// where one was given.
+    /// where one was given. `progress` is given the evaluations that the search has made and may make.
     #[must_use]
     pub fn new(
         scene: &Scene,
@@ -69,8 +70,11 @@ impl FailedRun {
         every: Option<f64>,
         ending: &Ending,
         trouble: Trouble,
+        progress: &mut dyn FnMut(u64, u64),
     ) -> Self {
-        let remedy = find_remedy(scene, method, run, every);
+        let budget = LEAST_BUDGET.max(cost(scene, method, ending.steps));
+        let search = Search { scene, method, budget, spent: 0.0, progress };
+        let remedy = search.remedy(run, every);
         let cause = cause(scene, method, run.step, &remedy);
         Self { cause, remedy, ..Self::untried(scene, run, ending, trouble) }
     }
@@ -178,6 +182,12 @@ fn cause(scene: &Scene, method: &Method, step: f64, remedy: &Remedy) -> Option<S
     if let Some(turn) = frequencies.warning(scene, step) {
         return Some(format!("step too large: {turn}"));
     }
+    if limit.is_infinite() {
+        return Some(format!(
+            "step too large: a shorter one works ({scheme} is stable at any ω·h about the pose at t = 0, but \
+             large motions within a step have limits of their own)"
+        ));
+    }
     Some(format!(
         "step too large: a shorter one works (ω·h ≤ {} at t = 0, {scheme} bears {}, but frequencies \
          rise along a motion, and dampers and spins have limits of their own)",
@@ -186,38 +196,127 @@ fn cause(scene: &Scene, method: &Method, step: f64, remedy: &Remedy) -> Option<S
     ))
 }
 
-fn find_remedy(scene: &Scene, method: &Method, run: &Plan, every: Option<f64>) -> Remedy {
-    let advised = Frequencies::of(scene).default_limit(method, run.duration);
-    // Not the failed step itself, nor one as good as equal to it.
-    let mut limit = advised.min(run.step / 2.0);
-    let mut tried = Vec::new();
-    for _ in 0..=HALVINGS {
-        let request =
-            Request { step: StepRequest::RoundAtMost(limit), duration: run.duration, every };
-        let Ok(candidate) = plan(&request) else { return Remedy::Untried(limit) };
-        if cost(scene, method, &candidate) > MOST_EVALUATIONS {
-            return Remedy::Untried(candidate.step);
+/// A search for a step that works.
+struct Search<'s> {
+    scene: &'s Scene,
+    method: &'s Method,
+    /// Evaluations that all candidates together may take.
+    budget: f64,
+    spent: f64,
+    progress: &'s mut dyn FnMut(u64, u64),
+}
+
+impl Search<'_> {
+    fn remedy(mut self, run: &Plan, every: Option<f64>) -> Remedy {
+        let advised = Frequencies::of(self.scene).default_limit(self.method, run.duration);
+        // Not the failed step itself, nor one as good as equal to it.
+        let mut limit = advised.min(run.step / 2.0);
+        let mut tried = Vec::new();
+        for _ in 0..=HALVINGS {
+            let request =
+                Request { step: StepRequest::RoundAtMost(limit), duration: run.duration, every };
+            let Ok(candidate) = plan(&request) else { return Remedy::Untried(limit) };
+            let whole = cost(self.scene, self.method, candidate.steps);
+            if self.spent + whole > self.budget {
+                return Remedy::Untried(candidate.step);
+            }
+            let (scene, method) = (self.scene, self.method);
+            let mut observer = CandidateRun { search: &mut self, steps: 0 };
+            let ending = simulate(scene, method, &candidate, &mut observer);
+            if ending.is_ok_and(|ending| ending.trouble.is_none()) {
+                return Remedy::Step(candidate.step);
+            }
+            tried.push(candidate.step);
+            limit /= 2.0;
         }
-        if comes_to_its_end(scene, method, &candidate) {
-            return Remedy::Step(candidate.step);
-        }
-        tried.push(candidate.step);
-        limit /= 2.0;
+        Remedy::NoneOf(tried)
     }
-    Remedy::NoneOf(tried)
+
+    fn evaluate(&mut self, steps: u64) {
+        self.spent += cost(self.scene, self.method, steps);
+        (self.progress)(self.spent as u64, self.budget as u64);
+    }
 }
 
-fn cost(scene: &Scene, method: &Method, plan: &Plan) -> f64 {
+/// Evaluations of an element or body in so many steps.
+fn cost(scene: &Scene, method: &Method, steps: u64) -> f64 {
     let parts = scene.model.bodies.len() + scene.model.tsda_count() + scene.model.torsions.len();
-    plan.steps as f64 * f64::from(method.evaluations()) * parts as f64
+    steps as f64 * f64::from(method.evaluations()) * parts as f64
 }
 
-fn comes_to_its_end(scene: &Scene, method: &Method, plan: &Plan) -> bool {
-    struct Nobody;
-    impl Observer for Nobody {
+/// A run of which nothing is kept but how far it comes.
+struct CandidateRun<'r, 's> {
+    search: &'r mut Search<'s>,
+    steps: u64,
+}
+
+impl Observer for CandidateRun<'_, '_> {
+    fn sample(&mut self, _: &Sample<'_>) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn progress(&mut self, steps: u64) {
+        self.search.evaluate(steps - self.steps);
+        self.steps = steps;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dbd_plant::judge::Trouble;
+
+    const OSCILLATOR: &str = r#"
+name = "oscillator"
+duration = 1.0
+[[body]]
+name = "block"
+mass = 1.0
+inertia = [1.0, 1.0, 1.0]
+position = [1.0, 0.0, 0.0]
+[[tsda]]
+name = "spring"
+between = ["world", "block"]
+points = [[0, 0, 0], [0, 0, 0]]
+free_length = 0.5
+stiffness = 1e6
+"#;
+
+    /// The failed run of the oscillator at a step beyond its limit, and what was heard of the search.
+    fn failed(duration: f64) -> (FailedRun, Vec<(u64, u64)>) {
+        let scene = Scene::parse(OSCILLATOR, "oscillator.toml").unwrap();
+        let method = Method::default();
+        let request = Request { step: StepRequest::Given(4e-3), duration, every: None };
+        let run = plan(&request).unwrap();
+        let ending = simulate(&scene, &method, &run, &mut Silent).unwrap();
+        let trouble: Trouble = ending.trouble.unwrap();
+        let mut heard = Vec::new();
+        let mut progress = |done, all| heard.push((done, all));
+        let failed = FailedRun::new(&scene, &method, &run, None, &ending, trouble, &mut progress);
+        (failed, heard)
+    }
+
+    struct Silent;
+
+    impl Observer for Silent {
         fn sample(&mut self, _: &Sample<'_>) -> io::Result<()> {
             Ok(())
         }
     }
-    simulate(scene, method, plan, &mut Nobody).is_ok_and(|ending| ending.trouble.is_none())
+
+    #[test]
+    fn a_short_run_is_tried_with_a_shorter_step_and_the_search_is_heard_of() {
+        let (failed, heard) = failed(1.0);
+        assert!(matches!(failed.remedy, Remedy::Step(_)), "{failed:?}");
+        assert!(heard.len() > 2 && heard.is_sorted(), "{heard:?}");
+        assert!(heard.iter().all(|(done, all)| done <= all && *all == LEAST_BUDGET as u64));
+    }
+
+    /// 1e6 s would take 2e9 evaluations, the run itself failed after a few.
+    #[test]
+    fn a_search_takes_no_longer_than_the_run_or_a_few_seconds() {
+        let (failed, heard) = failed(1e6);
+        assert!(matches!(failed.remedy, Remedy::Untried(_)), "{failed:?}");
+        assert!(heard.is_empty(), "{heard:?}");
+    }
 }

@@ -59,6 +59,15 @@ impl<'p> Progress<'p> {
         Self { unit, lines, ..Self::new(terminal) }
     }
 
+    /// Other counted work begins, in its unit: it is not shown before it takes its time, either.
+    pub fn restart(&mut self, unit: &'static str) {
+        self.finish();
+        (self.unit, self.start) = (unit, Instant::now());
+        if let Some(lines) = &mut self.lines {
+            lines.last = Some(self.start);
+        }
+    }
+
     /// Something begins of which nobody knows how long it takes: its name and the time so far.
     pub fn begin(&mut self, what: &'static str) {
         self.finish();

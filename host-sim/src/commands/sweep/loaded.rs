@@ -142,7 +142,7 @@ impl Sweep {
             called: Some(self.called.clone()),
             ..RunOptions::new(cases.method(case).unwrap_or_default())
         };
-        match run(&scene, &options, &mut |_, _| ()) {
+        match run(&scene, &options, &mut |_, _, _| ()) {
             Err(error @ (RunError::Write(_) | RunError::Folder(_))) => Err(error),
             _ => Ok(()),
         }
