@@ -6,8 +6,8 @@
 //!
 //! - [`target`]: what a target is, and what it can find.
 //! - [`execution`]: one input through one target, a panic caught.
-//! - [`numbers`], [`mutation`], [`corpus`]: numbers at the extremes; texts changed; where they
-//!   begin.
+//! - [`numbers`], [`edges`], [`mutation`], [`corpus`]: numbers at the extremes; all numbers of a key; texts changed;
+//!   where they begin.
 //! - [`scene`], [`stepper`], [`snapshot`], [`command_line`]: the targets.
 //! - [`planted`]: faults that must be found.
 //! - [`targets`]: all of them by name.
@@ -19,6 +19,7 @@ pub mod block;
 pub mod campaign;
 pub mod command_line;
 pub mod corpus;
+pub mod edges;
 pub mod execution;
 pub mod mutation;
 pub mod numbers;

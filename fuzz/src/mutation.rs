@@ -7,6 +7,8 @@ use std::ops::Range;
 
 use fastrand::Rng;
 
+use crate::edges::change_key;
+
 /// What stands in scenes, and what stands in none.
 const WORDS: &[&str] = &[
     "name",
@@ -259,7 +261,8 @@ pub fn soup(random: &mut Rng) -> Vec<u8> {
 /// One change.
 fn change(text: &mut Vec<u8>, other: &[u8], random: &mut Rng) {
     match random.u8(..24) {
-        20.. | 0..=5 => change_number(text, random),
+        0 | 1 => change_key(text, random),
+        20.. | 2..=5 => change_number(text, random),
         6 | 7 => swap_words(text, random),
         8 => replace(text, word(text, random), pick(WORDS, random)),
         9 => {

@@ -12,6 +12,7 @@ use dbd_plant::{
 };
 use dbd_scene::{Scene, SceneError};
 use fastrand::Rng;
+use host_sim::commands::planar::PlaneCheck;
 use host_sim::commands::run::{RunOptions, plan_of};
 use host_sim::commands::warnings::of_scene;
 use miette::Diagnostic as _;
@@ -118,6 +119,7 @@ fn run(scene: &Scene, random: &mut Rng) -> Result<(), Finding> {
     let method = method(random);
     let frequencies = Frequencies::of(scene);
     let _ = of_scene(scene);
+    let _ = PlaneCheck::of(scene);
     let _ = scene.facts();
     let Ok(plan) = plan_of(scene, &RunOptions::new(method), &frequencies) else { return Ok(()) };
     Finding::unless(

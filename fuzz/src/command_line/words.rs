@@ -5,6 +5,7 @@ use std::ffi::OsString;
 use fastrand::Rng;
 
 use crate::corpus::{SHIPPED, SMALL};
+use crate::edges::CHANGES;
 
 /// Arguments and the scene file that lies beside them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -65,12 +66,12 @@ pub const SWEEP: &str = "sweep";
 /// Commands with the options and flags that are theirs: rows of [`OPTIONS`], flags.
 const COMMANDS: &[(&str, &[usize], &[&str])] = &[
     ("run", &[0, 1, 2, 5, 6, 7, 8, 9, 10], &["--json", "--quiet", "--overwrite"]),
-    ("run", &[0, 1, 1, 2, 6, 8, 10], &["--json", "--quiet", "--overwrite"]),
+    ("run", &[0, 1, 1, 2, 6, 8, 10, 15], &["--json", "--quiet", "--overwrite"]),
     ("run", &[1, 6, 8], &["--json", "--quiet"]),
-    ("check", &[], &["--json"]),
-    ("check", &[5, 6, 7, 8], &["--stability", "--json"]),
+    ("check", &[15, 15], &["--json"]),
+    ("check", &[5, 6, 7, 8, 15], &["--stability", "--json"]),
     ("check", &[13, 14], &["--json"]),
-    ("export", &[8], &[]),
+    ("export", &[8, 15], &[]),
     ("trade", &[3, 4, 10], &["--json", "--quiet", "--overwrite"]),
     (
         SWEEP,
@@ -135,6 +136,7 @@ const OPTIONS: &[(&str, &[&str])] = &[
     ("--jobs", &["1", "2", "1", "2", "1", "2", "1", "2", "0", "-1", "x", "18446744073709551616"]),
     ("--svg", &["-"]),
     ("--write", &["-"]),
+    ("--set", CHANGES),
 ];
 
 const FLAGS: &[&str] = &[
