@@ -35,6 +35,7 @@ pages! {
     measured "docs/measured.md"
     method "docs/method.md"
     near_rigid "docs/near-rigid.md"
+    paper "docs/paper.md"
     planar "docs/planar.md"
     precision "docs/precision.md"
     proof "docs/proof.md"

@@ -295,7 +295,8 @@ mod tests {
     #[test]
     fn curves_are_compared_along_power_laws_and_not_beyond_their_ends() {
         // Drift falls with the first and with the second power of the cost.
-        let of = |power: i32| [1.0, 10.0, 100.0].map(|cost| [0.1, cost, 1e-2 / f64::powi(cost, power)]);
+        let of =
+            |power: i32| [1.0, 10.0, 100.0].map(|cost| [0.1, cost, 1e-2 / f64::powi(cost, power)]);
         let (first, second) = (of(1), of(2));
         let found = between(&first, COST, 30.0, DRIFT).unwrap();
         assert!((found / (1e-2 / 30.0) - 1.0).abs() < 1e-12, "{found}");

@@ -120,7 +120,7 @@ pub(super) fn motion(context: &Context<'_>) -> Result<Finding, PaperError> {
             "1.8 J by 0.05 N·m are 36 rad in 2 s from rest: 36 rad/s at the end on average, more at the dead centres",
         ),
         Row::compared("largest force on the slider along its axis", "N", FORCE, force, near)
-            .noted("mass times mean acceleration over 5 ms: the joints' vibration is not in it"),
+            .noted("mass times mean acceleration over 5 ms; the joints' vibration is part of it"),
         Row::compared("RMS offset of the slider from its axis", "m", OFFSET, rms(&run.offsets), LOOSE),
         Row::open(
             "RMS rotation of the slider about its axis",
@@ -157,7 +157,7 @@ pub(super) fn dead_centres(context: &Context<'_>) -> Result<Finding, PaperError>
     for n in from..run.angles.len() {
         let change = run.energies[n + 1][1] - run.energies[n][1];
         let angle = run.angles[n];
-        if angle < NEAR || angle > PI - NEAR { near.push(change) } else { far.push(change) }
+        if (NEAR..=PI - NEAR).contains(&angle) { far.push(change) } else { near.push(change) }
     }
     let ratio = rms(&near) / rms(&far);
     let points: Vec<[f64; 2]> = (from..run.angles.len())
