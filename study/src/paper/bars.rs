@@ -3,9 +3,10 @@
 use dbd_plant::{Frequencies, Method, SchemeName, plant};
 use dbd_scene::Scene;
 
+use crate::paper::context::{Context, PaperError, advance, dbd, place, scheme};
+use crate::paper::counts;
 use crate::paper::drift::{drift, drift_of_implicit};
 use crate::paper::finding::{Curve, Finding, LOOSE, Plot, Row, Tolerance, assumptions};
-use crate::paper::{Context, PaperError, advance, counts, dbd, place, scheme};
 use crate::timing::costs;
 use crate::ways::Way;
 

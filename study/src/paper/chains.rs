@@ -2,8 +2,8 @@
 
 use dbd_plant::plant;
 
+use crate::paper::context::{Context, PaperError, advance, dbd};
 use crate::paper::finding::{Finding, LOOSE, Row, assumptions};
-use crate::paper::{Context, PaperError, advance, dbd};
 
 /// \[s\] between velocities whose difference is a mean acceleration.
 const INTERVAL: f64 = 0.01;

@@ -1,9 +1,9 @@
 //! Sections 3.2 and 4.1: what a step costs, over the size of a system.
 
+use crate::paper::context::{Context, PaperError, TEN, dbd, scheme};
 use crate::paper::counts::ELEMENTS;
 use crate::paper::finding::{Curve, Finding, Plot, Row, Tolerance, assumptions};
 use crate::paper::fit::{exponent, least_squares};
-use crate::paper::{Context, PaperError, TEN, dbd, scheme};
 use crate::timing::costs;
 use crate::ways::Way;
 use dbd_plant::SchemeName;

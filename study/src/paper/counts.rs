@@ -1,8 +1,8 @@
 //! Tables 7a and 7b: equations, bodies and TSDAs of ten systems.
 
+use crate::paper::context::{Context, PaperError, TEN};
 use crate::paper::finding::{EXACT, Finding, Row, Tolerance, assumptions};
 use crate::paper::fit::least_squares;
-use crate::paper::{Context, PaperError, TEN};
 
 /// Table 7a: equations with constraints and without.
 const EQUATIONS: [[f64; 2]; 10] = [

@@ -6,9 +6,9 @@ use dbd_kernel::{F64, State};
 use dbd_plant::{AnyPlant, SchemeName, plant};
 use dbd_scene::{Scene, SceneModel};
 
+use crate::paper::context::{Context, PaperError, dbd, place, scheme};
 use crate::paper::drift::{self, Drift, drift};
 use crate::paper::finding::{Curve, Finding, LOOSE, Plot, Row, Tolerance, assumptions};
-use crate::paper::{Context, PaperError, dbd, place, scheme};
 
 /// \[s\] the torque ends, the run ends.
 const TORQUE_ENDS: f64 = 2.0;

@@ -14,7 +14,7 @@ use dbd_reference::implicit::Implicit;
 use dbd_scene::Scene;
 
 use crate::measure::implicit_step;
-use crate::paper::PaperError;
+use crate::paper::context::PaperError;
 use crate::paper::fit::least_squares;
 
 /// Samples of a window.

@@ -3,6 +3,7 @@
 //! `(items, scenes) => findings: the paper's value, this one's, a verdict`. Every number is measured by
 //! the call; the paper's own and the tolerances of the verdicts alone are constants.
 //!
+//! - `context`: scenes, methods, errors.
 //! - [`finding`]: rows, verdicts, curves.
 //! - [`fit`]: straight lines and planes through points.
 //! - [`drift`]: how the energy of a run drifts.
@@ -13,6 +14,7 @@
 
 mod bars;
 mod chains;
+mod context;
 mod costs;
 mod counts;
 mod crank;
@@ -27,40 +29,9 @@ mod steps;
 pub mod store;
 mod trade_off;
 
-use dbd_plant::{AnyPlant, Method, MethodError, PlantError, PrecisionName, SchemeName};
-use dbd_scene::{Scene, SceneError};
-use miette::Diagnostic;
-use thiserror::Error;
-
+use context::TEN;
+pub use context::{Context, PaperError, Scenes};
 pub use finding::{Curve, Finding, Plot, Row, Verdict};
-
-/// Where the scenes come from.
-pub type Scenes<'s> = dyn Fn(&str) -> Option<Scene> + Sync + 's;
-
-/// Why an item could not be measured.
-#[derive(Debug, Error, Diagnostic)]
-pub enum PaperError {
-    /// A scene is not among those that ship.
-    #[error("the scene {0} does not ship with this program: build it from a whole source tree")]
-    Scene(String),
-    /// A changed scene is refused.
-    #[error(transparent)]
-    Changed(#[from] SceneError),
-    /// A method is not in this build.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Method(#[from] MethodError),
-    /// A scene cannot be stepped.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Plant(#[from] PlantError),
-    /// A run fails where the paper's does not.
-    #[error("the run fails after {time} s: the method cannot be measured on this scene")]
-    Failed {
-        /// \[s\] how far it came.
-        time: f64,
-    },
-}
 
 /// An item of the paper.
 #[derive(Clone, Copy)]
@@ -78,18 +49,6 @@ pub struct Item {
     measure: fn(&Context<'_>) -> Result<Finding, PaperError>,
 }
 
-/// What an item is measured with.
-pub struct Context<'c> {
-    scenes: &'c Scenes<'c>,
-}
-
-impl Context<'_> {
-    /// A scene that ships.
-    fn scene(&self, name: &str) -> Result<Scene, PaperError> {
-        (self.scenes)(name).ok_or_else(|| PaperError::Scene(name.into()))
-    }
-}
-
 impl Item {
     /// Measures it.
     ///
@@ -104,20 +63,6 @@ impl Item {
         })
     }
 }
-
-/// Every scene of Table 7, in its order.
-const TEN: [&str; 10] = [
-    "four-bar",
-    "five-bar-a",
-    "3rrr-2",
-    "3rrr-1",
-    "3rrr",
-    "3ruu-2",
-    "3ruu-1",
-    "3ruu",
-    "two-3ruu",
-    "three-systems",
-];
 
 /// All items in the paper's order.
 pub const ITEMS: [Item; 16] = [
@@ -255,28 +200,4 @@ pub const ITEMS: [Item; 16] = [
 #[must_use]
 pub fn item(name: &str) -> Option<&'static Item> {
     ITEMS.iter().find(|item| item.name == name)
-}
-
-/// The paper's scheme with so many Newton iterations, in double precision.
-fn dbd(newton: u32) -> Result<Method, PaperError> {
-    Ok(Method::new(SchemeName::Dbd, Some(newton), PrecisionName::F64)?)
-}
-
-/// Another scheme in double precision.
-fn scheme(scheme: SchemeName) -> Result<Method, PaperError> {
-    Ok(Method::new(scheme, None, PrecisionName::F64)?)
-}
-
-/// So many steps on.
-fn advance(plant: &mut dyn AnyPlant, steps: u64) -> Result<(), PaperError> {
-    if plant.advance(steps).is_running() {
-        Ok(())
-    } else {
-        Err(PaperError::Failed { time: plant.time() })
-    }
-}
-
-/// The row of a body; the first where there is none of that name.
-fn place(scene: &Scene, body: &str) -> usize {
-    scene.body_names.iter().position(|name| name == body).unwrap_or(0)
 }

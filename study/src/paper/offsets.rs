@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use dbd_plant::{Frequencies, plant};
 use dbd_scene::Scene;
 
+use crate::paper::context::{Context, PaperError, advance, dbd, place};
 use crate::paper::finding::{Curve, Finding, Plot, Row, Tolerance, assumptions};
-use crate::paper::{Context, PaperError, advance, dbd, place};
 
 /// Table 8: stiffness \[N/m\], frequency \[Hz\], step \[s\], error \[mm\].
 const TABLE: [[f64; 4]; 17] = [

@@ -10,8 +10,8 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
 use crate::modes::modes;
+use crate::paper::context::{Context, PaperError, advance, scheme};
 use crate::paper::finding::{Curve, Finding, Map, Plot, Row, Tolerance, assumptions};
-use crate::paper::{Context, PaperError, advance, scheme};
 use crate::stability::frozen;
 
 /// \[Hz\] section 2.4.

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use dbd_kernel::State;
 use dbd_scene::Scene;
 
+use crate::paper::context::{Context, PaperError, dbd};
 use crate::paper::finding::{Curve, Finding, Plot, Row, Tolerance, assumptions};
 use crate::paper::spectrum;
-use crate::paper::{Context, PaperError, dbd};
 use crate::stability::Vibration;
 
 /// Mechanisms of Fig. 18; the first alone follows 1/(2πf) there.

@@ -12,7 +12,9 @@ use dbd_output::file;
 use serde::{Deserialize, Serialize};
 
 use crate::cache::build;
-use crate::paper::{Finding, Item, Scenes};
+use crate::paper::Finding;
+use crate::paper::Item;
+use crate::paper::context::Scenes;
 
 #[derive(Serialize, Deserialize)]
 struct Kept {
@@ -56,7 +58,8 @@ pub fn keep(folder: &Path, item: &Item, key: &str, finding: &Finding) -> io::Res
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::paper::{Row, item};
+    use crate::paper::Row;
+    use crate::paper::item;
 
     #[test]
     fn a_finding_is_found_again_under_its_key_alone() {

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use dbd_kernel::State;
 
 use crate::modes::modes;
+use crate::paper::context::{Context, PaperError, dbd};
 use crate::paper::finding::{Curve, Finding, Plot, Row, assumptions};
 use crate::paper::fit::least_squares;
-use crate::paper::{Context, PaperError, dbd};
 use crate::timing::costs;
 use crate::ways::Way;
 

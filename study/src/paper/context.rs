@@ -1,0 +1,84 @@
+//! What every item is measured with: scenes, methods, and what can go wrong.
+
+use dbd_plant::{AnyPlant, Method, MethodError, PlantError, PrecisionName, SchemeName};
+use dbd_scene::{Scene, SceneError};
+use miette::Diagnostic;
+use thiserror::Error;
+
+/// Where the scenes come from.
+pub type Scenes<'s> = dyn Fn(&str) -> Option<Scene> + Sync + 's;
+
+/// Why an item could not be measured.
+#[derive(Debug, Error, Diagnostic)]
+pub enum PaperError {
+    /// A scene is not among those that ship.
+    #[error("the scene {0} does not ship with this program: build it from a whole source tree")]
+    Scene(String),
+    /// A changed scene is refused.
+    #[error(transparent)]
+    Changed(#[from] SceneError),
+    /// A method is not in this build.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Method(#[from] MethodError),
+    /// A scene cannot be stepped.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Plant(#[from] PlantError),
+    /// A run fails where the paper's does not.
+    #[error("the run fails after {time} s: the method cannot be measured on this scene")]
+    Failed {
+        /// \[s\] how far it came.
+        time: f64,
+    },
+}
+
+/// What an item is measured with.
+pub struct Context<'c> {
+    pub(super) scenes: &'c Scenes<'c>,
+}
+
+impl Context<'_> {
+    /// A scene that ships.
+    pub(super) fn scene(&self, name: &str) -> Result<Scene, PaperError> {
+        (self.scenes)(name).ok_or_else(|| PaperError::Scene(name.into()))
+    }
+}
+
+/// Every scene of Table 7, in its order.
+pub(super) const TEN: [&str; 10] = [
+    "four-bar",
+    "five-bar-a",
+    "3rrr-2",
+    "3rrr-1",
+    "3rrr",
+    "3ruu-2",
+    "3ruu-1",
+    "3ruu",
+    "two-3ruu",
+    "three-systems",
+];
+
+/// The paper's scheme with so many Newton iterations, in double precision.
+pub(super) fn dbd(newton: u32) -> Result<Method, PaperError> {
+    Ok(Method::new(SchemeName::Dbd, Some(newton), PrecisionName::F64)?)
+}
+
+/// Another scheme in double precision.
+pub(super) fn scheme(scheme: SchemeName) -> Result<Method, PaperError> {
+    Ok(Method::new(scheme, None, PrecisionName::F64)?)
+}
+
+/// So many steps on.
+pub(super) fn advance(plant: &mut dyn AnyPlant, steps: u64) -> Result<(), PaperError> {
+    if plant.advance(steps).is_running() {
+        Ok(())
+    } else {
+        Err(PaperError::Failed { time: plant.time() })
+    }
+}
+
+/// The row of a body; the first where there is none of that name.
+pub(super) fn place(scene: &Scene, body: &str) -> usize {
+    scene.body_names.iter().position(|name| name == body).unwrap_or(0)
+}
