@@ -1,10 +1,11 @@
 //! The results of the method's paper: what takes seconds is measured again and held against
 //! `docs/results/paper.json`, from which the table of `docs/paper.md` is rendered.
 //!
-//! `DBD_COLLECT=OUT cargo test -p dbd-tests --test paper` writes that file anew from what
-//! `host-sim reproduce --all --out OUT` has left.
+//! `DBD_COLLECT=OUT cargo test -p dbd-tests --test paper` writes that file from the results of
+//! `host-sim reproduce --all --out OUT`.
 
 use std::process::Command;
+use std::sync::Once;
 
 use dbd_study::paper::page::columns;
 use dbd_study::paper::{Finding, ITEMS, Verdict};
@@ -15,9 +16,11 @@ use serde_json::{Value, json};
 
 const FILE: &str = "docs/results/paper.json";
 
-/// The commit of the data, and the findings, without plots.
-fn kept() -> (String, Vec<Finding>) {
-    if let Some(out) = std::env::var_os("DBD_COLLECT") {
+/// Writes the file from new results once, where asked to.
+fn collect() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        let Some(out) = std::env::var_os("DBD_COLLECT") else { return };
         let text =
             std::fs::read_to_string(path(&out.to_string_lossy()).join("reproduce/reproduce.json"));
         let mut findings: Vec<Value> = serde_json::from_str(&text.unwrap()).unwrap();
@@ -27,7 +30,12 @@ fn kept() -> (String, Vec<Finding>) {
         let commit = String::from_utf8(commit.stdout).unwrap();
         let whole = json!({ "commit": commit.trim(), "findings": findings });
         std::fs::write(path(FILE), serde_json::to_string_pretty(&whole).unwrap() + "\n").unwrap();
-    }
+    });
+}
+
+/// The commit of the data, and the findings, without plots.
+fn kept() -> (String, Vec<Finding>) {
+    collect();
     let whole: Value = serde_json::from_str(&std::fs::read_to_string(path(FILE)).unwrap()).unwrap();
     let commit = whole["commit"].as_str().unwrap().to_owned();
     (commit, serde_json::from_value(whole["findings"].clone()).unwrap())

@@ -9,7 +9,7 @@
 //! - `notation`: numbers and texts as TOML has them.
 //! - [`omission`]: what has no counterpart, by kinds.
 //! - [`error`]: what is refused, and where.
-//! - `file`: files that a user or a model names.
+//! - `file`: files that a model names.
 //! - `element`: elements of XML, files that include each other as one.
 //! - `schema`: names of elements and attributes.
 //! - `defaults`: classes of attributes, and attributes as numbers.

@@ -1,11 +1,10 @@
 //! A run that failed: where, and which step works instead.
 //!
 //! `(trouble, scene, plan) => sentence`, the cause before the symptom where it is known: the step is
-//! the cause where it is beyond what the scheme bears at t = 0, or where a shorter one works. A step
-//! is only named after a run with it over the same
-//! duration has come to its end; the candidates are the advised step, shortened to a round one that
-//! fits, and its halves, all shorter than the one that failed. All of them together take no longer than the
-//! failed run took, or a few seconds.
+//! the cause where it is beyond what the scheme bears at t = 0, or where a shorter one works. A step is only
+//! named after a run with it over the same duration has come to its end. The candidates are the advised step,
+//! shortened to a round one that fits, and its halves, all shorter than the one that failed. Together they take
+//! no more evaluations than the failed run, or [`LEAST_BUDGET`] where that is more.
 
 use std::fmt;
 use std::io;

@@ -17,7 +17,7 @@ pub(crate) struct NameFault {
 /// Looks at a text that is to be a name.
 ///
 /// # Errors
-/// Where it is none.
+/// [`NameFault`], where the text cannot be a name.
 pub(crate) fn check_name(text: &str) -> Result<(), NameFault> {
     let wrong = |problem: &str, help| Err(NameFault { problem: problem.into(), help });
     if text.trim().is_empty() {

@@ -27,17 +27,13 @@ pub(super) fn chains(context: &Context<'_>) -> Result<Finding, PaperError> {
         let step = scene.step.unwrap_or(2e-5);
         let every = (INTERVAL / step).round();
         let mut plant = plant(&scene, &dbd(0)?, step)?;
-        let velocities = |state: &dbd_kernel::State<_>| -> Vec<_> {
-            let bodies: &Vec<dbd_kernel::BodyState<dbd_kernel::F64>> = &state.bodies;
-            bodies.iter().map(|body| body.velocity).collect()
-        };
-        let mut before = velocities(&plant.state());
+        let mut before = plant.state().bodies;
         let (mut sum, mut count) = (0.0, 0_u32);
         for _ in 0..(WINDOW / INTERVAL).round() as u64 {
             advance(plant.as_mut(), every as u64)?;
-            let now = velocities(&plant.state());
+            let now = plant.state().bodies;
             for (now, before) in now.iter().zip(&before) {
-                let mean = (*now - *before) * (1.0 / (every * step));
+                let mean = (now.velocity - before.velocity) * (1.0 / (every * step));
                 sum += mean.dot(mean);
                 count += 1;
             }

@@ -5,6 +5,8 @@ use dbd_scene::{Scene, SceneError};
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::modes::ModesError;
+
 /// Where the scenes come from.
 pub type Scenes<'s> = dyn Fn(&str) -> Option<Scene> + Sync + 's;
 
@@ -14,6 +16,18 @@ pub enum PaperError {
     /// A scene is not among those that ship.
     #[error("the scene {0} does not ship with this program: build it from a whole source tree")]
     Scene(String),
+    /// A scene lacks a body that is measured.
+    #[error("the scene {scene} has no body {body}")]
+    Body {
+        /// The scene.
+        scene: String,
+        /// The body.
+        body: String,
+    },
+    /// There are no modes about a pose.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Modes(#[from] ModesError),
     /// A changed scene is refused.
     #[error(transparent)]
     Changed(#[from] SceneError),
@@ -46,7 +60,7 @@ impl Context<'_> {
 }
 
 /// Every scene of Table 7, in its order.
-pub(super) const TEN: [&str; 10] = [
+pub const TEN: [&str; 10] = [
     "four-bar",
     "five-bar-a",
     "3rrr-2",
@@ -78,7 +92,8 @@ pub(super) fn advance(plant: &mut dyn AnyPlant, steps: u64) -> Result<(), PaperE
     }
 }
 
-/// The row of a body; the first where there is none of that name.
-pub(super) fn place(scene: &Scene, body: &str) -> usize {
-    scene.body_names.iter().position(|name| name == body).unwrap_or(0)
+/// The index of a body.
+pub(super) fn place(scene: &Scene, body: &str) -> Result<usize, PaperError> {
+    let found = scene.body_names.iter().position(|name| name == body);
+    found.ok_or_else(|| PaperError::Body { scene: scene.name.clone(), body: body.into() })
 }

@@ -59,8 +59,8 @@ fn turn_about_z(state: &State<SceneModel<F64>>, body: usize) -> f64 {
     (2.0 * z.atan2(w)).rem_euclid(PI)
 }
 
-fn run(scene: &Scene, plant: &mut dyn AnyPlant) -> Run {
-    let [crank, slider] = ["crank", "slider"].map(|name| place(scene, name));
+fn run(scene: &Scene, plant: &mut dyn AnyPlant) -> Result<Run, PaperError> {
+    let (crank, slider) = (place(scene, "crank")?, place(scene, "slider")?);
     let mut run = Run {
         energies: vec![[0.0, plant.energy().total()]],
         speeds: Vec::new(),
@@ -86,19 +86,19 @@ fn run(scene: &Scene, plant: &mut dyn AnyPlant) -> Run {
         run.rotations.push(2.0 * body.orientation.to_f64()[1]);
         run.angles.push(turn_about_z(&state, crank));
     }
-    run
+    Ok(run)
 }
 
 /// Section 4.4.1.
 pub(super) fn motion(context: &Context<'_>) -> Result<Finding, PaperError> {
     let scene = context.scene("crank-slider")?;
     let mut plant = plant(&scene, &dbd(0)?, INTERVAL / STEPS as f64)?;
-    let run = run(&scene, plant.as_mut());
+    let run = run(&scene, plant.as_mut())?;
     let at = |time: f64| ((time / INTERVAL).round() as usize).min(run.energies.len() - 1);
     let put_in = run.energies[at(TORQUE_ENDS + INTERVAL)][1] - run.energies[0][1];
     let peak = run.speeds.iter().copied().fold(0.0, f64::max);
     let mean = run.speeds.iter().sum::<f64>() / run.speeds.len() as f64;
-    let mass = scene.model.bodies[place(&scene, "slider")].mass;
+    let mass = scene.model.bodies[place(&scene, "slider")?].mass;
     let over = |n: usize| n as f64 * INTERVAL;
     let changes = run.velocities.windows(WITHIN + 1).map(|v| (v[WITHIN] - v[0]).abs());
     let force = mass / over(WITHIN) * changes.fold(0.0, f64::max);
@@ -151,7 +151,7 @@ pub(super) fn dead_centres(context: &Context<'_>) -> Result<Finding, PaperError>
     const NEAR: f64 = 10.0 * PI / 180.0;
     let scene = context.scene("crank-slider")?;
     let mut plant = plant(&scene, &dbd(0)?, INTERVAL / STEPS as f64)?;
-    let run = run(&scene, plant.as_mut());
+    let run = run(&scene, plant.as_mut())?;
     let from = (TORQUE_ENDS / INTERVAL) as usize + 2;
     let (mut near, mut far) = (Vec::new(), Vec::new());
     for n in from..run.angles.len() {

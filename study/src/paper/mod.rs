@@ -29,8 +29,7 @@ mod steps;
 pub mod store;
 mod trade_off;
 
-use context::TEN;
-pub use context::{Context, PaperError, Scenes};
+pub use context::{Context, PaperError, Scenes, TEN};
 pub use finding::{Curve, Finding, Plot, Row, Verdict};
 
 /// An item of the paper.

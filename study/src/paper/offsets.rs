@@ -41,7 +41,7 @@ const TOLERANCE: Tolerance = Tolerance { within: 0.15, factor: 3.0 };
 
 /// Places of the tool \[m\] after every interval, between steps by a straight line.
 fn path(scene: &Scene, step: f64) -> Result<Vec<[f64; 3]>, PaperError> {
-    let tool = place(scene, "tool");
+    let tool = place(scene, "tool")?;
     let mut plant = plant(scene, &dbd(0)?, step)?;
     let mut path = Vec::new();
     for sample in 1..=SAMPLES {

@@ -8,7 +8,7 @@ use dbd_plant::digits::significant;
 use crate::paper::finding::{Finding, Row};
 use crate::paper::plot;
 
-/// A number as people read it; a dash where there is none.
+/// A number to three digits; a dash stands for a number that is missing.
 fn number(value: Option<f64>) -> String {
     value.map_or("–".into(), |value| significant(value, 3))
 }

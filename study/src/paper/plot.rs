@@ -22,8 +22,10 @@ const LINE: f64 = 18.0;
 const INK: &str = "#333a45";
 const GRID: &str = "#d9dee4";
 const PAPER: &str = "#c0392b";
-const OURS: [&str; 8] =
-    ["#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8a7f00", "#d55e00", "#6b737e"];
+const OURS: [&str; 12] = [
+    "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8a7f00", "#d55e00", "#6b737e",
+    "#00755a", "#a04478", "#946600", "#005e94",
+];
 
 /// An axis from one pixel to another.
 struct Scale {

@@ -169,9 +169,7 @@ pub(super) fn spectrum(context: &Context<'_>) -> Result<Finding, PaperError> {
     let dominants: Vec<f64> = found.iter().map(|(_, spectrum)| spectrum.dominant()).collect();
     let ours = dominants.iter().copied().min_by(nearest).unwrap_or(0.0);
     let (joint, spectrum) = &found[dominants.iter().position(|f| *f == ours).unwrap_or(0)];
-    let frequencies = modes(&scene.model, &State::initial(&scene.model))
-        .map(|modes| modes.frequencies)
-        .unwrap_or_default();
+    let frequencies = modes(&scene.model, &State::initial(&scene.model))?.frequencies;
     let mode = frequencies.iter().copied().min_by(nearest).unwrap_or(0.0);
     let highest = frequencies.last().copied().unwrap_or(0.0);
     let least = dominants.iter().copied().fold(f64::INFINITY, f64::min);

@@ -6,26 +6,13 @@ use dbd_bench::chain::{self, Joints};
 use dbd_kernel::F64;
 use dbd_plant::Frequencies;
 use dbd_scene::{Scene, SceneModel};
+use dbd_study::paper::TEN;
 use serde::Serialize;
 
 use crate::terminal::Catalogue;
 
 use super::arguments::BenchArguments;
 use super::error::BenchError;
-
-/// Franco & Degani 2026, Table 7: its systems in their order.
-const TABLE_7: [&str; 10] = [
-    "four-bar",
-    "five-bar-a",
-    "3rrr-2",
-    "3rrr-1",
-    "3rrr",
-    "3ruu-2",
-    "3ruu-1",
-    "3ruu",
-    "two-3ruu",
-    "three-systems",
-];
 
 /// Links of the chains of revolutes.
 const CHAINS: [usize; 4] = [10, 100, 1_000, 10_000];
@@ -73,7 +60,7 @@ pub fn of(catalogue: &Catalogue, arguments: &BenchArguments) -> Result<Vec<Syste
     let mut systems = Vec::new();
     let by_default = arguments.scenes.is_empty() && arguments.chains.is_none();
     if by_default {
-        for (row, name) in TABLE_7.into_iter().enumerate() {
+        for (row, name) in TEN.into_iter().enumerate() {
             let scene = Scene::clone(&catalogue.load(name)?.scene);
             systems.push(scene_system(name.to_owned(), Some(row + 1), scene));
         }
