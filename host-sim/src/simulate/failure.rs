@@ -4,7 +4,7 @@
 //! the cause where it is beyond what the scheme bears at t = 0, or where a shorter one works. A step is only
 //! named after a run with it over the same duration has come to its end. The candidates are the advised step,
 //! shortened to a round one that fits, and its halves, all shorter than the one that failed. Together they take
-//! no more evaluations than the failed run, or [`LEAST_BUDGET`] where that is more.
+//! no more evaluations than the failed run, or `LEAST_BUDGET` where that is more.
 
 use std::fmt;
 use std::io;
