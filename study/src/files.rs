@@ -7,9 +7,9 @@ use std::path::Path;
 
 use dbd_output::set::FileSet;
 use dbd_plant::digits::{approximate, significant};
-use dbd_plant::frequencies::LARGEST_TURN;
 use dbd_plant::time::{display, rounded};
 use dbd_scene::Scene;
+use dbd_scene::default_step::LARGEST_TURN;
 use serde::Serialize;
 
 use crate::advice::{Advice, advice, remark};

@@ -5,9 +5,9 @@
 //! one. So the interval of the comparison is a whole multiple or part of the longest such step, and
 //! every step of a survey is a whole part of both.
 
-use dbd_plant::fitting::{self, Span};
 use dbd_plant::time::{display, rounded};
 use dbd_scene::Scene;
+use dbd_scene::fitting::{self, Span};
 use serde::{Deserialize, Serialize};
 
 /// Intervals of a window, at most; at least half as many.
