@@ -2,7 +2,7 @@
 //!
 //! `names => method; (method, scene) => step`. What is not said is what `host-sim run` takes.
 
-use dbd_plant::plan::{Request, StepRequest, plan};
+use dbd_plant::plan::step_of;
 use dbd_plant::{DampingName, Frequencies, Method, Named, PlanError, PrecisionName, SchemeName};
 use dbd_scene::Scene;
 use serde::{Deserialize, Serialize};
@@ -53,13 +53,8 @@ impl Settings {
     /// # Errors
     /// Where no step fits these.
     pub fn step_of(&self, scene: &Scene, method: &Method) -> Result<f64, PlanError> {
-        if let Some(step) = self.step.or(scene.step) {
-            return Ok(step);
-        }
-        let longest = Frequencies::of(scene).default_limit(method, scene.duration);
-        let step = StepRequest::AtMost(longest);
-        let request = Request { step, duration: scene.duration, every: scene.every };
-        Ok(plan(&request)?.step)
+        let longest = || Frequencies::of(scene).default_limit(method, scene.duration);
+        step_of(scene, self.step, longest)
     }
 }
 

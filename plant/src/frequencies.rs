@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 
 use dbd_kernel::{State, frequency};
 use dbd_scene::Scene;
+use dbd_scene::default_step::{Bears, LARGEST_TURN, fastest_spin, longest};
 
 use crate::digits::{approximate, significant};
 use crate::method::Method;
@@ -16,16 +17,6 @@ use crate::time::display;
 /// Power iterations of the estimate: beyond 0.99 of the highest frequency on every scene that
 /// ships, chains included, whose frequencies lie close together.
 const ITERATIONS: u32 = 200;
-
-/// Where nothing vibrates, a run takes this many steps.
-const STEPS_WITHOUT_SPRINGS: f64 = 1000.0;
-
-/// What a default step keeps of the longest one that is not refused: frequencies rise along a motion.
-const MARGIN: f64 = 0.5;
-
-/// \[rad\] the largest turn of a body in a step: beyond it the free rotor's splitting loses energy
-/// and accuracy.
-pub const LARGEST_TURN: f64 = 0.1;
 
 /// The highest angular frequency and the fastest spin of a scene at t = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,14 +39,7 @@ impl Frequencies {
         // In the plane the bound knows of no turn that leads out of it.
         let model = scene.stepped();
         let state = State::initial(model);
-        let (mut spin, mut fastest) = (0.0, 0);
-        for (row, body) in state.bodies.iter().enumerate() {
-            let rate = body.angular_velocity;
-            let rate = rate.dot(rate).sqrt();
-            if rate > spin {
-                (spin, fastest) = (rate, row);
-            }
-        }
+        let (spin, fastest) = fastest_spin(&state);
         Self {
             spin,
             fastest,
@@ -95,18 +79,12 @@ impl Frequencies {
         (self.spin > 0.0).then(|| LARGEST_TURN / self.spin)
     }
 
-    /// \[s\] the longest step that a method takes where none is given. A scheme that bears any stiffness
-    /// steps as where nothing vibrates, up to what its matrix bears.
+    /// \[s\] the longest step that a method takes where none is given: [`longest`].
     #[must_use]
     pub fn default_limit(&self, method: &Method, duration: f64) -> f64 {
-        let longest = duration / STEPS_WITHOUT_SPRINGS;
-        let vibration = if method.stability_limit().is_finite() {
-            self.vibration_step().unwrap_or(longest)
-        } else {
-            let most = method.most_vibration().map_or(longest, |most| MARGIN * most / self.bound);
-            most.min(longest)
-        };
-        self.spin_step().map_or(vibration, |spin| vibration.min(spin))
+        let bears =
+            Bears { stability: method.stability_limit(), vibration: method.most_vibration() };
+        longest(self.bound, self.spin, bears, duration)
     }
 
     /// \[s\] the longest step in which no body turns too far; infinite where none spins.

@@ -13,8 +13,8 @@ use dbd_scene::{Scene, SceneModel};
 
 use crate::any::AnyPlant;
 use crate::budget::{Budget, free_length};
-use crate::frequencies::LARGEST_TURN;
 use crate::numerals::{Digits, Numerals};
+use dbd_scene::default_step::LARGEST_TURN;
 
 /// Where energy came from nowhere, a joint's element that is longer than this many times the largest
 /// free length of all joints is torn by it. A soft one may well be as long under its load.

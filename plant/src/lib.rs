@@ -47,7 +47,6 @@
 pub mod any;
 mod budget;
 pub mod digits;
-pub mod fitting;
 pub mod frequencies;
 pub mod judge;
 pub mod method;

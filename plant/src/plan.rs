@@ -8,8 +8,9 @@
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::fitting::{Span, WHOLE, whole};
 use crate::time::{display, rounded};
+use dbd_scene::Scene;
+use dbd_scene::fitting::{Span, WHOLE, whole};
 
 /// The number of samples where no interval is given.
 const SAMPLES: u64 = 500;
@@ -25,10 +26,8 @@ pub const MOST_SAMPLES: u64 = 10_000_000;
 pub enum StepRequest {
     /// \[s\] exactly this one.
     Given(f64),
-    /// \[s\] this one or the longest shorter one that fits.
+    /// \[s\] a round one up to this that fits: [`Span::round_step`].
     AtMost(f64),
-    /// \[s\] likewise, up to a third shorter where that makes it a round number.
-    RoundAtMost(f64),
 }
 
 /// What a run is planned from.
@@ -169,6 +168,23 @@ fn alternatives(steps: &[f64], intervals: &[f64]) -> String {
     }
 }
 
+/// \[s\] the step that a scene is stepped with: the one given, else the scene's, else a round one up to
+/// `longest` \[s\] that its duration and sampling interval are multiples of.
+///
+/// # Errors
+/// Where no step divides these, or they take too many.
+pub fn step_of(
+    scene: &Scene,
+    given: Option<f64>,
+    longest: impl FnOnce() -> f64,
+) -> Result<f64, PlanError> {
+    if let Some(step) = given.or(scene.step) {
+        return Ok(step);
+    }
+    let step = StepRequest::AtMost(longest());
+    Ok(plan(&Request { step, duration: scene.duration, every: scene.every })?.step)
+}
+
 /// Plans a run.
 ///
 /// # Errors
@@ -183,16 +199,11 @@ pub fn plan(request: &Request) -> Result<Plan, PlanError> {
         return Err(too_many_samples(samples, duration, request.step));
     }
     let span = Span::new(duration, every);
-    let parts_of_ours = |limit| {
-        check_steps(duration, limit)?;
-        let span = span.ok_or_else(|| incommensurate(duration, every))?;
-        Ok((span, span.parts_at_most(limit)))
-    };
     let step = match request.step {
         StepRequest::Given(step) => step,
-        StepRequest::AtMost(limit) => parts_of_ours(limit).map(|(span, parts)| span.step(parts))?,
-        StepRequest::RoundAtMost(limit) => {
-            parts_of_ours(limit).map(|(span, parts)| span.round_step(parts))?
+        StepRequest::AtMost(limit) => {
+            check_steps(duration, limit)?;
+            span.ok_or_else(|| incommensurate(duration, every))?.round_step(limit)
         }
     };
     check_steps(duration, step)?;

@@ -11,14 +11,16 @@ use std::path::{Path, PathBuf};
 
 use dbd_kernel::{CompensatedF32, F32, Fixed, State, frequency};
 
+use crate::default_step::{fastest_spin, longest};
 use crate::export::{Export, ExportPrecision, ExportScheme, SchemeError, source};
+use crate::fitting::Span;
 use crate::time::{Time, TimeError, display};
 use crate::{Scene, SceneError, Severity, UnfitInput};
 
 /// The share of a stability limit at t = 0 that leaves room for a motion.
 const MARGIN: f64 = 0.85;
 
-/// Writes the source of a scene in single precision, stepped by leapfrog at the scene's step:
+/// Writes the source of a scene in single precision, stepped by leapfrog:
 /// `scenes/my.toml` becomes `OUT_DIR/my.rs`. The path is relative to the crate's `Cargo.toml`.
 ///
 /// What is wrong with the scene ends the build script with its place and with what would be right;
@@ -69,8 +71,8 @@ pub enum BuildError {
     Scene(SceneError),
     /// An option of the build script is not right; what it is and what would be right.
     Option(String, String),
-    /// The scene gives no step, nor does the build script; the scene's file and a step that works.
-    NoStep(String, String),
+    /// No step divides both the scene's duration and its sampling interval; the scene's file.
+    NoStep(String),
     /// A precision cannot hold what an input is given; the scene's file.
     Input(String, UnfitInput),
     /// The source cannot be written.
@@ -132,7 +134,8 @@ impl Build {
         self
     }
 
-    /// The step: seconds, or a text with a unit, `"20us"`. Without it the scene's.
+    /// The step: seconds, or a text with a unit, `"20us"`. Without it the scene's, else the one that
+    /// `host-sim run` takes.
     pub fn step(mut self, step: impl Display) -> Self {
         self.step = Some(step.to_string());
         self
@@ -224,11 +227,19 @@ impl Build {
         if self.without_tables {
             scene.release_all();
         }
-        let bound = frequency::bound(scene.stepped(), &State::initial(scene.stepped()));
-        let Some(step) = asked.or(scene.step) else {
-            let vibrates = bound > 0.0 && scheme.stability_limit().is_finite();
-            let works = if vibrates { 1.0 / bound } else { scene.duration / 1000.0 };
-            return Err(BuildError::NoStep(called, display(crate::time::rounded(works, 2))));
+        let state = State::initial(scene.stepped());
+        let bound = frequency::bound(scene.stepped(), &state);
+        let step = match asked.or(scene.step) {
+            Some(step) => step,
+            None => {
+                let (spin, _) = fastest_spin(&state);
+                let of = |precision: &ExportPrecision| {
+                    longest(bound, spin, scheme.bears(*precision), scene.duration)
+                };
+                let limit = precisions.iter().map(of).fold(f64::INFINITY, f64::min);
+                let span = Span::new(scene.duration, scene.every);
+                span.ok_or_else(|| BuildError::NoStep(called.clone()))?.round_step(limit)
+            }
         };
         let mut warnings: Vec<String> = scene
             .warnings()
@@ -256,11 +267,11 @@ impl Build {
                 let message = format!("{called} is planar, and {name} has no plane");
                 return Err(BuildError::Option(message, "f32, or without `planar`".into()));
             }
-            let longest = scheme.longest(*precision, bound);
-            if step > longest {
+            let most = scheme.longest(*precision, bound);
+            if step > most {
                 let message = format!(
                     "{called}: joints as stiff as these take a step of at most {} with {} in {name}, not of {}",
-                    display(crate::time::at_most(longest)),
+                    display(crate::time::at_most(most)),
                     scheme.name(),
                     display(step),
                 );
@@ -353,10 +364,9 @@ impl Display for BuildError {
                 write!(f, "{} ({})", error.message(), error.help())
             }
             Self::Option(message, help) => write!(f, "{message} ({help})"),
-            Self::NoStep(file, works) => write!(
+            Self::NoStep(file) => write!(
                 f,
-                "{file}: the scene gives no step, nor does the build script (`step = \"{works}\"` in the \
-                 scene, or `.step(\"{works}\")`)"
+                "{file}: no step divides both `duration` and `every` (another `every`, or a `step`)"
             ),
             Self::Input(file, error) => {
                 write!(f, "{file}:{}: {error} (a smaller value, or f64)", error.line)

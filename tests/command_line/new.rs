@@ -62,10 +62,7 @@ fn a_project_has_the_scene_that_is_asked_for() {
     assert_eq!((done.exit, done.err.as_str()), (Exit::Done, ""));
     let read = |path: &str| fs::read_to_string(project.join(path)).unwrap();
     assert_eq!(read("scenes/scene.toml"), text);
-    // The scene gives no step: the build script does.
-    assert!(
-        read("build.rs").contains("Build::scene(\"scenes/scene.toml\").step(\"1ms\").write();")
-    );
+    assert!(read("build.rs").contains("dbd_scene::build(\"scenes/scene.toml\");"));
     assert!(read("src/lib.rs").contains("use model::ABallPlant;"));
     let manifest: toml::Table = read("Cargo.toml").parse().unwrap();
     assert!(manifest["build-dependencies"]["dbd-scene"].is_str());
@@ -127,4 +124,44 @@ fn a_file_that_was_not_exported_is_not_replaced() {
     assert_eq!(fs::read_to_string(&file).unwrap(), "fn main() {}\n");
     let out = folder.path("none/model.rs");
     assert_eq!(call(&["export", "four-bar", "--out", out.to_str().unwrap()]).exit, Exit::Failed);
+}
+
+/// `run`, `export`, `new firmware`, a build script, and what FMUs and Python are made with take one step.
+#[test]
+fn a_scene_without_a_step_has_one_default_step() {
+    let folder = Folder::new();
+    for (mass, spring, every, expected) in [
+        ("1.7", "stiffness = 3e4", "", "5ms"),
+        ("1.7", "stiffness = 3e6", "", "500us"),
+        ("1.7", "stiffness = 3e6", "every = \"5 ms\"\n", "500us"),
+        ("1.7", "stiffness = 3e6", "every = 0.0078125\n", "710.227"),
+        ("1", "stiffness = 0", "", "1ms"),
+    ] {
+        let text = format!(
+            "name = \"ball\"\nduration = 1\n{every}gravity = [0, -9.81, 0]\n[[body]]\nname = \"b\"\nmass = {mass}\n\
+             inertia = [1, 1, 1]\nposition = [0, 0, 0]\n[[tsda]]\nname = \"spring\"\nbetween = [\"world\", \"b\"]\n\
+             points = [[0, 1, 0], [0, 0, 0]]\nfree_length = 1\n{spring}\n"
+        );
+        let scene = folder.scene(&text);
+        let run = folder.summary(&scene, &[]);
+        let taken = run["step"].as_f64().unwrap();
+        assert!(dbd_plant::time::display(taken).starts_with(expected), "{taken} {text}");
+        let says = |source: &str| {
+            let line = source.lines().find(|line| line.contains("BALL_STEP: f64 = ")).unwrap();
+            let bits = format!("{:#x}", taken.to_bits());
+            assert!(line.replace('_', "").contains(&bits.replace('_', "")), "{line} {bits}");
+        };
+        says(&call(&["export", &scene]).out);
+        says(&Build::scene(&scene).source().unwrap().source);
+        let project = folder.path(&format!("p{}", taken.to_bits() ^ u64::from(every.len() as u32)));
+        assert_eq!(new(&project, &["--scene", &scene]).exit, Exit::Done);
+        let golden = fs::read_to_string(project.join("tests/golden.txt")).unwrap();
+        let steps = golden.lines().last().unwrap().split(' ').next().unwrap();
+        let single = folder.summary(&scene, &["--precision", "f32"]);
+        assert_eq!(single["steps"].to_string(), steps);
+        let parsed = dbd_scene::Scene::load(Path::new(&scene)).unwrap();
+        let settings = dbd_instance::Settings::default();
+        let method = settings.method().unwrap();
+        assert_eq!(settings.step_of(&parsed, &method).unwrap(), taken);
+    }
 }

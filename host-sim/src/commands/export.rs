@@ -10,10 +10,11 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
 use dbd_output::file::write_at;
+use dbd_plant::plan::step_of;
 use dbd_plant::plant::{check_extents, check_inputs, check_step, check_stiffness};
 use dbd_plant::time::Time;
 use dbd_plant::{
-    DampingName, Frequencies, Method, Named as _, PlantError, PrecisionName, SchemeName,
+    DampingName, Frequencies, Method, Named as _, PlanError, PlantError, PrecisionName, SchemeName,
 };
 use dbd_scene::Scene;
 use dbd_scene::export::{self as source, ExportScheme, HEAD, SchemeError};
@@ -69,6 +70,9 @@ pub enum ExportError {
     /// A precision cannot hold the step or what an input is given.
     #[error(transparent)]
     Plant(#[from] PlantError),
+    /// No step fits the scene.
+    #[error(transparent)]
+    Step(#[from] PlanError),
     /// The file holds something else.
     #[error("{} holds what host-sim has not exported", file.display())]
     Taken {
@@ -90,6 +94,7 @@ impl Diagnostic for ExportError {
         match self {
             Self::Scheme(error) => Some(Box::new(error.help())),
             Self::Plant(error) => error.help(),
+            Self::Step(error) => error.help(),
             Self::Taken { .. } => Some(Box::new("--out takes another name, or remove that file")),
             Self::Write { .. } => None,
         }
@@ -119,7 +124,7 @@ pub fn export(scene: &Scene, options: &ExportOptions) -> Result<String, ExportEr
         let longest = methods.iter().map(|way| frequencies.default_limit(way, scene.duration));
         longest.fold(f64::INFINITY, f64::min)
     };
-    let step = options.step.map(Time::seconds).or(scene.step).unwrap_or_else(longest);
+    let step = step_of(scene, options.step.map(Time::seconds), longest)?;
     for method in &methods {
         check_step(method, step)?;
         check_inputs(scene, method)?;

@@ -5,10 +5,10 @@
 
 use dbd_kernel::damping::Damping;
 use dbd_plant::digits::{approximate, significant};
-use dbd_plant::frequencies::LARGEST_TURN;
 use dbd_plant::judge::{OPENED, Opening, Turning};
 use dbd_plant::time::{display, rounded};
 use dbd_plant::{Frequencies, Method, OrientationName, PrecisionName};
+use dbd_scene::default_step::LARGEST_TURN;
 use dbd_scene::{ElementDamping, Facts, Scene, Severity};
 
 use crate::compliance::{Stretch, stretches};

@@ -213,7 +213,7 @@ impl Search<'_> {
         let mut tried = Vec::new();
         for _ in 0..=HALVINGS {
             let request =
-                Request { step: StepRequest::RoundAtMost(limit), duration: run.duration, every };
+                Request { step: StepRequest::AtMost(limit), duration: run.duration, every };
             let Ok(candidate) = plan(&request) else { return Remedy::Untried(limit) };
             let whole = cost(self.scene, self.method, candidate.steps);
             if self.spent + whole > self.budget {

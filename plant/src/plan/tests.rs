@@ -84,21 +84,38 @@ fn our_step_is_shortened_to_fit() {
     let plan = ours(0.04, 1.0, Some(0.3)).unwrap();
     assert_eq!((plan.stride, plan.steps), (9, 30));
     let plan = ours(3e-4, 0.5, None).unwrap();
-    assert_eq!(plan.steps, 1667);
-    assert!(plan.step <= 3e-4);
+    assert_eq!((plan.steps, plan.step), (2000, 250e-6));
     assert_eq!(ours(f64::INFINITY, 2.0, None).unwrap().steps, 1);
 }
 
 #[test]
-fn a_round_step_is_short_to_write() {
-    let round = |limit, duration, every| {
-        plan(&Request { step: StepRequest::RoundAtMost(limit), duration, every }).unwrap().step
-    };
-    assert_eq!(round(3.91e-5, 0.5, Some(1e-3)), 3.125e-5);
-    assert_eq!(round(3.91e-5, 0.5, None), 3.2e-5);
-    assert_eq!(round(2.3e-5, 0.5, Some(1e-3)), 2e-5);
-    assert_eq!(round(2e-5, 0.5, Some(1e-3)), 2e-5);
+fn a_default_step_is_round_and_divides_common_intervals() {
+    let round = |limit, duration, every| ours(limit, duration, every).unwrap().step;
+    for (limit, step) in [
+        (51.4e-6, 50e-6),
+        (39.1e-6, 25e-6),
+        (23e-6, 20e-6),
+        (20e-6, 20e-6),
+        (9.99e-6, 8e-6),
+        (0.17, 0.125),
+    ] {
+        assert_eq!(round(limit, 10.0, None), step);
+        assert_eq!(round(limit, 10.0, Some(0.25)), step);
+    }
+    // Beyond 1 ms it divides 1 s.
+    assert_eq!(round(4.9e-3, 2.0, None), 4e-3);
+    // 1/60 s has round parts, 1/3 s has none.
     assert_eq!(round(1.0, 1.0 / 3.0, None), 1.0 / 3.0);
+    assert_eq!(round(3e-5, 0.6, Some(0.011)), 25e-6);
+    let mut limit = 1e-6;
+    while limit < 1e-3 {
+        let step = round(limit, 1.0, None);
+        assert!(
+            step <= limit && 2.0 * step >= limit && whole(1e-3 / step).is_some(),
+            "{limit} {step}"
+        );
+        limit *= 1.07;
+    }
 }
 
 #[test]
@@ -175,11 +192,7 @@ fn extreme_times_are_planned_or_refused_with_times_that_fit() {
         for limit in times.into_iter().chain([0.0, f64::INFINITY]) {
             for every in times.map(Some).into_iter().chain([None]) {
                 let request = |step| Request { step, duration, every };
-                for step in [
-                    StepRequest::Given(limit),
-                    StepRequest::AtMost(limit),
-                    StepRequest::RoundAtMost(limit),
-                ] {
+                for step in [StepRequest::Given(limit), StepRequest::AtMost(limit)] {
                     let asked = request(step);
                     check(&asked, plan(&asked));
                 }

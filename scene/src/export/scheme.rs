@@ -12,6 +12,7 @@ use dbd_kernel::schemes::{
 
 use super::ExportPrecision;
 use super::number::SourceNumber as _;
+use crate::default_step::Bears;
 use crate::nearest::nearest;
 
 /// Newton iterations that may be asked for: more change nothing but the stable step.
@@ -196,9 +197,17 @@ impl ExportScheme {
     /// highest frequency; infinite without a matrix.
     #[must_use]
     pub fn longest(&self, precision: ExportPrecision, highest: f64) -> f64 {
-        let Some(Constant { double, single }) = self.most_vibration else { return f64::INFINITY };
-        let most = if precision == ExportPrecision::F64 { double } else { f64::from(single) };
-        most / highest
+        self.most_vibration(precision).map_or(f64::INFINITY, |most| most / highest)
+    }
+
+    fn most_vibration(&self, precision: ExportPrecision) -> Option<f64> {
+        let Constant { double, single } = self.most_vibration?;
+        Some(if precision == ExportPrecision::F64 { double } else { f64::from(single) })
+    }
+
+    /// What it bears in a precision.
+    pub(crate) fn bears(&self, precision: ExportPrecision) -> Bears {
+        Bears { stability: self.stability_limit, vibration: self.most_vibration(precision) }
     }
 
     /// Largest stable `ω_max·h` of an undamped oscillator.

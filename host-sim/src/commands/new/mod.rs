@@ -14,8 +14,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use dbd_plant::time::{display, rounded};
-use dbd_plant::{Frequencies, Method, PlantError, PrecisionName, plant};
+use dbd_plant::plan::step_of;
+use dbd_plant::time::display;
+use dbd_plant::{Frequencies, Method, PlanError, PlantError, PrecisionName, plant};
 use dbd_scene::Scene;
 use dbd_scene::export::{constant_name, type_name};
 use miette::Diagnostic;
@@ -89,6 +90,9 @@ pub enum NewError {
     /// Single precision cannot hold the scene.
     #[error(transparent)]
     Plant(#[from] PlantError),
+    /// No step fits the scene.
+    #[error(transparent)]
+    Step(#[from] PlanError),
     /// The scene fails within the golden run.
     #[error("the scene {scene} fails in f32: {failure}")]
     Fails {
@@ -112,6 +116,7 @@ impl Diagnostic for NewError {
         match self {
             Self::Name(error) => error.help(),
             Self::Plant(error) => error.help(),
+            Self::Step(error) => error.help(),
             Self::Taken { .. } => Some(Box::new("another name; nothing is ever overwritten")),
             Self::Fails { scene, .. } => {
                 let help = format!("host-sim run {scene} --precision f32 finds a step that works");
@@ -151,18 +156,14 @@ fn project(
     dependencies: &Dependencies,
 ) -> Result<String, NewError> {
     let scene = &found.scene;
-    let advised =
-        || rounded(Frequencies::of(scene).default_limit(&Method::default(), scene.duration), 2);
-    let step = scene.step.unwrap_or_else(advised);
+    let longest = || Frequencies::of(scene).default_limit(&Method::default(), scene.duration);
+    let step = step_of(scene, None, longest)?;
     let steps = ((scene.duration / step).round() as u64).clamp(1, MOST_STEPS);
     let golden = golden(scene, step, steps)?;
     let stem = &plain(&found.file.stem);
     let file = format!("scenes/{stem}.toml");
     let method = format!("leapfrog, f32, a step of {}", display(step));
-    let build = match scene.step {
-        Some(_) => format!("dbd_scene::build({file:?});"),
-        None => format!("dbd_scene::Build::scene({file:?}).step({:?}).write();", display(step)),
-    };
+    let build = format!("dbd_scene::build({file:?});");
     let values: &[(&str, String)] = &[
         ("name", place.name.to_owned()),
         ("crate", place.name.replace('-', "_")),

@@ -1,0 +1,57 @@
+//! The step of a scene that gives none, the same for runs, sweeps, studies, FMUs, Python, exported source,
+//! build scripts and new projects.
+//!
+//! `(highest frequency, fastest spin, what a method bears, duration) => limit`, of which
+//! [`Span::round_step`](crate::fitting::Span::round_step) makes a step.
+
+use dbd_kernel::State;
+
+use crate::runtime::SceneModel;
+
+/// Where nothing vibrates, a run takes this many steps.
+const STEPS_WITHOUT_SPRINGS: f64 = 1000.0;
+
+/// What a default step keeps of the longest one that is not refused: frequencies rise along a motion.
+const MARGIN: f64 = 0.5;
+
+/// \[rad\] the largest turn of a body in a step: beyond it the free rotor's splitting loses energy
+/// and accuracy.
+pub const LARGEST_TURN: f64 = 0.1;
+
+/// What a method bears.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bears {
+    /// \[1\] the largest ω·h at which it is stable; infinite where any is borne.
+    pub stability: f64,
+    /// \[1\] the largest ω·h that its matrix resolves in its precision, if it has one.
+    pub vibration: Option<f64>,
+}
+
+/// \[rad/s\] The largest angular velocity of a body at t = 0, and that body.
+#[must_use]
+pub fn fastest_spin(state: &State<SceneModel<dbd_kernel::F64>>) -> (f64, usize) {
+    let (mut spin, mut fastest) = (0.0, 0);
+    for (row, body) in state.bodies.iter().enumerate() {
+        let rate = body.angular_velocity;
+        let rate = rate.dot(rate).sqrt();
+        if rate > spin {
+            (spin, fastest) = (rate, row);
+        }
+    }
+    (spin, fastest)
+}
+
+/// \[s\] The longest default step: half the stability limit of leapfrog for the angular frequency `bound`
+/// \[rad/s\]; where any stiffness is borne, a thousandth of the duration \[s\] or half of what the matrix
+/// resolves. No body turns by more than [`LARGEST_TURN`] in it, `spin` \[rad/s\] the fastest.
+#[must_use]
+pub fn longest(bound: f64, spin: f64, bears: Bears, duration: f64) -> f64 {
+    let free = duration / STEPS_WITHOUT_SPRINGS;
+    let vibration = match bears.vibration {
+        _ if bound <= 0.0 => free,
+        _ if bears.stability.is_finite() => 1.0 / bound,
+        Some(most) => free.min(MARGIN * most / bound),
+        None => free,
+    };
+    if spin > 0.0 { vibration.min(LARGEST_TURN / spin) } else { vibration }
+}
