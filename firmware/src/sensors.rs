@@ -155,7 +155,8 @@ fn motor<R: Number + Named>() -> Result<u64, Fault> {
 fn encoder<R: Number + Named>() -> Result<u64, Fault> {
     let errors = Errors { noise: 1e-3, walk: 0.01, seed: 3, ..Errors::NONE };
     let parameters = EncoderParameters { every: 2, errors, ..EncoderParameters::at_joint(16_384) };
-    let probe = Probe::<Float<R>>::scalar("encoder", Readout::JointAngle { spring: 0 });
+    let probe =
+        Probe::<Float<R>>::scalar("encoder", Readout::JointAngle { spring: 0, offset: R::ZERO });
     let chip = RefCell::new(As5047p::new(Encoder::<_, 2>::new(probe, parameters)));
     turned::<R, _>(
         &chip,

@@ -176,7 +176,7 @@ fn readouts<P: Geometry, S: Scheme>(
     let (row, element) = (u16::from(byte(bytes) % 7), u16::from(byte(bytes) % 10));
     let point = P::local_from_f64(triple(bytes, wildness));
     for readout in [
-        Readout::JointAngle { spring: row },
+        Readout::JointAngle { spring: row, offset: dbd_kernel::Real::from_f64(0.5) },
         Readout::JointRate { spring: row },
         Readout::Point { body, point },
         Readout::PointVelocity { body, point },

@@ -27,6 +27,9 @@ pub struct SceneArgument {
     /// Three freedoms per body in the scene's plane, as --set planar=true; refused where anything leaves it
     #[arg(long)]
     pub planar: bool,
+    /// Starts where the scene rests under its loads, as --set settle=true
+    #[arg(long)]
+    pub settle: bool,
 }
 
 impl SceneArgument {
@@ -34,6 +37,7 @@ impl SceneArgument {
     #[must_use]
     pub fn changes(&self) -> Vec<String> {
         let planar = self.planar.then(|| "planar=true".to_owned());
-        self.set.iter().cloned().chain(planar).collect()
+        let settle = self.settle.then(|| "settle=true".to_owned());
+        self.set.iter().cloned().chain(planar).chain(settle).collect()
     }
 }

@@ -149,11 +149,14 @@ fn sensor(mechanism: &mut Mechanism<'_>, element: &Element) -> Result<bool, Faul
             return Ok(false);
         }
         let start = mechanism.pose.coordinates[lead];
+        let mut keys = vec![format!("target = {}", text(&link))];
         let (kind, words) = match kind {
-            "jointpos" => ("joint_angle", format!("<jointpos>, which is {start} rad more")),
+            "jointpos" => ("joint_angle", "<jointpos>".to_owned()),
             _ => ("joint_rate", "<jointvel>".to_owned()),
         };
-        let keys = vec![format!("target = {}", text(&link))];
+        if kind == "joint_angle" && start != 0.0 {
+            keys.push(format!("offset = {start:?}"));
+        }
         mechanism.readouts.push(Signal { name, kind, keys, source: (words, element.place) });
         return Ok(true);
     }

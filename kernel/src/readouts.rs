@@ -27,6 +27,8 @@ pub enum Readout<P: Geometry> {
     JointAngle {
         /// Its index among the torsion springs.
         spring: u16,
+        /// \[rad\] what is shown at a twist of 0.
+        offset: P::Real,
     },
     /// \[rad/s\] the rate of that twist.
     JointRate {
@@ -79,7 +81,9 @@ impl<P: Geometry> Readout<P> {
     pub fn convert<Q: Geometry>(&self) -> Readout<Q> {
         let local = |point: P::Local| Q::local_from_f64(P::local_to_f64(&point));
         match *self {
-            Readout::JointAngle { spring } => Readout::JointAngle { spring },
+            Readout::JointAngle { spring, offset } => {
+                Readout::JointAngle { spring, offset: Q::Real::from_f64(offset.to_f64()) }
+            }
             Readout::JointRate { spring } => Readout::JointRate { spring },
             Readout::Point { body, point } => Readout::Point { body, point: local(point) },
             Readout::PointVelocity { body, point } => {
@@ -158,10 +162,11 @@ pub fn read<M: ModelOwner>(
     let end = |body: BodyIndex| End::new(&view, places, body, Some(bodies));
     let there = |body: BodyIndex| bodies.get(body.row());
     match *readout {
-        Readout::JointAngle { spring } => {
+        Readout::JointAngle { spring, offset } => {
             let turns = *RealOf::<M>::counts(state.turns.as_ref()).get(spring as usize)?;
             let spring = view.torsions.get(spring as usize)?;
-            twist_of::<M::Precision>(spring, bodies, turns).map(|t| Reading::Scalar(t.angle))
+            let twist = twist_of::<M::Precision>(spring, bodies, turns)?;
+            Some(Reading::Scalar(twist.angle + offset))
         }
         Readout::JointRate { spring } => {
             // The rate is the same at any count.

@@ -45,6 +45,7 @@ mod precise;
 pub mod quantity;
 mod readout;
 mod runtime;
+mod settle;
 mod shortened;
 mod solid;
 mod spring;
@@ -79,6 +80,7 @@ pub use origin::Setting;
 pub use planar::Planar;
 pub use readout::ReadoutInfo;
 pub use runtime::{SceneModel, widen};
+pub use settle::Settled;
 pub use shortened::shortened;
 pub use solid::Solid;
 pub use text::is_name;
@@ -105,6 +107,7 @@ const KEYS: &[&str] = &[
     "step",
     "every",
     "planar",
+    "settle",
     "realisation",
     "points",
     "defaults",
@@ -139,6 +142,8 @@ pub struct Scene {
     pub joints: Vec<JointInfo>,
     /// What was moved to close its joints, where it has a table `assemble`.
     pub assembled: Option<Assembled>,
+    /// What was moved to bring it to rest, where it says `settle = true`.
+    pub settled: Option<Settled>,
     /// What messages call the torsion springs, in the model's order:
     /// `torsion_spring 1 (world–crank)`; after those of the scene file the ones that count the
     /// turns of a read-out's joint.
@@ -264,6 +269,7 @@ impl Scene {
         let step = root.optional("step", Seconds::positive())?;
         let every = root.optional("every", Seconds::positive())?;
         let planar = root.optional("planar", Switch)?.unwrap_or_default();
+        let settle = root.optional("settle", Switch)?.unwrap_or_default();
         let gravity = root.optional("gravity", Numbers(Number::any("m/s²")))?;
 
         let mut assembly = Assembly::default();
@@ -292,6 +298,7 @@ impl Scene {
             body_names,
             joints,
             assembled,
+            settled: None,
             torsion_names,
             inputs,
             readouts,
@@ -310,6 +317,9 @@ impl Scene {
         if planar {
             let reduced = scene.reduced().map_err(|unplanar| unplanar.refuse(&scene, &root))?;
             scene.planar = Some(reduced);
+        }
+        if settle {
+            scene.settled = Some(settle::settle(&root, &mut scene)?);
         }
         let done = then(&scene, &root, &resolved)?;
         Ok((scene, done))

@@ -16,7 +16,7 @@ use crate::nearest::nearest;
 use crate::pair::BodyName;
 use crate::points::PlaceOf;
 use crate::target::{ElementName, Kinds, Target};
-use crate::text::{Choice, Table, Text};
+use crate::text::{Choice, Number, Table, Text};
 
 /// A read-out of a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,8 +56,11 @@ static TYPES: [ReadoutType; 8] = [
     ReadoutType {
         name: "joint_angle",
         columns: Columns::Scalar("rad"),
-        keys: hinge::KEYS,
-        read: |table, known, _| Ok(Readout::JointAngle { spring: spring(table, known)? }),
+        keys: &["target", "axis", "about", "offset"],
+        read: |table, known, _| {
+            let offset = table.optional("offset", Number::any("rad"))?.unwrap_or_default();
+            Ok(Readout::JointAngle { spring: spring(table, known)?, offset })
+        },
     },
     ReadoutType {
         name: "joint_rate",

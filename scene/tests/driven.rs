@@ -186,7 +186,7 @@ fn an_angle_is_counted_by_a_torsion_spring_that_is_there_or_added() {
         .concat(),
     );
     let springs = scene.readouts.iter().map(|info| match info.readout {
-        Readout::JointAngle { spring } | Readout::JointRate { spring } => spring,
+        Readout::JointAngle { spring, .. } | Readout::JointRate { spring } => spring,
         other => panic!("{other:?}"),
     });
     assert_eq!(springs.collect::<Vec<_>>(), [0, 0, 1, 1]);
@@ -249,7 +249,7 @@ fn names_are_looked_up_and_the_nearest_is_offered() {
             + &readout("angle", "type = \"joint_angle\"\ntarget = \"elbow\"")),
     );
     assert_eq!(scene.input("drive"), Ok(InputIndex(0)));
-    assert_eq!(scene.readout("angle"), Ok(Readout::JointAngle { spring: 0 }));
+    assert_eq!(scene.readout("angle"), Ok(Readout::JointAngle { spring: 0, offset: 0.0 }));
     assert_eq!(
         scene.input("drvie").unwrap_err().to_string(),
         "the scene `driven` has no input `drvie`; did you mean `drive`?"

@@ -17,6 +17,7 @@ mod results;
 mod run;
 mod schema;
 mod set;
+mod settle;
 mod sweep;
 mod tutorial;
 mod warnings;

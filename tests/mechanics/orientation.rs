@@ -268,7 +268,11 @@ fn a_torsion_spring_winds_through_the_pole() {
         let mut worst = 0.0_f64;
         for n in 1..=500 {
             plant.advance(10).ok().unwrap();
-            let angle = plant.read(&Readout::JointAngle { spring: 0 }).unwrap().scalar().unwrap();
+            let angle = plant
+                .read(&Readout::JointAngle { spring: 0, offset: 0.0 })
+                .unwrap()
+                .scalar()
+                .unwrap();
             worst = worst.max((angle.to_f64() - 0.04 * f64::from(n)).abs());
         }
         worst

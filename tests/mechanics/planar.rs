@@ -210,8 +210,8 @@ fn looks<P: Geometry>(damped: Damped) -> (Vec<f64>, f64, f64) {
     strengths(&model, plant.state(), |strength| seen.push(strength.rate));
     let point = P::local_from_f64([0.1, 0.2, 0.0]);
     for readout in [
-        Readout::JointAngle { spring: 0 },
-        Readout::JointAngle { spring: 1 },
+        Readout::JointAngle { spring: 0, offset: 0.0 },
+        Readout::JointAngle { spring: 1, offset: 0.0 },
         Readout::JointRate { spring: 1 },
         Readout::Point { body: ROD, point },
         Readout::PointVelocity { body: ROD, point },
@@ -280,7 +280,9 @@ fn turns_are_counted_as_in_space() {
         model.add_torsion_spring([WORLD, wheel], [0.0, 0.0, 1.0], 1e-6, 0.0, 0.0).unwrap();
         let mut plant = Plant::new(model_of(model), Leapfrog, 0.02).unwrap();
         plant.advance(100).ok().unwrap();
-        let Some(Reading::Scalar(angle)) = plant.read(&Readout::JointAngle { spring: 0 }) else {
+        let Some(Reading::Scalar(angle)) =
+            plant.read(&Readout::JointAngle { spring: 0, offset: 0.0 })
+        else {
             panic!("an angle")
         };
         (plant.state().turns[0], dbd_kernel::Real::to_f64(angle))

@@ -1,4 +1,4 @@
-//! What was moved to close the joints of a scene, as `check` and `run` say it.
+//! What was moved to close the joints of a scene and to bring it to rest, as `check` and `run` say it.
 //!
 //! `scene => bodies with how far, joints that were open, what is left free; sentences`.
 
@@ -28,6 +28,32 @@ pub struct AssembledCheck {
     pub length: f64,
 }
 
+/// What was moved to bring the scene to rest.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SettledCheck {
+    /// The bodies that were moved.
+    pub moved: Vec<MovedCheck>,
+    /// Steps that were computed.
+    pub iterations: usize,
+}
+
+impl SettledCheck {
+    /// Of a scene that says `settle = true`.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Option<Self> {
+        let settled = scene.settled.clone()?;
+        let moved = settled.moved.into_iter().map(MovedCheck::from).collect();
+        Some(Self { moved, iterations: settled.iterations })
+    }
+
+    /// Which bodies were moved, and by how much.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        moved_text(&self.moved, self.iterations)
+            .unwrap_or_else(|| "nothing was moved: the scene is at rest".into())
+    }
+}
+
 /// A body that was moved.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MovedCheck {
@@ -37,6 +63,12 @@ pub struct MovedCheck {
     pub distance: f64,
     /// \[rad\].
     pub angle: f64,
+}
+
+impl From<Moved> for MovedCheck {
+    fn from(Moved { body, distance, angle }: Moved) -> Self {
+        Self { body, distance, angle }
+    }
 }
 
 /// A joint that was open.
@@ -64,12 +96,9 @@ impl AssembledCheck {
             held_twice,
             length,
         } = scene.assembled.clone()?;
-        let moved = moved.into_iter();
         let open = open.into_iter();
         Some(Self {
-            moved: moved
-                .map(|Moved { body, distance, angle }| MovedCheck { body, distance, angle })
-                .collect(),
+            moved: moved.into_iter().map(MovedCheck::from).collect(),
             open: open
                 .map(|OpenJoint { joint, distance, angle }| OpenCheck { joint, distance, angle })
                 .collect(),
@@ -101,14 +130,14 @@ impl AssembledCheck {
     /// Which bodies were moved, and by how much.
     #[must_use]
     pub fn sentence(&self) -> String {
-        let moved =
-            self.moved.iter().map(|moved| (moved.body.as_str(), moved.distance, moved.angle));
-        let steps = format!("{} steps", self.iterations);
-        match named(moved) {
-            Some(moved) => format!("{moved} ({steps})"),
-            None => "nothing was moved: all joints are closed".into(),
-        }
+        moved_text(&self.moved, self.iterations)
+            .unwrap_or_else(|| "nothing was moved: all joints are closed".into())
     }
+}
+
+fn moved_text(moved: &[MovedCheck], steps: usize) -> Option<String> {
+    let moved = moved.iter().map(|moved| (moved.body.as_str(), moved.distance, moved.angle));
+    named(moved).map(|moved| format!("{moved} ({steps} steps)"))
 }
 
 fn named<'n>(all: impl Iterator<Item = (&'n str, f64, f64)>) -> Option<String> {

@@ -13,7 +13,7 @@ use dbd_plant::{Frequencies, Method};
 use dbd_scene::{InputInfo, JointFacts, JointInfo, ReadoutInfo, Realisation, Scene};
 use serde::Serialize;
 
-use crate::commands::assembled::AssembledCheck;
+use crate::commands::assembled::{AssembledCheck, SettledCheck};
 use crate::commands::derived::{DerivedCheck, derived, lines as derived_lines};
 use crate::commands::planar::PlaneCheck;
 use crate::commands::stability::StabilityCheck;
@@ -60,6 +60,9 @@ pub struct Check {
     /// What was moved to close the joints, where the scene has a table `assemble`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub assembled: Option<AssembledCheck>,
+    /// What was moved to bring it to rest, where it says `settle = true`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub settled: Option<SettledCheck>,
     /// \[Hz\] upper bound of the highest frequency at t = 0.
     pub frequency_bound_hz: f64,
     /// \[Hz\] estimate of the highest frequency at t = 0.
@@ -211,6 +214,7 @@ pub fn check(scene: &Scene) -> Check {
         assembly_error: joints.iter().map(|joint| joint.assembly_error).fold(0.0, f64::max),
         joints,
         assembled: AssembledCheck::of(scene),
+        settled: SettledCheck::of(scene),
         frequency_bound_hz: frequencies.bound_hz(),
         frequency_estimate_hz: frequencies.estimate_hz(),
         advised_step: frequencies.advised_step(),
@@ -296,6 +300,7 @@ impl Check {
             ("step of the scene", step),
         ];
         rows.extend(self.assembled.iter().flat_map(AssembledCheck::rows));
+        rows.extend(self.settled.iter().map(|settled| ("settled", settled.sentence())));
         rows.extend(self.stability.iter().flat_map(StabilityCheck::rows));
         rows.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
         rows.extend(self.notes.iter().map(|note| ("note", note.clone())));

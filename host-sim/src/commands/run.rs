@@ -22,7 +22,7 @@ use dbd_study::modes::ModesError;
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::commands::assembled::AssembledCheck;
+use crate::commands::assembled::{AssembledCheck, SettledCheck};
 use crate::commands::folder::{Destination, FolderError};
 use crate::commands::golden::{GoldenOptions, GoldenRefusal, GoldenWatch};
 use crate::commands::modes::lowest;
@@ -400,6 +400,7 @@ fn summarise(
         scene_hash: None,
         set: SetValue::of(scene),
         assembled: AssembledCheck::of(scene).map(|assembled| assembled.sentence()),
+        settled: SettledCheck::of(scene).map(|settled| settled.sentence()),
         watch_energy: None,
         golden: None,
         modes: None,

@@ -99,6 +99,9 @@ pub struct Summary {
     /// What was moved to close the joints of the scene, where it has a table `assemble`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub assembled: Option<String>,
+    /// What was moved to bring the scene to rest, where it says `settle = true`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub settled: Option<String>,
     /// The joint that opened by the largest share of its free length; `None` where none has one.
     pub widest_joint: Option<JointOpening>,
     /// The watch over the energy, where there was one.
@@ -286,6 +289,7 @@ impl Summary {
         let modes = self.modes.as_ref().map(|modes| ("lowest modes", frequencies(modes)));
         rows.extend(modes);
         rows.extend(self.assembled.iter().map(|moved| ("assembled", moved.clone())));
+        rows.extend(self.settled.iter().map(|moved| ("settled", moved.clone())));
         rows.extend(self.readouts.iter().map(|figures| ("read-out", readout(figures))));
         rows.extend(self.set.iter().map(|value| ("set", value.text())));
         rows.push(("status", self.status.clone()));

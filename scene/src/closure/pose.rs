@@ -36,6 +36,11 @@ impl Pose {
         self.position + self.rotation.to_world(point_b)
     }
 
+    /// A vector of the body in the world.
+    pub(crate) fn turned(&self, vector_b: Vec3<f64>) -> Vec3<f64> {
+        self.rotation.to_world(vector_b)
+    }
+
     /// The pose after a shift \[m\] and a turn \[rad\], both world.
     pub(crate) fn moved(&self, shift: Vec3<f64>, turn: Vec3<f64>) -> Self {
         let turned = exponential(turn).product(self.orientation).to_f64();

@@ -144,7 +144,9 @@ pub(super) fn readout<P: SourceGeometry>(readout: &Readout<P>) -> String {
         format!("{kind} {{ body: {}, point: {} }}", index(body), P::local(point))
     };
     let kind = match readout {
-        Readout::JointAngle { spring } => format!("JointAngle {{ spring: {spring} }}"),
+        Readout::JointAngle { spring, offset } => {
+            format!("JointAngle {{ spring: {spring}, offset: {} }}", offset.number())
+        }
         Readout::JointRate { spring } => format!("JointRate {{ spring: {spring} }}"),
         Readout::Point { body, point } => at("Point", *body, point),
         Readout::PointVelocity { body, point } => at("PointVelocity", *body, point),

@@ -24,7 +24,7 @@ const TOLERANCE: f64 = 1e-9;
 const ITERATIONS: usize = 200;
 
 /// \[m, rad\] less than this is rounding.
-const ROUNDING: f64 = 1e-12;
+pub(crate) const ROUNDING: f64 = 1e-12;
 
 /// What was moved to close the joints of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]

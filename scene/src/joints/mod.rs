@@ -16,8 +16,8 @@ mod translational;
 mod triad;
 mod universal;
 
-pub(crate) use assemble::read as assemble;
 pub use assemble::{Assembled, Moved, OpenJoint};
+pub(crate) use assemble::{ROUNDING, read as assemble};
 pub use info::JointInfo;
 pub use realisation::Realisation;
 

@@ -110,7 +110,7 @@ fn place(part: Part, scene: &Scene) -> Option<(&'static str, usize)> {
         }
         Part::TorsionSpring(row) => {
             let counts = |readout: &Readout<dbd_kernel::F64>| {
-                matches!(readout, Readout::JointAngle { spring } | Readout::JointRate { spring }
+                matches!(readout, Readout::JointAngle { spring, .. } | Readout::JointRate { spring }
                     if usize::from(*spring) == row)
             };
             let readout = scene.readouts.iter().position(|info| counts(&info.readout));

@@ -46,6 +46,11 @@ fn of_scene(key: &str) -> Option<Key> {
             "Whether it runs in its plane, with three freedoms per body; refused where anything leaves it",
             "false",
         ),
+        "settle" => Key(
+            json!({ "type": "boolean" }),
+            "Whether it starts at rest in the static equilibrium under its loads that is downhill of its poses",
+            "false",
+        ),
         _ => return None,
     })
 }

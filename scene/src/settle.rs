@@ -1,0 +1,282 @@
+//! `settle = true`: static equilibrium under load, before t = 0.
+//!
+//! `model => poses at which no body is pushed or turned`. Pseudo-transient continuation (Kelley & Keyes 1998):
+//! implicit Euler steps of a motion without inertia, `(M/τ + K)·δ = F`, K = −∂F/∂q by central differences and
+//! made symmetric, τ growing from step to step. A step is taken only where the matrix is positive definite, so the
+//! motion runs downhill, to a stable equilibrium. A planar scene rests in its plane, whose model steps. One written order
+//! of sums: the same bits on every host.
+
+use dbd_kernel::{Body, F64, State, Vec3, forces};
+
+use crate::Scene;
+use crate::closure::{MOST_BODIES, Pose, length};
+use crate::error::SceneError;
+use crate::joints::{Moved, ROUNDING};
+use crate::runtime::SceneModel;
+use crate::text::Table;
+
+/// Most steps.
+const STEPS: usize = 500;
+
+/// \[rad; share of the model's size\] the largest turn and shift of a step.
+const LARGEST: f64 = 0.2;
+
+/// \[rad; share of the model's size\] the step of the differences.
+const DIFFERENCE: f64 = 1e-6;
+
+/// \[rad; share of the model's size\] a step below which nothing moves any more.
+const STILL: f64 = 1e-12;
+
+/// The same where steps shrink no further: the rounding of forces moves what is held softly.
+const ROUNDED: f64 = 1e-8;
+
+/// Unknowns of a body in space, and in the plane z = 0: shifts, then turns.
+const SPACE: &[usize] = &[0, 1, 2, 3, 4, 5];
+const PLANE: &[usize] = &[0, 1, 5];
+
+/// Growth of τ per step.
+const GROWTH: f64 = 4.0;
+
+/// What was moved to bring a scene to rest.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Settled {
+    /// The bodies that were moved, in the order of the scene.
+    pub moved: Vec<Moved>,
+    /// Steps that were computed.
+    pub iterations: usize,
+}
+
+/// Moves the bodies of a scene to where they rest.
+pub(crate) fn settle(root: &Table<'_>, scene: &mut Scene) -> Result<Settled, SceneError> {
+    let (model, names) = (scene.stepped(), &scene.body_names);
+    let refuse = |problem: String, help: &str| root.refuse_value("settle", &problem, help);
+    if model.bodies.len() > MOST_BODIES {
+        let problem = format!("is to bring {} bodies to rest", model.bodies.len());
+        return Err(refuse(problem, &format!("at most {MOST_BODIES}; write the poses instead")));
+    }
+    let is_moving = |row: &usize| {
+        let state = &model.initial[*row];
+        state.velocity.dot(state.velocity) + state.angular_velocity.dot(state.angular_velocity)
+            > 0.0
+    };
+    if let Some(row) = (0..names.len()).find(is_moving) {
+        let problem = format!("is to bring `{}` to rest, which is given a velocity", names[row]);
+        return Err(refuse(problem, "either `settle`, or velocities and `rates`"));
+    }
+    let given: Vec<Pose> =
+        model.initial.iter().map(|state| Pose::new(state.position, state.orientation)).collect();
+    let unknowns = if scene.planar.is_some() { PLANE } else { SPACE };
+    let mut search = Search::of(model, given.clone(), unknowns);
+    let end = search.run();
+    let (poses, iterations) = (search.poses, search.steps);
+    match end {
+        End::AtRest => {}
+        End::Moving(row) => {
+            let problem = format!("finds no pose at which `{}` rests", names[row]);
+            return Err(refuse(
+                problem,
+                "a spring, a joint or a stop that holds it against gravity and loads",
+            ));
+        }
+        End::Undefined => {
+            let problem = "meets a pose at which a torsion spring's twist is undefined".to_owned();
+            return Err(refuse(problem, "poses nearer to the equilibrium"));
+        }
+    }
+    let mut moved = Vec::new();
+    for (row, (pose, given)) in poses.iter().zip(&given).enumerate() {
+        let mut state = scene.stepped().initial[row];
+        (state.position, state.orientation) = (pose.position, pose.orientation);
+        scene.model.initial[row] = match &mut scene.planar {
+            Some(planar) => {
+                planar.model.initial[row] = state;
+                planar.plane.state_outward(row, &state)
+            }
+            None => state,
+        };
+        let [distance, angle] = pose.since(given).map(length);
+        if distance > ROUNDING || angle > ROUNDING {
+            moved.push(Moved { body: scene.body_names[row].clone(), distance, angle });
+        }
+    }
+    Ok(Settled { moved, iterations })
+}
+
+/// How a search ends.
+enum End {
+    AtRest,
+    /// The body that moves most.
+    Moving(usize),
+    Undefined,
+}
+
+struct Search<'m> {
+    model: &'m SceneModel<F64>,
+    state: State<SceneModel<F64>>,
+    poses: Vec<Pose>,
+    /// \[m\] at which a radian counts as a metre.
+    size: f64,
+    /// Of each body.
+    unknowns: &'static [usize],
+    steps: usize,
+}
+
+impl<'m> Search<'m> {
+    fn of(model: &'m SceneModel<F64>, poses: Vec<Pose>, unknowns: &'static [usize]) -> Self {
+        // The largest distance of two bodies' centres in any direction, or of a body's radius of gyration.
+        let mut size = 0.0_f64;
+        for (pose, body) in poses.iter().zip(&model.bodies) {
+            let apart = pose.position - poses[0].position;
+            size = size.max(length(apart)).max(libm::sqrt(largest_moment(body) / body.mass));
+        }
+        Self { model, state: State::initial(model), poses, size, unknowns, steps: 0 }
+    }
+
+    fn run(&mut self) -> End {
+        // \[s²\].
+        let mut tau = 1e-6;
+        let (mut worst, mut before) = (0, f64::INFINITY);
+        for _ in 0..STEPS {
+            self.steps += 1;
+            let Some(force) = self.forces(&self.poses.clone()) else { return End::Undefined };
+            let Some(stiffness) = self.stiffness() else { return End::Undefined };
+            let (step, largest) = loop {
+                if let Some(step) = self.step(&stiffness, &force, tau) {
+                    let (largest, row) = self.largest(&step);
+                    worst = row;
+                    if largest <= LARGEST {
+                        break (step, largest);
+                    }
+                }
+                tau /= GROWTH;
+                // Not a number, or of no scale.
+                if !(tau > 1e-30) {
+                    return End::Moving(worst);
+                }
+            };
+            let step: Vec<_> =
+                step.chunks_exact(self.unknowns.len()).map(|own| self.split(own)).collect();
+            for (pose, [shift, turn]) in self.poses.iter_mut().zip(step) {
+                *pose = pose.moved(shift, turn);
+            }
+            let is_still = largest <= STILL || (largest <= ROUNDED && 2.0 * largest >= before);
+            // Only where τ no longer holds the motion back.
+            if is_still && (tau >= 1.0 || largest == 0.0) {
+                return End::AtRest;
+            }
+            before = largest;
+            tau = (tau * GROWTH).min(1e12);
+        }
+        End::Moving(worst)
+    }
+
+    /// \[N\] on all bodies, torques over the size; `None` where a twist is undefined.
+    fn forces(&mut self, poses: &[Pose]) -> Option<Vec<f64>> {
+        for (state, pose) in self.state.bodies.iter_mut().zip(poses) {
+            (state.position, state.orientation) = (pose.position, pose.orientation);
+        }
+        let wrenches = forces::wrenches(self.model, &self.state, 1.0).ok()?;
+        let mut all = Vec::with_capacity(self.unknowns.len() * poses.len());
+        for (wrench, pose) in wrenches.iter().zip(poses) {
+            let torque = pose.turned(wrench.torque) * (1.0 / self.size);
+            let own = [wrench.force.to_f64(), torque.to_f64()];
+            all.extend(self.unknowns.iter().map(|axis| own.as_flattened()[*axis]));
+        }
+        Some(all)
+    }
+
+    /// \[N/m\] `−∂F/∂q`, its lower half.
+    fn stiffness(&mut self) -> Option<Vec<Vec<f64>>> {
+        let per = self.unknowns.len();
+        let count = per * self.poses.len();
+        let by = DIFFERENCE * self.size;
+        let mut columns = Vec::with_capacity(count);
+        for unknown in 0..count {
+            let mut at = |by: f64| {
+                let mut own = vec![0.0; per];
+                own[unknown % per] = by;
+                let [shift, turn] = self.split(&own);
+                let mut poses = self.poses.clone();
+                let pose = &mut poses[unknown / per];
+                *pose = pose.moved(shift, turn);
+                self.forces(&poses)
+            };
+            let (ahead, behind) = (at(by)?, at(-by)?);
+            let column = ahead.iter().zip(&behind).map(|(a, b)| (b - a) / (2.0 * by));
+            columns.push(column.collect::<Vec<f64>>());
+        }
+        let half = |i: usize| (0..=i).map(|j| 0.5 * (columns[i][j] + columns[j][i])).collect();
+        Some((0..count).map(half).collect())
+    }
+
+    /// `(M/τ + K)⁻¹·F`; `None` where the matrix is not positive definite.
+    fn step(&self, stiffness: &[Vec<f64>], force: &[f64], tau: f64) -> Option<Vec<f64>> {
+        let mut matrix = stiffness.to_vec();
+        for (i, row) in matrix.iter_mut().enumerate() {
+            let body = &self.model.bodies[i / self.unknowns.len()];
+            let turning = largest_moment(body) / (self.size * self.size);
+            let is_shift = self.unknowns[i % self.unknowns.len()] < 3;
+            row[i] += if is_shift { body.mass } else { turning } / tau;
+        }
+        solve(matrix, force)
+    }
+
+    /// The shift \[m\] and the turn \[rad\] of a body's unknowns.
+    fn split(&self, own: &[f64]) -> [Vec3<f64>; 2] {
+        let mut all = [0.0; 6];
+        for (axis, value) in self.unknowns.iter().zip(own) {
+            all[*axis] = *value;
+        }
+        let [x, y, z, a, b, c] = all;
+        [Vec3::new(x, y, z), Vec3::new(a, b, c) * (1.0 / self.size)]
+    }
+
+    /// The largest shift over the size, or turn \[rad\], and the body.
+    fn largest(&self, step: &[f64]) -> (f64, usize) {
+        let sizes = step.chunks_exact(self.unknowns.len()).map(|own| {
+            let [shift, turn] = self.split(own).map(length);
+            let shift = shift / self.size;
+            if shift > turn { shift } else { turn }
+        });
+        // What is no number is the largest.
+        sizes.enumerate().fold(
+            (0.0, 0),
+            |best, (row, size)| {
+                if size <= best.0 { best } else { (size, row) }
+            },
+        )
+    }
+}
+
+/// \[kg·m²\].
+fn largest_moment(body: &Body<f64>) -> f64 {
+    body.inertia.to_f64().into_iter().fold(0.0, f64::max)
+}
+
+/// Solves a symmetric system whose lower half is given, by Cholesky's method.
+fn solve(mut matrix: Vec<Vec<f64>>, right: &[f64]) -> Option<Vec<f64>> {
+    let count = right.len();
+    for i in 0..count {
+        let (above, rest) = matrix.split_at_mut(i);
+        let own = &mut rest[0];
+        for j in 0..i {
+            let share = own[..j].iter().zip(&above[j][..j]).fold(own[j], |sum, (a, b)| sum - a * b);
+            own[j] = share / above[j][j];
+        }
+        let left = own[..i].iter().fold(own[i], |sum, a| sum - a * a);
+        if !(left > 0.0 && left.is_finite()) {
+            return None;
+        }
+        own[i] = libm::sqrt(left);
+    }
+    let mut solution = right.to_vec();
+    for i in 0..count {
+        let sum = (0..i).fold(solution[i], |sum, j| sum - matrix[i][j] * solution[j]);
+        solution[i] = sum / matrix[i][i];
+    }
+    for i in (0..count).rev() {
+        let sum = (i + 1..count).fold(solution[i], |sum, j| sum - matrix[j][i] * solution[j]);
+        solution[i] = sum / matrix[i][i];
+    }
+    Some(solution)
+}
