@@ -45,10 +45,9 @@ fn each_type_is_one_group_of_its_elements() {
         assert_eq!((info.realisation, info.tsdas), (Realisation::Bushing, known.1), "{joint}");
         assert!(info.assembly_error < 1e-15 && info.spider.is_none());
         assert_eq!(made.body_names, ["arm", "hand"]);
-        // What they hold: by count, and by the rank of what they hold.
+        // What is left free.
         let facts = made.facts();
-        assert_eq!(facts.degrees_of_freedom, 12 - i64::from(info.holds));
-        assert_eq!(facts.freedoms_by_rank, Some(12 - info.holds as usize), "{joint}");
+        assert_eq!(facts.freedoms, Some(12 - info.holds as usize), "{joint}");
     }
 }
 

@@ -26,8 +26,11 @@ fn check_counts_and_warns_without_running() {
     assert_eq!((done.exit, done.err.as_str()), (Exit::Done, ""));
     let check: Value = serde_json::from_str(&done.out).unwrap();
     assert_eq!((&check["bodies"], &check["tsdas"]), (&3.into(), &24.into()));
-    // Four revolutes of five each: a planar loop counts its out-of-plane freedoms too often.
-    assert_eq!((&check["degrees_of_freedom"], &check["equations"]), (&(-2).into(), &18.into()));
+    assert_eq!(
+        (&check["freedoms_by_rank"], &check["first_order_freedoms"]),
+        (&1.into(), &1.into())
+    );
+    assert_eq!((&check["constraint_equations"], &check["equations"]), (&35.into(), &18.into()));
     assert_eq!(check["joints"].as_array().unwrap().len(), 4);
     assert_eq!(check["warnings"].as_array().unwrap().len(), 0);
     assert!(check["assembly_error"].as_f64().unwrap() < 1e-12);

@@ -42,11 +42,11 @@ pub struct Check {
     /// Bodies that are given by links, shapes or tensors with products: what came of them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub derived: Vec<DerivedCheck>,
-    /// 6 per body less what the joints hold; too low where joints hold the same twice.
-    pub degrees_of_freedom: i64,
-    /// What the joints leave free at t = 0, by the rank of their constraints; `None` where the bodies
-    /// are too many.
+    /// Freedoms that the joints leave: constraints that loops imply count once, motions that exist to
+    /// first order only do not count. `None` where too many bodies hang together.
     pub freedoms_by_rank: Option<usize>,
+    /// 6 per body less the rank of the constraints at t = 0; more where that pose is singular.
+    pub first_order_freedoms: Option<usize>,
     /// Equations of motion: 6 per body.
     pub equations: usize,
     /// Equations of a solver with constraints (Franco & Degani 2026, Table 7a).
@@ -205,8 +205,8 @@ pub fn check(scene: &Scene) -> Check {
         inputs: scene.inputs.iter().map(InputCheck::of).collect(),
         readouts: scene.readouts.iter().map(ReadoutCheck::of).collect(),
         derived: derived(scene),
-        degrees_of_freedom: facts.degrees_of_freedom,
-        freedoms_by_rank: facts.freedoms_by_rank,
+        freedoms_by_rank: facts.freedoms,
+        first_order_freedoms: facts.first_order_freedoms,
         equations: facts.equations,
         constraint_equations: facts.constraint_equations,
         plane: PlaneCheck::of(scene),
@@ -227,26 +227,10 @@ pub fn check(scene: &Scene) -> Check {
         let method = Method::default();
         check.warnings = of_step(scene, &frequencies, &method, step, "the scene's step");
     }
-    note_count(facts.planar_loops, &mut check);
     let [warnings, notes] = with_notes(scene, &facts);
     check.warnings.extend(warnings);
     check.notes.extend(notes);
     check
-}
-
-fn note_count(planar_loops: usize, check: &mut Check) {
-    if planar_loops > 0 {
-        let twice = 3 * planar_loops as i64;
-        check.notes.push(format!(
-            "{planar_loops} planar loop{} hold{} {twice} degrees of freedom twice: {} remain",
-            if planar_loops == 1 { "" } else { "s" },
-            if planar_loops == 1 { "s" } else { "" },
-            check.degrees_of_freedom + twice,
-        ));
-    } else if check.degrees_of_freedom <= 0 {
-        let note = "the count of degrees of freedom is too low where joints hold the same twice";
-        check.notes.push(note.into());
-    }
 }
 
 impl Check {
@@ -267,9 +251,12 @@ impl Check {
             }
             None => "– (nothing vibrates)".into(),
         };
-        let by_rank = self.freedoms_by_rank.map(|rank| format!(", {rank} by rank"));
-        let freedoms =
-            format!("{} by count{}", self.degrees_of_freedom, by_rank.unwrap_or_default());
+        let freedoms = match [self.freedoms_by_rank, self.first_order_freedoms] {
+            [Some(all), Some(first)] if all != first => {
+                format!("{all}; {first} to first order, for the pose is singular")
+            }
+            [all, _] => all.map_or_else(|| "– (too many bodies)".into(), |all| all.to_string()),
+        };
         let mut rows = vec![
             ("scene", self.scene.clone()),
             ("bodies", self.bodies.to_string()),

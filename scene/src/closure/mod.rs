@@ -8,12 +8,14 @@
 mod constraint;
 mod island;
 mod least_norm;
+mod mobility;
 mod nearest;
 mod newton;
 mod pose;
 mod rates;
 
 pub(crate) use constraint::{Closure, Opening, Place, Turn};
+pub(crate) use mobility::{Mobility, mobility, moving, still};
 pub(crate) use pose::{Pose, length};
 pub(crate) use rates::{Contradiction, Motion, Prescribed, motions};
 
@@ -51,6 +53,30 @@ pub(crate) const MOST_BODIES: usize = 200;
 pub(crate) fn largest_island(closures: &[Closure], movable: &[bool]) -> usize {
     let islands = Island::all(closures, movable);
     islands.iter().map(|island| island.bodies.len()).max().unwrap_or(0)
+}
+
+/// \[m\] root mean square of the arms from centres of mass to joints of the bodies that may move: the length at
+/// which a radian counts as a metre. 1 where all arms are rounding.
+pub(crate) fn arm(closures: &[Closure], movable: &[bool]) -> f64 {
+    /// An arm is rounding that is less than this share of the joint's coordinates in the world.
+    const ROUNDING: f64 = 1e-12;
+    let (mut sum, mut count, mut largest) = (0.0, 0.0, 0.0_f64);
+    for closure in closures {
+        for (end, point) in closure.ends.iter().zip(closure.points) {
+            if movable.get(end.row()).copied().unwrap_or(false) {
+                sum += point.dot(point);
+                count += 1.0;
+            } else {
+                largest = largest.max(length(point));
+            }
+        }
+    }
+    let mean = if count > 0.0 { libm::sqrt(sum / count) } else { 0.0 };
+    if mean > f64::max(ROUNDING * largest, f64::MIN_POSITIVE) && mean.is_finite() {
+        mean
+    } else {
+        1.0
+    }
 }
 
 /// Brings the joints together. Bodies that may not move are as the world is.

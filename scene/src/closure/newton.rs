@@ -99,7 +99,14 @@ fn kicks(system: &System<'_>, poses: &[Pose]) -> Vec<Vec<f64>> {
     free.into_iter().flat_map(kick).collect()
 }
 
-fn descend(system: &System<'_>, poses: &mut Vec<Pose>, threshold: f64, budget: &mut Budget) {
+/// Steps of least norm while they shrink the residuals. Constraints of which less than `threshold` of the
+/// longest is left beside the others hold nothing.
+pub(super) fn descend(
+    system: &System<'_>,
+    poses: &mut Vec<Pose>,
+    threshold: f64,
+    budget: &mut Budget,
+) {
     let mut damping = 0.0;
     let mut equations = system.equations(poses);
     let mut norm = equations.norm();

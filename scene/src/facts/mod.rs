@@ -4,7 +4,6 @@
 //! at it, islands`. Facts only; what is probably not meant is said by [`Scene::warnings`].
 
 mod damping;
-mod equations;
 mod islands;
 mod lengths;
 mod mobility;
@@ -25,19 +24,21 @@ pub use stiffness::{ElementFrequency, JointElement};
 pub struct Facts {
     /// Equations of motion: 6 per body.
     pub equations: usize,
-    /// Equations that a solver with constraints has: 6 per body and one per freedom held, those
-    /// aside that planar loops hold twice (Franco & Degani 2026, Table 7a).
+    /// Equations that a solver with constraints has: 6 per body and one per independent constraint
+    /// (Franco & Degani 2026, Table 7a); where [`Self::freedoms`] is `None`, one per constraint.
     pub constraint_equations: usize,
-    /// Independent loops of joints that move in a plane: each holds three freedoms twice.
-    pub planar_loops: usize,
-    /// 6 per body less what the joints hold; too low where joints hold the same twice.
-    pub degrees_of_freedom: i64,
-    /// What the joints leave free at the initial pose, by the rank of their constraints: what they
-    /// hold twice counts once. `None` where there are more bodies than that takes a moment for.
-    pub freedoms_by_rank: Option<usize>,
+    /// What the joints leave free at the initial pose and near it: constraints that loops imply count once, and
+    /// motions that exist to first order only, as at a singular pose, do not count. `None` where more bodies hang
+    /// together than that takes a moment for.
+    pub freedoms: Option<usize>,
+    /// 6 per body less the rank of the joints' constraints at the initial pose; more than
+    /// [`Self::freedoms`] where that pose is singular.
+    pub first_order_freedoms: Option<usize>,
     /// Rows of the bodies that cannot move, though no joint holds them rigidly to what stands still:
     /// stiff joints to several others do.
     pub locked: Vec<usize>,
+    /// Rows of joints between two bodies that each leave a turn or a slide and together leave none.
+    pub jammed: Vec<Vec<usize>>,
     /// The joints in scene order.
     pub joints: Vec<JointFacts>,
     /// Bodies that hang together, in the order of their first bodies.
@@ -134,8 +135,7 @@ impl Scene {
     #[must_use]
     pub fn facts(&self) -> Facts {
         let equations = 6 * self.model.bodies.len();
-        let held: usize = self.joints.iter().map(|joint| joint.holds as usize).sum();
-        let planar_loops = equations::planar_loops(self);
+        let constraints: usize = self.joints.iter().map(|joint| joint.holds as usize).sum();
         let groups = lengths::groups(self);
         let joints = self.joints.iter().map(|joint| {
             let groups = &groups[joint.groups.clone()];
@@ -147,14 +147,16 @@ impl Scene {
                 stretching_rate: all.stretching_rate,
             }
         });
-        let mobility = mobility::mobility(self);
+        let held = mobility::held(self);
+        let first_order = held.as_ref().map(|held| held.mobility.first_order);
         Facts {
-            freedoms_by_rank: mobility.as_ref().map(|mobility| mobility.freedoms),
-            locked: mobility.unwrap_or_default().locked,
             equations,
-            constraint_equations: equations + held.saturating_sub(3 * planar_loops),
-            planar_loops,
-            degrees_of_freedom: equations as i64 - held as i64,
+            constraint_equations: equations
+                + first_order.map_or(constraints, |free| equations - free),
+            freedoms: held.as_ref().map(|held| held.mobility.freedoms),
+            first_order_freedoms: first_order,
+            jammed: held.as_ref().map_or(Vec::new(), |held| held.jammed.clone()),
+            locked: held.map_or(Vec::new(), |held| held.locked),
             joints: joints.collect(),
             islands: islands::islands(self),
             frequencies: stiffness::frequencies(self),

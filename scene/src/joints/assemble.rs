@@ -5,7 +5,7 @@
 use dbd_kernel::{BodyState, F64};
 
 use crate::assembly::{Assembly, WORLD};
-use crate::closure::{self, Closure, MOST_BODIES, Opening, Outcome, Settings};
+use crate::closure::{self, MOST_BODIES, Opening, Outcome, Settings};
 use crate::error::SceneError;
 use crate::joints::rates::{self, Joints};
 use crate::joints::site::{Site, poses, shown};
@@ -99,7 +99,7 @@ pub(crate) fn read(
     let closures: Vec<_> = sites.iter().map(|site| site.closure(assembly)).collect();
     let length = match table.optional("length", Number::positive("m"))? {
         Some(length) => length,
-        None => arm(&closures, &movable),
+        None => closure::arm(&closures, &movable),
     };
     let largest = closure::largest_island(&closures, &movable);
     if largest > MOST_BODIES {
@@ -159,23 +159,6 @@ fn place(assembly: &mut Assembly, given: &[closure::Pose], outcome: &Outcome) ->
     }
     assembly.set_assembled();
     moved
-}
-
-/// \[m\] root mean square of the arms from centres of mass to joints of the bodies that may move; 1
-/// where there are none.
-fn arm(closures: &[Closure], movable: &[bool]) -> f64 {
-    let mut sum = 0.0;
-    let mut count = 0.0;
-    for closure in closures {
-        for (end, point) in closure.ends.iter().zip(closure.points) {
-            if movable.get(end.row()).copied().unwrap_or(false) {
-                sum += point.dot(point);
-                count += 1.0;
-            }
-        }
-    }
-    let mean = if count > 0.0 { libm::sqrt(sum / count) } else { 0.0 };
-    if mean > f64::MIN_POSITIVE && mean.is_finite() { mean } else { 1.0 }
 }
 
 /// The refusal of joints that do not close, at the one that is open most.

@@ -105,6 +105,12 @@ pub(crate) const WITHIN: [(&str, &[&str]); 4] = [
     ("rate", rates::RATES),
 ];
 
+/// What a joint of a type holds of its points and triads.
+pub(crate) fn holds(kind: &str) -> (Place, Turn) {
+    let of_type = TYPES.iter().find(|of_type| of_type.name == kind);
+    of_type.map_or((Place::Point, Turn::All), |of_type| of_type.asks)
+}
+
 /// What other programs and people call the types.
 const OTHER_NAMES: [(&str, &[&str]); 6] = [
     ("spherical", &["ball", "ball_and_socket", "ball_socket", "socket", "point", "globular"]),

@@ -1,0 +1,180 @@
+//! What joints leave free at a pose, beyond the first order.
+//!
+//! `(joints, closed poses) => freedoms, bodies that move`. The rank of the constraints counts motions of first
+//! order; at a singular pose some of them do not continue and others begin only at second order. A random
+//! combination of the motions of first order is therefore followed to a closed pose nearby, where the rank counts
+//! anew, and followed once more: what it keeps of itself is a motion. Where it is not kept, as at a pose that is
+//! singular everywhere (a shaky linkage: Müller, J. Mechanisms Robotics 8 (2016) 041013), the dimension is the rank of
+//! as many displacements as the rank leaves motions.
+
+use crate::closure::constraint::Closure;
+use crate::closure::island::{Island, System};
+use crate::closure::least_norm::{Factors, dot};
+use crate::closure::newton::{Budget, CAREFUL, descend};
+use crate::closure::pose::{Pose, length};
+
+/// \[rad\] how far a motion is followed first, and then from there.
+const FOLLOWED: [f64; 2] = [0.1, 0.05];
+
+/// A motion is lost that keeps less than this share of its way.
+const LOST: f64 = 0.1;
+
+/// A motion is kept that strays by less than this share of its way, and all are where so many random ones are.
+const KEPT: f64 = 0.05;
+const ENOUGH: usize = 3;
+
+/// A body stands still that moves by less than this share of the way, ten times what closing leaves.
+const STILL: f64 = 2e-3;
+
+/// A body stands still to first order along whose axes less than this share of a unit velocity's square is free.
+const HELD: f64 = 1e-4;
+
+/// Most steps that close the joints again.
+const STEPS: usize = 40;
+
+/// Numbers of freedoms.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Mobility {
+    /// Motions that exist: what the poses nearby have.
+    pub(crate) freedoms: usize,
+    /// Motions to first order, at these very poses: 6 per body less the rank.
+    pub(crate) first_order: usize,
+}
+
+/// What joints leave free of all bodies at closed poses.
+pub(crate) fn mobility(closures: &[Closure], poses: &[Pose], scale: f64) -> Mobility {
+    let mut all = Mobility::default();
+    let mut joined = 0;
+    for island in Island::all(closures, &vec![true; poses.len()]) {
+        let system = island.system(closures, scale);
+        let (free, redundant) = Free::at(&system, poses);
+        joined += island.bodies.len();
+        all.first_order += free.count();
+        // Independent constraints leave what their rank leaves (theorem of implicit functions).
+        all.freedoms += if redundant { free.nearby(&system, poses) } else { free.count() };
+    }
+    let loose = 6 * (poses.len() - joined);
+    Mobility { freedoms: all.freedoms + loose, first_order: all.first_order + loose }
+}
+
+/// Bodies that joints hold still to first order; those that may not move are not among them.
+pub(crate) fn still(
+    closures: &[Closure],
+    poses: &[Pose],
+    movable: &[bool],
+    scale: f64,
+) -> Vec<usize> {
+    let mut still = Vec::new();
+    for island in Island::all(closures, movable) {
+        let system = island.system(closures, scale);
+        let (free, _) = Free::at(&system, poses);
+        let held = |column: usize| {
+            let mut unit = vec![0.0; system.columns()];
+            unit[column] = 1.0;
+            free.0.free_part(&unit)[column] < HELD
+        };
+        let bodies = island.bodies.iter().enumerate();
+        let of_island = bodies.filter(|(row, _)| (6 * row..6 * row + 6).all(held));
+        still.extend(of_island.map(|(_, body)| *body));
+    }
+    still
+}
+
+/// Whether each body moves along with what the joints leave free, of any order.
+pub(crate) fn moving(
+    closures: &[Closure],
+    poses: &[Pose],
+    movable: &[bool],
+    scale: f64,
+) -> Vec<bool> {
+    let mut moving = vec![false; poses.len()];
+    for island in Island::all(closures, movable) {
+        let system = island.system(closures, scale);
+        let (free, _) = Free::at(&system, poses);
+        let Some((_, there)) = free.follow(&system, poses, FOLLOWED[0], 0) else { continue };
+        for body in &island.bodies {
+            let [shift, turn] = there[*body].since(&poses[*body]).map(length);
+            moving[*body] = turn.max(shift / scale) > STILL * FOLLOWED[0];
+        }
+    }
+    moving
+}
+
+/// The motions of first order of an island at some poses.
+struct Free(Factors, usize);
+
+impl Free {
+    /// Also whether there are constraints that others imply.
+    fn at(system: &System<'_>, poses: &[Pose]) -> (Self, bool) {
+        let rows = system.equations(poses).rows;
+        let factors = Factors::of(&rows, system.columns(), CAREFUL);
+        let redundant = factors.rank() < rows.len();
+        (Self(factors, system.columns()), redundant)
+    }
+
+    fn count(&self) -> usize {
+        self.1 - self.0.rank()
+    }
+
+    /// How many motions the closed poses nearby have.
+    fn nearby(&self, system: &System<'_>, poses: &[Pose]) -> usize {
+        let Some((_, near)) = self.follow(system, poses, FOLLOWED[0], 0) else { return 0 };
+        let (free, _) = Self::at(system, &near);
+        let mut displacements = Vec::new();
+        let mut kept = true;
+        for sample in 1..=free.count() {
+            let Some((way, there)) = free.follow(system, &near, FOLLOWED[1], sample) else {
+                return 0;
+            };
+            // Across the motions of first order a path bends at second order, along them only at third.
+            let moved = free.0.free_part(&system.since(&there, &near));
+            let strayed: Vec<f64> =
+                moved.iter().zip(&way).map(|(moved, way)| moved - way).collect();
+            let square = dot(&way, &way);
+            kept &= dot(&strayed, &strayed) < KEPT * KEPT * square;
+            if kept && sample == ENOUGH.min(free.count()) {
+                return free.count();
+            }
+            let long = libm::sqrt(square);
+            displacements.push(moved.into_iter().map(|x| x / long).collect());
+        }
+        independent(&displacements, self.1)
+    }
+
+    /// A random one of the motions of first order, and the closed poses to which it leads; `None` where there is
+    /// none.
+    fn follow(
+        &self,
+        system: &System<'_>,
+        poses: &[Pose],
+        angle: f64,
+        sample: usize,
+    ) -> Option<(Vec<f64>, Vec<Pose>)> {
+        if self.count() == 0 {
+            return None;
+        }
+        let random = (0..self.1).map(|column| random(sample * self.1 + column)).collect::<Vec<_>>();
+        let mut way = self.0.free_part(&random);
+        let largest =
+            way.chunks_exact(3).map(|part| libm::sqrt(dot(part, part))).fold(0.0, f64::max);
+        way.iter_mut().for_each(|x| *x *= angle * system.length / largest);
+        let mut there = system.moved(poses, &way);
+        descend(system, &mut there, CAREFUL, &mut Budget::of(STEPS));
+        Some((way, there))
+    }
+}
+
+/// Of displacements in parts of their ways, how many are independent.
+fn independent(displacements: &[Vec<f64>], columns: usize) -> usize {
+    let longest = displacements.iter().map(|row| dot(row, row)).fold(0.0, f64::max);
+    let threshold = LOST / libm::sqrt(longest).max(LOST);
+    if longest <= LOST * LOST { 0 } else { Factors::of(displacements, columns, threshold).rank() }
+}
+
+/// From −1 to 1, the same for the same number: SplitMix64 (Steele, Lea, Flood 2014).
+fn random(number: usize) -> f64 {
+    let z = (number as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}
