@@ -8,6 +8,7 @@ use thiserror::Error;
 
 use crate::parameters::Log;
 use crate::quantity::Scope;
+use crate::written::Angles;
 
 /// A scene that cannot be read, or that is refused.
 ///
@@ -120,6 +121,8 @@ pub(crate) struct Source<'t> {
     pub(crate) scope: Option<&'t Scope>,
     /// Where the numbers that are read are noted, where anyone asks.
     pub(crate) log: Option<&'t Log>,
+    /// Where large angles are noted, while a scene is read.
+    pub(crate) angles: Option<&'t Angles>,
 }
 
 impl<'t> Source<'t> {
@@ -128,7 +131,7 @@ impl<'t> Source<'t> {
 
     /// The text of a file, without changes.
     pub(crate) fn of(file: &'t str, text: &'t str) -> Self {
-        Self { file, text, own: text.len(), scope: None, log: None }
+        Self { file, text, own: text.len(), scope: None, log: None, angles: None }
     }
 
     /// Whether a byte is one of a change.

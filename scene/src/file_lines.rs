@@ -11,6 +11,7 @@ pub(crate) struct FileLines {
     pub(crate) points_on_lines: Vec<usize>,
     pub(crate) torsion_springs: Vec<usize>,
     pub(crate) inputs: Vec<usize>,
+    pub(crate) readouts: Vec<usize>,
 }
 
 impl FileLines {
@@ -23,6 +24,7 @@ impl FileLines {
             points_on_lines: root.lines("point_on_line")?,
             torsion_springs: root.lines("torsion_spring")?,
             inputs: root.lines("input")?,
+            readouts: root.lines("readout")?,
         })
     }
 }

@@ -96,7 +96,7 @@ use crate::parameters::{Changed, Changes, Log, Parameter, SceneNumber};
 use crate::target::Elements;
 use crate::text::{Number, Numbers, Seconds, Switch, Table, Text};
 use crate::write::Writer;
-use crate::written::WrittenAngle;
+use crate::written::{Angles, WrittenAngle};
 
 const KEYS: &[&str] = &[
     "name",
@@ -261,7 +261,8 @@ impl Scene {
         let root = text::root(source, &document);
         root.only(&[KEYS])?;
         let scope = parameters::read(&root, before.as_ref())?;
-        let source = Source { scope: Some(&scope), log, ..source };
+        let angles = Angles::default();
+        let source = Source { scope: Some(&scope), log, angles: Some(&angles), ..source };
         let root = text::root(source, &document);
         let name = root.required("name", Text::Name)?;
         let description = root.optional("description", Text::Any)?.unwrap_or_default();
@@ -307,7 +308,7 @@ impl Scene {
             planar: None,
             file_lines: FileLines::of(&root)?,
             origin: Origin::of(source, &root),
-            written_angles: written::angles(&root)?,
+            written_angles: Vec::new(),
             derived,
             parameters: parameters::all(&root, &scope),
             changes: given,
@@ -322,6 +323,7 @@ impl Scene {
             scene.settled = Some(settle::settle(&root, &mut scene)?);
         }
         let done = then(&scene, &root, &resolved)?;
+        scene.written_angles = angles.all();
         Ok((scene, done))
     }
 

@@ -1,47 +1,52 @@
-//! Numbers as they are written, where the model no longer shows them: angles of orientations.
+//! Numbers as they are written, where the model no longer shows them: plain angles, whatever key they stand at.
 //!
-//! `scene file => angles with their lines`.
+//! `values that are read => large angles with their lines`.
 
-use crate::error::SceneError;
-use crate::text::{Number, Numbers, Table};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 
-/// An angle of a body's orientation.
+/// \[rad\] Nobody turns anything by more than once round; a turn written with three digits is one.
+const WHOLE_TURN: f64 = 1.001 * TAU;
+
+/// An angle without a unit that is larger than a whole turn.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct WrittenAngle {
-    /// What messages call the body.
+    /// What messages call that to which it belongs: ``body `crank` ``.
     pub(crate) owner: String,
-    /// The key it is a value of.
-    pub(crate) key: &'static str,
+    /// The key it is a value of, with the table in which it stands: `` `angle` of its orientation``.
+    pub(crate) key: String,
     /// The line, from 1.
     pub(crate) line: usize,
     /// \[rad\].
     pub(crate) angle: f64,
 }
 
-/// The angles of all bodies' orientations.
-pub(crate) fn angles(root: &Table<'_>) -> Result<Vec<WrittenAngle>, SceneError> {
-    let mut angles = Vec::new();
-    let lines = root.line_starts();
-    for table in root.list("body")? {
-        let Some(value) = table.value("orientation") else { continue };
-        let orientation = value.table("a table")?;
-        let mut add = |key: &'static str, found: &[f64]| {
-            let Some(value) = orientation.value(key) else { return };
-            let line = lines.partition_point(|start| *start <= value.span().start);
-            let written = |angle: &f64| WrittenAngle {
-                owner: table.label().to_owned(),
-                key,
-                line,
-                angle: *angle,
-            };
-            angles.extend(found.iter().map(written));
+/// Large angles by the bytes at which they begin: a value that is read twice counts once.
+#[derive(Debug, Default)]
+pub(crate) struct Angles(RefCell<BTreeMap<usize, WrittenAngle>>);
+
+impl Angles {
+    /// Notes an angle where it is large: its key, what that belongs to, the text and the byte at which it begins.
+    pub(crate) fn note(&self, angle: f64, [key, owner]: [&str; 2], text: &str, start: usize) {
+        if angle.abs() <= WHOLE_TURN {
+            return;
+        }
+        let key = key.split('[').next().unwrap_or_default();
+        let (owner, key) = match owner.split_once("` of ") {
+            Some((point, "[points]")) => (format!("point {point}`"), key.to_owned()),
+            Some((table, owner)) if table.starts_with('`') => {
+                (owner.to_owned(), format!("{key} of its {}", &table[1..]))
+            }
+            _ => (owner.to_owned(), key.to_owned()),
         };
-        if let Some(angle) = orientation.optional("angle", Number::any("rad"))? {
-            add("angle", &[angle]);
-        }
-        if let Some(angles) = orientation.optional("euler_321", Numbers::<3>(Number::any("rad")))? {
-            add("euler_321", &angles);
-        }
+        let before = text.as_bytes().iter().take(start);
+        let line = 1 + before.filter(|byte| **byte == b'\n').count();
+        self.0.borrow_mut().insert(start, WrittenAngle { owner, key, line, angle });
     }
-    Ok(angles)
+
+    /// All of them in the order of the file.
+    pub(crate) fn all(self) -> Vec<WrittenAngle> {
+        self.0.into_inner().into_values().collect()
+    }
 }

@@ -77,6 +77,12 @@ type Case = (&'static str, &'static str, &'static [(Severity, &'static str)]);
 
 #[rustfmt::skip]
 const CASES: &[Case] = &[
+    // Angles without a unit at any key; one with a unit is meant.
+    ("position = [0.5, 0, 0]", "position = [0.5, 0, 0]\norientation = { axis = [0, 1, 0], angle = \"720 deg\" }", &[]),
+    ("gravity = ", "points.far = { from = [0, 0, 0], distance = 1, angle = 60 }\ngravity = ",
+        &[(WARNING, "point `far` (line 3): `angle` is 60 rad, more than a whole turn: 60 degrees are 1.05 rad")]),
+    ("axis = [0, 1, 0]\nstiffness = 5\n", "axis = [0, 1, 0]\nstiffness = { load = 5, deflection = 10 }\n",
+        &[(WARNING, "torsion_spring 1 (line 45): `deflection` of its stiffness is 10 rad, more than a whole turn: 10 degrees are 0.1745 rad")]),
     // Bodies.
     ("[[joint]]\nname = \"shoulder\"", "[[body]]\nname = \"loose\"\nmass = 1\ninertia = [1, 1, 1]\nposition = [9, 0, 0]\n\n[[joint]]\nname = \"shoulder\"",
         &[(WARNING, "body `loose` (line 17): no element holds it: it falls")]),
@@ -105,6 +111,23 @@ const CASES: &[Case] = &[
         &[(WARNING, "tsda 1 (world–hand) (line 36): is 0.5099 m long at first, more than twice its free length of 0.1 m: are its points in the axes of their bodies?")]),
     ("[[torsion_spring]]", "[[point_on_line]]\nbetween = [\"world\", \"hand\"]\nline_point = [0, 0, 1]\nline_direction = [1, 0, 0]\npoint = [0, 0, 0]\nstiffness = 2\nfree_length = 0.3\n\n[[torsion_spring]]",
         &[(WARNING, "point_on_line 1 (world–hand) (line 42): is 1 m long at first, more than twice its free length of 0.3 m: are its points in the axes of their bodies?")]),
+    // Springs: on the side on which what the name says does not act, far too short, full of energy.
+    ("[[tsda]]\n", "[[tsda]]\nname = \"left rope\"\n",
+        &[(NOTE, "tsda `left rope` (world–hand) (line 36): acts on both sides: unlike a rope it would also push where it gets too short; a `tsda_force` read-out shows whether it does")]),
+    ("[[tsda]]\nbetween = [\"world\", \"hand\"]\npoints = [[1, 0, 0.5], [0, 0, 0]]\nstiffness = 10\nfree_length = 0.4\n", "[[tsda]]\nname = \"ropes\"\nbetween = [\"world\", \"hand\"]\npoints = [[1, 0, 0.5], [0, 0, 0]]\nstiffness = 10\nfree_length = 0.6\n",
+        &[(WARNING, "tsda `ropes` (world–hand) (line 36): pushes at t = 0, which no rope does: it is 0.5099 m long and its free length is 0.6 m; another free length, or leave it out where it is to be slack")]),
+    ("[[tsda]]\n", "[[tsda]]\nname = \"end_stop\"\n",
+        &[(WARNING, "tsda `end_stop` (world–hand) (line 36): pulls at t = 0, which no stop does: it is 0.5099 m long and its free length is 0.4 m; another free length, or leave it out where it is to be slack")]),
+    ("free_length = 0.4", "free_length = 1.1",
+        &[(WARNING, "tsda 1 (world–hand) (line 36): is 0.5099 m long at first, less than half its free length of 1.1 m: are its points in the axes of their bodies, is the free length in m?")]),
+    ("stiffness = 10\nfree_length = 0.4", "stiffness = 2e6\nfree_length = 0.45",
+        &[(WARNING, "tsda 1 (world–hand) (line 36): stores 3588.24 J at t = 0, enough to throw the 1.5 kg of its bodies at 69.17 m/s: are its points, its free length and its stiffness right, is a `clearance` missing?")]),
+    ("[[torsion_spring]]\n", "[[torsion_spring]]\nname = \"stop\"\n",
+        &[(NOTE, "torsion_spring `stop` (world–arm) (line 42): acts in both directions, which no stop does: a `point_on_line` with `clearance` stops")]),
+    // Joints between two bodies.
+    ("[[tsda]]\n", "[[joint]]\nname = \"second\"\ntype = \"revolute\"\nbetween = [\"arm\", \"world\"]\nat = [0.3, 0, 0]\naxis = [0, 1, 0]\nstiffness = 1e5\nspan = 0.1\n\n[[tsda]]\n",
+        &[(WARNING, "joint `second` (line 36): and joint `shoulder` leave `arm` and `world` no motion: hinges between two bodies share one axis; is another body meant, or a `fixed` joint?")]),
+    ("[[tsda]]\n", "[[joint]]\nname = \"second\"\ntype = \"revolute\"\nbetween = [\"arm\", \"world\"]\nat = [0, 0.3, 0]\naxis = [0, 1, 0]\nstiffness = 1e5\nspan = 0.1\n\n[[tsda]]\n", &[]),
     // Torsion springs.
     ("axis = [0, 1, 0]\nstiffness = 5\n", "axis = [0, 1, 0]\nstiffness = 0\n",
         &[(WARNING, "torsion_spring 1 (world–arm) (line 42): has neither stiffness nor damping nor preload: it does nothing")]),
@@ -112,6 +135,17 @@ const CASES: &[Case] = &[
         &[(WARNING, "torsion_spring 1 (world–arm) (line 42): its axis is 5.71 degrees off that of the revolute joint `shoulder` between the same bodies, about which they turn")]),
     ("between = [\"world\", \"arm\"]\naxis = [0, 1, 0]\nstiffness = 5\n", "between = [\"arm\", \"hand\"]\naxis = [0, 1, 0]\nstiffness = 5\n",
         &[(NOTE, "torsion_spring 1 (arm–hand) (line 42): no revolute joint guides its two bodies: its twist is undefined where they have turned by half a turn about another axis")]),
+    // Inputs and read-outs.
+    ("[[torsion_spring]]", "[[input]]\nname = \"wind\"\ntype = \"force\"\nbody = \"hand\"\naxis = [0, 1, 0]\ntable = [[0, 0], [200, 0], [300, -4]]\ninterpolate = \"linear\"\n\n[[torsion_spring]]",
+        &[(WARNING, "input `wind` (line 42): 2 of the 3 times of its table are after the end of the run at 1 s, the last at 300 s: are they in s, is the `duration` long enough?")]),
+    ("[[torsion_spring]]", "[[input]]\nname = \"wind\"\ntype = \"force\"\nbody = \"hand\"\naxis = [0, 1, 0]\ntable = [[0, 0], [0.5, 1], [3, -4]]\ninterpolate = \"linear\"\n\n[[torsion_spring]]", &[]),
+    ("[[torsion_spring]]", "[[input]]\nname = \"wind\"\ntype = \"force\"\nbody = \"hand\"\naxis = [0, 1, 0]\ntable = [[0, 0], [1.5, -4]]\n\n[[torsion_spring]]",
+        &[(WARNING, "input `wind` (line 42): 1 of the 2 times of its table are after the end of the run at 1 s, the last at 1.5 s: are they in s, is the `duration` long enough?")]),
+    ("[[torsion_spring]]", "[[readout]]\nname = \"pull\"\ntype = \"joint_force\"\ntarget = \"wrist\"\n\n[[torsion_spring]]",
+        &[(NOTE, "read-out `pull` (line 42): joint `wrist` is undamped, so its force rings about the load: a `damping_ratio` with a `frequency` there lets that decay")]),
+    ("[[tsda]]\n", "[[input]]\nname = \"motor\"\ntype = \"joint_torque\"\ntarget = \"shoulder\"\n\n[[tsda]]\n", &[]),
+    ("type = \"fixed\"\nbetween = [\"arm\", \"hand\"]\nat = [1, 0, 0]\naxis = [1, 0, 0]\nstiffness = 1e4\nspan = 0.1\narm = 0.03\n\n[[tsda]]", "type = \"spherical\"\nbetween = [\"arm\", \"hand\"]\nat = [1, 0, 0]\nstiffness = 1e4\narm = 0.03\n\n[[input]]\nname = \"motor\"\ntype = \"joint_torque\"\ntarget = \"shoulder\"\n\n[[tsda]]",
+        &[(NOTE, "input `motor` (line 34): joints leave 4 freedoms, of which 1 is driven and 2 are sprung: is a joint missing?")]),
 ];
 
 #[test]

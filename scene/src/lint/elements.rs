@@ -72,7 +72,7 @@ fn overstretched(facts: &GroupFacts) -> bool {
 }
 
 /// \[N/m\] of an element; those of a group have one stiffness.
-fn stiffness(scene: &Scene, group: &Group) -> f64 {
+pub(super) fn stiffness(scene: &Scene, group: &Group) -> f64 {
     let element = usize::from(group.element);
     match group.law {
         Law::Tsda => scene.model.tsdas[element].stiffness,

@@ -1,4 +1,4 @@
-//! Bodies that cannot move because joints lock each other.
+//! Bodies that cannot move because joints lock each other, and joints that leave two bodies no motion.
 
 use crate::lint::{Severity, Warning};
 use crate::{Facts, Scene};
@@ -7,6 +7,21 @@ use crate::{Facts, Scene};
 const NAMED: usize = 4;
 
 pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
+    for joints in &facts.jammed {
+        let [first, .., last] = joints[..] else { continue };
+        let [first, last] = [first, last].map(|row| (row, &scene.joints[row]));
+        let [a, b] = &last.1.between;
+        warnings.push(Warning {
+            severity: Severity::Warning,
+            name: format!("joint `{}`", last.1.name),
+            line: scene.line_of_joint(last.0),
+            text: format!(
+                "and joint `{}` leave `{a}` and `{b}` no motion: hinges between two bodies share one axis; is another \
+                 body meant, or a `fixed` joint?",
+                first.1.name
+            ),
+        });
+    }
     let Some((first, others)) = facts.locked.split_first() else { return };
     let name = |row: &usize| format!("`{}`", scene.body_names[*row]);
     let mut names: Vec<_> = others.iter().take(NAMED).map(name).collect();

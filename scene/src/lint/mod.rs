@@ -1,16 +1,19 @@
 //! What is probably not meant in a scene that is nevertheless right.
 //!
-//! `scene => warnings`, in the order parameters, angles, bodies, joints and raw elements, torsion springs, frequencies. They stop
-//! nothing: what cannot be run is refused when the scene is read. Every threshold is a constant
+//! `scene => warnings`, in the order parameters, angles, bodies, joints and raw elements, torsion springs, frequencies, inputs,
+//! read-outs. They stop nothing: what cannot be run is refused when the scene is read. Every threshold is a constant
 //! beside its reason.
 
 mod angles;
 mod bodies;
 mod elements;
 mod frequencies;
+mod inputs;
 mod locked;
 mod parameters;
 mod reach;
+mod readouts;
+mod springs;
 mod torsion_springs;
 
 use std::fmt;
@@ -64,9 +67,12 @@ impl Scene {
         bodies::judge(self, facts, &mut warnings);
         locked::judge(self, facts, &mut warnings);
         elements::judge(self, &mut warnings);
+        springs::judge(self, facts, &mut warnings);
         reach::judge(self, &mut warnings);
         torsion_springs::judge(self, &mut warnings);
         frequencies::judge(self, facts, &mut warnings);
+        inputs::judge(self, facts, &mut warnings);
+        readouts::judge(self, &mut warnings);
         warnings
     }
 }

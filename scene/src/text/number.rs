@@ -80,6 +80,7 @@ impl Kind for Number {
                 return Err(unlike(value, number.dimension, own, &self.expected()));
             }
         }
+        let is_plain = number.dimension.is_none();
         let number = number.value;
         if !self.holds(number) {
             let written = shortened(value.written());
@@ -88,6 +89,10 @@ impl Kind for Number {
                 false => format!("is {written}"),
             };
             return Err(value.refuse(&problem, &self.expected()));
+        }
+        if let Some(angles) = value.source.angles.filter(|_| is_plain && self.unit == "rad") {
+            let names = [value.key.as_str(), &value.owner];
+            angles.note(number, names, value.source.text, value.span().start);
         }
         if let Some(log) = value.source.log {
             log.note(value.span(), number, self.unit);

@@ -311,12 +311,6 @@ impl<'t> Table<'t> {
         Ok(lines)
     }
 
-    /// Where the lines of the text begin, ascending: as many as begin up to a byte is its line.
-    pub(crate) fn line_starts(&self) -> Vec<usize> {
-        let breaks = self.source.text.match_indices('\n').map(|(byte, _)| byte + 1);
-        std::iter::once(0).chain(breaks).collect()
-    }
-
     /// The line breaks between two bytes of the text.
     pub(crate) fn breaks(&self, between: Range<usize>) -> usize {
         self.source.text.get(between).unwrap_or_default().matches('\n').count()

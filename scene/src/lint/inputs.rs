@@ -1,0 +1,61 @@
+//! Tables of inputs of which the run reaches little, and drives of bodies that more joints may have to guide.
+
+use crate::lint::{Severity, Warning, short};
+use crate::{Facts, Scene};
+use dbd_kernel::elements::input::InputKind;
+
+/// Straight lines may lead to one knot beyond the end, but hardly to one so many durations away.
+const FAR: f64 = 100.0;
+
+pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
+    undriven(scene, facts, warnings);
+    for (row, info) in scene.inputs.iter().enumerate().filter(|(_, info)| info.table) {
+        let input = &scene.model.inputs[usize::from(info.index.0)];
+        let knots = &scene.model.knots[usize::from(input.knot)..][..usize::from(input.knots)];
+        let late = knots.iter().filter(|knot| knot.time > scene.duration).count();
+        let last = knots.last().map_or(0.0, |knot| knot.time);
+        // Where lines lead from knot to knot the first one beyond the end counts, too.
+        let is_linear = knots.iter().any(|knot| knot.slope != 0.0);
+        let unused = if is_linear { late.saturating_sub(1) } else { late };
+        if unused == 0 && (late == 0 || last <= FAR * scene.duration) {
+            continue;
+        }
+        warnings.push(Warning {
+            severity: Severity::Warning,
+            name: format!("input `{}`", info.name),
+            line: scene.file_lines.inputs.get(row).copied(),
+            text: format!(
+                "{late} of the {} times of its table are after the end of the run at {} s, the last at {} s: are they \
+                 in s, is the `duration` long enough?",
+                knots.len(),
+                short(scene.duration),
+                short(last)
+            ),
+        });
+    }
+}
+
+/// Freedoms that neither inputs drive nor springs hold, in a scene whose joints or springs are driven.
+fn undriven(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
+    let is_drive = |kind: &InputKind<_>| {
+        matches!(kind, InputKind::JointTorque { .. } | InputKind::Actuator { .. })
+    };
+    let Some(first) = scene.model.inputs.iter().position(|input| is_drive(&input.kind)) else {
+        return;
+    };
+    let [driven, springs] = [scene.inputs.len(), scene.raw_names.len() + scene.torsion_springs()];
+    let Some(freedoms) = facts.freedoms.filter(|freedoms| *freedoms > driven + springs) else {
+        return;
+    };
+    let are = |count: usize| if count == 1 { "is" } else { "are" };
+    warnings.push(Warning {
+        severity: Severity::Note,
+        name: format!("input `{}`", scene.inputs[first].name),
+        line: scene.file_lines.inputs.get(first).copied(),
+        text: format!(
+            "joints leave {freedoms} freedoms, of which {driven} {} driven and {springs} {} sprung: is a joint missing?",
+            are(driven),
+            are(springs)
+        ),
+    });
+}

@@ -1,0 +1,29 @@
+//! Forces of joints that ring.
+
+use dbd_kernel::readouts::Readout;
+
+use crate::Scene;
+use crate::lint::{Severity, Warning};
+
+pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
+    for (info, line) in scene.readouts.iter().zip(&scene.file_lines.readouts) {
+        let Readout::JointForce { group } = info.readout else { continue };
+        let number = usize::from(group);
+        let Some(joint) = scene.joints.iter().find(|joint| joint.groups.contains(&number)) else {
+            continue;
+        };
+        if scene.model.groups[number].damper.row().is_some() {
+            continue;
+        }
+        warnings.push(Warning {
+            severity: Severity::Note,
+            name: format!("read-out `{}`", info.name),
+            line: Some(*line),
+            text: format!(
+                "joint `{}` is undamped, so its force rings about the load: a `damping_ratio` with a `frequency` there \
+                 lets that decay",
+                joint.name
+            ),
+        });
+    }
+}
