@@ -177,8 +177,13 @@ fn points(mechanism: &Mechanism) -> impl Iterator<Item = Vec3<f64>> {
 pub(crate) fn reach(mechanism: &Mechanism) -> Vec<Vec3<f64>> {
     let corners = (0..mechanism.bodies.len()).flat_map(|row| mechanism.corners(row));
     let ground = mechanism.ground.iter().flat_map(Solid::corners).map(Vec3::from_f64);
-    let forces = mechanism.forces.iter().map(|force| mechanism.place(&force.at));
-    points(mechanism).chain(corners).chain(ground).chain(forces).collect()
+    let forces = mechanism.forces.iter().map(|force| force.at);
+    let joints = mechanism.joints.iter().flat_map(|joint| joint.places);
+    let lines = mechanism.guides.iter().map(|guide| guide.line);
+    let torsions = mechanism.torsions.iter().map(|torsion| torsion.at);
+    let symbols = forces.chain(joints).chain(lines).chain(torsions);
+    let symbols = symbols.map(|place| mechanism.place(&place));
+    points(mechanism).chain(corners).chain(ground).chain(symbols).collect()
 }
 
 /// The normal of the plane that a mechanism lies in, `None` where it lies in none.

@@ -126,7 +126,40 @@ fn odd_mechanisms_have_sound_pictures() {
             body(&name, [x + 0.5, at[1], at[2]]) + &ball([&before, &name], at)
         })
         .collect();
+    let line = |between: [&str; 2], point: [f64; 3], direction: [f64; 3]| {
+        format!(
+            "[[point_on_line]]\nbetween = {between:?}\nline_point = {point:?}\nline_direction = {direction:?}\n\
+             point = [0, 0, 0]\nstiffness = 1\nfree_length = 0\n"
+        )
+    };
     let odd = [
+        (
+            "lines far from what they guide",
+            body("door", [0.6, 0.0, 0.0])
+                + &hinge(["world", "door"], [0.0; 3])
+                + &line(["world", "door"], [0.81, 5.0, 0.0], [0.0, 0.0, 1.0])
+                + &line(["world", "door"], [-3.0, 0.0, 0.0], [0.0, 1.0, 0.0])
+                + &line(["door", "world"], [0.0, 0.0, 4.0], [1.0, 0.0, 0.0]),
+        ),
+        (
+            "shapes larger than all else",
+            ["type = \"sphere\", diameter = 9", "type = \"cylinder\", length = 8, diameter = 0.1", "type = \"box\", length = 0.1, section = [7, 0.2]"]
+                .iter()
+                .enumerate()
+                .map(|(n, shape)| {
+                    let name = format!("b{n}");
+                    format!("[[body]]\nname = {name:?}\nmass = 1\nshape = {{ {shape} }}\nposition = [{n}, 0, 0]\norientation = {{ axis = [1, 1, {n}], angle = 0.7 }}\n")
+                        + &hinge(["world", &name], [n as f64, 0.1, 0.0])
+                })
+                .collect(),
+        ),
+        (
+            "a load on a long arm, a spring without a joint",
+            body("a", [0.0; 3])
+                + &body("b", [0.3, 0.0, 0.0])
+                + "[[torsion_spring]]\nbetween = [\"world\", \"b\"]\naxis = [0, 0, 1]\nstiffness = 1\n\
+                   [[input]]\nname = \"push\"\ntype = \"force\"\nbody = \"b\"\npoint = [0, 40, 0]\naxis = [0, 1, 0]\n",
+        ),
         ("one body, nothing else", body("stone", [0.0; 3])),
         ("one body on a hinge at its centre", body("disc", [0.0; 3]) + &hinge(["world", "disc"], [0.0; 3])),
         (
