@@ -98,6 +98,73 @@ fn sweeps_of_a_fast_mechanism_lose_no_more_to_rounding_than_explicit_dampers() {
     assert!(gained < 3.0 * explicit, "{gained:e} J, explicit {explicit:e} J");
 }
 
+/// A double pendulum that turns over several times, spun up by a torsion spring. Its pivots are revolute
+/// joints of TSDAs, or the same TSDAs one by one.
+fn double_pendulum(raw: bool) -> Scene {
+    let mut text = r#"
+        name = "double pendulum"
+        duration = 2
+        gravity = [0, -9.81, 0]
+        body = [
+            { name = "upper", mass = 2, inertia = [0.015, 3e-4, 0.015], position = [0, -0.15, 0] },
+            { name = "lower", mass = 1, inertia = [3.3e-3, 6.7e-5, 3.3e-3], position = [0, -0.4, 0] },
+        ]
+        torsion_spring = [
+            { between = ["world", "upper"], axis = [0, 0, 1], stiffness = 0.35, damping = 0.02, preload = 14 },
+            { between = ["upper", "lower"], axis = [0, 0, 1], stiffness = 0.8, damping = 0.01 },
+        ]
+    "#
+    .to_owned();
+    // Heights of each pivot: of its place, in the axes of its first and of its second body.
+    let pivots =
+        [(["world", "upper"], [0.0, 0.0, 0.15]), (["upper", "lower"], [-0.3, -0.15, 0.1])];
+    for (i, ([a, b], [place, in_a, in_b])) in pivots.into_iter().enumerate() {
+        if raw {
+            for z in [-0.03, 0.03] {
+                for (x, y) in [(0.0, -0.0245), (0.0212, 0.0122), (-0.0212, 0.0122)] {
+                    let (at, beyond) = (in_b + y, z + if z > 0.0 { 0.0173 } else { -0.0173 });
+                    text += &format!(
+                        "[[tsda]]\nbetween = [\"{a}\", \"{b}\"]\n\
+                         points = [[0, {in_a}, {z}], [{x}, {at}, {beyond}]]\n\
+                         stiffness = 5e5\ndamping = 30\n"
+                    );
+                }
+            }
+        } else {
+            text += &format!(
+                "[[joint]]\nname = \"{i}\"\ntype = \"revolute\"\nbetween = [\"{a}\", \"{b}\"]\n\
+                 at = [0, {place}, 0]\naxis = [0, 0, 1]\nspan = 0.06\nstiffness = 5e5\ndamping = 30\n"
+            );
+        }
+    }
+    Scene::parse(&text, "double-pendulum.toml").unwrap_or_else(|error| panic!("{error:?}"))
+}
+
+/// Single precision is off double by no more than twice what explicit damping is or what the step costs.
+#[test]
+fn damper_passes_lose_little_to_rounding_at_any_step() {
+    for raw in [true, false] {
+        let scene = double_pendulum(raw);
+        let end = |precision, damping, step: f64| {
+            end(&scene, precision, damping, step, (1.5 / step).round() as u64).0
+        };
+        let (double, single) = (PrecisionName::F64, PrecisionName::F32);
+        let exact = end(double, DampingName::Sweeps, 2.5e-6);
+        for step in [1e-5, 2e-5, 5e-5] {
+            let off = |damping| {
+                let without = end(double, damping, step);
+                (distance(&end(single, damping, step), &without), distance(&without, &exact))
+            };
+            let (explicit, _) = off(DampingName::Explicit);
+            for damping in [DampingName::Sweeps, DampingName::JointWise] {
+                let (off, discretisation) = off(damping);
+                let most = 2.0 * explicit.max(discretisation);
+                assert!(off < most, "{raw} {damping:?} {step:e} s: {off:e} m, {most:e} m");
+            }
+        }
+    }
+}
+
 /// The steps of the page, as ω·h of the bound.
 const STEPS: [f64; 6] = [1.6, 0.8, 0.4, 0.2, 0.05, 0.0125];
 

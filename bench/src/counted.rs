@@ -10,6 +10,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use dbd_kernel::geometry::Named;
 use dbd_kernel::real::{Constant, Real};
+use dbd_kernel::space::Space;
 use dbd_kernel::words::{Word, WordSource};
 
 /// How often each operation was done.
@@ -172,6 +173,7 @@ real!(f64);
 real!(f32);
 
 impl<R: Named> Named for Counted<R> {
+    type PassSum<S: Space> = R::PassSum<S>;
     const NAME: &'static str = R::NAME;
 }
 

@@ -10,6 +10,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use dbd_kernel::Real;
 use dbd_kernel::geometry::Named;
 use dbd_kernel::real::{Constant, Truth as _};
+use dbd_kernel::space::Space;
 use dbd_kernel::words::{Word, WordSource};
 
 use crate::register::Register;
@@ -104,6 +105,7 @@ impl<V: Register> Neg for Lanes<V> {
 }
 
 impl<V: Register> Named for Lanes<V> {
+    type PassSum<S: Space> = <V::Number as Named>::PassSum<S>;
     const NAME: &'static str = <V::Number as Named>::NAME;
 }
 

@@ -237,6 +237,7 @@ impl Geometry for CompensatedF32 {
     type Frame = Pose<f32>;
     type Rest = ();
     type Apart = ();
+    type PassSum = ();
 
     const NAME: &'static str = "f32-compensated";
 

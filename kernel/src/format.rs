@@ -12,6 +12,7 @@ use crate::elements::torsion_spring::{TorsionSpring, Twist};
 use crate::forces::Wrench;
 use crate::geometry::Geometry;
 use crate::model::ModelOwner;
+use crate::pass_sum::Sum;
 use crate::plant::Plant;
 use crate::real::Real as _;
 use crate::schemes::Scheme;
@@ -35,6 +36,8 @@ of_a_space! {
         body.mass.to_f64(), body.inertia.to_f64();
     Increment, "Increment {{ linear: {}, angular: {} }}": increment =>
         increment.linear.to_f64(), increment.angular.to_f64();
+    Sum, "Sum {{ linear: {}, angular: {} }}": sum =>
+        sum.linear.to_f64(), sum.angular.to_f64();
     Diagonal, "Diagonal {{ mass: {}, inertia: {} }}": diagonal =>
         diagonal.mass.to_f64(), diagonal.inertia.to_f64();
     Wrench, "Wrench {{ force: {}, torque: {} }}": wrench =>

@@ -10,6 +10,7 @@ use core::fmt::Debug;
 use core::marker::PhantomData;
 
 use crate::attitude::Attitude;
+use crate::pass_sum::{PassSum, Sum};
 use crate::reach::{AtRest, Beside, Beyond, Reach};
 use crate::real::Real;
 use crate::space::{Linear as _, Moment, Space, Vector};
@@ -58,6 +59,8 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     type Rest: Copy + Debug + Default + Send;
     /// How one body stands to another, `()` where nothing is kept at rest.
     type Apart: Copy + Default;
+    /// What a damper pass sums apart per body, `()` where velocities take every impulse at once.
+    type PassSum: PassSum<Self::Space>;
 
     /// The name users give: `f64`, `f32`.
     const NAME: &'static str;
@@ -300,13 +303,17 @@ impl<R: Real> Pose<R> {
 pub trait Named {
     /// The name users give: `f64`, `f32`.
     const NAME: &'static str;
+    /// [`Geometry::PassSum`] of a space of this number.
+    type PassSum<S: Space>: PassSum<S>;
 }
 
 impl Named for f64 {
+    type PassSum<S: Space> = ();
     const NAME: &'static str = "f64";
 }
 
 impl Named for f32 {
+    type PassSum<S: Space> = Sum<S>;
     const NAME: &'static str = "f32";
 }
 
@@ -324,6 +331,7 @@ impl<R: Real + Named, A: Attitude<Real = R, Turn = Quaternion<R>>> Geometry for 
     type Frame = Pose<R>;
     type Rest = ();
     type Apart = ();
+    type PassSum = R::PassSum<R>;
 
     const NAME: &'static str = R::NAME;
 

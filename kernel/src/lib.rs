@@ -9,7 +9,7 @@
 //! - [`words`], `square_root`, [`real`], [`vector`], [`freedoms`], [`space`], [`plane`], [`arctangent`]: the
 //!   arithmetic, also of blocks of numbers, and the words in which it is stored.
 //! - `compositions`, [`index`]: coefficients, and names of a model's parts.
-//! - [`attitude`], [`reach`], [`geometry`], [`compensated`], [`fixed`], [`planar`], [`euler`], [`loose`]: a precision
+//! - [`attitude`], [`reach`], [`pass_sum`], [`geometry`], [`compensated`], [`fixed`], [`planar`], [`euler`], [`loose`]: a precision
 //!   is a type: [`F64`], [`F32`], [`CompensatedF32`], [`Fixed`], in the plane [`Planar64`], [`Planar32`]; an
 //!   orientation is a quaternion or, as in the paper, angles.
 //! - [`body`], [`rotation`], `lockstep`: one rigid body, and how it turns, alone or in lanes.
@@ -92,6 +92,7 @@ mod lockstep;
 #[cfg(feature = "micromath")]
 pub mod loose;
 pub mod model;
+pub mod pass_sum;
 pub mod planar;
 pub mod plane;
 pub mod plant;

@@ -11,6 +11,7 @@ use micromath::F32Ext;
 use crate::euler::{EulerAngles, Trigonometric};
 use crate::geometry::{Float, Named};
 use crate::real::{Constant, Real, one_lane};
+use crate::space::Space;
 use crate::words::{Word, WordSource};
 
 /// A number of single precision whose functions are approximations.
@@ -54,6 +55,7 @@ impl Neg for Loose {
 }
 
 impl Named for Loose {
+    type PassSum<S: Space> = <f32 as Named>::PassSum<S>;
     const NAME: &'static str = "f32-micromath";
 }
 

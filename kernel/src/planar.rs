@@ -45,6 +45,7 @@ impl<R: Real + Named> Geometry for Planar<R> {
     type Frame = PlanarPose<R>;
     type Rest = ();
     type Apart = ();
+    type PassSum = R::PassSum<Plane<R>>;
 
     const NAME: &'static str = R::NAME;
 

@@ -48,6 +48,7 @@ where
     state: State<H::Target>,
     frames: PerBody<H, FrameOf<H::Target>>,
     wrenches: PerBody<H, Wrench<SpaceOf<H::Target>>>,
+    sums: PerBody<H, <PrecisionOf<H> as Geometry>::PassSum>,
     memory: MemoryOf<H, S>,
     in_line: bool,
     ledger: Ledger,
@@ -55,9 +56,9 @@ where
 }
 
 /// What the precision of the model that `H` points to keeps of its TSDAs.
-type PerTsda<H> = <<H as Deref>::Target as ModelOwner>::PerTsda<
-    <<<H as Deref>::Target as ModelOwner>::Precision as Geometry>::Rest,
->;
+type PerTsda<H> = <<H as Deref>::Target as ModelOwner>::PerTsda<<PrecisionOf<H> as Geometry>::Rest>;
+/// The precision of the model that `H` points to.
+type PrecisionOf<H> = <<H as Deref>::Target as ModelOwner>::Precision;
 /// What a scheme remembers of each body of the model that `H` points to.
 pub(crate) type MemoryOf<H, S> =
     PerBody<H, <S as Scheme>::Memory<<<H as Deref>::Target as ModelOwner>::Precision>>;
@@ -140,6 +141,7 @@ where
             solve::find(&view, places, scheme.pencil(h), kept.seats.as_mut());
         }
         let wrenches = owner.per_body(Wrench::default());
+        let sums = owner.per_body(Default::default());
         let memory = owner.per_body(S::Memory::default());
         let in_line = are_in_line(&view);
         let mut plant = Self {
@@ -156,6 +158,7 @@ where
             state,
             frames,
             wrenches,
+            sums,
             memory,
             in_line,
             ledger,
@@ -239,6 +242,7 @@ where
             step,
             frames: self.frames.as_mut(),
             wrenches: self.wrenches.as_mut(),
+            sums: self.sums.as_mut(),
             in_line: self.in_line,
             ledger: &mut self.ledger,
         };

@@ -9,9 +9,10 @@
 use core::sync::atomic::{Ordering, compiler_fence};
 
 use crate::body::BodyState;
+use crate::damping::kick::Kick;
 use crate::damping::lever::{Kind, Lever, Stop};
 use crate::damping::levers::counts;
-use crate::damping::pair::Kick;
+use crate::damping::moving::Moving;
 use crate::damping::{Sweep, sweep_group};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
@@ -26,16 +27,19 @@ pub(crate) fn sweep_joints<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: boo
     sweep: &Sweep<'_, P, K>,
     (levers, stops): (&mut [Lever<P>], u16),
     bodies: &mut [BodyState<P>],
+    sums: &mut [P::PassSum],
 ) {
-    if !sweep.is_of(model, bodies) {
+    if !sweep.is_of(model, bodies) || sums.len() != bodies.len() {
         return;
     }
+    let mut moving = Moving::begin(bodies, sums, &sweep.kick);
     let stops = usize::from(stops);
     for number in 0..stops {
         let number = if REVERSE { stops - 1 - number } else { number };
         let Some(&Lever { stop, .. }) = levers.get(number) else { break };
-        act::<P, T, K, REVERSE>(model, sweep, &stop, levers, bodies);
+        act::<P, T, K, REVERSE>(model, sweep, &stop, levers, &mut moving);
     }
+    moving.end();
 }
 
 /// What acts at one stop.
@@ -45,13 +49,13 @@ fn act<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     sweep: &Sweep<'_, P, K>,
     stop: &Stop,
     levers: &mut [Lever<P>],
-    bodies: &mut [BodyState<P>],
+    moving: &mut Moving<'_, P>,
 ) {
     let Some(levers) = levers.get_mut(stop.row.into()..) else { return };
     match stop.kind {
         Kind::Ground => {
             if let Some(levers) = levers.get_mut(..stop.count.into()) {
-                ground::<P, T, K, REVERSE>(model, sweep, stop, levers, bodies);
+                ground::<P, T, K, REVERSE>(model, sweep, stop, levers, moving);
             }
         }
         Kind::Joint => {
@@ -59,33 +63,33 @@ fn act<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
             let frames = sweep.places.frames;
             if P::Space::PLANAR {
                 if usize::from(stop.count) == few {
-                    joint::<P, T, REVERSE, 2>(model, frames, stop, levers, bodies);
+                    joint::<P, T, REVERSE, 2>(model, frames, stop, levers, moving);
                 } else {
-                    joint::<P, T, REVERSE, 3>(model, frames, stop, levers, bodies);
+                    joint::<P, T, REVERSE, 3>(model, frames, stop, levers, moving);
                 }
             } else if usize::from(stop.count) == few {
-                joint::<P, T, REVERSE, 3>(model, frames, stop, levers, bodies);
+                joint::<P, T, REVERSE, 3>(model, frames, stop, levers, moving);
             } else if usize::from(stop.count) == more {
-                joint::<P, T, REVERSE, 5>(model, frames, stop, levers, bodies);
+                joint::<P, T, REVERSE, 5>(model, frames, stop, levers, moving);
             } else {
-                joint::<P, T, REVERSE, 6>(model, frames, stop, levers, bodies);
+                joint::<P, T, REVERSE, 6>(model, frames, stop, levers, moving);
             }
         }
         Kind::Raw => {
             if let Some(lever) = levers.first() {
-                single::<P, T, REVERSE, true>(model, stop, lever, bodies);
+                single::<P, T, REVERSE, true>(model, stop, lever, moving);
             }
         }
         Kind::Torsion => {
             if let Some(lever) = levers.first() {
-                single::<P, T, REVERSE, false>(model, stop, lever, bodies);
+                single::<P, T, REVERSE, false>(model, stop, lever, moving);
             }
         }
         Kind::Dampers => {
             if let Some(group) = model.groups.get(usize::from(stop.of))
                 && stop.count > 0
             {
-                dampers::<P, T, K, REVERSE>(model, sweep, group, bodies);
+                dampers::<P, T, K, REVERSE>(model, sweep, group, moving);
             }
         }
     }
@@ -97,9 +101,9 @@ fn dampers<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     group: &Group,
-    bodies: &mut [BodyState<P>],
+    moving: &mut Moving<'_, P>,
 ) {
-    sweep_group::<P, T, K, REVERSE>(model, sweep, group, bodies);
+    sweep_group::<P, T, K, REVERSE>(model, sweep, group, moving);
 }
 
 /// The levers of a joint to the ground, all at once: they do not act on one another. In descending order
@@ -110,20 +114,19 @@ fn ground<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     sweep: &Sweep<'_, P, K>,
     stop: &Stop,
     levers: &mut [Lever<P>],
-    bodies: &mut [BodyState<P>],
+    moving: &mut Moving<'_, P>,
 ) {
     let row = BodyIndex(stop.ends[0]).row();
-    let (Some(body), Some(state), Some(frame), Some(kick)) = (
+    let (Some(body), Some((velocity, spin)), Some(frame), Some(kick)) = (
         model.bodies.get(row),
-        bodies.get_mut(row),
+        moving.velocities(row),
         sweep.places.frames.get(row),
         sweep.kick.of(row),
     ) else {
         return;
     };
     let pushed = P::to_body(frame, kick.linear);
-    let velocity = P::to_body(frame, P::velocity(&state.velocity));
-    let spin = P::spin(&state.angular_velocity);
+    let velocity = P::to_body(frame, velocity);
     let mut push = P::Vector::ZERO;
     let mut turn = P::Moment::ZERO;
     // Written out: in a loop its own instructions would be a fifth.
@@ -154,8 +157,8 @@ fn ground<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
             act!(more, all; 2 3 4 5);
         }
     }
-    P::accelerate(&mut state.velocity, P::to_world(frame, push * body.inverse_mass));
-    P::spin_up(&mut state.angular_velocity, turn.scale(body.inverse_inertia));
+    moving.accelerate(row, P::to_world(frame, push * body.inverse_mass));
+    moving.spin_up(row, turn.scale(body.inverse_inertia));
 }
 
 /// What was read before is read again after this: a compiler would keep it, and as there are not enough
@@ -174,7 +177,7 @@ fn joint<P: Geometry, T: Terms, const REVERSE: bool, const N: usize>(
     frames: &[P::Frame],
     stop: &Stop,
     levers: &[Lever<P>],
-    bodies: &mut [BodyState<P>],
+    moving: &mut Moving<'_, P>,
 ) {
     let [row, other_row] = stop.ends.map(usize::from);
     let (Some(body), Some(frame), Some(partner), Some(levers)) = (
@@ -185,11 +188,12 @@ fn joint<P: Geometry, T: Terms, const REVERSE: bool, const N: usize>(
     ) else {
         return;
     };
-    let Ok([state, partner_state]) = bodies.get_disjoint_mut([row, other_row]) else { return };
-    let velocity = P::velocity(&state.velocity) - P::velocity(&partner_state.velocity);
-    let velocity = P::to_body(frame, velocity);
-    let spin = P::spin(&state.angular_velocity);
-    let partner_spin = P::spin(&partner_state.angular_velocity);
+    let (Some((velocity, spin)), Some((partner_velocity, partner_spin))) =
+        (moving.velocities(row), moving.velocities(other_row))
+    else {
+        return;
+    };
+    let velocity = P::to_body(frame, velocity - partner_velocity);
     let rate = |lever: &Lever<P>| {
         lever.along.dot(velocity) + lever.moment.dot(spin) - lever.other.dot(partner_spin)
     };
@@ -228,11 +232,10 @@ fn joint<P: Geometry, T: Terms, const REVERSE: bool, const N: usize>(
     act!(5: 0 1 2 3 4);
     anew();
     let push = P::to_world(frame, push);
-    P::accelerate(&mut state.velocity, push * body.inverse_mass);
-    P::spin_up(&mut state.angular_velocity, turn.scale(body.inverse_inertia));
-    P::accelerate(&mut partner_state.velocity, push * -partner.inverse_mass);
-    let partner_turn = -partner_turn.scale(partner.inverse_inertia);
-    P::spin_up(&mut partner_state.angular_velocity, partner_turn);
+    moving.accelerate(row, push * body.inverse_mass);
+    moving.spin_up(row, turn.scale(body.inverse_inertia));
+    moving.accelerate(other_row, push * -partner.inverse_mass);
+    moving.spin_up(other_row, -partner_turn.scale(partner.inverse_inertia));
 }
 
 /// The one lever of a raw spring, along a line, or of a torsion spring.
@@ -241,41 +244,37 @@ fn single<P: Geometry, T: Terms, const REVERSE: bool, const LINE: bool>(
     model: &ModelRef<'_, P, T>,
     stop: &Stop,
     lever: &Lever<P>,
-    bodies: &mut [BodyState<P>],
+    moving: &mut Moving<'_, P>,
 ) {
     let [row, other_row] = stop.ends.map(usize::from);
     let less = lever.less[usize::from(REVERSE)];
-    if let Some(partner) = model.bodies.get(other_row) {
-        let (Some(body), Ok([state, other])) =
-            (model.bodies.get(row), bodies.get_disjoint_mut([row, other_row]))
-        else {
-            return;
-        };
-        let mut rate = lever.moment.dot(P::spin(&state.angular_velocity))
-            - lever.other.dot(P::spin(&other.angular_velocity));
+    let (Some(body), Some((velocity, spin))) = (model.bodies.get(row), moving.velocities(row))
+    else {
+        return;
+    };
+    let mut rate = lever.moment.dot(spin);
+    if let (Some(partner), Some((other_velocity, other_spin))) =
+        (model.bodies.get(other_row), moving.velocities(other_row))
+    {
+        rate = rate - lever.other.dot(other_spin);
         if LINE {
-            let velocity = P::velocity(&state.velocity) - P::velocity(&other.velocity);
+            rate = rate + lever.along.dot(velocity - other_velocity);
+        }
+        let impulse = less - lever.impulse * rate;
+        if LINE {
+            moving.accelerate(row, lever.along * (impulse * body.inverse_mass));
+            moving.accelerate(other_row, lever.along * -(impulse * partner.inverse_mass));
+        }
+        moving.spin_up(row, lever.moment.scale(body.inverse_inertia) * impulse);
+        moving.spin_up(other_row, lever.other.scale(partner.inverse_inertia) * -impulse);
+    } else {
+        if LINE {
             rate = rate + lever.along.dot(velocity);
         }
         let impulse = less - lever.impulse * rate;
         if LINE {
-            P::accelerate(&mut state.velocity, lever.along * (impulse * body.inverse_mass));
-            P::accelerate(&mut other.velocity, lever.along * -(impulse * partner.inverse_mass));
+            moving.accelerate(row, lever.along * (impulse * body.inverse_mass));
         }
-        let turn = lever.moment.scale(body.inverse_inertia);
-        P::spin_up(&mut state.angular_velocity, turn * impulse);
-        let turn = lever.other.scale(partner.inverse_inertia);
-        P::spin_up(&mut other.angular_velocity, turn * -impulse);
-    } else if let (Some(body), Some(state)) = (model.bodies.get(row), bodies.get_mut(row)) {
-        let mut rate = lever.moment.dot(P::spin(&state.angular_velocity));
-        if LINE {
-            rate = rate + lever.along.dot(P::velocity(&state.velocity));
-        }
-        let impulse = less - lever.impulse * rate;
-        if LINE {
-            P::accelerate(&mut state.velocity, lever.along * (impulse * body.inverse_mass));
-        }
-        let turn = lever.moment.scale(body.inverse_inertia);
-        P::spin_up(&mut state.angular_velocity, turn * impulse);
+        moving.spin_up(row, lever.moment.scale(body.inverse_inertia) * impulse);
     }
 }

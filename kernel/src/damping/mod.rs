@@ -17,14 +17,17 @@
 //! world's axes, a point on a line along the line's two normals, a revolute of bushings along its axis
 //! and the normals and about these, a universal joint as a bushing and about the normal of its axes, one
 //! after the other.
-//! Velocities are rounded once per pair, not once per damper. Linear momentum is always kept.
-//! Angular momentum is kept by dampers of TSDAs with a free length and of torsion springs; a damped
-//! bushing or point on a line has the law `c·v_rel`, whose torque vanishes only with its deflection.
+//! Velocities are rounded once per pair, not once per damper; in single precision once per pass.
+//! Linear momentum is always kept. Angular momentum is kept by dampers of TSDAs with a free length and of
+//! torsion springs; a damped bushing or point on a line has the law `c·v_rel`, whose torque vanishes only
+//! with its deflection.
 
 mod joints;
+mod kick;
 mod lever;
 mod levers;
 mod motion;
+mod moving;
 mod near;
 mod pair;
 mod prepare;
@@ -33,15 +36,17 @@ mod strength;
 
 pub use crate::elements::share::Share;
 pub(crate) use joints::sweep_joints;
+pub(crate) use kick::{HalfKick, KeptKick, NoKick};
 pub use lever::Lever;
 pub(crate) use levers::{find, weigh};
 pub(crate) use near::Held;
-pub(crate) use pair::{HalfKick, KeptKick, Kick, NoKick};
 pub(crate) use prepare::prepare;
 pub(crate) use shares::share;
 pub use strength::{DampersOf, Strength, strengths, strengths_of_joints};
 
 use crate::body::BodyState;
+use crate::damping::kick::Kick;
+use crate::damping::moving::Moving;
 use crate::damping::pair::{Damper, Direction, Pair};
 use crate::elements::clearance;
 use crate::elements::torsion_spring::TorsionSpring;
@@ -126,11 +131,12 @@ pub(crate) fn sweep<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     bodies: &mut [BodyState<P>],
+    sums: &mut [P::PassSum],
 ) {
     if P::Real::LANES == 1 {
-        sweep_apart::<P, T, K, REVERSE>(model, sweep, bodies);
+        sweep_apart::<P, T, K, REVERSE>(model, sweep, bodies, sums);
     } else {
-        sweep_here::<P, T, K, REVERSE>(model, sweep, bodies);
+        sweep_here::<P, T, K, REVERSE>(model, sweep, bodies, sums);
     }
 }
 
@@ -139,8 +145,9 @@ fn sweep_apart<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     bodies: &mut [BodyState<P>],
+    sums: &mut [P::PassSum],
 ) {
-    sweep_here::<P, T, K, REVERSE>(model, sweep, bodies);
+    sweep_here::<P, T, K, REVERSE>(model, sweep, bodies, sums);
 }
 
 // Lanes are stepped by a function that may use more instructions than its callees: it has none.
@@ -149,27 +156,30 @@ fn sweep_here<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     bodies: &mut [BodyState<P>],
+    sums: &mut [P::PassSum],
 ) {
+    let mut moving = Moving::begin(bodies, sums, &sweep.kick);
     let torsions = model.torsions.iter().zip(P::Real::counts(sweep.turns));
     if REVERSE {
         if T::TORSIONS {
             for (spring, &turns) in torsions.rev() {
-                torsion::<P, T, K, REVERSE>(model, sweep, spring, turns, bodies);
+                torsion::<P, T, K, REVERSE>(model, sweep, spring, turns, &mut moving);
             }
         }
         for group in model.groups.iter().rev() {
-            sweep_group::<P, T, K, true>(model, sweep, group, bodies);
+            sweep_group::<P, T, K, true>(model, sweep, group, &mut moving);
         }
     } else {
         for group in model.groups {
-            sweep_group::<P, T, K, false>(model, sweep, group, bodies);
+            sweep_group::<P, T, K, false>(model, sweep, group, &mut moving);
         }
         if T::TORSIONS {
             for (spring, &turns) in torsions {
-                torsion::<P, T, K, REVERSE>(model, sweep, spring, turns, bodies);
+                torsion::<P, T, K, REVERSE>(model, sweep, spring, turns, &mut moving);
             }
         }
     }
+    moving.end();
 }
 
 #[inline(always)]
@@ -177,15 +187,15 @@ fn sweep_group<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     group: &Group,
-    bodies: &mut [BodyState<P>],
+    moving: &mut Moving<'_, P>,
 ) {
     let Some(first) = group.damper.row() else { return };
     if T::TSDAS && group.law == Law::Tsda && group.clearance.row().is_none() {
-        return sweep_stars::<P, T, K, REVERSE>(model, sweep, group, first, bodies);
+        return sweep_stars::<P, T, K, REVERSE>(model, sweep, group, first, moving);
     }
     let places = sweep.places;
     let elements = group.elements();
-    let mut pair = new_pair(model, sweep, [group.a, group.b], bodies);
+    let mut pair = new_pair(model, sweep, [group.a, group.b], moving);
     for i in 0..elements {
         let i = if REVERSE { elements - 1 - i } else { i };
         let row = first + i;
@@ -204,7 +214,7 @@ fn sweep_group<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
             pair.damp::<P, K>(&direction, damper, idle);
         });
     }
-    pair.store::<P>(bodies);
+    pair.store::<P>(moving);
 }
 
 /// The pair of two ends; moved ground has its rate.
@@ -213,13 +223,13 @@ fn new_pair<P: Geometry, T: Terms, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     ends: [BodyIndex; 2],
-    bodies: &[BodyState<P>],
+    moving: &Moving<'_, P>,
 ) -> Pair<P::Space> {
     let [a, b] = ends;
     let a = End::new(model, sweep.places, a, None);
     let b = End::new(model, sweep.places, b, None);
     let rate = b.velocity - a.velocity;
-    Pair::new(model, ends.map(BodyIndex::row), bodies, rate, &sweep.kick)
+    Pair::new(model, ends.map(BodyIndex::row), moving, rate, &sweep.kick)
 }
 
 /// The directions in which an element's damper acts, one after the other.
@@ -289,14 +299,14 @@ fn sweep_stars<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     sweep: &Sweep<'_, P, K>,
     group: &Group,
     damper: usize,
-    bodies: &mut [BodyState<P>],
+    moving: &mut Moving<'_, P>,
 ) {
     let places = sweep.places;
     // A number at run time, and one body of the loop: unrolled it takes more flash and is no faster.
     let arms = (group.arms as usize).clamp(1, MOST_ARMS);
     let end_a = End::new(model, places, group.a, None);
     let end_b = End::new(model, places, group.b, None);
-    let mut pair = new_pair(model, sweep, [group.a, group.b], bodies);
+    let mut pair = new_pair(model, sweep, [group.a, group.b], moving);
     let stars = group.stars as usize;
     let (blocks, per_block) = if group.shared { (1, stars) } else { (stars, 1) };
     for i in 0..blocks {
@@ -341,7 +351,7 @@ fn sweep_stars<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
             }
         }
     }
-    pair.store::<P>(bodies);
+    pair.store::<P>(moving);
 }
 
 /// What acts of an element's damper beyond its clearance; without one all of it.
@@ -367,16 +377,16 @@ fn torsion<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
     sweep: &Sweep<'_, P, K>,
     spring: &TorsionSpring<P::Space>,
     turns: CountOf<P>,
-    bodies: &mut [BodyState<P>],
+    moving: &mut Moving<'_, P>,
 ) {
     let Some(row) = spring.damper.row() else { return };
-    let direction = torsion_direction(model, sweep.places, spring, turns, bodies);
+    let direction = torsion_direction(model, sweep.places, spring, turns, moving.states);
     let known = (direction, model.dampers.get(row), sweep.shares.get(row));
     let (Some(direction), Some(&coefficient), Some(share)) = known else { return };
-    let mut pair = new_pair(model, sweep, [spring.a, spring.b], bodies);
+    let mut pair = new_pair(model, sweep, [spring.a, spring.b], moving);
     let idle = P::Real::truth(false);
     pair.damp::<P, K>(&direction, sweep.damper::<REVERSE>(coefficient, share), idle);
-    pair.store::<P>(bodies);
+    pair.store::<P>(moving);
 }
 
 /// The direction of a torsion spring's damper: moments alone. An undefined twist has none; it is

@@ -2,8 +2,8 @@
 //!
 //! `(direction and moments, rate, kick's rate, coefficient, time) => impulse on both`.
 
-use crate::body::{BodyState, Diagonal, Increment};
-use crate::forces::Wrench;
+use crate::damping::kick::Kick;
+use crate::damping::moving::Moving;
 use crate::geometry::Geometry;
 use crate::model::{ModelRef, Terms};
 use crate::real::{Real, Truth as _};
@@ -45,71 +45,6 @@ impl<R: Real> Damper<R> {
     }
 }
 
-/// The kick that a sweep follows.
-pub(crate) trait Kick<P: Geometry> {
-    /// Whether there is one.
-    const KNOWN: bool;
-    /// Of how many bodies it knows, where it counts them.
-    fn count(&self) -> Option<usize> {
-        None
-    }
-    /// What it gave to the body in this row, `None` of the ground.
-    fn of(&self, row: usize) -> Option<Increment<P::Space>>;
-}
-
-/// A sweep by itself: no kick came before.
-pub(crate) struct NoKick;
-
-impl<P: Geometry> Kick<P> for NoKick {
-    const KNOWN: bool = false;
-
-    #[inline(always)]
-    fn of(&self, _: usize) -> Option<Increment<P::Space>> {
-        Some(Increment::default())
-    }
-}
-
-/// The kick of half a step.
-pub(crate) struct HalfKick<'s, S: Space> {
-    pub(crate) wrenches: &'s [Wrench<S>],
-    pub(crate) diagonals: &'s [Diagonal<S>],
-    /// \[m/s\] by what bodies fall, `None` where their weights are among the wrenches.
-    pub(crate) fall: Option<S::Vector>,
-}
-
-impl<P: Geometry> Kick<P> for HalfKick<'_, P::Space> {
-    const KNOWN: bool = true;
-
-    #[inline(always)]
-    fn of(&self, row: usize) -> Option<Increment<P::Space>> {
-        let (wrench, diagonal) = (self.wrenches.get(row)?, self.diagonals.get(row)?);
-        let mut kick = diagonal.increment(wrench.force, wrench.torque, P::Real::HALF);
-        if let Some(fall) = self.fall {
-            kick.linear = kick.linear + fall;
-        }
-        Some(kick)
-    }
-}
-
-/// The kick of half a step that stands in place of the wrenches.
-pub(crate) struct KeptKick<'s, S: Space> {
-    pub(crate) kicks: &'s [Wrench<S>],
-}
-
-impl<P: Geometry> Kick<P> for KeptKick<'_, P::Space> {
-    const KNOWN: bool = true;
-
-    #[inline(always)]
-    fn count(&self) -> Option<usize> {
-        Some(self.kicks.len())
-    }
-    #[inline(always)]
-    fn of(&self, row: usize) -> Option<Increment<P::Space>> {
-        let kick = self.kicks.get(row)?;
-        Some(Increment { linear: kick.force, angular: kick.torque })
-    }
-}
-
 /// A damper's direction u in world axes, and the moments `r × u` of a unit force along it on the
 /// two bodies, body axes. The ground has none.
 #[derive(Clone, Copy)]
@@ -136,18 +71,18 @@ struct Side<S: Space> {
 fn side<P: Geometry, T: Terms, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
     row: usize,
-    bodies: &[BodyState<P>],
+    moving: &Moving<'_, P>,
     kick: &K,
 ) -> Option<(Side<P::Space>, P::Real, P::Vector, P::Vector)> {
-    let (body, state) = (model.bodies.get(row)?, bodies.get(row)?);
+    let (body, (velocity, spin)) = (model.bodies.get(row)?, moving.velocities(row)?);
     let kick = kick.of(row)?;
     let side = Side {
         inverse_inertia: body.inverse_inertia,
-        spin: P::spin(&state.angular_velocity),
+        spin,
         kick: kick.angular,
         turn: P::Moment::ZERO,
     };
-    Some((side, body.inverse_mass, P::velocity(&state.velocity), kick.linear))
+    Some((side, body.inverse_mass, velocity, kick.linear))
 }
 
 impl<S: Space> Side<S> {
@@ -190,12 +125,12 @@ impl<S: Space> Pair<S> {
     >(
         model: &ModelRef<'_, P, T>,
         rows: [usize; 2],
-        bodies: &[BodyState<P>],
+        moving: &Moving<'_, P>,
         ground_rate: S::Vector,
         kick: &K,
     ) -> Self {
         let [a, b] = rows;
-        let (a, b) = (side(model, a, bodies, kick), side(model, b, bodies, kick));
+        let (a, b) = (side(model, a, moving, kick), side(model, b, moving, kick));
         let mut velocity = ground_rate;
         let mut pushed = S::Vector::ZERO;
         let mut inverse_masses = [S::Real::ZERO; 2];
@@ -278,22 +213,22 @@ impl<S: Space> Pair<S> {
         }
     }
 
-    /// Adds what the dampers did to the bodies' velocities.
+    /// Adds what the dampers did to the bodies.
     #[inline(always)]
     pub(super) fn store<
         P: Geometry<Space = S, Real = S::Real, Vector = S::Vector, Moment = S::Moment>,
     >(
         self,
-        bodies: &mut [BodyState<P>],
+        moving: &mut Moving<'_, P>,
     ) {
         let [row_a, row_b] = self.rows;
         let [a, b] = self.sides;
         let [inverse_a, inverse_b] = self.inverse_masses;
         let sides = [(row_a, a, inverse_a), (row_b, b, -inverse_b)];
         for (row, side, inverse_mass) in sides {
-            if let (Some(side), Some(state)) = (side, bodies.get_mut(row)) {
-                P::accelerate(&mut state.velocity, self.impulse * inverse_mass);
-                P::spin_up(&mut state.angular_velocity, side.turn);
+            if let Some(side) = side {
+                moving.accelerate(row, self.impulse * inverse_mass);
+                moving.spin_up(row, side.turn);
             }
         }
     }

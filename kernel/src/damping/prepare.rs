@@ -7,9 +7,9 @@
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
 use crate::damping::joints::anew;
+use crate::damping::kick::Kick;
 use crate::damping::lever::{Kind, Lever, Stop};
 use crate::damping::levers::{LARGEST, counts};
-use crate::damping::pair::Kick;
 use crate::damping::{Share, Sweep, engaged};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;

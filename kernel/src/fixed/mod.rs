@@ -74,6 +74,7 @@ impl Geometry for Fixed {
     type Frame = FixedPose;
     type Rest = Rest;
     type Apart = [i64; 3];
+    type PassSum = ();
 
     const NAME: &'static str = "fixed";
     const LIMITS: Option<Limits> = Some(LIMITS);

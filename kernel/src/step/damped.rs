@@ -6,6 +6,7 @@ use crate::damping::{self, HalfKick, KeptKick, NoKick, Sweep};
 use crate::forces::{Dampers, Wrench};
 use crate::geometry::Geometry;
 use crate::model::Terms;
+use crate::pass_sum::PassSum as _;
 use crate::pose::{Places, place_bodies};
 use crate::real::Real;
 use crate::step::Workspace;
@@ -24,19 +25,20 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
     /// Frames and wrenches are those of the present pose, without dampers.
     #[inline(always)]
     pub fn damped_kick_forward(&mut self) {
-        self.kick(P::Real::HALF);
-        self.sweep_after_kick::<false>();
+        self.kick_and_sweep::<false>();
     }
 
     /// [`Self::damped_kick_forward`] with the dampers in descending order.
     #[inline(always)]
     pub fn damped_kick_reverse(&mut self) {
-        self.kick(P::Real::HALF);
-        self.sweep_after_kick::<true>();
+        self.kick_and_sweep::<true>();
     }
 
     #[inline(always)]
-    fn sweep_after_kick<const REVERSE: bool>(&mut self) {
+    fn kick_and_sweep<const REVERSE: bool>(&mut self) {
+        if !(P::PassSum::APART && self.has_dampers()) {
+            self.kick(P::Real::HALF);
+        }
         let fall = self.fall(P::Real::HALF);
         let (wrenches, diagonals) = (&*self.wrenches, self.diagonals);
         if self.has_dampers() {
@@ -47,7 +49,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
                 shares: self.shares,
                 kick: HalfKick { wrenches, diagonals, fall },
             };
-            damping::sweep::<P, T, _, REVERSE>(&self.model, &sweep, self.bodies);
+            damping::sweep::<P, T, _, REVERSE>(&self.model, &sweep, self.bodies, self.sums);
         }
     }
 
@@ -56,8 +58,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
     #[inline(always)]
     pub(crate) fn damped_kick<D: Dampers, const REVERSE: bool>(&mut self) {
         if !(D::JOINT_WISE && self.has_dampers()) {
-            self.kick(P::Real::HALF);
-            return self.sweep_after_kick::<REVERSE>();
+            return self.kick_and_sweep::<REVERSE>();
         }
         let fresh = !self.ledger.ready;
         self.keep_kick(fresh);
@@ -71,10 +72,17 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
             self.ledger.ready = true;
         }
         let levers = (&mut *self.levers, self.ledger.stops);
-        damping::sweep_joints::<P, T, _, REVERSE>(&self.model, &sweep, levers, self.bodies);
+        damping::sweep_joints::<P, T, _, REVERSE>(
+            &self.model,
+            &sweep,
+            levers,
+            self.bodies,
+            self.sums,
+        );
     }
 
-    /// A kick by half. At first it is made of the wrenches and takes their place.
+    /// A kick by half, left to the pass where that sums apart. At first it is made of the wrenches and
+    /// takes their place.
     #[inline(always)]
     fn keep_kick(&mut self, fresh: bool) {
         let fall = self.fall(P::Real::HALF);
@@ -86,10 +94,12 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
                     kick.linear = kick.linear + fall;
                 }
                 *wrench = Wrench::new(kick.linear, kick.angular);
-                P::accelerate(&mut state.velocity, kick.linear);
-                P::spin_up(&mut state.angular_velocity, kick.angular);
+                if !P::PassSum::APART {
+                    P::accelerate(&mut state.velocity, kick.linear);
+                    P::spin_up(&mut state.angular_velocity, kick.angular);
+                }
             }
-        } else {
+        } else if !P::PassSum::APART {
             for (state, kick) in rows {
                 P::accelerate(&mut state.velocity, kick.force);
                 P::spin_up(&mut state.angular_velocity, kick.torque);
@@ -121,7 +131,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
                 shares: self.shares,
                 kick: NoKick,
             };
-            damping::sweep::<P, T, _, REVERSE>(&self.model, &sweep, self.bodies);
+            damping::sweep::<P, T, _, REVERSE>(&self.model, &sweep, self.bodies, self.sums);
         }
     }
 }

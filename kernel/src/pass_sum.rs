@@ -1,0 +1,54 @@
+//! What a damper pass sums per body before a velocity takes it.
+//!
+//! `impulses of a pass => one change of velocity`. A velocity in single precision has no digits for what one
+//! joint's dampers take from it, and rounds them off the same way step after step.
+
+use core::fmt::Debug;
+
+use crate::space::Space;
+
+/// What a damper pass has given to a body, apart from the velocity before the pass; `()` in precisions
+/// whose velocities take every impulse at once.
+pub trait PassSum<S: Space>: Copy + Debug + Default + Send + 'static {
+    /// Whether there is a sum.
+    const APART: bool;
+    /// The sum.
+    fn sum(&self) -> Option<&Sum<S>>;
+    /// The sum, to be added to.
+    fn sum_mut(&mut self) -> Option<&mut Sum<S>>;
+}
+
+/// A sum of changes of a body's velocity and angular velocity.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sum<S: Space> {
+    /// \[m/s\] world axes.
+    pub linear: S::Vector,
+    /// \[rad/s\] body axes.
+    pub angular: S::Moment,
+}
+
+impl<S: Space> PassSum<S> for () {
+    const APART: bool = false;
+
+    #[inline(always)]
+    fn sum(&self) -> Option<&Sum<S>> {
+        None
+    }
+    #[inline(always)]
+    fn sum_mut(&mut self) -> Option<&mut Sum<S>> {
+        None
+    }
+}
+
+impl<S: Space> PassSum<S> for Sum<S> {
+    const APART: bool = true;
+
+    #[inline(always)]
+    fn sum(&self) -> Option<&Sum<S>> {
+        Some(self)
+    }
+    #[inline(always)]
+    fn sum_mut(&mut self) -> Option<&mut Sum<S>> {
+        Some(self)
+    }
+}
