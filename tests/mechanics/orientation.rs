@@ -269,7 +269,7 @@ fn a_torsion_spring_winds_through_the_pole() {
         for n in 1..=500 {
             plant.advance(10).ok().unwrap();
             let angle = plant
-                .read(&Readout::JointAngle { spring: 0, offset: 0.0 })
+                .read(&Readout::JointAngle { spring: 0, offset: dbd_kernel::Real::ZERO })
                 .unwrap()
                 .scalar()
                 .unwrap();

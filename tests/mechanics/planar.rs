@@ -210,8 +210,8 @@ fn looks<P: Geometry>(damped: Damped) -> (Vec<f64>, f64, f64) {
     strengths(&model, plant.state(), |strength| seen.push(strength.rate));
     let point = P::local_from_f64([0.1, 0.2, 0.0]);
     for readout in [
-        Readout::JointAngle { spring: 0, offset: 0.0 },
-        Readout::JointAngle { spring: 1, offset: 0.0 },
+        Readout::JointAngle { spring: 0, offset: dbd_kernel::Real::ZERO },
+        Readout::JointAngle { spring: 1, offset: dbd_kernel::Real::ZERO },
         Readout::JointRate { spring: 1 },
         Readout::Point { body: ROD, point },
         Readout::PointVelocity { body: ROD, point },
@@ -281,7 +281,7 @@ fn turns_are_counted_as_in_space() {
         let mut plant = Plant::new(model_of(model), Leapfrog, 0.02).unwrap();
         plant.advance(100).ok().unwrap();
         let Some(Reading::Scalar(angle)) =
-            plant.read(&Readout::JointAngle { spring: 0, offset: 0.0 })
+            plant.read(&Readout::JointAngle { spring: 0, offset: dbd_kernel::Real::ZERO })
         else {
             panic!("an angle")
         };
