@@ -116,8 +116,7 @@ fn double_pendulum(raw: bool) -> Scene {
     "#
     .to_owned();
     // Heights of each pivot: of its place, in the axes of its first and of its second body.
-    let pivots =
-        [(["world", "upper"], [0.0, 0.0, 0.15]), (["upper", "lower"], [-0.3, -0.15, 0.1])];
+    let pivots = [(["world", "upper"], [0.0, 0.0, 0.15]), (["upper", "lower"], [-0.3, -0.15, 0.1])];
     for (i, ([a, b], [place, in_a, in_b])) in pivots.into_iter().enumerate() {
         if raw {
             for z in [-0.03, 0.03] {

@@ -114,6 +114,33 @@ fn a_planar_scene_rests_in_its_plane_as_in_space() {
     }
 }
 
+/// The crank of the four-bar is turned, the other links follow and the joints stay closed.
+#[test]
+fn joints_start_at_the_angles_that_are_asked_for() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let text = std::fs::read_to_string(root.join("scenes/four-bar.toml")).unwrap();
+    let parse = |angles: &str| {
+        let text = format!("{text}\n[assemble]\nangles = {{ {angles} }}\n");
+        Scene::parse(&text, "four-bar.toml").map_err(|e| format!("{} ({})", e.message(), e.help()))
+    };
+    let plain = Scene::parse(&text, "four-bar.toml").unwrap();
+    for degrees in [0.0, 7.5, -20.0] {
+        let scene = parse(&format!("A0 = \"{degrees:?} deg\"")).unwrap();
+        let [now, before] = [&scene, &plain].map(|scene| scene.model.initial[0].orientation);
+        let turn = now.product(before.conjugate());
+        let found = 2.0 * turn.v.z.atan2(turn.w).to_degrees();
+        assert!((found - degrees).abs() < 1e-9, "{degrees} {found}");
+        let assembled = scene.assembled.unwrap();
+        // The joints' own freedom, which the angle does not take.
+        assert_eq!(assembled.freedoms, 1);
+        assert!(assembled.left.unwrap().distance < 1e-9);
+    }
+    let said = parse("nobody = 1").unwrap_err();
+    assert!(said.contains("is no joint") && said.contains("`angles`"), "{said}");
+    let said = parse("A0 = \"3 m\"").unwrap_err();
+    assert!(said.contains("rad"), "{said}");
+}
+
 #[test]
 fn what_cannot_rest_is_refused_with_its_reason() {
     let free = "[[body]]\nname = \"ball\"\nmass = 1\ninertia = [1, 1, 1]\nposition = [0, 0, 0]\n";

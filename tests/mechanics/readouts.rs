@@ -27,11 +27,17 @@ fn angles_are_unwrapped_and_rates_signed() {
     model.add_torsion_spring([WORLD, body], [0.0, 0.0, 1.0], 0.0, 0.0, 0.0).unwrap();
     let mut plant = Plant::new(&model, Leapfrog, 1e-3).unwrap();
     plant.advance(5_000).ok().unwrap();
-    let angle =
-        plant.read(&Readout::JointAngle { spring: 0, offset: dbd_kernel::Real::ZERO }).unwrap().scalar().unwrap();
+    let angle = plant
+        .read(&Readout::JointAngle { spring: 0, offset: dbd_kernel::Real::ZERO })
+        .unwrap()
+        .scalar()
+        .unwrap();
     let rate = plant.read(&Readout::JointRate { spring: 0 }).unwrap().scalar().unwrap();
     assert!((angle + 20.0).abs() < 1e-9 && (rate + 4.0).abs() < 1e-12, "{angle} {rate}");
-    assert_eq!(plant.read(&Readout::JointAngle { spring: 1, offset: dbd_kernel::Real::ZERO }), None);
+    assert_eq!(
+        plant.read(&Readout::JointAngle { spring: 1, offset: dbd_kernel::Real::ZERO }),
+        None
+    );
 }
 
 #[test]

@@ -16,7 +16,7 @@ mod rates;
 
 pub(crate) use constraint::{Closure, Opening, Place, Turn};
 pub(crate) use mobility::{Mobility, mobility, moving, still};
-pub(crate) use pose::{Pose, length};
+pub(crate) use pose::{Pose, exponential, length};
 pub(crate) use rates::{Contradiction, Motion, Prescribed, motions};
 
 use crate::closure::island::Island;

@@ -2,10 +2,10 @@
 //!
 //! `table, joints at the given poses => states in the assembly, what was moved and by how much`.
 
-use dbd_kernel::{BodyState, F64};
+use dbd_kernel::{BodyState, F64, Vec3};
 
 use crate::assembly::{Assembly, WORLD};
-use crate::closure::{self, MOST_BODIES, Opening, Outcome, Settings};
+use crate::closure::{self, Closure, MOST_BODIES, Opening, Outcome, Settings, Turn};
 use crate::error::SceneError;
 use crate::joints::rates::{self, Joints};
 use crate::joints::site::{Site, poses, shown};
@@ -15,7 +15,7 @@ use crate::shortened::shortened;
 use crate::spring;
 use crate::text::{Kind, Number, Table, Text, Value};
 
-pub(super) const KEYS: &[&str] = &["fixed", "rates", "length", "tolerance", "iterations"];
+pub(super) const KEYS: &[&str] = &["fixed", "angles", "rates", "length", "tolerance", "iterations"];
 
 /// \[m\] by which a joint may stay open where the scene does not say.
 const TOLERANCE: f64 = 1e-9;
@@ -112,13 +112,23 @@ pub(crate) fn read(
     }
     let settings = Settings { length, iterations };
     let given = poses(assembly);
-    let outcome = closure::close(&closures, &given, &movable, settings);
+    let turned = match table.value("angles") {
+        Some(value) => Some(angles(&value, &tables, &closures)?),
+        None => None,
+    };
+    let mut outcome =
+        closure::close(turned.as_ref().unwrap_or(&closures), &given, &movable, settings);
     // What is no number is open.
     let is_closed = |opening: &Opening| opening.distance + length * opening.angle <= tolerance;
     if !outcome.openings.iter().all(is_closed) {
         let gaps = closure::gaps(&closures, &given, &movable, length, &outcome);
         let spent = outcome.iterations >= iterations;
         return Err(open(&tables, &gaps, (&sites, &movable), (length, spent), assembly));
+    }
+    if turned.is_some() {
+        // Of the joints alone, which are closed: nothing moves, and what they leave free is counted.
+        let joints = closure::close(&closures, &outcome.poses, &movable, settings);
+        (outcome.freedoms, outcome.held_twice) = (joints.freedoms, joints.held_twice);
     }
     let open = tables.iter().zip(&closures).filter_map(|(table, closure)| {
         let Opening { distance, angle } = closure.opening(&given);
@@ -138,6 +148,30 @@ pub(crate) fn read(
     let joints = Joints { tables: &tables, closures: &closures, length };
     let set_moving = rates::set(root, &table, &joints, &outcome.poses, assembly)?;
     Ok(Some(Assembled { moved, open, left, set_moving, iterations, freedoms, held_twice, length }))
+}
+
+/// The closures of joints some of which are turned by an angle \[rad\] from the poses as written.
+fn angles(
+    value: &Value<'_>,
+    tables: &[Table<'_>],
+    closures: &[Closure],
+) -> Result<Vec<Closure>, SceneError> {
+    let table = value.table("{ JOINT = angle }: rad from the poses as written")?;
+    let mut turned = closures.to_vec();
+    for (row, value) in rates::by_joint(&table, tables, "angles")? {
+        let kind = kind(&tables[row])?.name;
+        let closure = &mut turned[row];
+        if closure.turn != Turn::Axis {
+            let problem = format!("is the angle of a {kind} joint");
+            let help = "angles are those of revolute and cylindrical joints";
+            return Err(value.refuse_with(&problem, help));
+        }
+        let angle = Number::any("rad").read(&value)?;
+        let back = closure::exponential(Vec3::new(0.0, 0.0, -angle));
+        closure.turn = Turn::All;
+        closure.triads[1] = closure.triads[1].product(back);
+    }
+    Ok(turned)
 }
 
 /// Moves the bodies of the assembly to where they have come.

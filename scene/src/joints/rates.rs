@@ -96,6 +96,27 @@ fn of_bodies<'t>(root: &Table<'t>, assembly: &Assembly) -> Result<Vec<Source<'t>
     Ok(sources)
 }
 
+/// The values of a table by names of joints, each with the joint's row.
+pub(super) fn by_joint<'t>(
+    table: &Table<'t>,
+    joints: &[Table<'_>],
+    key: &str,
+) -> Result<Vec<(usize, Value<'t>)>, SceneError> {
+    let name = |table: &Table<'_>| table.optional("name", Text::Any).ok().flatten();
+    let names: Vec<_> = joints.iter().map(|table| name(table).unwrap_or_default()).collect();
+    let row = |(joint, value): (String, Value<'t>)| {
+        let Some(row) = names.iter().position(|name| *name == joint) else {
+            let help = match nearest(&joint, names.iter().map(String::as_str)) {
+                Some(meant) => format!("did you mean `{meant}`? `{key}` are those of joints"),
+                None => format!("`{key}` are those of joints by their names"),
+            };
+            return Err(value.refuse_with(&format!("is no joint: \"{}\"", shortened(&joint)), help));
+        };
+        Ok((row, value))
+    };
+    table.named()?.into_iter().map(row).collect()
+}
+
 /// The rates of joints.
 fn of_joints<'t>(
     value: &Value<'t>,
@@ -103,16 +124,7 @@ fn of_joints<'t>(
     sources: &mut Vec<Source<'t>>,
 ) -> Result<(), SceneError> {
     let table = value.table("{ JOINT = rate }: rad/s about a joint's axis or m/s along it")?;
-    let name = |table: &Table<'_>| table.optional("name", Text::Any).ok().flatten();
-    let names: Vec<_> = joints.tables.iter().map(|table| name(table).unwrap_or_default()).collect();
-    for (joint, value) in table.named()? {
-        let Some(row) = names.iter().position(|name| *name == joint) else {
-            let help = match nearest(&joint, names.iter().map(String::as_str)) {
-                Some(meant) => format!("did you mean `{meant}`? `rates` are those of joints"),
-                None => "`rates` are those of joints by their names".into(),
-            };
-            return Err(value.refuse_with(&format!("is no joint: \"{}\"", shortened(&joint)), help));
-        };
+    for (row, value) in by_joint(&table, joints.tables, "rates")? {
         let kind = super::kind(&joints.tables[row])?.name;
         let mut push = |prescribed, value| sources.push(Source { prescribed, value });
         match kind {

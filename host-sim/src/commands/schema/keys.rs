@@ -63,6 +63,11 @@ fn of_assemble(key: &str, tables: &[TableKeys]) -> Option<Key> {
             "Names of bodies that are not moved, as the world is not",
             "none",
         ),
+        "angles" => Key(
+            json!({ "type": "object", "additionalProperties": number(Any) }),
+            "Angles at t = 0 by joint, rad from the poses as written: of revolute and cylindrical joints",
+            "none",
+        ),
         "rates" => Key(
             json!({ "type": "object", "additionalProperties": rate }),
             "Velocities at t = 0 by joint: rad/s of a revolute, m/s of a translational joint, { turn = rad/s, slide = \
