@@ -95,9 +95,7 @@ struct Trace {
 impl Trace {
     fn read(path: &Path) -> Self {
         let text = fs::read_to_string(path).unwrap();
-        // What was set stands before the header.
-        let lines = text.lines().filter(|line| !line.starts_with('#'));
-        let mut lines = lines.map(|line| line.split(',').map(str::to_owned).collect());
+        let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect());
         Self { header: lines.next().unwrap(), rows: lines.collect() }
     }
 

@@ -19,7 +19,6 @@ use crate::recorded::row::Row;
 use crate::recorded::row_text::{digits_of, fields, place, read, separated};
 use crate::recorded::summary::RunSummary;
 use crate::recorded::unreadable::Unreadable;
-use crate::report::trace::SET;
 
 /// Bytes of the lines before the first row, at most.
 const LONGEST_HEAD: u64 = 256 << 20;
@@ -32,34 +31,6 @@ const ROUNDING: f64 = 1e-9;
 
 /// What is to be done about a trace that is not whole.
 const AGAIN: &str = "run the scene again: its trace and its summary belong together";
-
-/// The line of the columns' names, once what was changed goes with the summary.
-fn changes(lines: &mut Lines, summary: &RunSummary) -> Result<String, Unreadable> {
-    let mut set = summary.set.iter();
-    loop {
-        let Some(line) = lines.next(LONGEST_HEAD)? else {
-            return Err(lines
-                .wrong("the file ends before the names of the columns")
-                .with_remedy(AGAIN));
-        };
-        let (line, changed) = (line.to_owned(), set.as_slice().first());
-        let Some(value) = line.strip_prefix(SET) else {
-            if let Some(value) = changed {
-                let problem = format!(
-                    "the summary says that `{}` was set, and the trace does not: they are of different runs",
-                    value.path
-                );
-                return Err(lines.wrong(problem).with_remedy(AGAIN));
-            }
-            return Ok(line);
-        };
-        if changed.is_none_or(|changed| changed.text() != value) {
-            let problem = "the summary does not say that this was set: they are of different runs";
-            return Err(lines.wrong(problem).with_remedy(AGAIN));
-        }
-        set.next();
-    }
-}
 
 /// How many rows a trace has, where no summary says it.
 fn count(file: &Path, header: &str) -> Result<u64, Unreadable> {
@@ -108,7 +79,11 @@ impl TraceReader {
             return Err(Unreadable::new(summary_file, problem));
         };
         let mut lines = Lines::open(file)?;
-        let header = changes(&mut lines, &summary)?;
+        let Some(header) = lines.next(LONGEST_HEAD)?.map(str::to_owned) else {
+            return Err(lines
+                .wrong("the file ends before the names of the columns")
+                .with_remedy(AGAIN));
+        };
         let names = fields(&header);
         let columns = TraceColumns::of(&names).map_err(|unlike| {
             let wrong = lines.wrong(format!("column {}: {}", unlike.place + 1, unlike.problem));

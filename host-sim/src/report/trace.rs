@@ -1,7 +1,6 @@
-//! `trace.csv`: the values of the scene that were changed, a header, then one row per sample.
+//! `trace.csv`: a header, then one row per sample; nothing else, whatever was changed.
 //!
-//! `samples => rows`, streamed. A changed value is a line of its own that begins with `#`; without changes
-//! the header is the first line. Columns: time, per body position, quaternion, velocity and angular
+//! `samples => rows`, streamed. Columns: time, per body position, quaternion, velocity and angular
 //! velocity, then the energies, then the read-outs ([`Scene::columns`]). Every number is the
 //! shortest text that reads back to its bits. [`crate::recorded::trace`] reads it.
 
@@ -10,15 +9,11 @@ use std::io::{self, Write};
 use dbd_plant::numerals::Digits;
 use dbd_scene::Scene;
 
-use crate::report::summary::SetValue;
 use crate::simulate::Sample;
 
 /// The format of a trace: what its lines and columns mean. A change that readers would misread counts
 /// it up.
 pub const FORMAT: u32 = 1;
-
-/// How a line begins that says which value was changed.
-pub const SET: &str = "# set ";
 
 /// FNV-1a 64 over bytes (offset 0xcbf29ce484222325, prime 0x100000001b3), as they come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,10 +70,7 @@ impl<W: Write> TraceWriter<W> {
     /// # Errors
     /// Where the writer cannot take it.
     pub fn new(to: W, scene: &Scene) -> io::Result<Self> {
-        let mut to = Hashed { to, hash: TextHash::default() };
-        for value in SetValue::of(scene) {
-            writeln!(to, "{SET}{}", value.text())?;
-        }
+        let to = Hashed { to, hash: TextHash::default() };
         let mut rows = csv::Writer::from_writer(to);
         for column in scene.columns() {
             rows.write_field(column)?;
