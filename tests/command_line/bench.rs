@@ -76,6 +76,13 @@ fn what_the_plain_loop_lacks_is_said() {
 fn scenes_and_chains_are_those_that_are_named() {
     let outcome = measured(&["--chains", "2"]);
     assert_eq!(outcome["systems"].as_array().unwrap().len(), 1);
+    // A planar scene is measured in its plane: the elements that step there, no count of operations in space.
+    let counts = |options: &[&str]| {
+        let row = measured(&[&["four-bar"], options].concat())["systems"][0].clone();
+        (row["tsdas"].clone(), row["flops"].is_null())
+    };
+    assert_eq!(counts(&[]), (24.into(), false));
+    assert_eq!(counts(&["--set", "planar=true"]), (8.into(), true));
     let text = bench(&["hexagon", "--set", "joint.*.stiffness=1e6"]).out;
     assert!(text.starts_with("system") && text.contains("hexagon"), "{text}");
 }

@@ -73,6 +73,20 @@ fn a_run_on_the_pc_is_compared_with_one_that_was_recorded_elsewhere() {
     fs::write(&short, recorded(&scene(), 100, None)).unwrap();
     fs::write(&file, recorded(&scene(), 200, None)).unwrap();
     assert_eq!(bench.json(short.to_str().unwrap(), chip, &[]).1, Exit::Done);
+    // Their scene lies beside them: by its own name, or by that of the record.
+    fs::remove_dir_all(bench.folder.path("reports")).unwrap();
+    for name in [Scene::parse(&scene(), "s").unwrap().name, "short".into()] {
+        let beside = bench.folder.path(&format!("{name}.toml"));
+        fs::write(&beside, scene()).unwrap();
+        assert_eq!(bench.compare(short.to_str().unwrap(), chip, &[]).exit, Exit::Done);
+        let page = self::page(&bench, 2);
+        assert!(
+            page["runs"].as_array().unwrap().iter().all(|run| !run["film"].is_null()),
+            "{name}"
+        );
+        fs::remove_file(beside).unwrap();
+        fs::remove_dir_all(bench.folder.path("reports")).unwrap();
+    }
 }
 
 /// The data of the only page of these that was written, of so many runs.

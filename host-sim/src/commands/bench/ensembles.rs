@@ -63,7 +63,9 @@ mod measured {
     #[must_use]
     pub fn measured(systems: &[System], rounds: usize, steps: Option<u64>) -> Vec<Together> {
         let mut ensembles = Vec::new();
-        let Some(system) = systems.iter().find(|system| system.size.bodies <= BODIES) else {
+        let Some(system) =
+            systems.iter().find(|system| system.size.bodies <= BODIES && system.planar.is_none())
+        else {
             return ensembles;
         };
         let Some(rounds) = NonZeroUsize::new(rounds) else { return ensembles };

@@ -48,8 +48,10 @@ pub struct Size {
 pub struct System {
     /// How large it is.
     pub size: Size,
-    /// Its model.
+    /// Its model; of a planar scene the elements that step, in the world's axes.
     pub model: SceneModel<F64>,
+    /// The scene, where it runs in its plane.
+    pub planar: Option<Scene>,
 }
 
 /// The systems that a command line asks for.
@@ -87,17 +89,18 @@ pub fn of(catalogue: &Catalogue, arguments: &BenchArguments) -> Result<Vec<Syste
 
 fn scene_system(name: String, table_7: Option<usize>, scene: Scene) -> System {
     let step = scene.step.or_else(|| Frequencies::of(&scene).advised_step());
+    let model = scene.in_world().into_owned();
     let size = Size {
         name,
         table_7,
         links: None,
-        bodies: scene.model.bodies.len(),
-        tsdas: scene.model.tsda_count(),
-        joints: scene.model.groups.len(),
-        torsion_springs: scene.model.torsions.len(),
+        bodies: model.bodies.len(),
+        tsdas: model.tsda_count(),
+        joints: model.groups.len(),
+        torsion_springs: model.torsions.len(),
         step_s: step.unwrap_or(scene.duration / STEPS),
     };
-    System { size, model: scene.model }
+    System { size, model, planar: Some(scene).filter(|scene| scene.planar.is_some()) }
 }
 
 fn chain_system(links: usize, joints: Joints) -> Result<System, BenchError> {
@@ -116,5 +119,5 @@ fn chain_system(links: usize, joints: Joints) -> Result<System, BenchError> {
         torsion_springs: 0,
         step_s: chain::STEP,
     };
-    Ok(System { size, model })
+    Ok(System { size, model, planar: None })
 }

@@ -8,7 +8,7 @@ use std::hint::black_box;
 use dbd_bench::flops::per_step;
 use dbd_bench::plain::Plain;
 use dbd_kernel::{F64, Leapfrog, State as KernelState};
-use dbd_plant::{AnyPlant, Method, PrecisionName, SchemeName, plant_of_model};
+use dbd_plant::{AnyPlant, Method, PrecisionName, SchemeName, plant as plant_of, plant_of_model};
 use dbd_reference::naive::Naive;
 use dbd_reference::{Mechanism, State};
 use dbd_study::timing::elapsed;
@@ -75,12 +75,16 @@ pub fn measured(
     steps: Option<u64>,
     heard: &mut dyn FnMut(usize),
 ) -> Result<Row, BenchError> {
-    let System { size, model } = system;
+    let System { size, model, planar } = system;
     let plant = |precision| -> Result<Box<dyn AnyPlant>, BenchError> {
         let method = Method::new(SchemeName::Leapfrog, None, precision);
         let why = |why| BenchError::Plant { name: size.name.clone(), why };
         let method = method.map_err(|refused| why(refused.into()))?;
-        plant_of_model(model, &method, size.step_s).map_err(why)
+        match planar {
+            Some(scene) => plant_of(scene, &method, size.step_s),
+            None => plant_of_model(model, &method, size.step_s),
+        }
+        .map_err(why)
     };
     let kernel = |precision| -> Result<Take<'static>, BenchError> {
         let mut plant = plant(precision)?;
@@ -123,7 +127,8 @@ pub fn measured(
             why_not,
         },
     };
-    let flops = per_step::<f64, _>(model, Leapfrog, size.step_s);
+    // They are counted in space.
+    let flops = per_step::<f64, _>(model, Leapfrog, size.step_s).filter(|_| planar.is_none());
     let bound = flops.and_then(|flops| {
         let bounds: Vec<f64> = times[cycles].iter().map(|c| c * flops / FLOPS_PER_CYCLE).collect();
         ratio(&times[0], &bounds)

@@ -2,6 +2,8 @@
 //!
 //! `head, catalogue => scene; or why there is none`. Without its scene a run has curves, and no mechanism to be seen.
 
+use std::ffi::OsStr;
+
 use dbd_kernel::fingerprint::model_hash;
 use dbd_scene::Scene;
 
@@ -18,19 +20,14 @@ pub fn scenes(catalogue: &Catalogue, heads: &[Head; 2]) -> [Result<Scene, String
         Kind::Run => of_run(catalogue, head),
         Kind::Golden => Err(String::new()),
     };
-    let [mut a, mut b] = heads.each_ref().map(of_run);
-    let golden = |head: &Head, other: &Result<Scene, String>| match head.kind {
-        Kind::Run => None,
-        Kind::Golden => Some(of_golden(catalogue, head, other)),
-    };
-    let (of_a, of_b) = (golden(&heads[0], &b), golden(&heads[1], &a));
-    if let Some(scene) = of_a {
-        a = scene;
+    let mut scenes = heads.each_ref().map(of_run);
+    // The second may have found what is the first's, too.
+    for (own, other) in [(0, 1), (1, 0), (0, 1)] {
+        if heads[own].kind == Kind::Golden && scenes[own].is_err() {
+            scenes[own] = of_golden(catalogue, &heads[own], &scenes[other]);
+        }
     }
-    if let Some(scene) = of_b {
-        b = scene;
-    }
-    [a, b]
+    scenes
 }
 
 fn of_run(catalogue: &Catalogue, head: &Head) -> Result<Scene, String> {
@@ -59,9 +56,20 @@ fn of_golden(
     if let Some(scene) = other.as_ref().ok().filter(|scene| own(scene)) {
         return fits(scene.clone(), head);
     }
-    match catalogue.load(&head.scene) {
-        Ok(found) if own(&found.scene) => fits(found.scene, head),
-        _ => Err(format!("no scene `{}` with its model is at hand", head.scene)),
+    let beside = [Some(head.scene.as_ref()), head.file.file_stem()].into_iter().flatten();
+    let beside = beside.map(|name: &OsStr| {
+        let mut name = name.to_owned();
+        name.push(".toml");
+        head.file.with_file_name(name)
+    });
+    let places = beside.map(|file| file.display().to_string()).chain([head.scene.clone()]);
+    let mut found = places.filter_map(|place| catalogue.load(&place).ok());
+    match found.find(|found| own(&found.scene)) {
+        Some(found) => fits(found.scene, head),
+        None => Err(format!(
+            "no scene `{0}` with its model is built in or lies beside the file: put {0}.toml there",
+            head.scene
+        )),
     }
 }
 
