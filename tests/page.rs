@@ -2,7 +2,8 @@
 //!
 //! `page, name, text => the page holds the text`. A block stands between two comments,
 //! `<!-- table NAME: COMMAND -->` and `<!-- end -->`; the command is the test that writes it. With
-//! `DBD_BLESS=1` in the environment the test writes the block, otherwise it compares.
+//! `DBD_BLESS=1` in the environment the test writes the block, otherwise it compares. Golden bits are written by
+//! `DBD_BLESS=golden` alone, never in passing.
 
 use std::fmt::Write as _;
 use std::fs::File;
@@ -12,13 +13,54 @@ use std::path::Path;
 /// What ends a block.
 const END: &str = "<!-- end -->";
 
+/// Lines of either text that a failure shows.
+const MOST_LINES: usize = 40;
+
+/// Whether the environment blesses what is derived from the sources (`DBD_BLESS=1`).
+#[must_use]
+pub fn is_blessed() -> bool {
+    environment_says("1")
+}
+
+fn environment_says(word: &str) -> bool {
+    std::env::var_os("DBD_BLESS").is_some_and(|value| value == word)
+}
+
+/// Compares a file that is derived from the sources, by its path from the root, with what was computed, or writes it
+/// where `DBD_BLESS=1`. `command` is the one that runs the test.
+///
+/// # Panics
+/// Where the file holds something else; the message names `DBD_BLESS=1` and the command.
+pub fn file(name: &str, text: &str, command: &str) {
+    kept(name, text, "1", command);
+}
+
+/// The same of golden bits: they are written where `DBD_BLESS=golden`, which nothing else is by.
+///
+/// # Panics
+/// Where the file holds something else; the message names `DBD_BLESS=golden` and the command.
+pub fn golden(name: &str, text: &str, command: &str) {
+    kept(name, text, "golden", command);
+}
+
+fn kept(name: &str, text: &str, word: &str, command: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name);
+    if environment_says(word) {
+        std::fs::write(&path, text).unwrap();
+    }
+    let present = std::fs::read_to_string(&path).unwrap_or_default();
+    if let Err(why) = same(&present, text) {
+        panic!("{name} {why}if the new lines are right: DBD_BLESS={word} {command}");
+    }
+}
+
 /// Compares a block of a page, by its path from the root, with what it ought to hold, or writes it.
 ///
 /// # Panics
 /// Where the page has no such block, or one that holds something else.
 pub fn block(page: &str, name: &str, text: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(page);
-    let bless = std::env::var_os("DBD_BLESS").is_some_and(|value| value == "1");
+    let bless = is_blessed();
     let mut file = File::options().read(true).write(bless).open(&path).unwrap();
     // Other tests write other blocks of the page at the same time.
     file.lock().unwrap();
@@ -60,21 +102,25 @@ fn with(page: &str, name: &str, text: &str) -> Result<String, String> {
 fn compared(page: &str, name: &str, text: &str) -> Result<(), String> {
     let (place, command) = find(page, name)?;
     let (present, wanted) = (&page[place], format!("{}\n", text.trim_end()));
+    same(present, &wanted).map_err(|why| {
+        format!("block `{name}` {why}if the new lines are right: DBD_BLESS=1 {command}")
+    })
+}
+
+/// Whether two texts are the same; where not, the lines that differ.
+fn same(present: &str, wanted: &str) -> Result<(), String> {
     if present == wanted {
         return Ok(());
     }
     let mut lines = String::new();
     let (old, new): (Vec<_>, Vec<_>) = (present.lines().collect(), wanted.lines().collect());
-    for line in old.iter().filter(|line| !new.contains(line)) {
+    for line in old.iter().filter(|line| !new.contains(line)).take(MOST_LINES) {
         let _ = writeln!(lines, "- {line}");
     }
-    for line in new.iter().filter(|line| !old.contains(line)) {
+    for line in new.iter().filter(|line| !old.contains(line)).take(MOST_LINES) {
         let _ = writeln!(lines, "+ {line}");
     }
-    Err(format!(
-        "block `{name}` is not what was computed:\n{lines}\
-         if the new lines are right: DBD_BLESS=1 {command}"
-    ))
+    Err(format!("is not what was computed:\n{lines}"))
 }
 
 /// A table in Markdown.

@@ -1,7 +1,7 @@
 """A golden test of a controller in pytest: what it does today, bit for bit, is what it did when somebody looked.
 
     pip install pytest && pytest test_golden.py
-    DBD_BLESS=1 pytest test_golden.py        # after a change that is meant; review the file's difference
+    DBD_BLESS=golden pytest test_golden.py        # after a change that is meant; review the file's difference
 """
 
 from __future__ import annotations
@@ -39,9 +39,9 @@ def test_the_controller_keeps_its_bits() -> None:
     # repr() is the shortest text that reads back to the same bits.
     lines = [f"# {found}", ",".join(COLUMNS)] + [",".join(repr(float(x)) for x in row) for row in rows]
     text = "\n".join(lines) + "\n"
-    if os.environ.get("DBD_BLESS"):
+    if os.environ.get("DBD_BLESS") == "golden":
         GOLDEN.write_text(text)
     golden = GOLDEN.read_text()
     kept = np.loadtxt(GOLDEN, delimiter=",", skiprows=2)
     assert np.allclose(rows, kept, rtol=0.0, atol=1e-6), "the controller does something else"
-    assert text == golden, "the same within a millionth, but not the same bits"
+    assert text == golden, "the same within a millionth, but not the same bits; if meant: DBD_BLESS=golden pytest test_golden.py"

@@ -8,7 +8,7 @@ use dbd_kernel::{
 };
 use dbd_picture::Paper;
 use dbd_scene::{Scene, SceneModel};
-use dbd_tests::page::{block, figure, grouped, table};
+use dbd_tests::page::{block, figure, file, grouped, table};
 use dbd_tests::results::{cost, path, rows};
 use dbd_tests::{distance, scene};
 use host_sim::commands::picture::picture;
@@ -19,12 +19,7 @@ use crate::measures::{SAMPLES, deviation, error, growth, states};
 
 /// Compares a picture with what was drawn, or writes it.
 pub fn drawn(name: &str, svg: &str) {
-    let file = path("docs/pictures").join(name).with_extension("svg");
-    if std::env::var_os("DBD_BLESS").is_some_and(|value| value == "1") {
-        std::fs::write(&file, svg).unwrap();
-    }
-    let present = std::fs::read_to_string(&file).unwrap_or_default();
-    assert!(present == svg, "{}: DBD_BLESS=1 cargo test -p dbd-tests --test book", file.display());
+    file(&format!("docs/pictures/{name}.svg"), svg, "cargo test -p dbd-tests --test book");
 }
 
 fn example(file: &str) -> Scene {

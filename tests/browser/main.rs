@@ -77,7 +77,7 @@ fn reports_live() {
         assert!(size < LARGEST, "{scene}: {size} bytes");
         browser.open(&page, DESK);
         it_moves(&mut browser);
-        if scene == SHOWN.0 && std::env::var("DBD_BLESS").is_ok_and(|value| value == "1") {
+        if scene == SHOWN.0 && dbd_tests::page::is_blessed() {
             at(&mut browser, SHOWN.1);
             let place = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(SHOWN.2);
             std::fs::write(place, browser.picture()).unwrap();

@@ -38,13 +38,8 @@ fn scenes(folders: &[&str]) -> Vec<(String, String)> {
 
 #[test]
 fn the_file_of_the_repository_is_what_the_command_prints() {
-    let file = path("docs/scene.schema.json");
-    let printed = call(&["schema"]).out;
-    if std::env::var_os("DBD_BLESS").is_some_and(|value| value == "1") {
-        fs::write(&file, &printed).unwrap();
-    }
-    let present = fs::read_to_string(&file).unwrap_or_default();
-    assert!(present == printed, "DBD_BLESS=1 cargo test -p dbd-tests --test command_line schema");
+    let command = "cargo test -p dbd-tests --test command_line schema";
+    dbd_tests::page::file("docs/scene.schema.json", &call(&["schema"]).out, command);
 }
 
 #[test]

@@ -162,10 +162,7 @@ fn the_tutorial_does_what_it_says() {
         assert!(reader.0.path(file).is_file(), "{file}");
     }
     let drawn = fs::read_to_string(reader.file("wiper.svg")).unwrap();
-    let page = path("docs/pictures/wiper.svg");
-    if std::env::var_os("DBD_BLESS").is_some_and(|value| value == "1") {
-        fs::write(&page, &drawn).unwrap();
-    }
-    assert!(fs::read_to_string(&page).unwrap_or_default() == drawn, "docs/pictures/wiper.svg");
+    let command = "cargo test -p dbd-tests --test command_line tutorial";
+    dbd_tests::page::file("docs/pictures/wiper.svg", &drawn, command);
     assert!(reader.0.path("wiper-plant/scenes/wiper.toml").is_file());
 }

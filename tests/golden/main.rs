@@ -3,11 +3,10 @@
 //! The table `hashes.csv` is part of the interface, `orientations.csv` holds those of Euler angles,
 //! `planar.csv` those of scenes in their plane, `joint-wise.csv` those of damping joint by joint,
 //! `fixed.csv` those of fixed point, `generalized-alpha.csv` those of the scheme with a matrix.
-//! `DBD_BLESS=bits cargo test -p dbd-bits` writes the present hashes; a changed one needs its
+//! `DBD_BLESS=golden cargo test -p dbd-bits` writes the present hashes; a changed one needs its
 //! reason in the commit.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
 
 use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
 use dbd_kernel::geometry::{F32, F64, Geometry};
@@ -16,6 +15,7 @@ use dbd_kernel::{
     Planar32, Planar64, Plant, Rk4, Scheme, SemiImplicitEuler,
 };
 use dbd_scene::{Scene, SceneModel};
+use dbd_tests::page::golden;
 use dbd_tests::{scene, scene_names};
 
 const HEADER: &str = "scene,scheme,precision,step,steps,hash";
@@ -34,18 +34,9 @@ const JOINT_WISE: &str = "leapfrog-joint-wise";
 /// Scenes of all schemes: planar, with torsion springs, with points on lines, in space, damped.
 const ALL_SCHEMES: [&str; 5] = ["four-bar", "3rrr", "crank-slider", "3ruu", "double-wishbone"];
 
-fn table(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(name)
-}
-
 /// Compares what is with the golden table, or blesses it.
 fn compare(name: &str, present: &str) {
-    // Not the value that writes tables: bits are never blessed in passing.
-    if std::env::var_os("DBD_BLESS").is_some_and(|value| value == "bits") {
-        std::fs::write(table(name), present).unwrap();
-    }
-    let golden = std::fs::read_to_string(table(name)).unwrap_or_default();
-    assert!(present == golden, "present hashes:\n{present}golden hashes:\n{golden}");
+    golden(&format!("tests/golden/{name}"), present, "cargo test -p dbd-bits");
 }
 
 fn row<P: Geometry, S: Scheme>(scene: &Scene, scheme: S, steps: u64) -> String {

@@ -66,16 +66,8 @@ fn the_picture_shows_the_house_as_it_is() {
     let crates = picture::crates(&path("."));
     let listed = crates.keys().map(|name| (name.clone(), floors(&sources(name))));
     let drawn = picture::svg(&crates, &listed.collect());
-    let file = path("docs/architecture.svg");
-    if std::env::var_os("DBD_BLESS").is_some_and(|value| value == "1") {
-        std::fs::write(&file, &drawn).unwrap();
-    }
-    let present = std::fs::read_to_string(&file).unwrap_or_default();
-    assert!(
-        present == drawn,
-        "docs/architecture.svg is not what the sources say: \
-         DBD_BLESS=1 cargo test -p dbd-tests --test module_graph"
-    );
+    let command = "cargo test -p dbd-tests --test module_graph";
+    dbd_tests::page::file("docs/architecture.svg", &drawn, command);
 }
 
 /// The breaches of a crate of these files below `src`.
