@@ -147,7 +147,8 @@ fn input<'m, V: Register>(
     // The vectors of its kind: point and direction, axis, or nothing.
     let vectors = |i: usize| match of(i).kind {
         InputKind::Force { point, direction, .. } => [point, direction],
-        InputKind::Torque { axis, .. } | InputKind::JointTorque { axis, .. } => [axis; 2],
+        InputKind::Torque { axis, .. } => [axis; 2],
+        InputKind::JointTorque { axes, .. } => axes,
         InputKind::Anchor { direction } => [direction; 2],
         InputKind::Actuator { .. } => [Vec3::default(); 2],
     };
@@ -157,7 +158,7 @@ fn input<'m, V: Register>(
             InputKind::Force { body, point, direction: axis, frame }
         }
         InputKind::Torque { body, frame, .. } => InputKind::Torque { body, axis, frame },
-        InputKind::JointTorque { a, b, .. } => InputKind::JointTorque { a, b, axis },
+        InputKind::JointTorque { a, b, .. } => InputKind::JointTorque { a, b, axes: [point, axis] },
         InputKind::Actuator { group, element } => InputKind::Actuator { group, element },
         InputKind::Anchor { .. } => InputKind::Anchor { direction: axis },
     };

@@ -327,7 +327,7 @@ fn add_input<P: Geometry>(model: &mut Model<P>, bytes: &mut Unstructured<'_>, wi
             InputKind::Force { body: one, point, direction, frame }
         }
         1 => InputKind::Torque { body: one, axis, frame },
-        2 => InputKind::JointTorque { a: one, b: body(bytes), axis },
+        2 => InputKind::JointTorque { a: one, b: body(bytes), axes: [axis; 2] },
         3 => InputKind::Actuator {
             group: u16::from(byte(bytes) % 4),
             element: u16::from(byte(bytes) % 4),

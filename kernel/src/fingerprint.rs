@@ -203,9 +203,11 @@ fn visit_input<P: Geometry>(input: &Input<P>, visitor: &mut impl WordVisitor) {
             integers(2 + *frame as u64, body.0, 0);
             axis.visit(visitor);
         }
-        InputKind::JointTorque { a, b, axis } => {
+        InputKind::JointTorque { a, b, axes } => {
             integers(4, a.0, b.0);
-            axis.visit(visitor);
+            for axis in axes {
+                axis.visit(visitor);
+            }
         }
         InputKind::Actuator { group, element } => integers(5, *group, *element),
         InputKind::Anchor { direction } => {

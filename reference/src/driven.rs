@@ -46,8 +46,9 @@ pub enum InputKind {
     Force(Point, Vector3<f64>, LoadFrame),
     /// A torque about an axis.
     Torque(End, Vector3<f64>, LoadFrame),
-    /// A torque on the second about an axis of the first, on the first the opposite.
-    JointTorque([End; 2], Vector3<f64>),
+    /// A torque on the second along the gradient of its turn about an axis, in the axes of each, on the
+    /// first the opposite.
+    JointTorque([End; 2], [Vector3<f64>; 2]),
     /// A tension between two points.
     Actuator(Pair),
 }
@@ -63,8 +64,11 @@ impl Element for Input {
             InputKind::Torque(end, axis, frame) => {
                 turn(wrenches, *end, at.turned(*end, *frame, *axis) * value);
             }
-            InputKind::JointTorque([a, b], axis) => {
-                let torque = at.to_world(*a, *axis) * value;
+            InputKind::JointTorque([a, b], axes) => {
+                // Half way between the two axes, with the length that the swing between them asks for.
+                let [first, second] = [at.to_world(*a, axes[0]), at.to_world(*b, axes[1])];
+                let half = 0.5 * first.angle(&second);
+                let torque = (first + second).normalize() * (value / half.cos());
                 turn(wrenches, *a, -torque);
                 turn(wrenches, *b, torque);
             }

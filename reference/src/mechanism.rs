@@ -244,8 +244,8 @@ fn input_kind<T: Terms>(
         KernelInput::Torque { body, axis, frame } => {
             InputKind::Torque(end(body), Vector3::from(axis.to_f64()), frame)
         }
-        KernelInput::JointTorque { a, b, axis } => {
-            InputKind::JointTorque([end(a), end(b)], Vector3::from(axis.to_f64()))
+        KernelInput::JointTorque { a, b, axes } => {
+            InputKind::JointTorque([end(a), end(b)], axes.map(|axis| Vector3::from(axis.to_f64())))
         }
         KernelInput::Actuator { group, element } => {
             InputKind::Actuator(pair(model, &model.groups[usize::from(group)], element.into()))

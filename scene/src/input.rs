@@ -9,7 +9,7 @@ use dbd_kernel::{BodyIndex, F64, Geometry, LoadFrame, Vec3};
 
 use crate::assembly::{Drive, NoAnchor};
 use crate::error::SceneError;
-use crate::hinge::{self, Known};
+use crate::hinge::{self, Hinge, Known};
 use crate::names::Names;
 use crate::pair::BodyName;
 use crate::points::PlaceOf;
@@ -134,8 +134,9 @@ fn frame(table: &Table<'_>) -> Result<LoadFrame, SceneError> {
 }
 
 fn joint_torque(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {
-    let hinge = hinge::read(table, known)?;
-    Ok(InputKind::JointTorque { a: hinge.a, b: hinge.b, axis: hinge.axis })
+    let Hinge { a, b, axis } = hinge::read(table, known)?;
+    let in_b = known.assembly.vector_in(b, known.assembly.direction_w(a, axis));
+    Ok(InputKind::JointTorque { a, b, axes: [axis, in_b] })
 }
 
 fn actuator(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {

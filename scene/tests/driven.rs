@@ -115,19 +115,27 @@ fn inputs_become_what_their_types_say() {
         InputKind::Torque { body: BodyIndex(0), axis, frame: LoadFrame::Body }
     );
     // The arm is turned by a quarter about z: the world's y is its x.
-    let InputKind::JointTorque { a, b, axis } = inputs[2].kind else { panic!("a joint's torque") };
+    let InputKind::JointTorque { a, b, axes: [axis, _] } = inputs[2].kind else {
+        panic!("a joint's torque")
+    };
     assert_eq!((a, b, inputs[2].value), (BodyIndex(0), BodyIndex(1), 3.0));
     near(axis, [1.0, 0.0, 0.0]);
     // The groups are the elbow, the ball, two of the cross, the cord and the rail.
     assert_eq!(inputs[3].kind, InputKind::Actuator { group: 4, element: 0 });
-    let InputKind::JointTorque { a, b, axis } = inputs[4].kind else { panic!("a ball's torque") };
+    let InputKind::JointTorque { a, b, axes: [axis, _] } = inputs[4].kind else {
+        panic!("a ball's torque")
+    };
     assert_eq!((a, b), (BodyIndex::WORLD, BodyIndex(0)));
     near(axis, [0.0, 0.0, 1.0]);
     // The spider's axes are the two axes and their product.
-    let InputKind::JointTorque { a, b, axis } = inputs[5].kind else { panic!("a cross' torque") };
+    let InputKind::JointTorque { a, b, axes: [axis, _] } = inputs[5].kind else {
+        panic!("a cross' torque")
+    };
     assert_eq!((a, b), (BodyIndex(2), BodyIndex::WORLD));
     near(axis, [0.0, 1.0, 0.0]);
-    let InputKind::JointTorque { axis, .. } = inputs[6].kind else { panic!("a coil's torque") };
+    let InputKind::JointTorque { axes: [axis, _], .. } = inputs[6].kind else {
+        panic!("a coil's torque")
+    };
     near(axis, [1.0, 0.0, 0.0]);
     let infos: Vec<_> = scene.inputs.iter().map(|i| (i.kind, i.unit, i.table)).collect();
     assert_eq!(infos[..2], [("force", "N", false), ("torque", "N·m", false)]);

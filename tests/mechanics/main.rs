@@ -8,6 +8,7 @@ mod conservation;
 mod extremes;
 mod guards;
 mod inputs;
+mod joint_torque;
 mod orientation;
 mod overdamped;
 mod own_scheme;

@@ -115,7 +115,7 @@ fn machine<P: Geometry>(damped: Damped) -> Bench<P> {
     let frame = LoadFrame::Body;
     model.add_input(InputKind::Force { body: SLIDER, point, direction, frame }, 5.0).unwrap();
     model.add_input(InputKind::Torque { body: CRANK, axis, frame }, 0.7).unwrap();
-    model.add_input(InputKind::JointTorque { a: CRANK, b: ROD, axis }, -0.4).unwrap();
+    model.add_input(InputKind::JointTorque { a: CRANK, b: ROD, axes: [axis; 2] }, -0.4).unwrap();
     let table = [[0.0, 0.0], [0.05, 6.0], [0.2, -3.0]];
     model.add_table(InputKind::Actuator { group: 5, element: 1 }, &table, true).unwrap();
     let table = [[0.0, 0.0], [0.1, 0.02], [0.15, 0.0]];

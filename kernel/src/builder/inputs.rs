@@ -64,8 +64,9 @@ impl<
                 check(finite(&P::local_to_f64(point)), Quantity::Point)?;
                 check(direction.is_finite(), Quantity::Axis)?;
             }
-            InputKind::Torque { axis, .. } | InputKind::JointTorque { axis, .. } => {
-                check(axis.is_finite(), Quantity::Axis)?;
+            InputKind::Torque { axis, .. } => check(axis.is_finite(), Quantity::Axis)?,
+            InputKind::JointTorque { axes, .. } => {
+                check(axes.iter().all(|axis| axis.is_finite()), Quantity::Axis)?;
             }
             InputKind::Anchor { direction } => check(direction.is_finite(), Quantity::Axis)?,
             InputKind::Actuator { .. } => {}

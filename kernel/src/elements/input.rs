@@ -32,14 +32,16 @@ pub enum InputKind<P: Geometry> {
         /// The axis' axes.
         frame: LoadFrame,
     },
-    /// A torque \[N·m\] on B about an axis of A, on A the opposite.
+    /// A torque \[N·m\] on B along the gradient of its turn about an axis of A, on A the opposite. Its power
+    /// is the torque times the rate of that turn, as a torsion spring's; about either body's axis alone it
+    /// would be a circulatory force (Ziegler 1953).
     JointTorque {
         /// First body.
         a: BodyIndex,
         /// Second body.
         b: BodyIndex,
-        /// Unit axis in A's axes.
-        axis: P::Moment,
+        /// Unit axis as it lies at t = 0, in A's and in B's axes.
+        axes: [P::Moment; 2],
     },
     /// A tension \[N\] along a TSDA beside its spring's: the actuator of the TSDA.
     Actuator {
@@ -93,8 +95,8 @@ impl<P: Geometry> Input<P> {
             InputKind::Torque { body, axis, frame } => {
                 InputKind::Torque { body, axis: moment(axis), frame }
             }
-            InputKind::JointTorque { a, b, axis } => {
-                InputKind::JointTorque { a, b, axis: moment(axis) }
+            InputKind::JointTorque { a, b, axes } => {
+                InputKind::JointTorque { a, b, axes: axes.map(moment) }
             }
             InputKind::Actuator { group, element } => InputKind::Actuator { group, element },
             InputKind::Anchor { direction } => InputKind::Anchor { direction: vector(direction) },

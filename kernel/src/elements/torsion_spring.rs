@@ -14,7 +14,7 @@
 use crate::arctangent::atan2;
 use crate::index::{BodyIndex, DamperIndex};
 use crate::real::{Real, choose};
-use crate::space::{Linear as _, Space, Turn as _};
+use crate::space::{Linear, Space, Turn as _};
 
 /// The constants of a torsion spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,6 +47,16 @@ pub struct Twist<S: Space> {
 /// The least `w² + (v·n)²` at which a twist is defined: B has then turned by almost half a turn
 /// about an axis normal to n, and the twist's gradient has grown to a thousand.
 pub const LEAST_TWIST_NORM: f64 = 1e-6;
+
+/// \[1\] [`Twist::gradient`] from the unit axis as A and as B carry it, in any axes:
+/// `(n + m)/(1 + n·m)`. Where it is undefined its length stays at what it has grown to before.
+#[inline(always)]
+pub(crate) fn gradient_between<M: Linear>(of_a: M, of_b: M) -> M {
+    let least = M::Real::from_f64(2.0 * LEAST_TWIST_NORM);
+    let norm = M::Real::ONE + of_a.dot(of_b);
+    let norm = M::Real::pick(norm.less_than(least), least, norm);
+    (of_a + of_b) * (M::Real::ONE / norm)
+}
 
 /// How B has turned in A since t = 0.
 #[derive(Clone, Copy, Debug)]

@@ -4,6 +4,7 @@
 
 use crate::elements::input::InputKind;
 use crate::elements::load::LoadFrame;
+use crate::elements::torsion_spring::gradient_between;
 use crate::forces::record::{Record, Wrench, apply};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
@@ -42,8 +43,10 @@ pub(crate) fn push<P: Geometry, T: Terms>(
                 let record = Record { force: P::Vector::ZERO, torque_a, torque_b: zero };
                 apply(wrenches, body.row(), BodyIndex::WORLD.row(), &record);
             }
-            InputKind::JointTorque { a, b, axis } => {
-                let torque = -(turned_axis(a, LoadFrame::Body, axis) * value);
+            InputKind::JointTorque { a, b, axes } => {
+                let axis_a = turned_axis(a, LoadFrame::Body, axes[0]);
+                let axis_b = turned_axis(b, LoadFrame::Body, axes[1]);
+                let torque = -(gradient_between(axis_a, axis_b) * value);
                 let record = Record { force: P::Vector::ZERO, torque_a: torque, torque_b: torque };
                 apply(wrenches, a.row(), b.row(), &record);
             }

@@ -38,7 +38,7 @@ pub(super) fn forces(scene: &Scene, pivots: &Pivots) -> Vec<ForceMark> {
                 let axes = if frame == LoadFrame::Body { at.body } else { None };
                 add(ForceKind::Torque, at, axes, axis);
             }
-            InputKind::JointTorque { a, b, axis } => {
+            InputKind::JointTorque { a, b, axes: [axis, _] } => {
                 let (first, second) = (row(a), row(b));
                 let at = pivots.between(first, second);
                 let at = at.unwrap_or(Place { body: second.or(first), point: [0.0; 3] });

@@ -120,14 +120,13 @@ pub(super) fn input<P: SourceGeometry>(input: &Input<P>) -> String {
             P::moment(axis),
             axes(*frame),
         ),
-        InputKind::JointTorque { a, b, axis } => {
-            format!(
-                "JointTorque {{ a: {}, b: {}, axis: {} }}",
-                index(*a),
-                index(*b),
-                P::moment(axis)
-            )
-        }
+        InputKind::JointTorque { a, b, axes: [in_a, in_b] } => format!(
+            "JointTorque {{ a: {}, b: {}, axes: [{}, {}] }}",
+            index(*a),
+            index(*b),
+            P::moment(in_a),
+            P::moment(in_b),
+        ),
         InputKind::Actuator { group, element } => {
             format!("Actuator {{ group: {group}, element: {element} }}")
         }

@@ -102,9 +102,9 @@ fn kind(
             let axis = normal(within(plane, body, frame, axis), leaves);
             InputKind::Torque { body, axis, frame }
         }
-        InputKind::JointTorque { a, b, axis } => {
-            let axis = normal(plane.of_body_inward(a.row(), axis), leaves);
-            InputKind::JointTorque { a, b, axis }
+        InputKind::JointTorque { a, b, axes } => {
+            let axis = normal(plane.of_body_inward(a.row(), axes[0]), leaves);
+            InputKind::JointTorque { a, b, axes: [axis; 2] }
         }
         InputKind::Actuator { .. } => kind,
         InputKind::Anchor { direction } => {

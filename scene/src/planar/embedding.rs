@@ -149,8 +149,9 @@ impl Planar {
             InputKind::Torque { body, axis, frame } => {
                 InputKind::Torque { body, axis: self.outward(body, frame, axis), frame }
             }
-            InputKind::JointTorque { a, b, axis } => {
-                InputKind::JointTorque { a, b, axis: self.plane.of_body_outward(a.row(), axis) }
+            InputKind::JointTorque { a, b, axes: [in_a, in_b] } => {
+                let outward = |body: BodyIndex, axis| self.plane.of_body_outward(body.row(), axis);
+                InputKind::JointTorque { a, b, axes: [outward(a, in_a), outward(b, in_b)] }
             }
             InputKind::Actuator { .. } => kind,
             InputKind::Anchor { direction } => {
