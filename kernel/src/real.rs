@@ -182,6 +182,15 @@ pub trait Real:
         if self == Self::ZERO { Self::ZERO } else { Self::ONE / self }
     }
 
+    /// The distance from 1 to the next number.
+    fn epsilon() -> Self {
+        let mut spacing = Self::ONE;
+        while Self::ONE + Self::HALF * spacing > Self::ONE {
+            spacing = Self::HALF * spacing;
+        }
+        spacing
+    }
+
     /// The absolute value.
     #[inline(always)]
     fn abs(self) -> Self {

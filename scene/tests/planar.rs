@@ -3,7 +3,7 @@
 use dbd_kernel::energy::energy;
 use dbd_kernel::model::Law;
 use dbd_kernel::schemes::Leapfrog;
-use dbd_kernel::{Plant, State, Vec3};
+use dbd_kernel::{Plant, Quaternion, State, Vec3};
 use dbd_scene::{Scene, SceneError};
 
 /// Scenes that ship and lie in z = 0: bodies, elements in space and in the plane.
@@ -114,6 +114,70 @@ fn the_reduced_model_moves_as_the_spatial_one() {
 
 fn length(v: Vec3<f64>) -> f64 {
     v.dot(v).sqrt()
+}
+
+/// Four bars between random places of a plane, on bushings, in a plane of this orientation.
+fn random_linkage(random: &mut impl FnMut() -> f64, tilt: Option<[f64; 4]>) -> Scene {
+    let quaternion = tilt.unwrap_or([1.0, 0.0, 0.0, 0.0]);
+    let rotation =
+        Quaternion::new(quaternion[0], quaternion[1], quaternion[2], quaternion[3]).rotation();
+    let off = [random(), random(), random()].map(|c| 0.3 * c);
+    let off = if tilt.is_some() { off } else { [off[0], off[1], 0.0] };
+    let world = |x, y| (rotation.to_world(Vec3::new(x, y, 0.0)) + Vec3::from_f64(off)).to_f64();
+    let places: [[f64; 2]; 5] =
+        std::array::from_fn(|i| [0.4 * i as f64 + 0.1 * random(), 0.3 * random()]);
+    let gravity = rotation.to_world(Vec3::new(0.0, -9.81, 0.0)).to_f64();
+    let axis = rotation.to_world(Vec3::new(0.0, 0.0, 1.0)).to_f64();
+    let mut text = format!(
+        "name = \"linkage\"\nduration = 1\nstep = 2e-5\ngravity = {gravity:?}\n\
+         realisation = \"bushing\"\n"
+    );
+    for i in 0..4 {
+        let [a, b] = [places[i], places[i + 1]];
+        let position = world(0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]));
+        text += &format!(
+            "[[body]]\nname = \"{i}\"\nmass = 1\ninertia = [0.01, 0.01, 0.02]\n\
+             position = {position:?}\norientation = {{ quaternion = {quaternion:?} }}\n"
+        );
+    }
+    for (i, [x, y]) in places.into_iter().enumerate() {
+        let name =
+            |i: usize| if (1..5).contains(&i) { (i - 1).to_string() } else { "world".into() };
+        text += &format!(
+            "[[joint]]\nname = \"j{i}\"\ntype = \"revolute\"\nbetween = [\"{}\", \"{}\"]\n\
+             at = {:?}\naxis = {axis:?}\nspan = 0.1\nstiffness = 1e5\ndamping = 5\n",
+            name(i),
+            name(i + 1),
+            world(x, y)
+        );
+    }
+    Scene::parse(&text, "linkage.toml").unwrap_or_else(|error| panic!("{error}: {}", error.help()))
+}
+
+/// What rounding leaves of a bushing's size is no size: linkages of bushings are planar wherever they lie.
+#[test]
+fn linkages_of_bushings_are_planar_in_any_plane() {
+    let mut seed = 2297_u64;
+    let mut random = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    for i in 0..40 {
+        let q = [random(), random(), random(), random()];
+        let norm = q.iter().map(|c| c * c).sum::<f64>().sqrt();
+        let tilt = (i % 2 == 0).then(|| q.map(|c| c / norm));
+        let scene = random_linkage(&mut random, tilt);
+        let planar = scene.reduced().unwrap_or_else(|u| panic!("{i}: {:?}", u.departures));
+        let mut whole = Plant::new(&scene.model, Leapfrog, 2e-5).unwrap();
+        let mut flat = Plant::new(&planar.model, Leapfrog, 2e-5).unwrap();
+        assert!(whole.advance(5_000).is_running() && flat.advance(5_000).is_running());
+        for (row, body) in whole.state().bodies.iter().enumerate() {
+            let mine = planar.plane.state_outward(row, &flat.state().bodies[row]);
+            let moved = length(body.position - scene.model.initial[row].position);
+            let apart = length(body.position - mine.position);
+            assert!(moved > 1e-4 && apart < 1e-6, "{i}: {apart:e} of {moved:e} m");
+        }
+    }
 }
 
 /// A pendulum of two links in the plane normal to `[2, -1, 0.5]`, off the origin, its bodies turned.

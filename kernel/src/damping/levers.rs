@@ -215,7 +215,7 @@ impl<P: Geometry> Metric<P> {
     /// not.
     fn turn(&self, a: &mut Lever<P>, b: &mut Lever<P>) -> bool {
         let (x, y, xy) = (self.rate(a, a), self.rate(b, b), self.rate(a, b));
-        let least = P::Real::from_f64(8.0) * epsilon::<P::Real>();
+        let least = P::Real::from_f64(8.0) * P::Real::epsilon();
         let crossed = xy.abs() > least * (x * y).sqrt();
         let (c, s) = if crossed {
             let slope = (y - x) / (xy + xy);
@@ -233,7 +233,7 @@ impl<P: Geometry> Metric<P> {
         *a = strong;
         // What rounding leaves is none.
         let rest = self.rate(&weak, &weak);
-        *b = if rest > P::Real::from_f64(32.0) * epsilon::<P::Real>() * least {
+        *b = if rest > P::Real::from_f64(32.0) * P::Real::epsilon() * least {
             weak
         } else {
             Lever::default()
@@ -284,15 +284,6 @@ impl<P: Geometry> Metric<P> {
 
 /// The largest h/μ of a lever: its square is a number in single precision.
 pub(super) const LARGEST: f64 = 1e12;
-
-/// The spacing of numbers beside 1.
-fn epsilon<R: Real>() -> R {
-    let mut spacing = R::ONE;
-    while R::ONE + R::HALF * spacing > R::ONE {
-        spacing = R::HALF * spacing;
-    }
-    spacing
-}
 
 /// Element `i` of two slices after one another.
 fn one<'s, L>(first: &'s mut [L], second: &'s mut [L], i: usize) -> Option<&'s mut L> {

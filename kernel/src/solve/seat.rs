@@ -66,12 +66,21 @@ fn seat_of<P: Geometry, T: Terms>(
     // The ground has no arm: what is seen from the other body lies as much apart.
     let seen = usize::from(group.a.is_world());
     let offset = |element: &Placed<'_, P::Vector>| arms::<P>(element)[seen] - centre[seen];
-    let (mut axis, mut square) = (P::Vector::ZERO, zero);
+    let (mut axis, mut square, mut far) = (P::Vector::ZERO, zero, zero);
     for element in all() {
-        let away = offset(&element?);
+        let element = element?;
+        for arm in [element.arm_a, element.arm_b, element.stretch.displacement] {
+            far = P::Real::pick(far.less_than(arm.dot(arm)), arm.dot(arm), far);
+        }
+        let away = offset(&element);
         if square < away.dot(away) {
             (axis, square) = (away, away.dot(away));
         }
+    }
+    // Points at one place are apart by rounding.
+    let rounding = P::Real::from_f64(64.0) * P::Real::epsilon();
+    if square < rounding * rounding * far {
+        (axis, square) = (P::Vector::ZERO, zero);
     }
     let reach = square.sqrt();
     let inverse = reach.reciprocal_or_zero();
@@ -102,3 +111,56 @@ fn seat_of<P: Geometry, T: Terms>(
 }
 
 type Row<P> = <<P as Geometry>::Space as Space>::Row;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::index::BodyIndex;
+    use crate::model::ModelOwner;
+    use crate::pose::place_bodies;
+    use crate::sketch::{Sketch, Spring, Start};
+    use crate::state::State;
+
+    const PLACES: [[f64; 3]; 4] =
+        [[0.3, 0.0, 0.0], [0.1, 0.7, 0.3], [1.3, -0.017, 2.9], [-0.77, 0.011, 0.003]];
+
+    /// Bodies on spherical joints at the origin.
+    const SKETCH: Sketch = {
+        const SPRING: Spring = Spring { stiffness: 1e4, damping: 1e2, free_length: 0.05 };
+        let mut sketch = Sketch::new();
+        let mut i = 0;
+        while i < PLACES.len() {
+            let [x, y, z] = PLACES[i];
+            let arms = [[0.05 - x, -y, -z], [-x, 0.05 - y, -z], [-x, -y, 0.05 - z]];
+            let between = [BodyIndex::WORLD, BodyIndex(i as u16)];
+            sketch = sketch.body(1.0, [0.01; 3], Start::at(PLACES[i]));
+            sketch = sketch.stars(between, &[[0.0; 3]], &arms, SPRING);
+            i += 1;
+        }
+        sketch
+    };
+
+    crate::model!(static DOUBLE: F64 = SKETCH);
+    crate::model!(static SINGLE: F32 = SKETCH);
+
+    fn are_points<M: ModelOwner>(model: &M) {
+        let state = State::initial(model);
+        let mut frames = model.per_body(Default::default());
+        place_bodies::<M::Precision>(state.bodies.as_ref(), frames.as_mut());
+        let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
+        let one = crate::model::RealOf::<M>::ONE;
+        let pencil = Pencil { mass: one, damping: one, stiffness: one };
+        let mut seats = [Seat::default(); PLACES.len()];
+        find(&model.view(), places, pencil, &mut seats);
+        for seat in seats {
+            assert!(seat.point > one && seat.across == one - one, "{seat:?}");
+        }
+    }
+
+    /// What rounding leaves between the points of a spherical joint is no axis, wherever it lies.
+    #[test]
+    fn a_spherical_joint_is_a_point_at_any_place() {
+        are_points(&DOUBLE);
+        are_points(&SINGLE);
+    }
+}

@@ -136,19 +136,20 @@ pub(super) struct Coupling {
     pub(super) share: f64,
 }
 
-/// How far what a group does in the plane and what it does out of it are one.
-pub(super) fn coupling(elements: &[Element]) -> Coupling {
+/// How far what a group does in the plane and what it does out of it are one; `near` \[m\] is one place.
+pub(super) fn coupling(elements: &[Element], near: f64) -> Coupling {
     let count = elements.len().max(1) as f64;
     let middle = elements.iter().fold(Vec3::ZERO, |sum, e| sum + e.to) * (1.0 / count);
     let middle = Vec3::new(middle.x, middle.y, 0.0);
     let size = elements.iter().map(|e| e.to - middle).map(|r| libm::sqrt(r.dot(r)));
     let size = size.fold(0.0, f64::max);
-    let size = if size > 0.0 { size } else { 1.0 };
+    // Points at one place have no arms; what is left of them is rounding.
+    let inverse = if size > near { 1.0 / size } else { 0.0 };
     let of = |strength: fn(&(Vec3<f64>, f64, f64)) -> f64| {
         let mut block = [[0.0_f64; 3]; 3];
         let (mut whole, mut moment) = (0.0, 0.0);
         for element in elements {
-            let arm = (element.to - middle) * (1.0 / size);
+            let arm = (element.to - middle) * inverse;
             for act in element.acts() {
                 let (u, strength) = (act.0, strength(&act));
                 let turn = arm.cross(u);

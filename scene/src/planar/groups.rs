@@ -80,7 +80,7 @@ fn turns(scene: &Scene, plane: &Plane, joint: usize) -> Option<f64> {
 
 /// Tells of a joint that does not stay in the plane.
 fn stays(part: Part, elements: &[Element], turns: Option<f64>, near: f64, leaves: &mut Leaves<'_>) {
-    let found = coupling(elements);
+    let found = coupling(elements, near);
     if let Some(lean) = turns {
         leaves(
             part,
