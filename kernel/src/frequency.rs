@@ -4,7 +4,8 @@
 //! stiffness: for a spring κ with rows `j_a`, `j_b` over its two bodies,
 //! `(j_a·x_a + j_b·x_b)² ≤ 2·(j_a·x_a)² + 2·(j_b·x_b)²`, so `ω² ≤ max_b λ_max(Σ φ·κ·j·jᵀ)` with
 //! φ = 2, or 1 where the other end is the world (Feingold & Varga 1962). A spring under the
-//! tension T adds |T|/L along both normals of its line and |T|·|r| on each body's rotation.
+//! tension T adds |T|/L along both normals of its line and, of the force F on the arm r of each body,
+//! `(r·F)·I − ½·(r·Fᵀ + F·rᵀ)` to its turns.
 //! A clearance counts as taken up, an actuator's pull as a tension. Loads and other inputs, whose
 //! share of the stiffness is that of a weight and not of a spring, are left out.
 //! The estimate is power iteration on differences of forces, one pair of evaluations each, on the
@@ -29,7 +30,8 @@ use crate::schedule::Signal;
 use crate::space::{Linear as _, Moment as _, Space};
 use crate::state::State;
 
-/// Largest displacement \[m\] and turn \[rad\] of the estimate's differences.
+/// Largest displacement \[m\] of a centre of mass or a point, and turn \[rad\], of the estimate's
+/// differences.
 const PROBE: f64 = 1e-6;
 
 /// The share of the response that lies along a direction, from which on the eigenvalues it mixes
@@ -41,7 +43,7 @@ const CLEARLY_POSITIVE: f64 = 0.99;
 /// evaluations. Not above the true frequency of the elements, but for the rounding of the
 /// differences, about 1e-8 of it, as every Rayleigh quotient of a symmetric matrix; torques and
 /// forces that turn with a body, which have no energy, are left out. Meant for double precision:
-/// forces are differenced over 1e-6 m.
+/// forces are differenced over 1e-6 m. Never above [`bound`].
 pub fn estimate<M: ModelOwner>(model: &M, state: &State<M>, iterations: u32) -> f64 {
     let mut rest = state.clone();
     for (signal, input) in rest.signals.as_mut().iter_mut().zip(model.view().inputs) {
@@ -62,7 +64,30 @@ pub fn estimate<M: ModelOwner>(model: &M, state: &State<M>, iterations: u32) -> 
         // that rivals the positive; a shift by it leaves the positive ones at the top.
         square = power(radius).0 - radius;
     }
-    libm::sqrt(if square > 0.0 { square } else { 0.0 })
+    let found = libm::sqrt(if square > 0.0 { square } else { 0.0 });
+    // Far from the origin differences of forces are coarse.
+    let most = bound(model, state).to_f64();
+    if found > most { most } else { found }
+}
+
+/// \[m\] How far a point of each body that an element holds is from its centre of mass.
+fn reaches<M: ModelOwner>(model: &M) -> M::PerBody<f64> {
+    let view = model.view();
+    let mut reaches = model.per_body(0.0);
+    for group in view.groups {
+        for star in 0..group.stars as usize {
+            let tips = (0..group.arms as usize).map(|arm| (group.b, group.tips(star) + arm));
+            for (body, point) in core::iter::once((group.a, group.centre(star))).chain(tips) {
+                let point = view.points.get(point);
+                if let (Some(reach), Some(point)) = (reaches.as_mut().get_mut(body.row()), point) {
+                    let [x, y, z] = M::Precision::local_to_f64(point);
+                    let away = libm::sqrt(x * x + y * y + z * z);
+                    *reach = if away > *reach { away } else { *reach };
+                }
+            }
+        }
+    }
+    reaches
 }
 
 /// The torques at rest, body axes; `None` where a twist is undefined.
@@ -105,9 +130,10 @@ fn largest_by_magnitude<M: ModelOwner>(
     let mut wrenches = model.per_body(Wrench::default());
     let mut moved = state.clone();
     let windows = model.per_load();
+    let reaches = reaches(model);
     let mut found = (0.0, 0.0);
     for _ in 0..iterations {
-        let scale = PROBE / largest_move(view.bodies, direction.as_ref());
+        let scale = PROBE / largest_move(view.bodies, direction.as_ref(), reaches.as_ref());
         if !scale.is_finite() {
             return (0.0, 0.0);
         }
@@ -197,12 +223,13 @@ fn start_direction<S: Space>(direction: &mut [Increment<S>]) {
     }
 }
 
-/// The largest component of `M^-1/2·x`.
-fn largest_move<S: Space>(bodies: &[Body<S>], direction: &[Increment<S>]) -> f64 {
+/// The largest component of `M^-1/2·x`, of turns at the body's reach.
+fn largest_move<S: Space>(bodies: &[Body<S>], direction: &[Increment<S>], reaches: &[f64]) -> f64 {
     let mut largest = 0.0_f64;
-    for (body, x) in bodies.iter().zip(direction) {
+    for ((body, x), &reach) in bodies.iter().zip(direction).zip(reaches) {
+        let reach = S::Real::from_f64(if reach > 1.0 { reach } else { 1.0 });
         let linear = x.linear * body.inverse_mass.sqrt();
-        let angular = x.angular.scale(body.inverse_inertia.root());
+        let angular = x.angular.scale(body.inverse_inertia.root()) * reach;
         for component in linear.to_f64().into_iter().chain(angular.to_f64()) {
             largest = if component.abs() > largest { component.abs() } else { largest };
         }

@@ -4,7 +4,7 @@
 //! [`Element`], a file of its walk in [`crate::forces`] and a field of [`crate::energy::Energy`].
 
 use crate::elements::point_bushing::PointBushing;
-use crate::elements::point_law::{PointLaw, Stretch};
+use crate::elements::point_law::{PointLaw, Stretch, Turning};
 use crate::elements::point_on_line::PointOnLine;
 use crate::elements::revolute::Revolute;
 use crate::elements::tsda::Tsda;
@@ -94,7 +94,7 @@ impl<S: Space> Element<'_, S> {
         stretch: &Stretch<S::Vector>,
         arm: S::Vector,
         add: &mut impl FnMut(S::Real, S::Vector),
-    ) -> S::Real {
+    ) -> Turning<S::Vector> {
         of_law!(self, law => PointLaw::tangent(*law, stretch, arm, add))
     }
 }

@@ -5,7 +5,7 @@
 //! while the points are apart the pair has a torque `d × c·v_rel`, so a damped bushing keeps
 //! linear momentum but angular momentum only as far as d vanishes.
 
-use crate::elements::point_law::{PointLaw, Stretch};
+use crate::elements::point_law::{PointLaw, Stretch, Turning};
 use crate::real::Real;
 use crate::space::{Linear, Vector};
 
@@ -63,12 +63,11 @@ impl<V: Vector> PointLaw<V> for PointBushing<V::Real> {
     }
 
     /// k in every direction, and the force on a turning arm.
-    fn tangent(&self, stretch: &Stretch<V>, arm: V, add: &mut impl FnMut(V::Real, V)) -> V::Real {
+    fn tangent(&self, stretch: &Stretch<V>, _: V, add: &mut impl FnMut(V::Real, V)) -> Turning<V> {
         for u in V::axes().into_iter().take(V::DIMENSION) {
             add(self.stiffness, u);
         }
-        let d = stretch.displacement;
-        self.stiffness * d.dot(d).sqrt() * arm.dot(arm).sqrt()
+        Turning::of_force(stretch.displacement * self.stiffness)
     }
 }
 

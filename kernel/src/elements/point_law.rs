@@ -41,22 +41,46 @@ pub trait PointLaw<V: Vector> {
     fn damped(stretch: &Stretch<V>) -> ([V; 3], usize);
 
     /// Its tangent as springs, `add(κ \[N/m\], direction)`, which act on a body at the end of `arm`
-    /// \[m\]; returns \[N·m\] what its force does to a turn of the body, in any direction at most.
-    fn tangent(&self, stretch: &Stretch<V>, arm: V, add: &mut impl FnMut(V::Real, V)) -> V::Real;
+    /// \[m\], and what its force does to a turn of the body.
+    fn tangent(&self, stretch: &Stretch<V>, arm: V, add: &mut impl FnMut(V::Real, V))
+    -> Turning<V>;
+}
+
+/// What the force of an element does to a turn of a body.
+#[derive(Clone, Copy, Debug)]
+pub struct Turning<V: Vector> {
+    /// \[N\] the part of the force on A, world axes, that acts on a point of the body.
+    pub force: V,
+    /// \[N·m/rad\] the stiffness of all else, about any axis at most.
+    pub rest: V::Real,
+}
+
+impl<V: Vector> Turning<V> {
+    /// A force on a point of the body alone.
+    pub(crate) fn of_force(force: V) -> Self {
+        Self { force, rest: V::Real::ZERO }
+    }
+
+    /// A stiffness about any axis.
+    pub(crate) fn about_any_axis(rest: V::Real) -> Self {
+        Self { force: V::ZERO, rest }
+    }
 }
 
 /// The tangent that a tension \[N\] adds to whatever it pulls along `displacement`: |T|/L along both
-/// normals; returns |T|·|arm|.
+/// normals, and what its force does to a turn.
 #[inline(always)]
 pub(crate) fn taut<V: Vector>(
     tension: V::Real,
     displacement: V,
-    arm: V,
     add: &mut impl FnMut(V::Real, V),
-) -> V::Real {
+) -> Turning<V> {
     let inverse = displacement.dot(displacement).sqrt().reciprocal_or_zero();
-    for n in (displacement * inverse).normals() {
-        add(tension * inverse, n);
+    let along = displacement * inverse;
+    if tension != V::Real::ZERO {
+        for n in along.normals() {
+            add(tension.abs() * inverse, n);
+        }
     }
-    tension * arm.dot(arm).sqrt()
+    Turning::of_force(along * tension)
 }

@@ -10,7 +10,7 @@
 //! A damper whose `ė` is not along e keeps angular momentum only as far as e vanishes.
 
 use crate::elements::clearance::{beyond, engaged};
-use crate::elements::point_law::{PointLaw, Stretch};
+use crate::elements::point_law::{PointLaw, Stretch, Turning};
 use crate::real::{Real, choose};
 use crate::space::{Linear as _, Space, Vector};
 
@@ -121,7 +121,7 @@ impl<S: Space> PointLaw<S::Vector> for PointOnLine<S> {
         stretch: &Stretch<S::Vector>,
         arm: S::Vector,
         add: &mut impl FnMut(S::Real, S::Vector),
-    ) -> S::Real {
+    ) -> Turning<S::Vector> {
         let (e, line) = (stretch.displacement, stretch.direction);
         let inverse = e.dot(e).sqrt().reciprocal_or_zero();
         let force = (self.stiffness * self.extension(stretch)).abs();
@@ -130,13 +130,11 @@ impl<S: Space> PointLaw<S::Vector> for PointOnLine<S> {
             if isotropic { line.normals() } else { [e * inverse, line.across(e * inverse)] };
         add(self.stiffness, n);
         add(if isotropic { self.stiffness } else { force * inverse }, m);
+        let reach = arm.dot(arm).sqrt();
         if force > S::Real::ZERO {
-            let reach = arm.dot(arm).sqrt();
             add(force * reach.reciprocal_or_zero(), line);
-            S::Real::TWO * force * reach
-        } else {
-            S::Real::ZERO
         }
+        Turning::about_any_axis(S::Real::TWO * force * reach)
     }
 }
 

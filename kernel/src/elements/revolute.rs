@@ -7,7 +7,7 @@
 //! axes, at less cost. Smooth everywhere, without a root or a division; linear and angular momentum are
 //! kept, damped or not.
 
-use crate::elements::point_law::{PointLaw, Stretch};
+use crate::elements::point_law::{PointLaw, Stretch, Turning};
 use crate::real::Real;
 use crate::space::{Linear as _, Moment as _, Space, Vector};
 
@@ -114,7 +114,7 @@ impl<S: Space> PointLaw<S::Vector> for Revolute<S> {
         stretch: &Stretch<S::Vector>,
         arm: S::Vector,
         add: &mut impl FnMut(S::Real, S::Vector),
-    ) -> S::Real {
+    ) -> Turning<S::Vector> {
         let Stretch { displacement: d, direction: axis, ratio, lean } = *stretch;
         let reach = arm.dot(arm).sqrt();
         let tension = (self.stiffness * (ratio - S::Real::ONE) * axis.dot(d)).abs();
@@ -124,7 +124,8 @@ impl<S: Space> PointLaw<S::Vector> for Revolute<S> {
         add(self.stiffness * ratio, axis);
         let length = d.dot(d).sqrt();
         let turned = length * reach + lean * self.lever();
-        self.stiffness * turned + tension * (S::Real::TWO * reach + length)
+        let rest = self.stiffness * turned + tension * (S::Real::TWO * reach + length);
+        Turning::about_any_axis(rest)
     }
 }
 

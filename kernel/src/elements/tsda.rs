@@ -7,7 +7,7 @@
 //! 1e-18 m (in double precision 1e-100 m) it falls to 0 with their distance, of others nothing changes.
 
 use crate::elements::clearance::{beyond, engaged};
-use crate::elements::point_law::{PointLaw, Stretch, taut};
+use crate::elements::point_law::{PointLaw, Stretch, Turning, taut};
 use crate::reach::{AtRest, Reach};
 use crate::real::{Constant, Real};
 use crate::space::{Linear, Vector};
@@ -203,12 +203,10 @@ impl<V: Vector> PointLaw<V> for Tsda<V::Real> {
     }
 
     /// k along its line, and what its tension adds; a clearance counts as taken up.
-    fn tangent(&self, stretch: &Stretch<V>, arm: V, add: &mut impl FnMut(V::Real, V)) -> V::Real {
+    fn tangent(&self, stretch: &Stretch<V>, _: V, add: &mut impl FnMut(V::Real, V)) -> Turning<V> {
         let d = stretch.displacement;
         add(self.stiffness, d * d.dot(d).sqrt().reciprocal_or_zero());
-        let tension = (self.stiffness * self.extension(stretch)).abs();
-        let zero = V::Real::ZERO;
-        if tension > zero { taut(tension, d, arm, add) } else { zero }
+        taut(self.stiffness * self.extension(stretch), d, add)
     }
 }
 

@@ -7,7 +7,7 @@
 //! Smooth everywhere, without a root or a division. As of a point bushing, the damper's `c·v_rel`
 //! keeps angular momentum as far as d vanishes.
 
-use crate::elements::point_law::{PointLaw, Stretch};
+use crate::elements::point_law::{PointLaw, Stretch, Turning};
 use crate::real::Real as _;
 use crate::space::{Linear as _, Space, Vector as _};
 
@@ -81,17 +81,15 @@ impl<S: Space> PointLaw<S::Vector> for Universal<S> {
     fn tangent(
         &self,
         stretch: &Stretch<S::Vector>,
-        arm: S::Vector,
+        _: S::Vector,
         add: &mut impl FnMut(S::Real, S::Vector),
-    ) -> S::Real {
+    ) -> Turning<S::Vector> {
         for u in S::Vector::axes() {
             add(self.stiffness, u);
         }
-        let d = stretch.displacement;
         let lever = self.lever.dot(self.lever).sqrt();
-        let turned =
-            d.dot(d).sqrt() * arm.dot(arm).sqrt() + S::Real::TWO * stretch.lean.abs() * lever;
-        self.stiffness * turned
+        let rest = self.stiffness * (S::Real::TWO * stretch.lean.abs() * lever);
+        Turning { force: stretch.displacement * self.stiffness, rest }
     }
 }
 

@@ -5,7 +5,7 @@
 
 use crate::body::{Body, BodyState};
 use crate::elements::input::InputKind;
-use crate::elements::point_law::taut;
+use crate::elements::point_law::{Turning, taut};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, Terms};
@@ -127,10 +127,13 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
             return;
         };
         let BodyBlock { stiffness: block, turning } = to;
-        let mut add = |stiffness: P::Real, other: BodyIndex, u: P::Vector, moment: P::Moment| {
+        let add = |block: &mut Block<P::Real>, stiffness, other: BodyIndex, u, moment| {
             let share = if other.is_world() { P::Real::ONE } else { P::Real::TWO };
             let n = P::moment_to_body(frame, moment);
             add_row(block, share * stiffness, scaled(body, u, n));
+        };
+        let turn = |block: &mut Block<P::Real>, arm, force| {
+            add_force(block, body, P::to_body(frame, arm), P::to_body(frame, force));
         };
         match mount {
             Mount::Group(number) => {
@@ -142,11 +145,20 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
                     let Some(law) = view.element(group.law, e.index) else { continue };
                     let arm = if at_a { e.arm_a } else { e.arm_b };
                     let (turns, count) = held_turns(view, places, group, e.index);
-                    for turn in turns.into_iter().take(count) {
-                        add(law.stiffness(), other, P::Vector::ZERO, turn);
+                    for held in turns.into_iter().take(count) {
+                        add(block, law.stiffness(), other, P::Vector::ZERO, held);
                     }
-                    let mut add = |stiffness, u: P::Vector| add(stiffness, other, u, arm.cross(u));
-                    *turning = *turning + law.tangent(&e.stretch, arm, &mut add);
+                    let mut along =
+                        |stiffness, u: P::Vector| add(block, stiffness, other, u, arm.cross(u));
+                    let turned = law.tangent(&e.stretch, arm, &mut along);
+                    *turning = *turning + turned.rest;
+                    if group.clearance.row().is_none() {
+                        turn(block, arm, if at_a { turned.force } else { -turned.force });
+                    } else {
+                        // It may pull less than it does with its clearance taken up.
+                        let Turning { force, .. } = turned;
+                        *turning = *turning + (force.dot(force) * arm.dot(arm)).sqrt();
+                    }
                 }
             }
             Mount::Actuator(input) => {
@@ -159,12 +171,14 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
                 let group = view.groups.get(row);
                 let element = group.and_then(|g| placed(view, places, (row, g), element as usize));
                 let Some(e) = element else { return };
-                let ends = [(e.group.a, e.group.b, e.arm_a), (e.group.b, e.group.a, e.arm_b)];
-                for (_, other, arm) in ends.into_iter().filter(|(body, ..)| *body == here) {
-                    let mut add = |stiffness, u: P::Vector| add(stiffness, other, u, arm.cross(u));
-                    let tension = signal.value.abs();
-                    let stretch = e.stretch.displacement;
-                    *turning = *turning + taut(tension, stretch, arm, &mut add);
+                let one = P::Real::ONE;
+                let ends =
+                    [(e.group.a, e.group.b, e.arm_a, one), (e.group.b, e.group.a, e.arm_b, -one)];
+                for (_, other, arm, sign) in ends.into_iter().filter(|(body, ..)| *body == here) {
+                    let mut along =
+                        |stiffness, u: P::Vector| add(block, stiffness, other, u, arm.cross(u));
+                    let turned = taut(signal.value, e.stretch.displacement, &mut along);
+                    turn(block, arm, turned.force * sign);
                 }
             }
             Mount::Torsion(spring) => {
@@ -179,7 +193,7 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
                     Some(frame) => P::moment_to_world(frame, twist.gradient),
                     None => twist.gradient,
                 };
-                add(spring.stiffness, other, P::Vector::ZERO, gradient);
+                add(block, spring.stiffness, other, P::Vector::ZERO, gradient);
                 *turning = *turning + spring.turning(twist.angle, gradient);
             }
         }
@@ -213,13 +227,44 @@ fn add_row<R: Real>(block: &mut Block<R>, stiffness: R, j: [R; 6]) {
     }
 }
 
-/// An upper bound of the largest eigenvalue of a positive semidefinite block.
+/// Adds what a force on the point of an arm, both in body axes, does to a turn φ of the body:
+/// `φᵀ·((r·F)·I − ½·(r·Fᵀ + F·rᵀ))·φ`, which is no stiffness about an axis that both lie along.
+fn add_force<S: Space>(
+    block: &mut Block<S::Real>,
+    body: &Body<S>,
+    arm: S::Vector,
+    force: S::Vector,
+) {
+    let along = arm.dot(force);
+    let i = body.inverse_inertia.in_space();
+    let roots = [i.x, i.y, i.z].map(Real::sqrt);
+    let (r, f) = (arm.in_space(), force.in_space());
+    let (r, f) = ([r.x, r.y, r.z], [f.x, f.y, f.z]);
+    for (a, row) in block[3..].iter_mut().enumerate() {
+        for (b, entry) in row[3..].iter_mut().enumerate() {
+            let mut turned = -(S::Real::HALF * (r[a] * f[b] + f[a] * r[b]));
+            if a == b {
+                turned = along + turned;
+            }
+            *entry = *entry + turned * roots[a] * roots[b];
+        }
+    }
+}
+
+/// An upper bound of the largest eigenvalue of a symmetric block, which is that by magnitude.
 fn largest_eigenvalue<R: Real>(mut block: Block<R>) -> R {
     let mut traces = [R::ZERO; SQUARINGS + 1];
     for (k, slot) in traces.iter_mut().enumerate() {
+        // Of the block itself a number that leaves squares to hold, of its squares the trace.
         let mut trace = R::ZERO;
         for (i, row) in block.iter().enumerate() {
-            trace = trace + row[i];
+            trace = trace + row[i].abs();
+        }
+        if k == 0 {
+            for entry in block.iter().flatten() {
+                let entry = entry.abs();
+                trace = if entry > trace { entry } else { trace };
+            }
         }
         *slot = trace;
         if trace == R::ZERO || k == SQUARINGS {
