@@ -148,7 +148,7 @@ fn every_key_of_a_summary_is_in_the_reference() {
     let summary: Value = serde_json::from_str(&done.out).unwrap();
     written.extend(summary.as_object().unwrap().keys().cloned());
     // And of one that is assembled.
-    let open = PENDULUM.replace("[[body]]", "[assemble]\n[[body]]");
+    let open = PENDULUM.replace("[[body]]", "settle = true\n[assemble]\n[[body]]");
     let done = folder.run(&folder.scene(&open), &["--json"]);
     let summary: Value = serde_json::from_str(&done.out).unwrap();
     written.extend(summary.as_object().unwrap().keys().cloned());

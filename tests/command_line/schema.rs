@@ -97,7 +97,10 @@ fn schema_and_reader_refuse_alike() {
             let keys: Vec<String> =
                 scene.pointer(&place).unwrap().as_object().unwrap().keys().cloned().collect();
             // Their keys are names.
-            let named = place == "/points" || place == "/parameters" || place == "/assemble/rates";
+            let named = place == "/points"
+                || place == "/parameters"
+                || place == "/assemble/rates"
+                || place == "/assemble/angles";
             let changed = |key: &str, value: Option<Value>| {
                 let mut changed = scene.clone();
                 let table = changed.pointer_mut(&place).unwrap().as_object_mut().unwrap();
@@ -117,7 +120,7 @@ fn schema_and_reader_refuse_alike() {
             for key in &keys {
                 met.insert(key.clone());
                 // Where a truth value stands a number must not.
-                let wrong = if key == "planar" { json!(1) } else { json!(true) };
+                let wrong = if key == "planar" || key == "settle" { json!(1) } else { json!(true) };
                 let (said, valid, words) = changed(key, Some(wrong));
                 assert!(said.is_some() && !valid, "{words}, the schema takes it: {valid}");
                 changed(key, Some(json!(-1)));

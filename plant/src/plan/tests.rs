@@ -78,9 +78,9 @@ fn a_step_longer_than_the_duration_is_refused_with_shorter_ones() {
 fn our_step_is_shortened_to_fit() {
     let plan = ours(2.9e-4, 0.5, Some(1e-3)).unwrap();
     assert_eq!((plan.step, plan.stride, plan.steps), (1e-3 / 4.0, 4, 2000));
-    // Every third of a millisecond into a duration of 10/3 of it: three parts at least.
+    // 0.3 s and 1 s have 0.1 s in common, of which 0.05 s is the longest part that divides 1 s and is round.
     let plan = ours(1.0, 1.0, Some(0.3)).unwrap();
-    assert_eq!((plan.stride, plan.steps), (3, 10));
+    assert_eq!((plan.step, plan.stride, plan.steps), (0.05, 6, 20));
     let plan = ours(0.04, 1.0, Some(0.3)).unwrap();
     assert_eq!((plan.stride, plan.steps), (9, 30));
     let plan = ours(3e-4, 0.5, None).unwrap();

@@ -108,7 +108,12 @@ fn a_step_that_the_matrix_does_not_bear_is_refused_with_the_longest_one() {
     assert!(folder.write(&build().precision("f64")).0);
     // Where no step is given, one that is borne is taken.
     std::fs::write(folder.scene(), BALL.replace("step = 1e-3\n", "")).unwrap();
-    assert!(build().source().unwrap().source.contains("generalized-alpha, f32, a step of 250us"));
+    let source = build().source().unwrap().source;
+    assert!(
+        source.contains(": generalized-alpha, f32, a step of 250us."),
+        "{}",
+        source.lines().next().unwrap()
+    );
 }
 
 #[test]
