@@ -6,7 +6,6 @@
 //!
 //! - [`time`]: times with a unit, as text.
 //! - [`digits`]: numbers as people read them.
-//! - [`fitting`]: steps of which a duration and a sampling interval are whole multiples.
 //! - [`plan`]: a run in whole numbers.
 //! - [`names`]: scheme, damping, precision and orientation by name.
 //! - [`method`]: what these make together.
