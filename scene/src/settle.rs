@@ -123,8 +123,8 @@ struct Search<'m> {
 
 impl<'m> Search<'m> {
     fn of(model: &'m SceneModel<F64>, poses: Vec<Pose>, unknowns: &'static [usize]) -> Self {
-        // The largest distance of two bodies' centres in any direction, or of a body's radius of gyration.
-        let mut size = 0.0_f64;
+        // The largest distance of two bodies' centres, free length, or radius of gyration.
+        let mut size = model.tsdas.iter().map(|tsda| tsda.free_length).fold(0.0_f64, f64::max);
         for (pose, body) in poses.iter().zip(&model.bodies) {
             let apart = pose.position - poses[0].position;
             size = size.max(length(apart)).max(libm::sqrt(largest_moment(body) / body.mass));
