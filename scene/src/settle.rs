@@ -149,8 +149,7 @@ impl<'m> Search<'m> {
                     }
                 }
                 tau /= GROWTH;
-                // Not a number, or of no scale.
-                if !(tau > 1e-30) {
+                if tau < 1e-30 {
                     return End::Moving(worst);
                 }
             };

@@ -148,12 +148,12 @@ mod tests {
         let mut frames = model.per_body(Default::default());
         place_bodies::<M::Precision>(state.bodies.as_ref(), frames.as_mut());
         let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
-        let one = crate::model::RealOf::<M>::ONE;
+        let (zero, one) = (crate::model::RealOf::<M>::ZERO, crate::model::RealOf::<M>::ONE);
         let pencil = Pencil { mass: one, damping: one, stiffness: one };
         let mut seats = [Seat::default(); PLACES.len()];
         find(&model.view(), places, pencil, &mut seats);
         for seat in seats {
-            assert!(seat.point > one && seat.across == one - one, "{seat:?}");
+            assert!(seat.point > one && seat.across == zero, "{seat:?}");
         }
     }
 
