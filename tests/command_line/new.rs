@@ -130,13 +130,14 @@ fn a_file_that_was_not_exported_is_not_replaced() {
 #[test]
 fn a_scene_without_a_step_has_one_default_step() {
     let folder = Folder::new();
-    for (mass, spring, every, expected) in [
+    let cases = [
         ("1.7", "stiffness = 3e4", "", "5ms"),
         ("1.7", "stiffness = 3e6", "", "500us"),
         ("1.7", "stiffness = 3e6", "every = \"5 ms\"\n", "500us"),
         ("1.7", "stiffness = 3e6", "every = 0.0078125\n", "710.227"),
         ("1", "stiffness = 0", "", "1ms"),
-    ] {
+    ];
+    for (row, (mass, spring, every, expected)) in cases.into_iter().enumerate() {
         let text = format!(
             "name = \"ball\"\nduration = 1\n{every}gravity = [0, -9.81, 0]\n[[body]]\nname = \"b\"\nmass = {mass}\n\
              inertia = [1, 1, 1]\nposition = [0, 0, 0]\n[[tsda]]\nname = \"spring\"\nbetween = [\"world\", \"b\"]\n\
@@ -153,7 +154,7 @@ fn a_scene_without_a_step_has_one_default_step() {
         };
         says(&call(&["export", &scene]).out);
         says(&Build::scene(&scene).source().unwrap().source);
-        let project = folder.path(&format!("p{}", taken.to_bits() ^ u64::from(every.len() as u32)));
+        let project = folder.path(&format!("project-{row}"));
         assert_eq!(new(&project, &["--scene", &scene]).exit, Exit::Done);
         let golden = fs::read_to_string(project.join("tests/golden.txt")).unwrap();
         let steps = golden.lines().last().unwrap().split(' ').next().unwrap();

@@ -1,11 +1,11 @@
 //! What joints leave free at a pose, beyond the first order.
 //!
 //! `(joints, closed poses) => freedoms, bodies that move`. The rank of the constraints counts motions of first
-//! order; at a singular pose some of them do not continue and others begin only at second order. A random
-//! combination of the motions of first order is therefore followed to a closed pose nearby, where the rank counts
-//! anew, and followed once more: what it keeps of itself is a motion. Where it is not kept, as at a pose that is
-//! singular everywhere (a shaky linkage: Müller, J. Mechanisms Robotics 8 (2016) 041013), the dimension is the rank of
-//! as many displacements as the rank leaves motions.
+//! order; at a singular pose some of these end there, and others begin only at second order. So a random
+//! combination of them is followed to a closed pose nearby, and the rank is taken there. From that pose random
+//! motions of first order are followed again. Where all of them lead to closed poses, the rank is right. Where they
+//! do not, because the poses nearby are singular, too (a shaky linkage: Müller, J. Mechanisms Robotics 8 (2016)
+//! 041013), the freedoms are the number of independent displacements that were found.
 
 use crate::closure::constraint::Closure;
 use crate::closure::island::{Island, System};

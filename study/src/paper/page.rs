@@ -8,7 +8,7 @@ use dbd_plant::digits::significant;
 use crate::paper::finding::{Finding, Row};
 use crate::paper::plot;
 
-/// A number to three digits; a dash stands for a number that is missing.
+/// A number to three digits, a dash where there is none.
 fn number(value: Option<f64>) -> String {
     value.map_or("–".into(), |value| significant(value, 3))
 }

@@ -194,7 +194,7 @@ pub(super) fn of_readout(key: &str, tables: &[TableKeys]) -> Option<Key> {
         "target" => Key(name(), "The joint, tsda, torsion spring or input that it looks at", ""),
         "axis" => Key(numbers(3, Any), "[x, y, z]: of a spherical joint, world at t = 0", ""),
         "about" => Key(choice(&["first", "second"]), "Which axis of a universal joint", ""),
-        "offset" => Key(number(Any), "rad: what it shows at the poses as written", "0"),
+        "offset" => Key(number(Any), "rad: what it shows at a turn of 0", "0"),
         _ => return None,
     })
 }
