@@ -82,7 +82,7 @@ fn our_step_is_shortened_to_fit() {
     let plan = ours(1.0, 1.0, Some(0.3)).unwrap();
     assert_eq!((plan.step, plan.stride, plan.steps), (0.05, 6, 20));
     let plan = ours(0.04, 1.0, Some(0.3)).unwrap();
-    assert_eq!((plan.stride, plan.steps), (9, 30));
+    assert_eq!((plan.step, plan.stride, plan.steps), (0.025, 12, 40));
     let plan = ours(3e-4, 0.5, None).unwrap();
     assert_eq!((plan.steps, plan.step), (2000, 250e-6));
     assert_eq!(ours(f64::INFINITY, 2.0, None).unwrap().steps, 1);
