@@ -50,6 +50,7 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
     type Precision = M::Precision;
     type Terms = TermsAlone<M::Terms, S>;
     type PerBody<T: Copy> = M::PerBody<T>;
+    type PerDampedBody<T: Copy> = M::PerDampedBody<T>;
     type PerTorsion = M::PerTorsion;
     type PerLoad = M::PerLoad;
     type PerInput = M::PerInput;
@@ -89,6 +90,11 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
     #[inline]
     fn per_body<T: Copy>(&self, value: T) -> M::PerBody<T> {
         self.model.per_body(value)
+    }
+
+    #[inline]
+    fn per_damped_body<T: Copy>(&self, value: T) -> M::PerDampedBody<T> {
+        self.model.per_damped_body(value)
     }
 
     #[inline]

@@ -167,7 +167,7 @@ mod tests {
             [ground, point],
             SPRING,
         );
-        let model = sketch.model_f64::<1, 1, 2, 1, 0, 0, 0, 0, 0, 0, 0>();
+        let model = sketch.model_f64::<1, 1, 2, 1, 0, 0, 0, 0, 0, 0, 0, 0>();
         assert_eq!(first_excess::<F64, _, _>(&model.view(), &model.initial, step), None);
         first_excess::<Fixed, _, _>(&model.view(), &model.initial, step)
     }

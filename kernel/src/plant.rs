@@ -48,7 +48,7 @@ where
     state: State<H::Target>,
     frames: PerBody<H, FrameOf<H::Target>>,
     wrenches: PerBody<H, Wrench<SpaceOf<H::Target>>>,
-    sums: PerBody<H, <PrecisionOf<H> as Geometry>::PassSum>,
+    sums: <H::Target as ModelOwner>::PerDampedBody<<PrecisionOf<H> as Geometry>::PassSum>,
     memory: MemoryOf<H, S>,
     in_line: bool,
     ledger: Ledger,
@@ -141,7 +141,7 @@ where
             solve::find(&view, places, scheme.pencil(h), kept.seats.as_mut());
         }
         let wrenches = owner.per_body(Wrench::default());
-        let sums = owner.per_body(Default::default());
+        let sums = owner.per_damped_body(Default::default());
         let memory = owner.per_body(S::Memory::default());
         let in_line = are_in_line(&view);
         let mut plant = Self {

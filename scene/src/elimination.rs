@@ -127,6 +127,7 @@ impl<H: Deref<Target: ModelOwner + Sized>> ModelOwner for Eliminated<H> {
     type Precision = <H::Target as ModelOwner>::Precision;
     type Terms = <H::Target as ModelOwner>::Terms;
     type PerBody<T: Copy> = <H::Target as ModelOwner>::PerBody<T>;
+    type PerDampedBody<T: Copy> = <H::Target as ModelOwner>::PerDampedBody<T>;
     type PerTorsion = <H::Target as ModelOwner>::PerTorsion;
     type PerLoad = <H::Target as ModelOwner>::PerLoad;
     type PerInput = <H::Target as ModelOwner>::PerInput;
@@ -146,6 +147,10 @@ impl<H: Deref<Target: ModelOwner + Sized>> ModelOwner for Eliminated<H> {
 
     fn per_body<T: Copy>(&self, value: T) -> Self::PerBody<T> {
         self.model.per_body(value)
+    }
+
+    fn per_damped_body<T: Copy>(&self, value: T) -> Self::PerDampedBody<T> {
+        self.model.per_damped_body(value)
     }
 
     fn per_torsion(&self) -> Self::PerTorsion {

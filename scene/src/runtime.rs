@@ -139,6 +139,7 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
     type Precision = P;
     type Terms = AllTerms;
     type PerBody<T: Copy> = Vec<T>;
+    type PerDampedBody<T: Copy> = Vec<T>;
     type PerTorsion = Vec<i32>;
     type PerLoad = Vec<LoadWindow>;
     type PerInput = Vec<Signal<P::Real>>;
@@ -175,6 +176,10 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
 
     fn per_body<T: Copy>(&self, value: T) -> Vec<T> {
         vec![value; self.bodies.len()]
+    }
+
+    fn per_damped_body<T: Copy>(&self, value: T) -> Vec<T> {
+        if self.dampers.is_empty() { Vec::new() } else { self.per_body(value) }
     }
 
     fn per_torsion(&self) -> Vec<i32> {

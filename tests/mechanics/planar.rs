@@ -406,5 +406,5 @@ fn a_sketch_has_the_bits_of_the_builder() {
     }
     assert_eq!(hash(&DOUBLE), built::<Planar64>());
     assert_eq!(hash(&SINGLE), built::<Planar32>());
-    let _: &Model<Planar64, 1, 1, 3, 2, 0, 3, 1, 1> = &DOUBLE;
+    let _: &Model<Planar64, 1, 1, 3, 2, 0, 3, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1> = &DOUBLE;
 }

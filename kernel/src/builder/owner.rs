@@ -46,6 +46,7 @@ impl<
     type Precision = P;
     type Terms = AllTerms;
     type PerBody<T: Copy> = Vec<T, BODIES>;
+    type PerDampedBody<T: Copy> = Vec<T, BODIES>;
     type PerTorsion = Vec<i32, TORSIONS>;
     type PerLoad = Vec<LoadWindow, LOADS>;
     type PerInput = Vec<Signal<P::Real>, INPUTS>;
@@ -82,6 +83,10 @@ impl<
 
     fn per_body<T: Copy>(&self, value: T) -> Vec<T, BODIES> {
         self.bodies.iter().map(|_| value).collect()
+    }
+
+    fn per_damped_body<T: Copy>(&self, value: T) -> Vec<T, BODIES> {
+        self.per_body(value)
     }
 
     fn per_torsion(&self) -> Vec<i32, TORSIONS> {

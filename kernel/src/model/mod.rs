@@ -183,6 +183,8 @@ pub trait ModelOwner {
     type Terms: Terms;
     /// Memory of one `T` per body.
     type PerBody<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
+    /// Memory of one `T` per body of a model with dampers; a model without any may have none.
+    type PerDampedBody<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one turn count per torsion spring.
     type PerTorsion: Clone + AsRef<[i32]> + AsMut<[i32]>;
     /// Memory of one window per load.
@@ -206,6 +208,8 @@ pub trait ModelOwner {
     fn initial(&self) -> &[BodyState<Self::Precision>];
     /// One `value` per body.
     fn per_body<T: Copy>(&self, value: T) -> Self::PerBody<T>;
+    /// One `value` per body of a model with dampers.
+    fn per_damped_body<T: Copy>(&self, value: T) -> Self::PerDampedBody<T>;
     /// One 0 per torsion spring.
     fn per_torsion(&self) -> Self::PerTorsion;
     /// One empty window per load.

@@ -14,10 +14,14 @@ use crate::elements::universal::Universal;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, DamperIndex};
 use crate::model::{CountedTerms, Group, Law, ModelOwner, ModelRef};
+use crate::pass_sum::PassSum;
 use crate::real::Real;
 use crate::schedule::{KnotStep, LoadWindow, Signal};
 
 /// A model whose sizes are const generics. A kind that a scene lacks has count 0, the default.
+///
+/// `SUMS` is the number of sums that a pass of dampers keeps apart from the velocities, one per body, where the
+/// precision has them: `BODIES` with dampers, 0 without. Its default is as many as dampers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Model<
     P: Geometry,
@@ -36,6 +40,7 @@ pub struct Model<
     const CLEARANCES: usize = 0,
     const REVOLUTES: usize = 0,
     const UNIVERSALS: usize = 0,
+    const SUMS: usize = DAMPERS,
 > {
     /// Bodies in scene order.
     pub bodies: [Body<P::Space>; BODIES],
@@ -88,6 +93,7 @@ impl<
     const CLEARANCES: usize,
     const REVOLUTES: usize,
     const UNIVERSALS: usize,
+    const SUMS: usize,
 >
     Model<
         P,
@@ -106,6 +112,7 @@ impl<
         CLEARANCES,
         REVOLUTES,
         UNIVERSALS,
+        SUMS,
     >
 {
     /// Checks every index of the model; in a `const` the compiler does so.
@@ -117,6 +124,8 @@ impl<
     pub const fn checked(self) -> Self {
         assert!(BODIES > 0, "a model has at least one body");
         assert!(BODIES <= BodyIndex::FIRST_ANCHOR as usize, "a model has at most 65280 bodies");
+        let sums = DAMPERS > 0 && <P::PassSum as PassSum<P::Space>>::APART;
+        assert!(!sums || SUMS >= BODIES, "a damped model has one sum per body: SUMS = BODIES");
         assert!(GRAVITY <= 1, "a model has at most one field of gravity");
         let mut i = 0;
         while i < GROUPS {
@@ -228,6 +237,7 @@ impl<
     const CLEARANCES: usize,
     const REVOLUTES: usize,
     const UNIVERSALS: usize,
+    const SUMS: usize,
 > ModelOwner
     for Model<
         P,
@@ -246,6 +256,7 @@ impl<
         CLEARANCES,
         REVOLUTES,
         UNIVERSALS,
+        SUMS,
     >
 {
     type Precision = P;
@@ -263,6 +274,7 @@ impl<
         UNIVERSALS,
     >;
     type PerBody<T: Copy> = [T; BODIES];
+    type PerDampedBody<T: Copy> = [T; SUMS];
     type PerTorsion = [i32; TORSIONS];
     type PerLoad = [LoadWindow; LOADS];
     type PerInput = [Signal<P::Real>; INPUTS];
@@ -304,6 +316,11 @@ impl<
     }
 
     #[inline]
+    fn per_damped_body<T: Copy>(&self, value: T) -> [T; SUMS] {
+        [value; SUMS]
+    }
+
+    #[inline]
     fn per_torsion(&self) -> [i32; TORSIONS] {
         [0; TORSIONS]
     }
@@ -341,5 +358,60 @@ impl<
     #[inline]
     fn per_knot(&self) -> [KnotStep<P::Real>; KNOTS] {
         [KnotStep { first: 0, offset: P::Real::ZERO }; KNOTS]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::F32;
+    use crate::sketch::{Sketch, Spring, Start};
+
+    const fn hung(damping: f64) -> Sketch {
+        let spring = Spring { stiffness: 1e3, damping, free_length: 1.0 };
+        Sketch::new()
+            .body(1.0, [0.1; 3], Start::at([1.0, 0.0, 0.0]))
+            .body(1.0, [0.1; 3], Start::at([3.0, 0.0, 0.0]))
+            .tsda([BodyIndex::WORLD, BodyIndex(0)], [[0.0; 3]; 2], spring)
+    }
+
+    const BARE: Sketch = hung(0.0);
+    const DAMPED: Sketch = hung(1.0);
+    crate::model!(static BARE_F32: F32 = BARE);
+    crate::model!(static DAMPED_F32: F32 = DAMPED);
+
+    /// Two bodies and one damper: as many sums as bodies, and none without a damper.
+    #[test]
+    fn a_model_without_dampers_has_no_sums() {
+        assert_eq!(BARE_F32.per_damped_body(0).len(), 0);
+        assert_eq!(DAMPED_F32.per_damped_body(0).len(), 2);
+    }
+
+    #[test]
+    #[should_panic(expected = "SUMS = BODIES")]
+    fn too_few_sums_are_refused() {
+        let Model { bodies, initial, gravity, groups, points, tsdas, bushings, .. } = DAMPED_F32;
+        let Model { dampers, torsions, loads, lines, inputs, knots, .. } = DAMPED_F32;
+        let Model { clearances, revolutes, universals, .. } = DAMPED_F32;
+        // The default is as many as dampers.
+        let short: Model<F32, 2, 1, 2, 1, 0, 1> = Model {
+            bodies,
+            initial,
+            gravity,
+            groups,
+            points,
+            tsdas,
+            bushings,
+            dampers,
+            torsions,
+            loads,
+            lines,
+            inputs,
+            knots,
+            clearances,
+            revolutes,
+            universals,
+        };
+        let _ = short.checked();
     }
 }

@@ -39,6 +39,7 @@ where
     type Precision = <H::Target as ModelOwner>::Precision;
     type Terms = <H::Target as ModelOwner>::Terms;
     type PerBody<V: Copy> = <H::Target as ModelOwner>::PerBody<V>;
+    type PerDampedBody<V: Copy> = <H::Target as ModelOwner>::PerDampedBody<V>;
     type PerTorsion = <H::Target as ModelOwner>::PerTorsion;
     type PerLoad = <H::Target as ModelOwner>::PerLoad;
     type PerInput = <H::Target as ModelOwner>::PerInput;
@@ -62,6 +63,11 @@ where
     #[inline]
     fn per_body<V: Copy>(&self, value: V) -> <H::Target as ModelOwner>::PerBody<V> {
         self.model.per_body(value)
+    }
+
+    #[inline]
+    fn per_damped_body<V: Copy>(&self, value: V) -> <H::Target as ModelOwner>::PerDampedBody<V> {
+        self.model.per_damped_body(value)
     }
 
     #[inline]

@@ -114,6 +114,7 @@ macro_rules! models {
                     const LOADS: usize,
                     const REVOLUTES: usize,
                     const UNIVERSALS: usize,
+                    const SUMS: usize,
                 >(
                     &self,
                 ) -> Model<
@@ -133,6 +134,7 @@ macro_rules! models {
                     0,
                     REVOLUTES,
                     UNIVERSALS,
+                    SUMS,
                 > {
                     Model {
                         bodies: rounded!(self.bodies, BODIES, b => Body {
@@ -292,6 +294,7 @@ macro_rules! model {
             0,
             { $sketch.counts()[9] },
             { $sketch.counts()[10] },
+            { if $sketch.counts()[5] > 0 { $sketch.counts()[0] } else { 0 } },
         > = $sketch.$function();
     };
 }

@@ -109,7 +109,7 @@ pub struct Workspace<'s, 'm, P: Geometry, T> {
     pub(crate) frames: &'s mut [P::Frame],
     /// The bodies' wrenches.
     pub(crate) wrenches: &'s mut [Wrench<P::Space>],
-    /// What a damper pass has given to the bodies.
+    /// What a damper pass has given to the bodies; may be empty without dampers.
     pub(crate) sums: &'s mut [P::PassSum],
     /// Whether the groups are in line, see [`forces::are_in_line`].
     pub(crate) in_line: bool,

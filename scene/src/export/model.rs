@@ -52,6 +52,7 @@ pub(super) fn model_in<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>
         model.clearances.len(),
         model.revolutes.len(),
         model.universals.len(),
+        if model.dampers.is_empty() { 0 } else { model.bodies.len() },
     ];
     let counts = counts.map(|n| n.to_string()).join(", ");
     let mut out = String::new();
