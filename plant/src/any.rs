@@ -8,7 +8,7 @@ use dbd_kernel::index::InputIndex;
 use dbd_kernel::plant::{InputError, StateError};
 use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::snapshot::SnapshotError;
-use dbd_kernel::{Energy, F64, State, Status};
+use dbd_kernel::{BodyState, Energy, F64, State, Status};
 use dbd_scene::SceneModel;
 
 use crate::method::Method;
@@ -41,6 +41,9 @@ pub trait AnyPlant: Send {
     /// The state of all bodies: positions \[m\] and velocities \[m/s\] in the world, orientations body
     /// → world, angular velocities \[rad/s\] in body axes; with turn counts, step counter and signals.
     fn state(&self) -> State<SceneModel<F64>>;
+
+    /// The states of all bodies, as [`AnyPlant::state`] has them, in place of what `bodies` held.
+    fn bodies(&self, bodies: &mut Vec<BodyState<F64>>);
 
     /// \[J\] the energies of the present state by kind.
     fn energy(&self) -> Energy<f64>;

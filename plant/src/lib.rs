@@ -17,6 +17,7 @@
 //! - `refusal`: why there is no plant of a scene.
 //! - [`plant`](mod@plant): where the names become the kernel's types.
 //! - [`judge`]: what a state holds, and whether a run can go on from it.
+//! - [`rounding`]: what sums in single precision lose of slow motion.
 //!
 //! A scene and a run:
 //!
@@ -55,6 +56,7 @@ pub mod plan;
 pub mod plant;
 pub mod readings;
 mod refusal;
+pub mod rounding;
 pub mod time;
 
 pub use any::AnyPlant;

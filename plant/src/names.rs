@@ -138,6 +138,12 @@ impl PrecisionName {
     pub fn is_kept(self) -> bool {
         matches!(self, Self::Fixed | Self::F32Compensated)
     }
+
+    /// Whether sums on a state are rounded to single precision.
+    #[must_use]
+    pub fn is_single(self) -> bool {
+        matches!(self, Self::F32 | Self::F32Micromath)
+    }
 }
 
 #[cfg(test)]

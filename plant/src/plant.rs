@@ -311,6 +311,14 @@ where
         state
     }
 
+    fn bodies(&self, bodies: &mut Vec<BodyState<F64>>) {
+        bodies.clear();
+        bodies.extend(self.plant.state().bodies.iter().map(BodyState::convert));
+        if let Some(planar) = &self.planar {
+            planar.states_outward(bodies);
+        }
+    }
+
     fn energy(&self) -> Energy<f64> {
         energy(&self.exact, &self.state(), self.step_size())
     }

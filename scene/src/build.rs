@@ -14,6 +14,7 @@ use dbd_kernel::{CompensatedF32, F32, Fixed, State, frequency};
 use crate::default_step::{fastest_spin, longest};
 use crate::export::{Export, ExportPrecision, ExportScheme, SchemeError, source};
 use crate::fitting::Span;
+use crate::single::slow_start;
 use crate::time::{Time, TimeError, display};
 use crate::{Scene, SceneError, Severity, UnfitInput};
 
@@ -260,6 +261,10 @@ impl Build {
                 bound * step,
                 display(crate::time::rounded(MARGIN * limit / bound, 2)),
             ));
+        }
+        if precisions.contains(&ExportPrecision::F32) {
+            let slow = slow_start(&scene, step, "the step");
+            warnings.extend(slow.map(|slow| format!("{called}: {slow}")));
         }
         for precision in &precisions {
             let name = precision.name();

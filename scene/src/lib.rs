@@ -47,6 +47,7 @@ mod readout;
 mod runtime;
 mod settle;
 mod shortened;
+pub mod single;
 mod solid;
 mod spring;
 mod target;

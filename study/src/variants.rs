@@ -34,6 +34,9 @@ pub const AS_IT_IS: &str = "as it is";
 /// What the model of a planar scene in space is called.
 pub const SPATIAL: &str = "spatial";
 
+/// What the scene with joints of twice the stiffness is called.
+pub const STIFFER: &str = "twice-as-stiff";
+
 /// The part of the largest stable step of leapfrog at which motions are compared.
 const FINE: f64 = 0.1;
 
@@ -102,8 +105,8 @@ pub fn counted_as(shipped: &Scene, scene: &Scene) -> Option<String> {
     found.map(|variant| format!("{}-{}", shipped.name, variant.name))
 }
 
-/// A scene beside its variants, itself first; nothing where it has none. `called` says what the table of costs
-/// calls a scene.
+/// A scene beside its variants, itself first, and beside its joints twice as stiff last; nothing where it has neither
+/// variants nor joints. `called` says what the table of costs calls a scene.
 #[must_use]
 pub fn compare(
     scene: &Scene,
@@ -112,7 +115,7 @@ pub fn compare(
     called: &dyn Fn(&Scene) -> Option<String>,
 ) -> Vec<Compared> {
     let variants = variants(scene);
-    if variants.is_empty() {
+    if variants.is_empty() && scene.joints.is_empty() {
         return Vec::new();
     }
     let own_limit = limit(scene);
@@ -129,6 +132,18 @@ pub fn compare(
         let difference = states.map(|(own, states)| distance((scene, own), (other, &states)));
         let difference = difference.filter(|difference| difference.is_finite());
         all.push(of(other, name, limit, difference, instructions(other)));
+    }
+    if !scene.joints.is_empty() {
+        // Both in space, so that nothing else differs.
+        let [softer, stiffer] = [1.0, 2.0].map(|factor| scene.with_stiffer_joints(factor));
+        let limit = limit(&stiffer);
+        let states = [&softer, &stiffer].map(|scene| motion(scene, limit, grid));
+        let difference = match &states {
+            [Some(own), Some(states)] => Some(distance((&softer, own), (&stiffer, states))),
+            _ => None,
+        };
+        let difference = difference.filter(|difference| difference.is_finite());
+        all.push(of(&stiffer, STIFFER, limit, difference, None));
     }
     all
 }
@@ -235,12 +250,23 @@ mod tests {
         let found = variants(&scene);
         assert_eq!(found.iter().map(|one| one.name).collect::<Vec<_>>(), ["bushing"]);
         let compared = compare(&scene, &Grid::new(1e-3, 0.1), &Costs::none(), &|_| None);
-        let [own, bushing] = &compared[..] else { panic!("{compared:?}") };
+        let [own, bushing, stiffer] = &compared[..] else { panic!("{compared:?}") };
         assert_eq!((own.bodies, own.elements, own.difference), (3, 12, Some(0.0)));
         assert_eq!((bushing.bodies, bushing.elements), (2, 1));
         let difference = bushing.difference.unwrap();
         assert!(difference > 0.0 && difference < 1e-3, "{difference:e}");
         assert!(bushing.step > 2.0 * own.step, "{} {}", bushing.step, own.step);
+        // √2 times as fast; what joints give way by falls with their stiffness.
+        assert!(
+            (own.stable_step.unwrap() / stiffer.stable_step.unwrap() - 2_f64.sqrt()).abs() < 0.05
+        );
+        let depends = |stiffness: &str| {
+            let scene = scene.with(&format!("joint.u.stiffness={stiffness}")).unwrap();
+            compare(&scene, &Grid::new(1e-3, 0.1), &Costs::none(), &|_| None).pop().unwrap()
+        };
+        let [soft, stiff] = ["1e4", "1e6"].map(|stiffness| depends(stiffness).difference.unwrap());
+        assert_eq!(depends("1e4").name, STIFFER);
+        assert!(stiff > 0.0 && stiff < 0.1 * soft, "{soft:e} {stiff:e}");
         // What is of bushings already has no other make.
         assert!(variants(&found[0].scene).is_empty());
     }
@@ -296,8 +322,8 @@ mod tests {
         let there = compare(&scene, &grid, &Costs::none(), &|_| None);
         let back = compare(&planar, &grid, &Costs::none(), &|_| None);
         let elements = |all: &[Compared]| all.iter().map(|one| one.elements).collect::<Vec<_>>();
-        assert_eq!(elements(&there), [12, 2, 4, 2]);
-        assert_eq!(elements(&back), [4, 2, 12, 2]);
+        assert_eq!(elements(&there), [12, 2, 4, 2, 12]);
+        assert_eq!(elements(&back), [4, 2, 12, 2, 12]);
         assert!(there[2].planar && !there[0].planar && back[0].planar && !back[2].planar);
         // The same two models, whichever of them is asked for.
         assert_eq!(

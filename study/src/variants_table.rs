@@ -29,7 +29,7 @@ const FIGURES: &str = "the difference is root mean square over the bodies that b
      one, at which a second is simulated so many times as fast";
 
 /// What a make is, and how to run it: by a part of its name.
-const MAKES: [(&str, &str); 3] = [
+const MAKES: [(&str, &str); 4] = [
     (
         "bushing",
         "bushing: joints of bushings in place of TSDAs, as stiff at t = 0, no universal joint has a spider; run it \
@@ -43,6 +43,11 @@ const MAKES: [(&str, &str); 3] = [
     (
         "spatial",
         "spatial: six freedoms per body, of which the plane has three; run it with --set planar=false",
+    ),
+    (
+        "stiff",
+        "twice-as-stiff: every joint has twice its stiffness, in space; by so much the motion still depends on a \
+         stiffness that stands for a rigid joint",
     ),
 ];
 

@@ -14,6 +14,7 @@ mod picture;
 mod refusal;
 mod report;
 mod results;
+mod rounding;
 mod run;
 mod schema;
 mod set;

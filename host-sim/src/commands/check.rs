@@ -9,13 +9,15 @@ use dbd_plant::frequencies::advised_text;
 use dbd_plant::time::display;
 use std::f64::consts::TAU;
 
-use dbd_plant::{Frequencies, Method};
+use dbd_plant::{Frequencies, Method, PrecisionName};
+use dbd_scene::single::slow_start;
 use dbd_scene::{InputInfo, JointFacts, JointInfo, ReadoutInfo, Realisation, Scene};
 use serde::Serialize;
 
 use crate::commands::assembled::{AssembledCheck, SettledCheck};
 use crate::commands::derived::{DerivedCheck, derived, lines as derived_lines};
 use crate::commands::planar::PlaneCheck;
+use crate::commands::rounding::of_noise;
 use crate::commands::stability::StabilityCheck;
 use crate::commands::warnings::{of_step, with_notes};
 use crate::terminal::Look;
@@ -230,6 +232,12 @@ pub fn check(scene: &Scene) -> Check {
     let [warnings, notes] = with_notes(scene, &facts);
     check.warnings.extend(warnings);
     check.notes.extend(notes);
+    let single = Method::default().with_precision(PrecisionName::F32);
+    if let Some(step) = scene.step.or(check.advised_step) {
+        let slow = slow_start(scene, step, "in f32 the step");
+        check.notes.extend(slow);
+    }
+    check.notes.extend(of_noise(scene, &single, None).map(|noise| format!("in f32 {noise}")));
     check
 }
 

@@ -168,7 +168,9 @@ pub enum ExportPrecision {
 }
 
 impl ExportPrecision {
-    fn name(self) -> PrecisionName {
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> PrecisionName {
         match self {
             Self::F64 => PrecisionName::F64,
             Self::F32 => PrecisionName::F32,

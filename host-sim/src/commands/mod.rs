@@ -1,7 +1,7 @@
 //! The commands, each as a function without a terminal.
 //!
 //! - [`list`]: the scenes that ship.
-//! - [`warnings`]: what is probably not meant, in one place for all.
+//! - [`rounding`]: what precisions lose. [`warnings`]: what is probably not meant, in one place for all.
 //! - [`assembled`], [`stability`], [`derived`], [`planar`], [`check`]: what a scene is, without running it.
 //! - [`picture`]: the mechanism as an SVG. [`mod@write`]: a scene in its long form.
 //! - [`watch`]: a file is looked at again each time it has changed.
@@ -39,6 +39,7 @@ pub mod new;
 pub mod picture;
 pub mod planar;
 pub mod reproduce;
+pub mod rounding;
 pub mod run;
 pub mod schema;
 pub mod stability;

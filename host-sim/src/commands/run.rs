@@ -26,6 +26,7 @@ use crate::commands::assembled::{AssembledCheck, SettledCheck};
 use crate::commands::folder::{Destination, FolderError};
 use crate::commands::golden::{GoldenOptions, GoldenRefusal, GoldenWatch};
 use crate::commands::modes::lowest;
+use crate::commands::rounding::{of_losses, of_noise};
 use crate::commands::surveyed::surveyed;
 use crate::commands::warnings::{of_run, of_scene, of_step, of_turns};
 use crate::report::{
@@ -360,6 +361,9 @@ fn summarise(
     let mut warnings = of_step(scene, frequencies, method, plan.step, "the step");
     warnings.extend(of_run(scene, &ending.openings));
     warnings.extend(of_turns(scene, frequencies, method, plan.step, &ending.turning));
+    warnings.extend(of_losses(scene, method, &ending.losses));
+    let readouts = ReadoutFigures::of(scene, statistics.readings());
+    warnings.extend(of_noise(scene, method, Some(&readouts)));
     warnings.extend(of_scene(scene));
     Summary {
         scene: scene.name.clone(),
@@ -406,7 +410,7 @@ fn summarise(
         modes: None,
         widest_joint: widest(scene, &ending.openings),
         warnings,
-        readouts: ReadoutFigures::of(scene, statistics.readings()),
+        readouts,
     }
 }
 

@@ -7,27 +7,12 @@ use dbd_kernel::damping::Damping;
 use dbd_plant::digits::{approximate, significant};
 use dbd_plant::judge::{OPENED, Opening, Turning};
 use dbd_plant::time::{display, rounded};
-use dbd_plant::{Frequencies, Method, OrientationName, PrecisionName};
+use dbd_plant::{Frequencies, Method, OrientationName};
 use dbd_scene::default_step::LARGEST_TURN;
 use dbd_scene::{ElementDamping, Facts, Scene, Severity};
 
+use crate::commands::rounding::{self, COMPOSED, named};
 use crate::compliance::{Stretch, stretches};
-
-/// Joints that a warning names besides the worst.
-const NAMED: usize = 4;
-
-/// ω·h with the bound below which the error in single precision has grown to several times its
-/// least on every mechanism of the table in docs/schemes.md.
-const SHORTEST: f64 = 0.0125;
-
-/// The same of compositions, which round every part of a step.
-const SHORTEST_COMPOSED: f64 = 0.03;
-
-/// The same of schemes of first order, whose error falls slowly with the step.
-const SHORTEST_FIRST: f64 = 0.003;
-
-/// Schemes composed of several kicks.
-const COMPOSED: [&str; 2] = ["pefrl", "blanes-moan-s6"];
 
 /// h·c/μ up to which the slow motion of the table in docs/schemes.md is within 1 %: of dampers that
 /// cross, and of all under compositions.
@@ -76,16 +61,6 @@ fn of_stiffness(scene: &Scene) -> Option<String> {
     Some(text + ": is the stiffness in N/m, are masses in kg, forces in N?")
 }
 
-/// The first of these names, and how many more there are; `None` without any.
-fn named(names: impl ExactSizeIterator<Item = String>) -> Option<String> {
-    let more = names.len().saturating_sub(NAMED);
-    let mut names: Vec<String> = names.take(NAMED).collect();
-    if more > 0 {
-        names.push(format!("{more} more"));
-    }
-    (!names.is_empty()).then(|| names.join(", "))
-}
-
 /// What is wrong with a step at t = 0: vibration beyond what the scheme bears, a spin beyond what a
 /// step may turn. `whose` step it is begins the sentence: `the step`.
 #[must_use]
@@ -117,7 +92,7 @@ pub fn of_step(
         ));
     }
     warnings.extend(of_damping(scene, method, step, whose));
-    warnings.extend(of_rounding(frequencies, method, step, whose));
+    warnings.extend(rounding::of_step(scene, frequencies, method, step, whose));
     warnings.extend(frequencies.warning(scene, step).map(|turn| turn + of_angles(method)));
     warnings
 }
@@ -158,35 +133,6 @@ fn of_damping(scene: &Scene, method: &Method, step: f64, whose: &str) -> Option<
         false => format!(", where dampers cross: a step of at most {shorter}"),
     };
     Some(text)
-}
-
-/// A step so short that single precision loses more by rounding, step after step, than a shorter
-/// step gains.
-fn of_rounding(
-    frequencies: &Frequencies,
-    method: &Method,
-    step: f64,
-    whose: &str,
-) -> Option<String> {
-    let product = frequencies.bound * step;
-    let [order, _] = method.orders();
-    let shortest = match method.scheme_name() {
-        _ if method.precision() == PrecisionName::F64 || method.precision().is_kept() => {
-            return None;
-        }
-        _ if order < 2 => SHORTEST_FIRST,
-        name if COMPOSED.contains(&name) => SHORTEST_COMPOSED,
-        _ => SHORTEST,
-    };
-    (0.0 < product && product < shortest).then(|| {
-        format!(
-            "{whose} of {} is short for {} in single precision: ω·h = {}, and below {shortest} rounding \
-             has cost more than a shorter step gains; a longer step is more accurate, or f64",
-            display(step),
-            method.scheme_name(),
-            significant(product, 3),
-        )
-    })
 }
 
 /// What a run did that is probably not meant: joints that opened by more than [`OPENED`] of their

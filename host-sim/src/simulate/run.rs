@@ -10,6 +10,7 @@ use dbd_kernel::{Energy, F64, State, Status};
 use dbd_plant::judge::{Judge, Opening, Trouble, Turning, Verdict};
 use dbd_plant::numerals::Numerals;
 use dbd_plant::readings::append;
+use dbd_plant::rounding::{Loss, RoundingWatch};
 use dbd_plant::{AnyPlant, Method, Plan, PlantError, plant};
 use dbd_scene::{Scene, SceneModel};
 use miette::Diagnostic;
@@ -75,6 +76,8 @@ pub struct Ending {
     pub openings: Vec<Opening>,
     /// The body that turned furthest in a step, seen likewise.
     pub turning: Turning,
+    /// What single precision lost of bodies' motion, seen at every step.
+    pub losses: Vec<Loss>,
 }
 
 /// Why a run could not be carried out.
@@ -107,10 +110,7 @@ pub fn simulate(
             Ok(steps) => steps,
             Err(trouble) => break Some(trouble),
         };
-        let start = Instant::now();
-        let status = course.plant.advance(steps);
-        wall += start.elapsed();
-        if let Status::Failed(failure) = status {
+        if let Status::Failed(failure) = course.advance(steps, &mut wall) {
             break Some(Trouble::Step(failure.cause));
         }
     };
@@ -130,6 +130,7 @@ pub(super) struct Course<'c> {
     /// What is looked at.
     pub(super) plant: Box<dyn AnyPlant>,
     judge: Judge,
+    rounding: Option<RoundingWatch>,
     readings: Vec<f64>,
     /// Steps between two looks at most.
     stride: u64,
@@ -148,8 +149,30 @@ impl<'c> Course<'c> {
     ) -> Result<Self, PlantError> {
         let plant = plant(scene, method, plan.step)?;
         let judge = Judge::new(scene, plant.as_ref());
+        let rounding = RoundingWatch::new(plant.as_ref());
         let stride = unseen(plan);
-        Ok(Self { scene, plan, plant, judge, readings: Vec::new(), stride, next_sample: 0 })
+        let readings = Vec::new();
+        Ok(Self { scene, plan, plant, judge, rounding, readings, stride, next_sample: 0 })
+    }
+
+    /// Steps, one by one where rounding is watched. `wall` grows by the time spent stepping.
+    fn advance(&mut self, steps: u64, wall: &mut Duration) -> Status {
+        let mut timed = |plant: &mut dyn AnyPlant, steps| {
+            let start = Instant::now();
+            let status = plant.advance(steps);
+            *wall += start.elapsed();
+            status
+        };
+        let Some(rounding) = &mut self.rounding else { return timed(self.plant.as_mut(), steps) };
+        let mut status = self.plant.status();
+        for _ in 0..steps {
+            status = timed(self.plant.as_mut(), 1);
+            if !status.is_running() {
+                break;
+            }
+            rounding.look(self.plant.as_ref());
+        }
+        status
     }
 
     /// Looks at the plant; the observer hears of a sample where one is due. Steps to the next look, none where
@@ -197,6 +220,7 @@ impl<'c> Course<'c> {
             trouble,
             openings: self.judge.openings().to_vec(),
             turning: self.judge.turning(),
+            losses: self.rounding.as_ref().map(RoundingWatch::losses).unwrap_or_default(),
         }
     }
 }

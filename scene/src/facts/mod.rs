@@ -106,6 +106,12 @@ impl Scene {
         damping::dampings(self, true)
     }
 
+    /// The scene in space with all joints `factor` times as stiff; dampers, and springs that are no joints, stay.
+    #[must_use]
+    pub fn with_stiffer_joints(&self, factor: f64) -> Self {
+        stiffness::stiffer(self, factor)
+    }
+
     /// The line of the scene file, from 1, on which a joint begins.
     #[must_use]
     pub fn line_of_joint(&self, row: usize) -> Option<usize> {

@@ -116,6 +116,25 @@ pub(super) fn law(scene: &Scene, group: &Group, i: usize) -> (f64, f64) {
     }
 }
 
+/// The spatial model of a scene with all joints so many times as stiff; their dampers stay.
+pub(super) fn stiffer(scene: &Scene, factor: f64) -> Scene {
+    let mut made = Scene { planar: None, ..scene.clone() };
+    let model = &mut made.model;
+    let groups = scene.joints.iter().flat_map(|joint| joint.groups.clone());
+    for group in groups.map(|number| &scene.model.groups[number]) {
+        for row in (usize::from(group.element)..).take(group.elements()) {
+            *match group.law {
+                Law::Tsda => &mut model.tsdas[row].stiffness,
+                Law::PointBushing => &mut model.bushings[row].stiffness,
+                Law::Revolute => &mut model.revolutes[row].stiffness,
+                Law::Universal => &mut model.universals[row].stiffness,
+                Law::PointOnLine => &mut model.lines[row].stiffness,
+            } *= factor;
+        }
+    }
+    made
+}
+
 /// Joints, raw elements and torsion springs in scene order.
 pub(super) fn frequencies(scene: &Scene) -> Vec<ElementFrequency> {
     let frames = frames(scene);

@@ -4,6 +4,7 @@
 //! `(name, scene) => folder`. The files are those of `templates/firmware/`, with what the scene
 //! tells in place of `{{…}}`; the golden bits are those of a run of the scene here.
 
+mod choice;
 mod dependencies;
 mod folder;
 mod name;
@@ -14,9 +15,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use dbd_plant::plan::step_of;
-use dbd_plant::time::display;
-use dbd_plant::{Frequencies, Method, PlanError, PlantError, PrecisionName, plant};
+use dbd_plant::{PlanError, PlantError, plant};
 use dbd_scene::Scene;
 use dbd_scene::export::{constant_name, type_name};
 use miette::Diagnostic;
@@ -24,6 +23,7 @@ use thiserror::Error;
 
 use crate::examples;
 use crate::terminal::Found;
+use choice::{Choice, ChoiceOptions};
 use dependencies::Dependencies;
 
 pub use name::NameError;
@@ -48,6 +48,7 @@ const TEMPLATES: &[(&str, &str)] = &[
     ("README.md", include_str!("../../../templates/firmware/README.md.in")),
     ("src/lib.rs", include_str!("../../../templates/firmware/lib.rs.in")),
     ("src/main.rs", include_str!("../../../templates/firmware/main.rs.in")),
+    ("src/bin/cost.rs", include_str!("../../../templates/firmware/cost.rs.in")),
     ("tests/golden.rs", include_str!("../../../templates/firmware/golden.rs.in")),
 ];
 
@@ -73,6 +74,9 @@ pub struct FirmwareArguments {
     /// Depend on published crates, even where the sources of this program are on this machine
     #[arg(long)]
     pub registry: bool,
+    /// How the plant steps
+    #[command(flatten)]
+    pub choice: ChoiceOptions,
 }
 
 /// Why there is no project or scene.
@@ -94,10 +98,12 @@ pub enum NewError {
     #[error(transparent)]
     Step(#[from] PlanError),
     /// The scene fails within the golden run.
-    #[error("the scene {scene} fails in f32: {failure}")]
+    #[error("the scene {scene} fails with {method}: {failure}")]
     Fails {
         /// The scene.
         scene: String,
+        /// How it steps.
+        method: String,
         /// Where.
         failure: String,
     },
@@ -119,7 +125,7 @@ impl Diagnostic for NewError {
             Self::Step(error) => error.help(),
             Self::Taken { .. } => Some(Box::new("another name; nothing is ever overwritten")),
             Self::Fails { scene, .. } => {
-                let help = format!("host-sim run {scene} --precision f32 finds a step that works");
+                let help = format!("host-sim run {scene} with that method finds a step that works");
                 Some(Box::new(help))
             }
             Self::Write { .. } => None,
@@ -147,23 +153,23 @@ impl<'p> Place<'p> {
 /// [`NewError`]; nothing is written then.
 pub fn firmware(arguments: &FirmwareArguments, found: &Found) -> Result<String, NewError> {
     let place = Place::of(&arguments.name)?;
-    project(&place, found, &Dependencies::of(arguments.registry))
+    project(&place, found, &Dependencies::of(arguments.registry), &arguments.choice)
 }
 
 fn project(
     place: &Place<'_>,
     found: &Found,
     dependencies: &Dependencies,
+    options: &ChoiceOptions,
 ) -> Result<String, NewError> {
     let scene = &found.scene;
-    let longest = || Frequencies::of(scene).default_limit(&Method::default(), scene.duration);
-    let step = step_of(scene, None, longest)?;
-    let steps = ((scene.duration / step).round() as u64).clamp(1, MOST_STEPS);
-    let golden = golden(scene, step, steps)?;
+    let choice = Choice::of(scene, options)?;
+    let steps = ((scene.duration / choice.step).round() as u64).clamp(1, MOST_STEPS);
+    let golden = golden(scene, &choice, steps)?;
     let stem = &plain(&found.file.stem);
     let file = format!("scenes/{stem}.toml");
-    let method = format!("leapfrog, f32, a step of {}", display(step));
-    let build = format!("dbd_scene::build({file:?});");
+    let reasons: String = choice.reasons.iter().map(|reason| format!("- {reason}\n")).collect();
+    let suffix = choice.method.precision_name().to_uppercase();
     let values: &[(&str, String)] = &[
         ("name", place.name.to_owned()),
         ("crate", place.name.replace('-', "_")),
@@ -171,14 +177,15 @@ fn project(
         ("kernel", dependencies.kernel.clone()),
         ("scene_crate", dependencies.scene.clone()),
         ("origin", dependencies.origin.clone()),
-        ("build", build),
+        ("build", choice.call(&file)),
         ("scene", scene.name.clone()),
         ("stem", stem.clone()),
         ("type", type_name(&scene.name)),
         ("steps", steps.to_string()),
-        ("method", method),
-        ("hints", hints(scene)),
-        ("constants", constants(scene)),
+        ("method", choice.words()),
+        ("reasons", reasons),
+        ("hints", hints(scene, &suffix)),
+        ("constants", constants(scene, &suffix)),
     ];
     let mut files: Vec<(PathBuf, String)> = TEMPLATES
         .iter()
@@ -192,11 +199,14 @@ fn project(
         _ => NewError::Write { path: folder.to_owned(), reason },
     })?;
     Ok(format!(
-        "{0}: the scene {1} as a plant in firmware; {2}\n\n  cd {0}\n  cargo test    golden bits on the \
-         PC\n  cargo qemu    the same bits on a Cortex-M4F in QEMU; README.md says what to install\n",
+        "{0}: the scene {1} as a plant in firmware: {3}; {2}\n{4}\n  cd {0}\n  cargo test    golden bits on the \
+         PC\n  cargo qemu    the same bits on a Cortex-M4F in QEMU; README.md says what to install\n  cargo \
+         cost    instructions of a step there\n",
         folder.display(),
         scene.name,
         dependencies.origin,
+        choice.words(),
+        choice.reasons.iter().map(|reason| format!("  {reason}\n")).collect::<String>(),
     ))
 }
 
@@ -235,15 +245,15 @@ fn placeholder(text: &str) -> Option<(&str, &str, &str)> {
 }
 
 /// Lines `STEPS HASH` after 1, 10, 100, … steps and at the end, as the project's own run shows them.
-fn golden(scene: &Scene, step: f64, steps: u64) -> Result<String, NewError> {
-    let method = Method::default().with_precision(PrecisionName::F32);
-    let mut plant = plant(scene, &method, step)?;
+fn golden(scene: &Scene, choice: &Choice, steps: u64) -> Result<String, NewError> {
+    let mut plant = plant(scene, &choice.method, choice.step)?;
     let (mut lines, mut next, mut done) = (String::new(), 1, 0);
     while done < steps {
         let count = next.min(steps) - done;
         if let Err(failure) = plant.advance(count).ok() {
             let scene = scene.name.clone();
-            return Err(NewError::Fails { scene, failure: failure.to_string() });
+            let method = choice.words();
+            return Err(NewError::Fails { scene, method, failure: failure.to_string() });
         }
         done += count;
         lines += &format!("{done} {:016x}\n", plant.hash());
@@ -253,11 +263,11 @@ fn golden(scene: &Scene, step: f64, steps: u64) -> Result<String, NewError> {
 }
 
 /// Calls of a controller, for the scene's first read-out and input.
-fn hints(scene: &Scene) -> String {
+fn hints(scene: &Scene, suffix: &str) -> String {
     let prefix = constant_name(&scene.name);
     let readout = scene.readouts.first().map(|readout| {
         let name = constant_name(&readout.name);
-        format!("/// plant.read(&model::{prefix}_READOUT_{name}_F32)\n")
+        format!("/// plant.read(&model::{prefix}_READOUT_{name}_{suffix})\n")
     });
     let input = scene.inputs.iter().find(|input| !input.table).map(|input| {
         let name = constant_name(&input.name);
@@ -268,19 +278,21 @@ fn hints(scene: &Scene) -> String {
 }
 
 /// The constants that a controller takes, for the project's page.
-fn constants(scene: &Scene) -> String {
+fn constants(scene: &Scene, suffix: &str) -> String {
     let prefix = constant_name(&scene.name);
     let row = |what: &str, names: Vec<String>| {
         let more = if names.len() > SHOWN { ", …" } else { "" };
         let shown: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
         (!names.is_empty()).then(|| format!("| {what} | {}{more} |\n", shown.join(", ")))
     };
+    let read = format!("_{suffix}");
+    let force = format!("_FORCE_{suffix}");
     let name =
         |kind: &str, name: &str, end: &str| format!("{prefix}_{kind}_{}{end}", constant_name(name));
     let inputs = scene.inputs.iter().map(|one| name("INPUT", &one.name, "")).collect();
-    let readouts = scene.readouts.iter().map(|one| name("READOUT", &one.name, "_F32")).collect();
+    let readouts = scene.readouts.iter().map(|one| name("READOUT", &one.name, &read)).collect();
     let bodies = scene.body_names.iter().map(|one| name("BODY", one, "")).collect();
-    let joints = scene.joints.iter().map(|one| name("JOINT", &one.name, "_FORCE_F32")).collect();
+    let joints = scene.joints.iter().map(|one| name("JOINT", &one.name, &force)).collect();
     let rows = [
         row("inputs", inputs),
         row("read-outs", readouts),
@@ -308,7 +320,7 @@ mod tests {
         let folder = here.path().join("plant");
         let found = crate::terminal::Catalogue::default().load("gyroscope").unwrap();
         let place = Place::of(&folder).unwrap();
-        project(&place, &found, &Dependencies::of(true)).unwrap();
+        project(&place, &found, &Dependencies::of(true), &ChoiceOptions::default()).unwrap();
         for (path, _) in TEMPLATES {
             let text = std::fs::read_to_string(folder.join(path)).unwrap();
             assert!(!text.contains("{{"), "{path}: {text}");
