@@ -14,8 +14,11 @@ use crate::any::AnyPlant;
 /// A step counts where it adds less than this many times the last digit of what it adds to.
 const COUNTED: f64 = 1024.0;
 
-/// A loss is told from this share of the motion on.
+/// A loss is told from this share of the motion on,
 pub const LOST: f64 = 1e-3;
+
+/// where it is more than this many last digits.
+const TOLD: f64 = 16.0;
 
 /// What a body's sums lost of its motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +43,8 @@ struct Sums {
     lost: f64,
     moved: f64,
     time: f64,
+    /// The largest that a sum was rounded to.
+    last_digit: f64,
 }
 
 impl Sums {
@@ -52,6 +57,7 @@ impl Sums {
             }
         }
         self.moved = self.moved.max(length(self.motion));
+        self.last_digit = self.last_digit.max(last_digit);
         let lost = length(self.errors);
         if lost > self.lost {
             (self.lost, self.time) = (lost, time);
@@ -101,14 +107,15 @@ impl RoundingWatch {
         std::mem::swap(&mut self.last, &mut self.next);
     }
 
-    /// What bodies lost, by more than [`LOST`] of how far they went, the largest share first.
+    /// What bodies lost, by more than [`LOST`] of how far they went and than what a number can tell, the largest share
+    /// first.
     #[must_use]
     pub fn losses(&self) -> Vec<Loss> {
         let mut losses: Vec<Loss> = Vec::new();
         for (body, sums) in self.sums.iter().enumerate() {
             for (sums, turn) in sums.iter().zip([false, true]) {
-                let Sums { lost, moved, time, .. } = *sums;
-                if lost > LOST * moved && moved > 0.0 {
+                let Sums { lost, moved, time, last_digit, .. } = *sums;
+                if lost > (LOST * moved).max(TOLD * last_digit) && moved > 0.0 {
                     losses.push(Loss { body, turn, lost, moved, time });
                 }
             }

@@ -82,6 +82,38 @@ impl Costs {
         }
         self.rows.get(&(scene.to_owned(), scheme, precision.to_owned())).copied()
     }
+
+    /// How many times the instructions of leapfrog in f32 a step takes, the middle of the scenes of which both were
+    /// counted; `None` where there is none.
+    #[must_use]
+    pub fn over_leapfrog(
+        &self,
+        scheme: &str,
+        newton: Option<u32>,
+        precision: &str,
+        orientation: &str,
+    ) -> Option<f64> {
+        let of = |scene: &str, (scheme, newton, precision): (&str, Option<u32>, &str)| {
+            self.instructions_per_step(scene, scheme, newton, None, precision, orientation)
+        };
+        let scenes = self.rows.keys().map(|(scene, ..)| scene.as_str());
+        let mut scenes: Vec<&str> = scenes.collect();
+        scenes.dedup();
+        let ratio = |scene: &&str| {
+            let leapfrog = of(scene, ("leapfrog", None, "f32"))?;
+            Some(of(scene, (scheme, newton, precision))? / leapfrog)
+        };
+        let mut ratios: Vec<f64> = scenes.iter().filter_map(ratio).collect();
+        ratios.sort_by(f64::total_cmp);
+        ratios.get(ratios.len() / 2).copied()
+    }
+
+    /// All rows: scene, scheme as the table has it, precision, instructions.
+    pub fn rows(&self) -> impl Iterator<Item = (&str, &str, &str, f64)> {
+        self.rows.iter().map(|((scene, scheme, precision), count)| {
+            (scene.as_str(), scheme.as_str(), precision.as_str(), *count)
+        })
+    }
 }
 
 #[cfg(test)]

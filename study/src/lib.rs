@@ -7,6 +7,7 @@
 //! - [`stability`](mod@stability): the largest stable step of a method about a pose.
 //! - [`point`]: what a point is, and which of them nothing beats.
 //! - [`costs`]: what a step costs on the target, as counted.
+//! - [`estimate`]: the same of any scene, by its bodies and elements.
 //! - [`grid`]: the times compared, and the steps that reach them.
 //! - [`frame`](mod@frame): what a survey is asked for.
 //! - [`ways`]: all ways of stepping a scene, and their ladders of steps.
@@ -33,6 +34,7 @@ pub mod cache;
 pub mod chart;
 pub mod command;
 pub mod costs;
+pub mod estimate;
 pub mod files;
 pub mod frame;
 pub mod front_table;

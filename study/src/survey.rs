@@ -20,6 +20,7 @@ use dbd_scene::Scene;
 
 use crate::cache::{Cache, Entry, Head, key};
 use crate::costs::Costs;
+use crate::estimate;
 use crate::frame::{Frame, TradeOptions, WindowError, frame};
 use crate::grid::{Grid, SAMPLES};
 use crate::limits::{Limit, Limits};
@@ -47,6 +48,8 @@ pub struct Trade {
     pub points: Vec<Point>,
     /// The scene and what it can be made into, where there is such a thing.
     pub variants: Vec<Compared>,
+    /// Whether instructions on the target are estimates.
+    pub estimated: bool,
 }
 
 /// What a survey is at.
@@ -168,8 +171,16 @@ pub fn survey(
     let costs = Costs::shipped();
     let called = |scene: &Scene| counted_as(options.shipped.as_ref()?, scene);
     let counted = called(scene);
-    let counted = counted.as_deref().map(|called| (called, &costs));
-    let with_point = |job: &Job| Some((point(counted, job, &grid, &cache)?, job.way.method()));
+    let of_way = |way: &Way| {
+        let count = match &counted {
+            Some(called) => counted_instructions(called, &costs, way),
+            None => way.method().and_then(|method| estimate::instructions(scene, &method, &costs)),
+        };
+        Some((way.stepper().label(), count?))
+    };
+    let instructions: BTreeMap<String, f64> = ways.iter().filter_map(of_way).collect();
+    let with_point =
+        |job: &Job| Some((point(&instructions, job, &grid, &cache)?, job.way.method()));
     let (mut points, methods): (Vec<Point>, Vec<_>) = jobs.iter().filter_map(with_point).unzip();
     let influences = Influences::of(scene, grid.window());
     describe(&mut points, &methods, influences, head.uncertainty);
@@ -182,7 +193,8 @@ pub fn survey(
             variants
         }
     };
-    Ok(Trade { head, period: options.period, points, variants })
+    let estimated = counted.is_none();
+    Ok(Trade { head, period: options.period, points, variants, estimated })
 }
 
 /// Finds window and truth.
@@ -354,7 +366,12 @@ fn run(
     })
 }
 
-fn point(counted: Option<(&str, &Costs)>, job: &Job, grid: &Grid, cache: &Cache) -> Option<Point> {
+fn point(
+    instructions: &BTreeMap<String, f64>,
+    job: &Job,
+    grid: &Grid,
+    cache: &Cache,
+) -> Option<Point> {
     let entry = cache.accuracies.get(&(job.label.clone(), job.steps))?;
     let Entry::Accuracy { stable, lost, error, energy_rms, energy_peak, .. } = entry else {
         return None;
@@ -375,7 +392,7 @@ fn point(counted: Option<(&str, &Costs)>, job: &Job, grid: &Grid, cache: &Cache)
         host_seconds_least: least / step,
         host_seconds: median / step,
         host_spread: spread,
-        target_instructions: instructions(counted, &job.way).map(|count| count / step),
+        target_instructions: instructions.get(&job.label).map(|count| count / step),
         step_in_space: job.in_space,
         fall: Fall::default(),
         stepper,
@@ -383,8 +400,7 @@ fn point(counted: Option<(&str, &Costs)>, job: &Job, grid: &Grid, cache: &Cache)
 }
 
 /// Instructions per step on Cortex-M4F, where they were counted: of the scenes that ship and some variants.
-fn instructions(counted: Option<(&str, &Costs)>, way: &Way) -> Option<f64> {
-    let (called, costs) = counted?;
+fn counted_instructions(called: &str, costs: &Costs, way: &Way) -> Option<f64> {
     let Stepper { scheme, newton, damping, precision, orientation, kernel } = &way.stepper();
     if !kernel {
         return None;

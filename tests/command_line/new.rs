@@ -41,7 +41,8 @@ fn a_new_project_is_whole_and_stands_alone() {
     }
     // The bits are those of `run`.
     let last = read("tests/golden.txt").lines().last().unwrap().to_owned();
-    let run = folder.summary("cart-pendulum", &["--precision", "f32", "--duration", "5s"]);
+    let options = ["--precision", "f32", "--damping", "joint-wise", "--duration", "5s"];
+    let run = folder.summary("cart-pendulum", &options);
     assert_eq!(last, format!("{} {}", run["steps"], run["state_hash"].as_str().unwrap()));
     // Nothing is ever overwritten, not even what is empty.
     let again = new(&project, &[]);

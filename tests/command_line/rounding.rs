@@ -40,7 +40,7 @@ fn the_loss_that_a_run_tells_is_the_one_that_it_has() {
         let scene = folder.scene(&drifter(place, velocity, rate));
         let options = ["--precision", "f32", "--step", step];
         let summary = folder.summary(&scene, &options);
-        let trace = folder.trace("drift");
+        let trace = folder.trace("scene");
         let row = trace.header.iter().position(|name| name == column).unwrap();
         let last: f64 = trace.rows.last().unwrap()[row].parse().unwrap();
         let half = if column == "b.q3" { 2.0 } else { 1.0 };
@@ -53,7 +53,7 @@ fn the_loss_that_a_run_tells_is_the_one_that_it_has() {
         for precision in ["f64", "fixed"] {
             let summary = folder.summary(&scene, &["--precision", precision, "--step", step]);
             assert_eq!(said(&summary, "lost"), None);
-            let trace = folder.trace("drift");
+            let trace = folder.trace("scene");
             let last: f64 = trace.rows.last().unwrap()[row].parse().unwrap();
             let moved = (meant - place_of(place, column)).abs();
             assert!((last - meant).abs() < 1e-4 * moved, "{precision} {step}: {last:e}");
@@ -95,7 +95,7 @@ fn noise_of_forces_is_told_by_its_size() {
         format!(
             "name = \"hung\"\nduration = 0.1\nevery = 1e-4\nstep = 1e-5\ngravity = [0, -9.81, 0]\nsettle = true\n\
              [[body]]\nname = \"b\"\nmass = 3\ninertia = [0.01, 0.01, 0.01]\nposition = [0.8, 0.9, 0]\n[[joint]]\n\
-             name = \"j\"\ntype = \"fixed\"\nbetween = [\"world\", \"b\"]\nat = [0.8, 1, 0]\n\
+             name = \"j\"\ntype = \"fixed\"\nbetween = [\"world\", \"b\"]\nat = [0.8, 1, 0]\naxis = [0, 0, 1]\n\
              stiffness = {stiffness}\narm = 0.1\n[[readout]]\nname = \"F\"\ntype = \"joint_force\"\ntarget = \"j\"\n\
              [[readout]]\nname = \"I\"\ntype = \"imu\"\nbody = \"b\"\npoint = [0, 0, 0]\n"
         )
@@ -106,7 +106,7 @@ fn noise_of_forces_is_told_by_its_size() {
     let words: Vec<&str> = told.split_whitespace().collect();
     let some = words.iter().position(|word| *word == "some").unwrap();
     let size: f64 = words[some + 1].parse().unwrap();
-    let trace = folder.trace("hung");
+    let trace = folder.trace("scene");
     let row = trace.header.iter().position(|name| name == "F.y").unwrap();
     let forces: Vec<f64> = trace.rows.iter().map(|row_of| row_of[row].parse().unwrap()).collect();
     let off = forces.iter().map(|force| (force - 3.0 * 9.81).abs()).fold(0.0, f64::max);

@@ -22,7 +22,7 @@ const FILES: [&str; 4] = ["wiper.toml", "wiper.svg", "wiper.golden", "wiper-plan
 const TOO_LARGE: &str = "host-sim run wiper.toml --step 500us";
 const CHANGED: &str = "host-sim run wiper.toml --golden wiper.golden --set points.C[0]=0.150001";
 /// What `cargo xtask project` does with a new project.
-const OF_A_PROJECT: [&str; 2] = ["cargo test", "cargo qemu"];
+const OF_A_PROJECT: [&str; 3] = ["cargo test", "cargo qemu", "cargo cost"];
 
 /// Something that the page tells the reader to do.
 #[derive(Debug, PartialEq)]

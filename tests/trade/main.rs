@@ -1,6 +1,7 @@
 //! Speed against accuracy: what a survey of a small scene comes to, kept, interrupted, repeated.
 
 mod command;
+mod estimate;
 mod limits;
 mod linkage;
 mod models;

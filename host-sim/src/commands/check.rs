@@ -9,9 +9,11 @@ use dbd_plant::frequencies::advised_text;
 use dbd_plant::time::display;
 use std::f64::consts::TAU;
 
-use dbd_plant::{Frequencies, Method, PrecisionName};
+use dbd_plant::{DampingName, Frequencies, Method, PrecisionName};
 use dbd_scene::single::slow_start;
 use dbd_scene::{InputInfo, JointFacts, JointInfo, ReadoutInfo, Realisation, Scene};
+use dbd_study::costs::Costs;
+use dbd_study::estimate::instructions;
 use serde::Serialize;
 
 use crate::commands::assembled::{AssembledCheck, SettledCheck};
@@ -75,6 +77,8 @@ pub struct Check {
     pub advised_step: Option<f64>,
     /// \[s\] the scene's own step, where it gives one.
     pub step: Option<f64>,
+    /// What a step of leapfrog in f32 takes on Cortex-M4F, as estimated by bodies and elements.
+    pub estimated_instructions: Option<EstimateCheck>,
     /// The largest stable step of a method, where it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stability: Option<StabilityCheck>,
@@ -82,6 +86,36 @@ pub struct Check {
     pub warnings: Vec<String>,
     /// What is good to know.
     pub notes: Vec<String>,
+}
+
+/// Instructions of a step on Cortex-M4F, as estimated.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct EstimateCheck {
+    /// With the scheme's own way of damping.
+    pub sweeps: f64,
+    /// With joint-wise damping.
+    pub joint_wise: f64,
+}
+
+impl EstimateCheck {
+    fn of(scene: &Scene) -> Option<Self> {
+        let costs = Costs::shipped();
+        let leapfrog = Method::default().with_precision(PrecisionName::F32);
+        let joint_wise = leapfrog.with_damping(DampingName::JointWise).ok()?;
+        Some(Self {
+            sweeps: instructions(scene, &leapfrog, &costs)?,
+            joint_wise: instructions(scene, &joint_wise, &costs)?,
+        })
+    }
+
+    fn text(&self) -> String {
+        let [own, joint_wise] = [self.sweeps, self.joint_wise].map(|count| significant(count, 2));
+        let damped = match own == joint_wise {
+            true => String::new(),
+            false => format!(", {joint_wise} with joint-wise damping"),
+        };
+        format!("some {own} instructions per step of leapfrog in f32{damped}, estimated")
+    }
 }
 
 /// The element that alone would vibrate fastest.
@@ -221,6 +255,7 @@ pub fn check(scene: &Scene) -> Check {
         frequency_estimate_hz: frequencies.estimate_hz(),
         advised_step: frequencies.advised_step(),
         step: scene.step,
+        estimated_instructions: EstimateCheck::of(scene),
         stability: None,
         warnings: Vec::new(),
         notes: Vec::new(),
@@ -294,6 +329,8 @@ impl Check {
             ("advised step", advised),
             ("step of the scene", step),
         ];
+        let estimate = self.estimated_instructions.as_ref().map(EstimateCheck::text);
+        rows.extend(estimate.map(|text| ("Cortex-M4F", text)));
         rows.extend(self.assembled.iter().flat_map(AssembledCheck::rows));
         rows.extend(self.settled.iter().map(|settled| ("settled", settled.sentence())));
         rows.extend(self.stability.iter().flat_map(StabilityCheck::rows));

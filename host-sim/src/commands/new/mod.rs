@@ -15,9 +15,12 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
+use dbd_plant::digits::significant;
 use dbd_plant::{PlanError, PlantError, plant};
 use dbd_scene::Scene;
 use dbd_scene::export::{constant_name, type_name};
+use dbd_study::costs::Costs;
+use dbd_study::estimate::instructions;
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -168,6 +171,13 @@ fn project(
     let golden = golden(scene, &choice, steps)?;
     let stem = &plain(&found.file.stem);
     let file = format!("scenes/{stem}.toml");
+    let estimate = instructions(scene, &choice.method, &Costs::shipped());
+    let estimate = estimate.map_or_else(String::new, |count| {
+        format!(
+            "some {} instructions per step, estimated by bodies and elements",
+            significant(count, 2)
+        )
+    });
     let reasons: String = choice.reasons.iter().map(|reason| format!("- {reason}\n")).collect();
     let suffix = choice.method.precision_name().to_uppercase();
     let values: &[(&str, String)] = &[
@@ -201,12 +211,13 @@ fn project(
     Ok(format!(
         "{0}: the scene {1} as a plant in firmware: {3}; {2}\n{4}\n  cd {0}\n  cargo test    golden bits on the \
          PC\n  cargo qemu    the same bits on a Cortex-M4F in QEMU; README.md says what to install\n  cargo \
-         cost    instructions of a step there\n",
+         cost    instructions of a step there: {5}\n",
         folder.display(),
         scene.name,
         dependencies.origin,
         choice.words(),
         choice.reasons.iter().map(|reason| format!("  {reason}\n")).collect::<String>(),
+        if estimate.is_empty() { "nothing like it was counted" } else { &estimate },
     ))
 }
 

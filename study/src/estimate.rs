@@ -1,0 +1,103 @@
+//! What a step costs on Cortex-M4F, as estimated: for scenes whose steps were not counted.
+//!
+//! `(scene, method, counts) => instructions per step`. A step of leapfrog in f32 takes so many instructions per body, per
+//! axis about which a body turns, and per element; another scheme or precision takes the middle of the ratios that
+//! counted scenes have. Inputs hold their values. Held against every counted row by a test.
+
+use dbd_kernel::model::Law;
+use dbd_plant::plan::step_of;
+use dbd_plant::{DampingName, Frequencies, Method, Named as _, PrecisionName, plant};
+use dbd_scene::Scene;
+
+use crate::costs::Costs;
+
+/// Steps after which bodies turn about the axes about which they turn.
+const STEPS: u64 = 20;
+
+/// Instructions per body, per axis that it turns about, per element and per damped element: in space and in a plane.
+/// Fitted to the rows of leapfrog in f32 in docs/costs.csv by least squares of the relative errors.
+struct Share {
+    body: f64,
+    axis: f64,
+    tsda: f64,
+    line: f64,
+    point_bushing: f64,
+    revolute: f64,
+    universal: f64,
+    torsion: f64,
+    /// By sweeps, then joint-wise: of a TSDA or bushing, of a point on a line.
+    dampers: [[f64; 2]; 2],
+}
+
+const IN_SPACE: Share = Share {
+    body: 322.0,
+    axis: 109.0,
+    tsda: 45.0,
+    line: 102.0,
+    point_bushing: 60.0,
+    revolute: 10.0,
+    universal: 81.0,
+    torsion: 169.0,
+    dampers: [[639.0, 1239.0], [193.0, 259.0]],
+};
+
+/// Of two scenes alone, without torsion springs and dampers, which are taken as a part of those in space.
+const IN_PLANE: Share = Share {
+    body: 140.0,
+    axis: 0.0,
+    tsda: 32.0,
+    line: 45.0,
+    point_bushing: 29.0,
+    revolute: 29.0,
+    universal: 29.0,
+    torsion: 80.0,
+    dampers: [[300.0, 600.0], [90.0, 120.0]],
+};
+
+/// Instructions of a step of a scene by a method; `None` for a way of damping, a scheme or a precision of which
+/// nothing was counted.
+#[must_use]
+pub fn instructions(scene: &Scene, method: &Method, counted: &Costs) -> Option<f64> {
+    let model = scene.stepped();
+    let share = if scene.planar.is_some() { &IN_PLANE } else { &IN_SPACE };
+    let joint_wise = match method.foreign_damping().map(|damping| damping.name()) {
+        None => false,
+        Some(name) if name == DampingName::JointWise.name() => true,
+        Some(_) => return None,
+    };
+    let [plain, on_line] = share.dampers[usize::from(joint_wise)];
+    let mut sum = share.body * model.bodies.len() as f64;
+    sum += share.axis * turning(scene) as f64 + share.torsion * model.torsions.len() as f64;
+    for group in &model.groups {
+        let (each, damper) = match group.law {
+            Law::Tsda => (share.tsda, plain),
+            Law::PointOnLine => (share.line, on_line),
+            Law::PointBushing => (share.point_bushing, 3.0 * plain),
+            Law::Revolute => (share.revolute, 5.0 * plain),
+            Law::Universal => (share.universal, 4.0 * plain),
+        };
+        let damped = group.damper.row().is_some();
+        sum += group.elements() as f64 * (each + if damped { damper } else { 0.0 });
+    }
+    let ratio = counted.over_leapfrog(
+        method.scheme_name(),
+        method.newton(),
+        method.precision_name(),
+        method.orientation_name(),
+    )?;
+    Some(sum * ratio)
+}
+
+/// About how many of their axes the bodies turn, all bodies together: a rotation about none is left out.
+fn turning(scene: &Scene) -> usize {
+    let all = 3 * scene.model.bodies.len();
+    let method = Method::default().with_precision(PrecisionName::F32);
+    let longest = || Frequencies::of(scene).default_limit(&method, scene.duration);
+    let stepped = step_of(scene, None, longest).ok().and_then(|step| {
+        let mut plant = plant(scene, &method, step).ok()?;
+        plant.advance(STEPS).is_running().then(|| plant.state())
+    });
+    let Some(state) = stepped else { return all };
+    let rates = state.bodies.iter().flat_map(|body| body.angular_velocity.to_f64());
+    rates.filter(|rate| *rate != 0.0).count()
+}
