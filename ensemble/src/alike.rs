@@ -3,6 +3,7 @@
 //! `(model, model) => the first part that differs`.
 
 use dbd_kernel::elements::input::{Input, InputKind};
+use dbd_kernel::elements::source::{Sensor, Source, SourceLaw};
 use dbd_kernel::geometry::{Float, Named};
 use dbd_kernel::{BodyIndex, Load, LoadFrame, Real, TorsionSpring};
 use dbd_scene::SceneModel;
@@ -65,6 +66,7 @@ pub(crate) fn difference<R: Real + Named>(
             ("clearances", model.clearances.len()),
             ("revolutes of bushings", model.revolutes.len()),
             ("universal joints of bushings", model.universals.len()),
+            ("sources of inputs", model.sources.len()),
         ]
     };
     for ((parts, first), (_, other)) in counts(first).into_iter().zip(counts(other)) {
@@ -81,12 +83,31 @@ pub(crate) fn difference<R: Real + Named>(
         ("load", row(&first.loads, &other.loads, |a, b| load(a) == load(b))),
         ("input", row(&first.inputs, &other.inputs, |a, b| input(a) == input(b))),
         ("knot of a table", row(&first.knots, &other.knots, |a, b| a.time == b.time)),
+        ("source of an input", row(&first.sources, &other.sources, |a, b| source(a) == source(b))),
     ];
     parts.into_iter().find_map(|(part, row)| row.map(|row| Difference::Part { part, row }))
 }
 
 fn spring<R: Real>(spring: &TorsionSpring<R>) -> ([BodyIndex; 2], Option<usize>) {
     ([spring.a, spring.b], spring.damper.row())
+}
+
+/// What lanes share of a source: its input, its knots, its period and phase or what it reads.
+fn source<R: Real + Named>(source: &Source<Float<R>>) -> ([u16; 5], [f64; 2]) {
+    let (kind, times) = match source.law {
+        SourceLaw::Sine { period, phase, .. } => ([0, 0], [period, phase]),
+        SourceLaw::Periodic { period } => ([1, 0], [period, 0.0]),
+        SourceLaw::Over { sensor, .. } => {
+            let read = match sensor {
+                Sensor::Angle { spring, .. } => [2, spring],
+                Sensor::Rate { spring } => [3, spring],
+                Sensor::Point { body, .. } => [4, body.0],
+                Sensor::Velocity { body, .. } => [5, body.0],
+            };
+            (read, [0.0; 2])
+        }
+    };
+    ([source.input.0, source.knot, source.knots, kind[0], kind[1]], times)
 }
 
 fn load<R: Real>(load: &Load<R>) -> (BodyIndex, LoadFrame, [f64; 2]) {

@@ -4,11 +4,12 @@
 //! have one structure, see [`crate::alike`].
 
 use dbd_kernel::elements::input::{Input, InputKind, Knot};
+use dbd_kernel::elements::source::{Sensor, Source, SourceLaw};
 use dbd_kernel::geometry::Float;
 use dbd_kernel::schedule::Signal;
 use dbd_kernel::{
-    Body, BodyState, Load, PointBushing, PointOnLine, Quaternion, Revolute, State, TorsionSpring,
-    Tsda, Universal, Vec3,
+    Body, BodyState, Load, PointBushing, PointOnLine, Quaternion, Real as _, Revolute, State,
+    TorsionSpring, Tsda, Universal, Vec3,
 };
 use dbd_scene::SceneModel;
 
@@ -138,7 +139,48 @@ pub(crate) fn model<V: Register>(models: &[&ModelOf<V::Number>]) -> LanesModel<V
                 axis: vector(|i| of(i).axis),
             }
         }),
+        sources: each!(sources, |row| source(|i| &models[i].sources[row])),
     }
+}
+
+fn source<'m, V: Register>(
+    of: impl Fn(usize) -> &'m Source<Float<V::Number>>,
+) -> Source<Float<Lanes<V>>> {
+    // Amplitude, its rate and the offset, or weights and offset.
+    let numbers = |i: usize| match of(i).law {
+        SourceLaw::Sine { amplitude, rate, offset, .. } => [amplitude, rate, offset, offset],
+        SourceLaw::Periodic { .. } => [V::Number::ZERO; 4],
+        SourceLaw::Over { weights: [x, y, z], offset, .. } => [x, y, z, offset],
+    };
+    let [x, y, z, last] = core::array::from_fn(|row| number(|i| numbers(i)[row]));
+    let read = |i: usize| match of(i).law {
+        SourceLaw::Over { sensor: Sensor::Angle { offset, .. }, .. } => (Vec3::default(), offset),
+        SourceLaw::Over {
+            sensor: Sensor::Point { point, .. } | Sensor::Velocity { point, .. },
+            ..
+        } => (point, V::Number::ZERO),
+        _ => (Vec3::default(), V::Number::ZERO),
+    };
+    let law = match of(0).law {
+        SourceLaw::Sine { period, phase, .. } => {
+            SourceLaw::Sine { period, phase, amplitude: x, rate: y, offset: z }
+        }
+        SourceLaw::Periodic { period } => SourceLaw::Periodic { period },
+        SourceLaw::Over { sensor, .. } => {
+            let point = vector(|i| read(i).0);
+            let sensor = match sensor {
+                Sensor::Angle { spring, .. } => {
+                    Sensor::Angle { spring, offset: number(|i| read(i).1) }
+                }
+                Sensor::Rate { spring } => Sensor::Rate { spring },
+                Sensor::Point { body, .. } => Sensor::Point { body, point },
+                Sensor::Velocity { body, .. } => Sensor::Velocity { body, point },
+            };
+            SourceLaw::Over { sensor, weights: [x, y, z], offset: last }
+        }
+    };
+    let Source { input, knot, knots, .. } = *of(0);
+    Source { input, knot, knots, law }
 }
 
 fn input<'m, V: Register>(

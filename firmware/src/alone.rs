@@ -44,6 +44,7 @@ impl<T: Terms, S: Scheme + Default + 'static> Terms for TermsAlone<T, S> {
     const CLEARANCES: bool = T::CLEARANCES;
     const REVOLUTES: bool = T::REVOLUTES;
     const UNIVERSALS: bool = T::UNIVERSALS;
+    const SOURCES: bool = T::SOURCES;
 }
 
 impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
@@ -59,6 +60,7 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
     type PerPair<T: Copy> = M::PerPair<T>;
     type PerHome<T: Copy> = M::PerHome<T>;
     type PerKnot = M::PerKnot;
+    type PerSource = M::PerSource;
 
     #[inline(always)]
     fn view(&self) -> ModelRef<'_, M::Precision, Self::Terms> {
@@ -79,6 +81,7 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
             clearances: view.clearances,
             revolutes: view.revolutes,
             universals: view.universals,
+            sources: view.sources,
             terms: PhantomData,
         }
     }
@@ -140,6 +143,11 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
     #[inline]
     fn per_knot(&self) -> M::PerKnot {
         self.model.per_knot()
+    }
+
+    #[inline]
+    fn per_source(&self) -> M::PerSource {
+        self.model.per_source()
     }
 }
 

@@ -147,7 +147,8 @@ fn seal(snapshot: &mut [u8]) {
 /// What was taken and is not driven by tables is the next snapshot.
 fn given_back(plant: &mut dyn AnyPlant, wanted: &[u8]) -> Result<(), Finding> {
     let again = plant.snapshot().map_err(|e| Finding::new("a restored plant has a snapshot", e))?;
-    let driven = plant.model().inputs.iter().any(|input| input.knots > 0);
+    let model = plant.model();
+    let driven = !model.sources.is_empty() || model.inputs.iter().any(|input| input.knots > 0);
     Finding::unless(driven || again == wanted, "a snapshot is given back as it was", || {
         format!("{:?}", plant.method())
     })

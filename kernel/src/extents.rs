@@ -105,7 +105,10 @@ pub fn first_excess<P: Geometry, Q: Geometry, T>(
                 let first = input.knot as usize;
                 let knots = model.knots.get(first..first + input.knots as usize).unwrap_or(&[]);
                 let values = knots.iter().map(|knot| knot.value).chain([input.value]);
-                let most = values.map(|value| value.to_f64().abs()).fold(0.0, f64::max);
+                let values = values.map(|value| value.to_f64().abs());
+                let of_input = model.sources.iter().filter(|s| s.input.0 as usize == row);
+                let sources = of_input.map(|source| source.most(model.knots)[0]);
+                let most = values.chain(sources).fold(0.0, f64::max);
                 let excess = beyond(part, most, shift);
                 if excess.is_some() {
                     return excess;

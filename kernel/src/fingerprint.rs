@@ -11,6 +11,7 @@ use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_on_line::PointOnLine;
 use crate::elements::revolute::Revolute;
+use crate::elements::source::{Sensor, Source, SourceLaw};
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::elements::universal::Universal;
@@ -100,6 +101,7 @@ fn visit_model<P: Geometry, T>(model: &ModelRef<'_, P, T>, visitor: &mut impl Wo
         clearances,
         revolutes,
         universals,
+        sources,
         terms: _,
     } = model;
     let counts = [
@@ -185,6 +187,46 @@ fn visit_model<P: Geometry, T>(model: &ModelRef<'_, P, T>, visitor: &mut impl Wo
         visitor.word(stiffness.word());
         lever.visit(visitor);
         axis.visit(visitor);
+    }
+    sources.iter().for_each(|source| visit_source(source, visitor));
+}
+
+fn visit_source<P: Geometry>(source: &Source<P>, visitor: &mut impl WordVisitor) {
+    let Source { input, knot, knots, law } = source;
+    let mut integers = |kind: u64, numbers: [u16; 3]| {
+        let packed = numbers.into_iter().fold(kind, |all, number| all << 16 | u64::from(number));
+        visitor.word(Word::U64(packed));
+    };
+    match law {
+        SourceLaw::Sine { period, phase, amplitude, rate, offset } => {
+            integers(0, [input.0, *knot, *knots]);
+            visitor.word(Word::F64(*period));
+            visitor.word(Word::F64(*phase));
+            [amplitude, rate, offset].into_iter().for_each(|one| visitor.word(one.word()));
+        }
+        SourceLaw::Periodic { period } => {
+            integers(1, [input.0, *knot, *knots]);
+            visitor.word(Word::F64(*period));
+        }
+        SourceLaw::Over { sensor, weights, offset } => {
+            integers(2, [input.0, *knot, *knots]);
+            match *sensor {
+                Sensor::Angle { spring, offset } => {
+                    integers(0, [spring, 0, 0]);
+                    visitor.word(offset.word());
+                }
+                Sensor::Rate { spring } => integers(1, [spring, 0, 0]),
+                Sensor::Point { body, point } => {
+                    integers(2, [body.0, 0, 0]);
+                    point.visit(visitor);
+                }
+                Sensor::Velocity { body, point } => {
+                    integers(3, [body.0, 0, 0]);
+                    point.visit(visitor);
+                }
+            }
+            weights.iter().chain([offset]).for_each(|one| visitor.word(one.word()));
+        }
     }
 }
 

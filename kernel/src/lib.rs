@@ -13,10 +13,12 @@
 //!   is a type: [`F64`], [`F32`], [`CompensatedF32`], [`Fixed`], in the plane [`Planar64`], [`Planar32`]; an
 //!   orientation is a quaternion or, as in the paper, angles.
 //! - [`body`], [`rotation`], `lockstep`: one rigid body, and how it turns, alone or in lanes.
-//! - [`status`], [`elements`], [`schedule`]: what can fail; the laws, one per file; what happens when.
+//! - [`status`], [`elements`], [`schedule`], [`sources`]: what can fail; the laws, one per file; what happens
+//!   when; sines and tables that inputs follow.
 //! - [`mod@model`], [`sketch`], [`state`]: read-only constants of bodies and elements, and how a person
 //!   writes them; plain data and its hash.
-//! - `pose`, [`forces`], [`damping`]: where points lie; one evaluation; dampers as impulses.
+//! - `pose`, `sensors`, [`forces`], [`damping`]: where points lie; what sensors of motion read; one
+//!   evaluation; dampers as impulses.
 //! - [`solve`], [`keep`]: the linear system of a scheme that has one; what a scheme keeps in its plant.
 //! - [`step`], [`schemes`]: kick and drift; how they make a step.
 //! - [`frequency`]: how fast a model can vibrate.
@@ -104,9 +106,11 @@ mod refusal;
 pub mod rotation;
 pub mod schedule;
 pub mod schemes;
+mod sensors;
 pub mod sketch;
 pub mod snapshot;
 pub mod solve;
+pub mod sources;
 pub mod space;
 mod square_root;
 pub mod state;

@@ -22,7 +22,9 @@ use crate::real::Real;
 pub use crate::refusal::{InputError, PlantError, StateError};
 use crate::schedule::{KnotStep, LoadWindow, Signal, StageTime, sample};
 use crate::schemes::Scheme;
+use crate::sensors::sample_over;
 use crate::solve;
+use crate::sources::{self, SourceStep};
 use crate::state::State;
 use crate::status::{Cause, Failure, MOST_TURN, Status};
 use crate::step::{Diagonal, Ledger, Stepper, Workspace};
@@ -45,6 +47,7 @@ where
     kept: Kept<S::Keeps, H::Target>,
     windows: <H::Target as ModelOwner>::PerLoad,
     knots: <H::Target as ModelOwner>::PerKnot,
+    sources: <H::Target as ModelOwner>::PerSource,
     state: State<H::Target>,
     frames: PerBody<H, FrameOf<H::Target>>,
     wrenches: PerBody<H, Wrench<SpaceOf<H::Target>>>,
@@ -98,6 +101,13 @@ where
         let mut knots = owner.per_knot();
         for (step, knot) in knots.as_mut().iter_mut().zip(view.knots) {
             *step = KnotStep::new(knot.time, step_size);
+        }
+        let mut sources = owner.per_source();
+        if <H::Target as ModelOwner>::Terms::SOURCES {
+            sources::place_knots(view.sources, view.knots, knots.as_mut());
+            for (step, source) in sources.as_mut().iter_mut().zip(view.sources) {
+                *step = SourceStep::new(source, view.knots, step_size);
+            }
         }
         let state = State::initial(owner);
         let mut frames = owner.per_body(FrameOf::<H::Target>::default());
@@ -155,6 +165,7 @@ where
             kept,
             windows,
             knots,
+            sources,
             state,
             frames,
             wrenches,
@@ -177,7 +188,19 @@ where
             let start =
                 StageTime { step: self.state.step, part: RealOf::<H::Target>::ZERO, h: self.h };
             let signals = self.state.signals.as_mut();
-            if sample(view.inputs, view.knots, knots, start, signals) {
+            let mut changed = sample(view.inputs, view.knots, knots, start, signals);
+            if <H::Target as ModelOwner>::Terms::SOURCES && !view.sources.is_empty() {
+                changed |= sources::sample(
+                    view.sources,
+                    view.knots,
+                    self.sources.as_ref(),
+                    knots,
+                    start,
+                    signals,
+                );
+                changed |= sample_over(&*self.model, &mut self.state, knots);
+            }
+            if changed {
                 self.ledger.fresh = false;
             }
         }
@@ -236,6 +259,7 @@ where
             pair_blocks: self.kept.pairs.as_mut(),
             windows: self.windows.as_ref(),
             knots: self.knots.as_ref(),
+            sources: self.sources.as_ref(),
             signals: self.state.signals.as_mut(),
             bodies: self.state.bodies.as_mut(),
             turns: self.state.turns.as_mut(),
@@ -359,7 +383,9 @@ where
         let (Some(known), Some(signal)) = (view.inputs.get(row), signal) else {
             return Err(InputError::Unknown(input));
         };
-        if known.knots > 0 {
+        let follows = <H::Target as ModelOwner>::Terms::SOURCES
+            && view.sources.iter().any(|source| source.input == input);
+        if known.knots > 0 || follows {
             return Err(InputError::Table(input));
         }
         if !(value.is_finite() && rate.is_finite()) {

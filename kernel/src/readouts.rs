@@ -8,14 +8,16 @@ use core::ops::Deref;
 use crate::body::BodyState;
 use crate::elements::element::Element;
 use crate::elements::input::InputKind;
+use crate::elements::source::Sensor;
 use crate::forces::{self, ExplicitDampers, Record};
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, InputIndex};
 use crate::model::{FrameOf, Group, ModelOwner, ModelRef, RealOf, Terms};
 use crate::plant::Plant;
-use crate::pose::{End, Places, place_bodies, placed, twist_of};
+use crate::pose::{End, Places, place_bodies, placed};
 use crate::real::Real;
 use crate::schemes::Scheme;
+use crate::sensors::{Motion, motion};
 use crate::space::{Linear, Moment as _};
 use crate::state::State;
 use crate::vector::Vec3;
@@ -77,6 +79,19 @@ pub enum Readout<P: Geometry> {
 }
 
 impl<P: Geometry> Readout<P> {
+    /// The sensor of a read-out of poses and velocities alone; `None` of one of forces or inputs.
+    #[inline(always)]
+    #[must_use]
+    pub fn sensor(&self) -> Option<Sensor<P>> {
+        match *self {
+            Readout::JointAngle { spring, offset } => Some(Sensor::Angle { spring, offset }),
+            Readout::JointRate { spring } => Some(Sensor::Rate { spring }),
+            Readout::Point { body, point } => Some(Sensor::Point { body, point }),
+            Readout::PointVelocity { body, point } => Some(Sensor::Velocity { body, point }),
+            _ => None,
+        }
+    }
+
     /// The same read-out in another precision.
     pub fn convert<Q: Geometry>(&self) -> Readout<Q> {
         let local = |point: P::Local| Q::local_from_f64(P::local_to_f64(&point));
@@ -159,32 +174,13 @@ pub fn read<M: ModelOwner>(
     let mut frames = model.per_body(FrameOf::<M>::default());
     place_bodies::<M::Precision>(bodies, frames.as_mut());
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
-    let end = |body: BodyIndex| End::new(&view, places, body, Some(bodies));
-    let there = |body: BodyIndex| bodies.get(body.row());
+    if let Some(sensor) = readout.sensor() {
+        return Some(match motion(&view, places, state, &sensor)? {
+            Motion::Number(value) => Reading::Scalar(value),
+            Motion::Vector(v) => Reading::Vector(v),
+        });
+    }
     match *readout {
-        Readout::JointAngle { spring, offset } => {
-            let turns = *RealOf::<M>::counts(state.turns.as_ref()).get(spring as usize)?;
-            let spring = view.torsions.get(spring as usize)?;
-            let twist = twist_of::<M::Precision>(spring, bodies, turns)?;
-            Some(Reading::Scalar(twist.angle + offset))
-        }
-        Readout::JointRate { spring } => {
-            // The rate is the same at any count.
-            let turns = *RealOf::<M>::counts(state.turns.as_ref()).get(spring as usize)?;
-            let spring = view.torsions.get(spring as usize)?;
-            let twist = twist_of::<M::Precision>(spring, bodies, turns)?;
-            let (a, b) = (end(spring.a), end(spring.b));
-            Some(Reading::Scalar(a.moment_to_axes(b.spin - a.spin).dot(twist.gradient)))
-        }
-        Readout::Point { body, point } => {
-            let position = M::Precision::position(&there(body)?.position);
-            Some(Reading::Vector((position + end(body).place(&point).1).in_space()))
-        }
-        Readout::PointVelocity { body, point } => {
-            there(body)?;
-            let end = end(body);
-            Some(Reading::Vector(end.point_velocity(end.place(&point).1).in_space()))
-        }
         Readout::TsdaForce { group, element } => {
             let row = group as usize;
             let group = view.groups.get(row)?;
@@ -200,9 +196,9 @@ pub fn read<M: ModelOwner>(
             let constants = view.bodies.get(body.row())?;
             let wrenches = forces::wrenches(model, state, step_size).ok()?;
             let wrench = wrenches.as_ref().get(body.row())?;
-            let rate = M::Precision::spin(&there(body)?.angular_velocity);
+            let rate = M::Precision::spin(&bodies.get(body.row())?.angular_velocity);
             let gravity = view.gravity.first().copied().unwrap_or(Linear::ZERO);
-            let end = end(body);
+            let end = End::new(&view, places, body, Some(bodies));
             // Arm, rates and accelerations in body axes.
             let arm = end.to_axes(end.place(&point).1);
             let centre = end.to_axes(wrench.force * constants.inverse_mass - gravity);
@@ -216,6 +212,8 @@ pub fn read<M: ModelOwner>(
             let signal = state.signals.as_ref().get(input.0 as usize)?;
             Some(Reading::Scalar(signal.value))
         }
+        // Sensors of motion.
+        _ => None,
     }
 }
 

@@ -47,7 +47,7 @@ impl core::error::Error for PlantError {}
 pub enum InputError {
     /// The model has no such input.
     Unknown(InputIndex),
-    /// A table of the scene drives it.
+    /// A table or another source of the scene drives it.
     Table(InputIndex),
     /// The value is infinite or not a number in the model's precision.
     NotFinite(InputIndex),
@@ -59,7 +59,9 @@ impl core::fmt::Display for InputError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             InputError::Unknown(input) => write!(f, "the model has no input {}", input.0),
-            InputError::Table(input) => write!(f, "input {} follows a table", input.0),
+            InputError::Table(input) => {
+                write!(f, "input {} follows a table or another source", input.0)
+            }
             InputError::NotFinite(input) => write!(f, "input {}: the value is not finite", input.0),
             InputError::Extent(input) => {
                 write!(f, "input {}: fixed-point numbers do not hold the displacement", input.0)

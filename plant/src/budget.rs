@@ -182,7 +182,11 @@ impl Budget {
                 ..knots.partition_point(|knot| knot.time <= until);
             let passed = knots.get(passed).unwrap_or_default();
             let values = passed.iter().map(|knot| knot.value);
-            let most = values.chain(ends.map(|end| end[0])).fold(0.0, |m: f64, v| m.max(v.abs()));
+            // Of a source the most that it ever says.
+            let mut sources = model.sources.iter().filter(|s| usize::from(s.input.0) == row);
+            let source = sources.next().map_or([0.0; 2], |source| source.most(&model.knots));
+            let most =
+                values.chain(ends.map(|end| end[0])).fold(source[0], |m: f64, v| m.max(v.abs()));
             work += match input.kind {
                 InputKind::Force { body: on, point, .. } => {
                     let [linear, angular] = speed(body(on));
@@ -203,7 +207,7 @@ impl Budget {
                 InputKind::Anchor { .. } => {
                     let rates = passed.iter().map(|knot| knot.slope);
                     let rates = rates.chain(ends.map(|end| end[1]));
-                    let rate = rates.fold(0.0, |most: f64, rate| most.max(rate.abs()));
+                    let rate = rates.fold(source[1], |most: f64, rate| most.max(rate.abs()));
                     // Jumps, from value to value on.
                     let values = passed.iter().map(|knot| knot.value);
                     let places = std::iter::once(ends[0][0]).chain(values).chain([ends[1][0]]);

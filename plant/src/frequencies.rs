@@ -8,7 +8,9 @@ use std::f64::consts::TAU;
 
 use dbd_kernel::{State, frequency};
 use dbd_scene::Scene;
-use dbd_scene::default_step::{Bears, LARGEST_TURN, fastest_spin, longest};
+use dbd_scene::default_step::{
+    Bears, LARGEST_TURN, STEPS_PER_PERIOD, fastest_spin, longest, shortest_period,
+};
 
 use crate::digits::{approximate, significant};
 use crate::method::Method;
@@ -30,6 +32,8 @@ pub struct Frequencies {
     pub spin: f64,
     /// The body that spins so.
     pub fastest: usize,
+    /// \[s\] the shortest period of a sine or a repeated table; infinite without one.
+    pub period: f64,
 }
 
 impl Frequencies {
@@ -43,6 +47,7 @@ impl Frequencies {
         Self {
             spin,
             fastest,
+            period: shortest_period(model),
             bound: frequency::bound(model, &state),
             estimate: frequency::estimate(model, &state, ITERATIONS),
         }
@@ -84,7 +89,7 @@ impl Frequencies {
     pub fn default_limit(&self, method: &Method, duration: f64) -> f64 {
         let bears =
             Bears { stability: method.stability_limit(), vibration: method.most_vibration() };
-        longest(self.bound, self.spin, bears, duration)
+        longest(self.bound, self.spin, bears, duration).min(self.period / STEPS_PER_PERIOD)
     }
 
     /// \[s\] the longest step in which no body turns too far; infinite where none spins.

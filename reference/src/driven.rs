@@ -1,12 +1,15 @@
-//! What drives a mechanism from outside: loads and inputs.
+//! What drives a mechanism from outside: loads, inputs and tables over sensors.
 //!
 //! `(instant: windows, signals) => wrenches on bodies`.
 
-use dbd_kernel::LoadFrame;
+use dbd_kernel::elements::input::Knot;
+use dbd_kernel::elements::source::Sensor as KernelSensor;
+use dbd_kernel::{F64, LoadFrame};
 use nalgebra::Vector3;
 
-use crate::elements::{Element, Pair, push, turn};
+use crate::elements::{Element, Pair, TorsionSpring, push, turn};
 use crate::instant::{End, Instant, Point, Wrench};
+use crate::signals::at;
 
 /// A constant force and torque over a window of time.
 pub struct Load {
@@ -29,6 +32,45 @@ impl Element for Load {
             wrenches[row].force += at.turned(self.end, self.frame, self.force);
             wrenches[row].torque += at.turned(self.end, self.frame, self.torque);
         }
+    }
+}
+
+/// A table over what a sensor reads, without a delay: what a plant's steps come to as they get smaller.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensor {
+    /// The input that it drives.
+    pub row: usize,
+    /// What is read.
+    pub sensor: KernelSensor<F64>,
+    /// The direction of a vector's column.
+    pub weights: [f64; 3],
+    /// In the unit of the reading.
+    pub offset: f64,
+    /// Knots over the reading.
+    pub curve: Vec<Knot<f64>>,
+}
+
+impl Sensor {
+    /// What its input says at an instant; `torsions` are the mechanism's.
+    #[must_use]
+    pub fn value(&self, instant: &Instant<'_>, torsions: &[TorsionSpring]) -> f64 {
+        let place = |row: usize, local: [f64; 3]| {
+            instant.place(&Point { end: End::Body(row), local: Vector3::from(local) })
+        };
+        let along = |v: Vector3<f64>| Vector3::from(self.weights).dot(&v);
+        let twist = |spring: u16| torsions[usize::from(spring)].twist(instant);
+        let reading = match self.sensor {
+            KernelSensor::Angle { spring, offset } => twist(spring).angle + offset,
+            KernelSensor::Rate { spring } => twist(spring).rate,
+            KernelSensor::Point { body, point } => {
+                along(place(body.row(), point.to_f64()).position)
+            }
+            KernelSensor::Velocity { body, point } => {
+                along(place(body.row(), point.to_f64()).velocity)
+            }
+        };
+        let reading = reading + self.offset;
+        at(&self.curve, reading, reading).value
     }
 }
 

@@ -96,8 +96,7 @@ impl<'m> GeneralizedAlpha<'m> {
     /// Whether a load or a table jumps where the coming step begins.
     fn is_after_jump(&self) -> bool {
         let (now, near) = (self.time(), 0.5 * self.step);
-        self.steps > 0
-            && self.mechanism.jumps().iter().any(|jump| (now - near..now + near).contains(jump))
+        self.steps > 0 && !self.mechanism.jumps([now - near, now + near]).is_empty()
     }
 
     /// \[s\] the present time.

@@ -4,17 +4,18 @@
 //! element places its own points.
 
 use dbd_kernel::elements::input::InputKind as KernelInput;
+use dbd_kernel::elements::source::SourceLaw;
 use dbd_kernel::model::{Group, Law as GroupLaw, ModelRef, Terms};
 use dbd_kernel::{BodyIndex, F64, ModelOwner, State as KernelState};
 use dbd_scene::Scene;
 use nalgebra::Vector3;
 
-use crate::driven::{Input, InputKind, Load};
+use crate::driven::{Input, InputKind, Load, Sensor};
 use crate::elements::{
     Element, Law, Pair, PointBushing, PointOnLine, Revolute, TorsionSpring, Tsda, Universal, unit,
 };
 use crate::instant::{Body, End, Instant, Point, Wrench};
-use crate::signals::{Clock, Table};
+use crate::signals::{Clock, Signal, Table};
 use crate::state::State;
 
 /// How a body's velocities change.
@@ -36,6 +37,7 @@ pub struct Mechanism {
     pub elements: Vec<Box<dyn Element>>,
     torsions: Vec<TorsionSpring>,
     tables: Vec<Table>,
+    sensors: Vec<Sensor>,
     anchors: Vec<Vector3<f64>>,
     jumps: Vec<f64>,
 }
@@ -82,12 +84,20 @@ impl Mechanism {
         for row in 0..model.torsions.len() {
             elements.push(Box::new(torsion(model, row)));
         }
-        let tables: Vec<_> = model.inputs.iter().map(|i| Table::of(i, model.knots)).collect();
+        let mut tables: Vec<_> = model.inputs.iter().map(|i| Table::of(i, model.knots)).collect();
+        let mut sensors = Vec::new();
+        for source in model.sources {
+            let row = usize::from(source.input.0);
+            match source.law {
+                SourceLaw::Over { sensor, weights, offset } => {
+                    let curve = source.knots_of(model.knots).to_vec();
+                    sensors.push(Sensor { row, sensor, weights, offset, curve });
+                }
+                _ => tables[row] = Table::of_source(source, model.knots),
+            }
+        }
         let mut jumps: Vec<f64> = model.loads.iter().flat_map(|l| [l.from, l.until]).collect();
-        jumps.extend(tables.iter().flat_map(Table::jumps));
         jumps.retain(|time| time.is_finite() && *time > 0.0);
-        jumps.sort_by(f64::total_cmp);
-        jumps.dedup();
         Self {
             bodies: model
                 .bodies
@@ -98,22 +108,35 @@ impl Mechanism {
             elements,
             torsions,
             tables,
+            sensors,
             anchors,
             jumps,
         }
     }
 
-    /// \[s\] the times after 0 at which a load or a table jumps, ascending.
+    /// \[s\] the times after 0, from the first of `window` on and before the second, at which a load or a
+    /// table jumps, ascending.
     #[must_use]
-    pub fn jumps(&self) -> &[f64] {
-        &self.jumps
+    pub fn jumps(&self, window: [f64; 2]) -> Vec<f64> {
+        let [from, until] = window;
+        let loads = self.jumps.iter().copied().filter(|time| (from..until).contains(time));
+        let tables = self.tables.iter().flat_map(|table| table.jumps(window));
+        let mut jumps: Vec<f64> = loads.chain(tables).filter(|time| *time > 0.0).collect();
+        jumps.sort_by(f64::total_cmp);
+        jumps.dedup();
+        jumps
     }
 
     /// Poses and motion at a time.
     #[must_use]
     pub fn at<'s>(&'s self, state: &'s State, clock: Clock) -> Instant<'s> {
         let signals = self.tables.iter().map(|table| table.at(clock)).collect();
-        Instant::new(state, clock, signals, &self.anchors)
+        let mut at = Instant::new(state, clock, signals, &self.anchors);
+        for sensor in &self.sensors {
+            let value = sensor.value(&at, &self.torsions);
+            at.signals[sensor.row] = Signal { value, rate: 0.0 };
+        }
+        at
     }
 
     /// The accelerations at an instant.

@@ -4,8 +4,11 @@
 //! integrator goes from one to the next, and between them looks at one window only, whichever
 //! side its last stage lies on.
 
+use std::f64::consts::TAU;
+
 use dbd_kernel::F64;
 use dbd_kernel::elements::input::{Input, Knot};
+use dbd_kernel::elements::source::{Source, SourceLaw};
 
 /// What counts as reached, relative: as forgiving as the kernel's windows.
 const REACHED: f64 = 1e-9;
@@ -47,11 +50,17 @@ pub struct Signal {
     pub rate: f64,
 }
 
-/// A table, or a constant where it has no knots.
+/// What an input says over time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table {
-    constant: f64,
-    knots: Vec<Knot<f64>>,
+pub enum Table {
+    /// A constant.
+    Constant(f64),
+    /// Knots; the first's value before all.
+    Knots(Vec<Knot<f64>>),
+    /// Knots that repeat with a period \[s\].
+    Repeated(Vec<Knot<f64>>, f64),
+    /// Amplitude, frequency \[rad/s\], phase \[rad\], offset.
+    Sine([f64; 4]),
 }
 
 impl Table {
@@ -59,26 +68,88 @@ impl Table {
     #[must_use]
     pub fn of(input: &Input<F64>, knots: &[Knot<f64>]) -> Self {
         let range = usize::from(input.knot)..usize::from(input.knot) + usize::from(input.knots);
-        Self { constant: input.value, knots: knots[range].to_vec() }
+        if range.is_empty() {
+            Self::Constant(input.value)
+        } else {
+            Self::Knots(knots[range].to_vec())
+        }
+    }
+
+    /// What a source says over time; a table over a sensor is none.
+    #[must_use]
+    pub fn of_source(source: &Source<F64>, knots: &[Knot<f64>]) -> Self {
+        match source.law {
+            SourceLaw::Sine { period, phase, amplitude, offset, .. } => {
+                Self::Sine([amplitude, TAU / period, TAU * phase, offset])
+            }
+            SourceLaw::Periodic { period } => {
+                Self::Repeated(source.knots_of(knots).to_vec(), period)
+            }
+            SourceLaw::Over { .. } => Self::Constant(0.0),
+        }
     }
 
     /// The signal at a time: that of the last knot before it, the first knot's before all.
     #[must_use]
     pub fn at(&self, clock: Clock) -> Signal {
-        let Some(first) = self.knots.first() else {
-            return Signal { value: self.constant, rate: 0.0 };
-        };
-        match self.knots.iter().rfind(|knot| knot.time <= clock.within) {
-            Some(knot) => Signal {
-                value: knot.value + knot.slope * (clock.time - knot.time),
-                rate: knot.slope,
-            },
-            None => Signal { value: first.value, rate: 0.0 },
+        match self {
+            Self::Constant(value) => Signal { value: *value, rate: 0.0 },
+            Self::Knots(knots) => at(knots, clock.time, clock.within),
+            Self::Repeated(knots, period) => {
+                let start = knots.first().map_or(0.0, |knot| knot.time);
+                let whole = ((clock.within - start) / period).floor() * period;
+                at(knots, clock.time - whole, clock.within - whole)
+            }
+            Self::Sine([amplitude, frequency, phase, offset]) => {
+                let (sine, cosine) = (frequency * clock.time + phase).sin_cos();
+                Signal { value: offset + amplitude * sine, rate: amplitude * frequency * cosine }
+            }
         }
     }
 
-    /// \[s\] the times at which it jumps or bends.
-    pub fn jumps(&self) -> impl Iterator<Item = f64> {
-        self.knots.iter().map(|knot| knot.time)
+    /// \[s\] the times from `from` on and before `until` at which it jumps or bends.
+    #[must_use]
+    pub fn jumps(&self, [from, until]: [f64; 2]) -> Vec<f64> {
+        let within = |time: &f64| (from..until).contains(time);
+        match self {
+            Self::Constant(_) | Self::Sine(_) => Vec::new(),
+            Self::Knots(knots) => knots.iter().map(|knot| knot.time).filter(within).collect(),
+            Self::Repeated(knots, period) => {
+                let of = |knot: &Knot<f64>| {
+                    let first = ((from - knot.time) / period).ceil();
+                    let count = ((until - knot.time) / period).ceil() - first;
+                    let time = knot.time;
+                    (0..count.max(0.0) as u64).map(move |i| time + (first + i as f64) * period)
+                };
+                knots.iter().flat_map(of).filter(within).collect()
+            }
+        }
+    }
+}
+
+/// The signal of the last knot that is reached, the first one's value before all.
+pub(crate) fn at(knots: &[Knot<f64>], time: f64, within: f64) -> Signal {
+    match knots.iter().rfind(|knot| knot.time <= within) {
+        Some(knot) => {
+            Signal { value: knot.value + knot.slope * (time - knot.time), rate: knot.slope }
+        }
+        None => Signal { value: knots.first().map_or(0.0, |knot| knot.value), rate: 0.0 },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_repeated_table_jumps_in_each_period_and_says_the_same() {
+        let knot = |time, value, slope| Knot { time, value, slope };
+        let table = Table::Repeated(vec![knot(0.1, 0.0, 10.0), knot(0.3, 2.0, -10.0)], 0.4);
+        let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-12, "{a} {b}");
+        let jumps = table.jumps([0.25, 1.1]);
+        assert_eq!(jumps.len(), 4, "{jumps:?}");
+        for (time, value) in [(0.0, 1.0), (0.1, 0.0), (0.2, 1.0), (0.35, 1.5), (40.2, 1.0)] {
+            close(table.at(Clock::at(time)).value, value);
+        }
     }
 }

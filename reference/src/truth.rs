@@ -56,7 +56,8 @@ pub fn integrate(
     let bodies = mechanism.bodies.len();
     let mut piece = Piece { y: pack(start, 0.0), time: 0.0, step: 0.0 };
     let mut states = Vec::with_capacity(times.len());
-    let mut jumps = mechanism.jumps().iter().copied().peekable();
+    let end = times.last().copied().unwrap_or_default();
+    let mut jumps = mechanism.jumps([0.0, end]).into_iter().peekable();
     for &time in times {
         while let Some(jump) = jumps.next_if(|jump| *jump < time) {
             piece.advance(opinion, mechanism, jump)?;

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use dbd_kernel::{CompensatedF32, F32, Fixed, State, frequency};
 
-use crate::default_step::{fastest_spin, longest};
+use crate::default_step::{STEPS_PER_PERIOD, fastest_spin, longest, shortest_period};
 use crate::export::{Export, ExportPrecision, ExportScheme, SchemeError, source};
 use crate::fitting::Span;
 use crate::single::slow_start;
@@ -237,7 +237,8 @@ impl Build {
                 let of = |precision: &ExportPrecision| {
                     longest(bound, spin, scheme.bears(*precision), scene.duration)
                 };
-                let limit = precisions.iter().map(of).fold(f64::INFINITY, f64::min);
+                let resolved = shortest_period(scene.stepped()) / STEPS_PER_PERIOD;
+                let limit = precisions.iter().map(of).fold(resolved, f64::min);
                 let span = Span::new(scene.duration, scene.every);
                 span.ok_or_else(|| BuildError::NoStep(called.clone()))?.round_step(limit)
             }

@@ -5,6 +5,7 @@
 //! [`Span::round_step`](crate::fitting::Span::round_step) makes a step.
 
 use dbd_kernel::State;
+use dbd_kernel::elements::source::SourceLaw;
 
 use crate::runtime::SceneModel;
 
@@ -17,6 +18,19 @@ const MARGIN: f64 = 0.5;
 /// \[rad\] the largest turn of a body in a step: beyond it the free rotor's splitting loses energy
 /// and accuracy.
 pub const LARGEST_TURN: f64 = 0.1;
+
+/// How many steps a default step leaves in the shortest period of a sine or a repeated table.
+pub const STEPS_PER_PERIOD: f64 = 40.0;
+
+/// \[s\] The shortest period of a sine or a repeated table of a model; infinite without one.
+#[must_use]
+pub fn shortest_period(model: &SceneModel<dbd_kernel::F64>) -> f64 {
+    let period = |law: &SourceLaw<dbd_kernel::F64>| match *law {
+        SourceLaw::Sine { period, .. } | SourceLaw::Periodic { period } => period,
+        SourceLaw::Over { .. } => f64::INFINITY,
+    };
+    model.sources.iter().map(|source| period(&source.law)).fold(f64::INFINITY, f64::min)
+}
 
 /// What a method bears.
 #[derive(Clone, Copy, Debug, PartialEq)]

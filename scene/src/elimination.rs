@@ -136,6 +136,7 @@ impl<H: Deref<Target: ModelOwner + Sized>> ModelOwner for Eliminated<H> {
     type PerPair<T: Copy> = Vec<T>;
     type PerHome<T: Copy> = Vec<T>;
     type PerKnot = <H::Target as ModelOwner>::PerKnot;
+    type PerSource = <H::Target as ModelOwner>::PerSource;
 
     fn view(&self) -> ModelRef<'_, Self::Precision, Self::Terms> {
         self.model.view()
@@ -187,6 +188,10 @@ impl<H: Deref<Target: ModelOwner + Sized>> ModelOwner for Eliminated<H> {
 
     fn per_knot(&self) -> Self::PerKnot {
         self.model.per_knot()
+    }
+
+    fn per_source(&self) -> Self::PerSource {
+        self.model.per_source()
     }
 }
 

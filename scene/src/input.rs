@@ -7,14 +7,16 @@ use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::{BodyIndex, F64, Geometry, LoadFrame, Vec3};
 
-use crate::assembly::{Drive, NoAnchor};
+use crate::assembly::NoAnchor;
+use crate::drive::{self, Drive};
 use crate::error::SceneError;
 use crate::hinge::{self, Hinge, Known};
 use crate::names::Names;
 use crate::pair::BodyName;
 use crate::points::PlaceOf;
+use crate::readout::ReadoutInfo;
 use crate::target::{ElementName, Kinds, Target};
-use crate::text::{Choice, Direction, Kind, Number, Seconds, Table, Value};
+use crate::text::{Choice, Direction, Kind, Table, Value};
 
 /// What is said of an input.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,7 +27,7 @@ pub struct InputInfo {
     pub kind: &'static str,
     /// The unit of its value.
     pub unit: &'static str,
-    /// Whether a table of the scene drives it; the caller does otherwise.
+    /// Whether a table or a sine of the scene drives it; the caller does otherwise.
     pub table: bool,
     /// Its index in the model.
     pub index: InputIndex,
@@ -46,17 +48,17 @@ static TYPES: [InputType; 5] = [
     InputType { name: "anchor", unit: "m", keys: &["target", "axis"], read: anchor },
 ];
 
-const KEYS: &[&str] = &["name", "type", "value", "table", "interpolate"];
+const KEYS: &[&str] = &["name", "type"];
 
 /// Every key of every type.
 pub(crate) fn keys() -> Vec<&'static [&'static str]> {
     let types = TYPES.iter().map(|kind| kind.keys);
-    std::iter::once(KEYS).chain(types).collect()
+    [KEYS, &drive::KEYS].into_iter().chain(types).collect()
 }
 
 /// The types, each with all its keys.
 pub(crate) fn types() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
-    TYPES.iter().map(|kind| (kind.name, [KEYS, kind.keys].concat()))
+    TYPES.iter().map(|kind| (kind.name, [KEYS, &drive::KEYS, kind.keys].concat()))
 }
 
 /// Reads all inputs in scene order.
@@ -68,26 +70,48 @@ pub(crate) fn read_all(
     let mut infos: Vec<InputInfo> = Vec::new();
     for table in root.list("input")? {
         let kind = kind(&table)?;
-        table.only(&[KEYS, kind.keys])?;
+        table.only(&[KEYS, &drive::KEYS, kind.keys])?;
         let name = names.read(&table, "input", ())?;
         let made = (kind.read)(&table, known)?;
-        let drive = drive(&table, kind.unit)?;
+        let drive = drive::read(&table, kind.unit)?;
+        if drive == Drive::Over && matches!(made, InputKind::Anchor { .. }) {
+            let help = "an anchor moves with its rate, which a reading at the start of a step does not \
+                        tell: a `table` over time, or a `sine`";
+            return Err(table.refuse_key("over", "does not go with the type \"anchor\"", help));
+        }
         let index =
             known.assembly.add_input(made, &drive).map_err(|defect| defect.refuse(&table))?;
-        let table = matches!(drive, Drive::Table { .. });
+        let table = !matches!(drive, Drive::Caller(_));
         infos.push(InputInfo { name, kind: kind.name, unit: kind.unit, table, index });
     }
     Ok(infos)
 }
 
+/// Reads the tables that stand over read-outs, once these are known.
+pub(crate) fn read_over(
+    root: &Table<'_>,
+    known: &mut Known<'_>,
+    inputs: &[InputInfo],
+    readouts: &[ReadoutInfo],
+) -> Result<(), SceneError> {
+    for (table, info) in root.list("input")?.iter().zip(inputs) {
+        if table.has("over") {
+            let (curve, law) = drive::read_over(table, readouts, info.unit)?;
+            let added = known.assembly.add_source(info.index, law, &curve);
+            added.map_err(|defect| defect.refuse(table))?;
+        }
+    }
+    Ok(())
+}
+
 /// Lets a table have the keys of its type: defaults of other types are not its.
 pub(crate) fn allow(table: &Table<'_>) -> Result<(), SceneError> {
-    table.only(&[KEYS, kind(table)?.keys])
+    table.only(&[KEYS, &drive::KEYS, kind(table)?.keys])
 }
 
 fn kind(table: &Table<'_>) -> Result<&'static InputType, SceneError> {
     if !table.has("type") {
-        let mut keys = vec![KEYS];
+        let mut keys = vec![KEYS, &drive::KEYS];
         keys.extend(TYPES.iter().map(|kind| kind.keys));
         table.only(&keys)?;
     }
@@ -229,61 +253,5 @@ impl Kind for Targets<'_, '_> {
             targets.push(target);
         }
         Ok(targets)
-    }
-}
-
-fn drive(table: &Table<'_>, unit: &'static str) -> Result<Drive, SceneError> {
-    let value = table.optional("value", Number::any(unit))?;
-    let knots = table.optional("table", Knots { unit })?;
-    let interpolate = table.optional("interpolate", Choice(&["held", "linear"]))?;
-    match (value, knots) {
-        (Some(_), Some(_)) => {
-            let help = "a `table` for an input that the scene drives, a `value` for one that holds \
-                        until the caller sets it";
-            Err(table.refuse_key("value", "contradicts `table`", help))
-        }
-        (value, None) if interpolate.is_none() => Ok(Drive::Caller(value.unwrap_or(0.0))),
-        (_, None) => {
-            let help = "`interpolate` says how a `table` goes on between its times";
-            Err(table.refuse_key("interpolate", "stands without `table`", help))
-        }
-        (None, Some(knots)) => Ok(Drive::Table { knots, linear: interpolate == Some(1) }),
-    }
-}
-
-/// Pairs of time and value, ascending in time.
-struct Knots {
-    unit: &'static str,
-}
-
-impl Kind for Knots {
-    type Output = Vec<[f64; 2]>;
-
-    fn expected(&self) -> String {
-        format!("an array of [time in s, value in {}], ascending in time", self.unit)
-    }
-
-    fn read(&self, value: &Value<'_>) -> Result<Vec<[f64; 2]>, SceneError> {
-        let mut knots: Vec<[f64; 2]> = Vec::new();
-        for entry in value.array(&self.expected())? {
-            let expected = format!("an array of 2: a time in s and a value in {}", self.unit);
-            let pair = entry.entries(2, &expected)?;
-            let knot = [Seconds::any().read(&pair[0])?, Number::any(self.unit).read(&pair[1])?];
-            if let Some([last, before]) = knots.last() {
-                if knot[0] <= *last {
-                    let problem = format!("is at {:?} s, not after {last:?} s", knot[0]);
-                    return Err(entry.refuse_with(&problem, "times ascend from knot to knot"));
-                }
-                if !((knot[1] - before) / (knot[0] - last)).is_finite() {
-                    let problem = "rises faster than a number can say";
-                    return Err(entry.refuse_with(problem, "a smaller value, or a later time"));
-                }
-            }
-            knots.push(knot);
-        }
-        if knots.is_empty() {
-            return Err(value.refuse("is empty", &self.expected()));
-        }
-        Ok(knots)
     }
 }

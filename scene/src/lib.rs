@@ -13,6 +13,7 @@ pub mod default_step;
 mod defaults;
 mod derived;
 mod direction;
+mod drive;
 mod elimination;
 mod error;
 pub mod export;
@@ -288,6 +289,8 @@ impl Scene {
         let mut known = Known { assembly: &mut assembly, elements: &elements, joints: &joints };
         let inputs = input::read_all(&root, &mut known)?;
         let readouts = readout::read_all(&root, &mut known, &inputs, &mut torsion_names)?;
+        let mut known = Known { assembly: &mut assembly, elements: &elements, joints: &joints };
+        input::read_over(&root, &mut known, &inputs, &readouts)?;
         let geometry = geometry::read_all(&root, &assembly)?;
         let resolved = assembly.resolved();
         let (model, body_names) = assembly.finish();

@@ -6,11 +6,13 @@ use std::marker::PhantomData;
 
 use dbd_kernel::body::Body;
 use dbd_kernel::elements::input::{Input, Knot};
+use dbd_kernel::elements::source::{Source, SourceLaw};
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::model::Plan;
 use dbd_kernel::model::{AllTerms, Group, ModelOwner, ModelRef};
 use dbd_kernel::schedule::LoadWindow;
 use dbd_kernel::schedule::{KnotStep, Signal};
+use dbd_kernel::sources::SourceStep;
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
     BodyState, F64, Geometry, Load, PointBushing, PointOnLine, Real, Revolute, State,
@@ -54,6 +56,8 @@ pub struct SceneModel<P: Geometry> {
     pub revolutes: Vec<Revolute<P::Space>>,
     /// Universal joints of the groups.
     pub universals: Vec<Universal<P::Space>>,
+    /// Sources that inputs follow.
+    pub sources: Vec<Source<P>>,
     /// The plan of a matrix, empty but for a scheme that has one; see [`Self::planned`].
     pub plan: Elimination,
 }
@@ -79,6 +83,7 @@ impl<P: Geometry> SceneModel<P> {
             clearances: self.clearances.iter().map(|c| Q::Real::from_f64(c.to_f64())).collect(),
             revolutes: self.revolutes.iter().map(Revolute::convert).collect(),
             universals: self.universals.iter().map(Universal::convert).collect(),
+            sources: self.sources.iter().map(Source::convert).collect(),
             plan: self.plan.clone(),
         }
     }
@@ -95,14 +100,27 @@ impl<P: Geometry> SceneModel<P> {
     /// The first input whose value or table the precision cannot hold.
     #[must_use]
     pub fn unfit_input(&self) -> Option<InputIndex> {
-        let row = self.inputs.iter().position(|input| !input.is_finite(&self.knots))?;
+        let of_source = |row: usize| self.sources.iter().find(|s| usize::from(s.input.0) == row);
+        let is_fit = |(row, input): (usize, &Input<P>)| {
+            input.is_finite(&self.knots)
+                && of_source(row).is_none_or(|source| source.is_finite(&self.knots))
+        };
+        let row = self.inputs.iter().enumerate().position(|one| !is_fit(one))?;
         Some(InputIndex(row as u16))
     }
 
-    /// Takes an input from its table, so that the caller drives it; it starts at the table's first
-    /// value.
+    /// Takes an input from its table or its source, so that the caller drives it; it starts at the
+    /// table's first value, after a sine at its offset.
     pub fn release(&mut self, input: InputIndex) {
+        let row = self.sources.iter().position(|source| source.input == input);
+        let source = row.map(|row| self.sources.remove(row));
         let Some(input) = self.inputs.get_mut(usize::from(input.0)) else { return };
+        if let Some(source) = source {
+            input.value = match source.law {
+                SourceLaw::Sine { offset, .. } => offset,
+                _ => source.knots_of(&self.knots).first().map_or(input.value, |knot| knot.value),
+            };
+        }
         if input.knots > 0 {
             input.value = self.knots[usize::from(input.knot)].value;
             input.knots = 0;
@@ -148,6 +166,7 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
     type PerPair<T: Copy> = Vec<T>;
     type PerHome<T: Copy> = Vec<T>;
     type PerKnot = Vec<KnotStep<P::Real>>;
+    type PerSource = Vec<SourceStep>;
 
     fn view(&self) -> ModelRef<'_, P, AllTerms> {
         ModelRef {
@@ -166,6 +185,7 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
             clearances: &self.clearances,
             revolutes: &self.revolutes,
             universals: &self.universals,
+            sources: &self.sources,
             terms: PhantomData,
         }
     }
@@ -216,5 +236,9 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
 
     fn per_knot(&self) -> Self::PerKnot {
         vec![KnotStep::default(); self.knots.len()]
+    }
+
+    fn per_source(&self) -> Self::PerSource {
+        vec![SourceStep::default(); self.sources.len()]
     }
 }

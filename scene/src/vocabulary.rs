@@ -3,14 +3,15 @@
 //! `() => tables with their keys`, from the very lists by which unknown keys are refused; for what helps people to
 //! write scenes.
 
-use crate::{body, defaults, geometry, inertia, input, joints, links, load, orientation};
+use crate::{body, defaults, drive, geometry, inertia, input, joints, links, load, orientation};
 use crate::{point_on_line, points, readout, spring, torsion_spring, tsda};
 
 /// A table of scene files and the keys that it may have.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TableKeys {
     /// What it is called: `scene`, `body`, `joint`; of tables within others `link`, `shape`, `spider`, `orientation`,
-    /// `point` (in `[points]`), `halves` (`{ first, second }`), `rate` (of a joint in `assemble.rates`), `stiffness`.
+    /// `point` (in `[points]`), `halves` (`{ first, second }`), `rate` (of a joint in `assemble.rates`), `stiffness`,
+    /// `sine`.
     pub table: &'static str,
     /// The type or shape that has these keys, where there are several: `revolute`.
     pub kind: Option<&'static str>,
@@ -33,6 +34,7 @@ pub fn vocabulary() -> Vec<TableKeys> {
         one("point_on_line", &[point_on_line::KEYS, spring::KEYS]),
         one("torsion_spring", &[torsion_spring::KEYS, spring::KEYS]),
         one("load", &[load::KEYS]),
+        one("sine", &[drive::SINE]),
     ];
     all.extend(joints::WITHIN.map(|(table, keys)| one(table, &[keys])));
     let mut add = |table, kind, keys| all.push(TableKeys { table, kind: Some(kind), keys });

@@ -1,6 +1,7 @@
 //! Inputs, read-outs, clearances and names of elements: what a scene file makes of them.
 
 use dbd_kernel::elements::input::InputKind;
+use dbd_kernel::elements::source::{Source, SourceLaw};
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::readouts::Readout;
 use dbd_kernel::{BodyIndex, LoadFrame, Vec3};
@@ -151,6 +152,37 @@ fn tables_become_knots_with_slopes() {
     assert_eq!(knots[3..], [(0.0, 1.0, 2.0), (0.5, 2.0, -2.0), (1.5, 0.0, 0.0)]);
     assert_eq!((scene.model.inputs[1].knot, scene.model.inputs[1].knots), (3, 3));
     assert!(scene.inputs[0].table);
+}
+
+#[test]
+fn sines_and_tables_that_repeat_become_sources() {
+    let on = "type = \"actuator\"\ntarget = \"cord\"\n";
+    let sine = "sine = { amplitude = \"2 kN\", frequency = 50, phase = \"180 deg\", offset = 1 }";
+    let table = "table = [[-1, 1], [0.5, 2], [1, 1]]\nperiodic = true\ninterpolate = \"linear\"";
+    let text = input("sine", &format!("{on}{sine}")) + &input("again", &format!("{on}{table}"));
+    let found = scene(&text);
+    assert!(found.inputs[..2].iter().all(|info| info.table));
+    let sources = &found.model.sources;
+    let expected = Source::sine(InputIndex(0), [2000.0, 50.0, std::f64::consts::PI, 1.0]);
+    assert_eq!(sources[0], expected);
+    let law = SourceLaw::Periodic { period: 2.0 };
+    assert_eq!(sources[1], Source { input: InputIndex(1), knot: 0, knots: 2, law });
+    let knots: Vec<_> = found.model.knots.iter().map(|k| (k.time, k.value, k.slope)).collect();
+    assert_eq!(knots[0].0, -1.0);
+    assert_eq!(knots[1], (0.5, 2.0, -2.0));
+    // Another value by its path, and back to the caller.
+    let mut changed = found.with("input.sine.sine.amplitude=5").unwrap();
+    assert_eq!(changed.model.sources[0].most(&[])[0], 6.0);
+    changed.release_all();
+    assert!(changed.model.sources.is_empty() && changed.model.inputs[0].value == 1.0);
+    assert_eq!(changed.model.inputs[1].value, 1.0);
+    // A const model has them, too.
+    let source = dbd_scene::export::model::<f32>(&found);
+    for part in
+        ["Source { input: InputIndex(0), knot: 0, knots: 0, law: SourceLaw::Sine {", "Periodic {"]
+    {
+        assert!(source.contains(part), "{source}");
+    }
 }
 
 #[test]

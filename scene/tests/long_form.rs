@@ -44,6 +44,48 @@ fn every_scene_that_ships_reads_back_to_the_same_bits() {
     }
 }
 
+#[test]
+fn sources_of_inputs_read_back() {
+    let text = r#"
+name = "pushed"
+duration = 1
+[parameters]
+f = "12 Hz"
+[[body]]
+name = "b"
+mass = 1
+inertia = [1, 1, 1]
+position = [0, 0, 0]
+[[readout]]
+name = "at"
+type = "point"
+body = "b"
+[[input]]
+name = "hum"
+type = "force"
+body = "b"
+axis = [1, 0, 0]
+sine = { amplitude = "2 kN", frequency = "2 * f", phase = "30 deg" }
+[[input]]
+name = "beat"
+type = "force"
+body = "b"
+axis = [1, 0, 0]
+table = [[0, 1], ["3 ms", 2], [1, "-1 N"]]
+periodic = true
+jump = true
+[[input]]
+name = "wind"
+type = "force"
+body = "b"
+axis = [1, 0, 0]
+over = "at.x"
+table = [["-1 cm", 1], [1, 2]]
+"#;
+    let written = back(text, &["input.hum.sine.frequency=7"]);
+    assert!(written.contains("over = \"at.x\"") && written.contains("frequency = 7"), "{written}");
+}
+
 /// What `[assemble]` moved, with velocities, spiders and what is given in the world beside it.
 const ASSEMBLED: &str = r#"# Shafts that do not meet.
 

@@ -33,7 +33,8 @@ impl Influences {
         let within = |time: f64| time > 0.0 && time < window;
         let model = &scene.model;
         let loads = model.loads.iter().any(|load| within(load.from) || within(load.until));
-        let tables = model.knots.iter().any(|knot| within(knot.time) || knot.slope != 0.0);
+        let tables = model.knots.iter().any(|knot| within(knot.time) || knot.slope != 0.0)
+            || !model.sources.is_empty();
         Self { dampers: !model.dampers.is_empty(), changes: loads || tables }
     }
 }

@@ -18,4 +18,5 @@ mod readouts;
 mod reference_forces;
 mod sketch;
 mod snapshot;
+mod sources;
 mod status;

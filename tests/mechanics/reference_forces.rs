@@ -123,7 +123,7 @@ fn tables_say_what_the_kernel_takes_from_them() {
     let model = everything();
     let h = 1e-4;
     let (mechanism, start) = Mechanism::of_model(&model);
-    assert_eq!(mechanism.jumps(), [0.001, 0.002, 0.003, 0.004, 0.01, 0.02, 0.03]);
+    assert_eq!(mechanism.jumps([0.0, 1.0]), [0.001, 0.002, 0.003, 0.004, 0.01, 0.02, 0.03]);
     let mut plant = Plant::new(&model, Leapfrog, h).unwrap();
     for n in 0..400 {
         let naive = mechanism.at(&start, Clock::at(f64::from(n) * h)).signals;

@@ -196,6 +196,22 @@ const CASES: &[Case] = &[
     case("[0.1, 7.5]", "«[1e-308, 7.5]", "rises faster than a number can say", "a later time"),
     case("[[0.0, 0.0], [0.1, 7.5]]", "«7.5", "is a float", "[time in s, value in N·m]"),
 
+    // Tables that repeat or stand over a read-out, and sines.
+    case("table = [[0.0, 0.0], [0.1, 7.5]]", "periodic = true\ntable = «[[0.0, 0.0], [0.1, 7.5]]", "`table` of input `motor` ends at 7.5 and begins again at 0.0", "`jump = true`"),
+    case("table = [[0.0, 0.0], [0.1, 7.5]]", "periodic = true\ntable = «[[0.0, 0.0]]", "has one time and no period", "the end of its period"),
+    case("interpolate = \"linear\"", "«jump = true", "`jump` of input `motor` stands without `periodic`", "another value than it begins with"),
+    case("value = 2.5", "«periodic = true", "`periodic` of input `push` stands without `table`", "repeats"),
+    case("value = 2.5", "«over = \"angle\"", "`over` of input `push` stands without `table`", "the read-out"),
+    case("interpolate = \"linear\"", "over = «\"angel\"", "names no column of a read-out: \"angel\"", "did you mean \"angle\"?"),
+    case("interpolate = \"linear\"", "over = «\"tip\"", "names no column of a read-out: \"tip\"", "did you mean"),
+    case("interpolate = \"linear\"", "over = \"angle\"\n«periodic = true", "`periodic` of input `motor` contradicts `over`", "holds its ends"),
+    case("axis = [0, 0, 1] # up", "axis = [0, 0, 1]\ntable = [[0, 0]]\n«over = \"angle\"", "`over` of input `road` does not go with the type \"anchor\"", "over time, or a `sine`"),
+    case("interpolate = \"linear\"", "«sine = { amplitude = 1, frequency = 2 }", "`sine` of input `motor` contradicts `table`", "a `table` or a `sine`"),
+    case("value = 2.5", "sine = «{ amplitude = 1 }", "`sine` of input `push` has no `frequency`", "in Hz"),
+    case("value = 2.5", "sine = { amplitude = 1, frequency = «0 }", "is 0", "> 0 in Hz"),
+    case("value = 2.5", "sine = { amplitude = «\"2 m\", frequency = 2 }", "is \"2 m\", a value in m", "in N"),
+    case("value = 2.5", "sine = { amplitude = 1, frequency = 2, «phsae = 1 }", "has no key `phsae`", "did you mean `phase`?"),
+
     // Forces.
     case("body = \"hand\"\npoint = [0.1", "body = «\"hnad\"\npoint = [0.1", "names no body: \"hnad\"", "did you mean \"hand\"?"),
     case("body = \"hand\"\npoint = [0.1", "body = «\"world\"\npoint = [0.1", "is the world, which nothing moves", "the name of a body"),

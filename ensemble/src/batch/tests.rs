@@ -1,6 +1,7 @@
 //! Every lane has the bits of its instance stepped by itself.
 
 use crate::InLanes;
+use dbd_kernel::elements::source::SourceLaw;
 use dbd_kernel::geometry::Named;
 use dbd_kernel::index::{ClearanceIndex, DamperIndex, InputIndex};
 use dbd_kernel::model::{Group, Law};
@@ -326,6 +327,83 @@ fn shares_of_dampers_are_each_lanes_own() {
     // Without dampers of its own a lane has none of the others' shares.
     models[1].dampers.iter_mut().for_each(|damper| *damper = 0.0);
     compare::<Eight, _>("double-wishbone", &models, Leapfrog, step);
+}
+
+/// Sines, tables that repeat and tables over what a lane's own sensor reads.
+#[test]
+fn sources_are_each_lanes_own() {
+    let text = r#"
+name = "driven"
+duration = 1
+[[body]]
+name = "b"
+mass = 2
+inertia = [0.1, 0.2, 0.25]
+position = [0.3, 0, 0]
+[[tsda]]
+between = ["world", "b"]
+points = [[0, 1, 0], [0.1, 0, 0]]
+stiffness = 50
+free_length = 1
+[[torsion_spring]]
+name = "coil"
+between = ["world", "b"]
+axis = [0, 0, 1]
+stiffness = 5
+[[input]]
+name = "hum"
+type = "torque"
+body = "b"
+axis = [0, 0, 1]
+sine = { amplitude = 0.5, frequency = 7 }
+[[input]]
+name = "beat"
+type = "force"
+body = "b"
+axis = [0, 1, 0]
+table = [[0, 1], [0.01, -1], [0.03, 1]]
+periodic = true
+interpolate = "linear"
+[[input]]
+name = "wind"
+type = "force"
+body = "b"
+axis = [1, 0, 0]
+over = "turn"
+table = [[-0.02, 3], [0, 1], [0.02, -3]]
+[[input]]
+name = "brake"
+type = "force"
+body = "b"
+axis = [0, 1, 0]
+over = "speed.y"
+table = [[-1, 3], [1, -3]]
+interpolate = "linear"
+[[readout]]
+name = "turn"
+type = "joint_angle"
+target = "coil"
+[[readout]]
+name = "speed"
+type = "point_velocity"
+body = "b"
+"#;
+    let model = Scene::parse(text, "driven.toml").unwrap().model;
+    let mut models = instances(&model, 3);
+    for (i, own) in models.iter_mut().enumerate() {
+        if let SourceLaw::Sine { amplitude, .. } = &mut own.sources[0].law {
+            *amplitude *= 1.0 + i as f64;
+        }
+    }
+    if eight() {
+        compare::<Eight, _>("driven", &models, Leapfrog, 1e-3);
+    }
+    compare::<Singles, _>("driven", &models, Leapfrog, 1e-3);
+    if let SourceLaw::Sine { period, .. } = &mut models[1].sources[0].law {
+        *period *= 2.0;
+    }
+    let found = crate::alike::difference(&models[0].convert::<F64>(), &models[1].convert());
+    assert!(matches!(found, Some(crate::Difference::Part { part: "source of an input", row: 0 })));
 }
 
 #[test]

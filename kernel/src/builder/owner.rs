@@ -9,6 +9,7 @@ use crate::builder::ModelBuilder;
 use crate::geometry::Geometry;
 use crate::model::{AllTerms, ModelOwner, ModelRef};
 use crate::schedule::{KnotStep, LoadWindow, Signal};
+use crate::sources::SourceStep;
 
 impl<
     P: Geometry,
@@ -55,6 +56,7 @@ impl<
     type PerPair<T: Copy> = [T; 0];
     type PerHome<T: Copy> = [T; 0];
     type PerKnot = Vec<KnotStep<P::Real>, KNOTS>;
+    type PerSource = [SourceStep; 0];
 
     fn view(&self) -> ModelRef<'_, P, AllTerms> {
         ModelRef {
@@ -73,6 +75,7 @@ impl<
             clearances: &self.clearances,
             revolutes: &self.revolutes,
             universals: &self.universals,
+            sources: &[],
             terms: PhantomData,
         }
     }
@@ -119,5 +122,9 @@ impl<
 
     fn per_knot(&self) -> Self::PerKnot {
         self.knots.iter().map(|_| KnotStep::default()).collect()
+    }
+
+    fn per_source(&self) -> Self::PerSource {
+        []
     }
 }

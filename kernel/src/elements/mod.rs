@@ -13,6 +13,7 @@ pub mod point_law;
 pub mod point_on_line;
 pub mod revolute;
 pub mod share;
+pub mod source;
 pub mod torsion_spring;
 pub mod tsda;
 pub mod universal;

@@ -225,6 +225,7 @@ mod tests {
                 clearances: [],
                 revolutes: $revolutes,
                 universals: [],
+                sources: [],
             };
             assert!(are_in_line(&model.view()));
             let [short, long] = both_ways(&model);

@@ -320,6 +320,7 @@ mod tests {
             clearances: [1e-3],
             revolutes: [],
             universals: [],
+            sources: [],
         };
         let frames = states.map(|state| F64::frame(&state.position, &state.orientation));
         let view = model.view();
@@ -380,6 +381,7 @@ mod tests {
             clearances: [],
             revolutes: [],
             universals: [],
+            sources: [],
         };
         let view = model.view();
         let frame = F64::frame(&Vec3::ZERO, &Default::default());

@@ -32,12 +32,14 @@ use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_law::{PointLaw as _, Stretch};
 use crate::elements::point_on_line::PointOnLine;
 use crate::elements::revolute::Revolute;
+use crate::elements::source::Source;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::elements::universal::Universal;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
 use crate::schedule::{KnotStep, LoadWindow, Signal};
+use crate::sources::SourceStep;
 
 /// The elements of one joint or one raw element: one record of force and torques.
 ///
@@ -129,6 +131,8 @@ pub struct ModelRef<'m, P: Geometry, T> {
     pub revolutes: &'m [Revolute<P::Space>],
     /// Universal joints of the groups.
     pub universals: &'m [Universal<P::Space>],
+    /// Sources that inputs follow.
+    pub sources: &'m [Source<P>],
     /// The kinds of element that occur.
     pub terms: PhantomData<T>,
 }
@@ -201,6 +205,8 @@ pub trait ModelOwner {
     type PerTsda<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one knot in steps per knot.
     type PerKnot: Clone + AsRef<[KnotStep<RealOf<Self>>]> + AsMut<[KnotStep<RealOf<Self>>]>;
+    /// Memory of one source in steps per source.
+    type PerSource: Clone + AsRef<[SourceStep]> + AsMut<[SourceStep]>;
 
     /// The constants.
     fn view(&self) -> ModelRef<'_, Self::Precision, Self::Terms>;
@@ -231,6 +237,8 @@ pub trait ModelOwner {
     fn per_tsda<T: Copy>(&self, value: T) -> Self::PerTsda<T>;
     /// One knot in steps per knot.
     fn per_knot(&self) -> Self::PerKnot;
+    /// One source in steps per source.
+    fn per_source(&self) -> Self::PerSource;
 }
 
 /// The real number of a model's precision.

@@ -8,6 +8,7 @@ use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_on_line::PointOnLine;
 use crate::elements::revolute::Revolute;
+use crate::elements::source::Source;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::elements::universal::Universal;
@@ -17,6 +18,7 @@ use crate::model::{CountedTerms, Group, Law, ModelOwner, ModelRef};
 use crate::pass_sum::PassSum;
 use crate::real::Real;
 use crate::schedule::{KnotStep, LoadWindow, Signal};
+use crate::sources::SourceStep;
 
 /// A model whose sizes are const generics. A kind that a scene lacks has count 0, the default.
 ///
@@ -41,6 +43,7 @@ pub struct Model<
     const REVOLUTES: usize = 0,
     const UNIVERSALS: usize = 0,
     const SUMS: usize = DAMPERS,
+    const SOURCES: usize = 0,
 > {
     /// Bodies in scene order.
     pub bodies: [Body<P::Space>; BODIES],
@@ -74,6 +77,8 @@ pub struct Model<
     pub revolutes: [Revolute<P::Space>; REVOLUTES],
     /// Universal joints of the groups.
     pub universals: [Universal<P::Space>; UNIVERSALS],
+    /// Sources that inputs follow.
+    pub sources: [Source<P>; SOURCES],
 }
 
 impl<
@@ -94,6 +99,7 @@ impl<
     const REVOLUTES: usize,
     const UNIVERSALS: usize,
     const SUMS: usize,
+    const SOURCES: usize,
 >
     Model<
         P,
@@ -113,6 +119,7 @@ impl<
         REVOLUTES,
         UNIVERSALS,
         SUMS,
+        SOURCES,
     >
 {
     /// Checks every index of the model; in a `const` the compiler does so.
@@ -190,6 +197,16 @@ impl<
             i += 1;
         }
         i = 0;
+        while i < SOURCES {
+            let source = &self.sources[i];
+            assert!((source.input.0 as usize) < INPUTS, "a source's input is there");
+            let knots = self.inputs[source.input.0 as usize].knots;
+            assert!(knots == 0, "an input follows a source or a table");
+            let end = source.knot as usize + source.knots as usize;
+            assert!(end <= KNOTS, "a source's knots are there");
+            i += 1;
+        }
+        i = 0;
         while i < LOADS {
             assert!(self.loads[i].body.row() < BODIES, "a load's body is there");
             i += 1;
@@ -238,6 +255,7 @@ impl<
     const REVOLUTES: usize,
     const UNIVERSALS: usize,
     const SUMS: usize,
+    const SOURCES: usize,
 > ModelOwner
     for Model<
         P,
@@ -257,6 +275,7 @@ impl<
         REVOLUTES,
         UNIVERSALS,
         SUMS,
+        SOURCES,
     >
 {
     type Precision = P;
@@ -272,6 +291,7 @@ impl<
         CLEARANCES,
         REVOLUTES,
         UNIVERSALS,
+        SOURCES,
     >;
     type PerBody<T: Copy> = [T; BODIES];
     type PerDampedBody<T: Copy> = [T; SUMS];
@@ -283,6 +303,7 @@ impl<
     type PerPair<T: Copy> = [T; 0];
     type PerHome<T: Copy> = [T; 0];
     type PerKnot = [KnotStep<P::Real>; KNOTS];
+    type PerSource = [SourceStep; SOURCES];
 
     #[inline(always)]
     fn view(&self) -> ModelRef<'_, P, Self::Terms> {
@@ -302,6 +323,7 @@ impl<
             clearances: &self.clearances,
             revolutes: &self.revolutes,
             universals: &self.universals,
+            sources: &self.sources,
             terms: PhantomData,
         }
     }
@@ -358,6 +380,11 @@ impl<
     #[inline]
     fn per_knot(&self) -> [KnotStep<P::Real>; KNOTS] {
         [KnotStep { first: 0, offset: P::Real::ZERO }; KNOTS]
+    }
+
+    #[inline]
+    fn per_source(&self) -> [SourceStep; SOURCES] {
+        [SourceStep { phase: 0, advance: 0 }; SOURCES]
     }
 }
 

@@ -48,6 +48,7 @@ where
     type PerPair<V: Copy> = [V; PAIRS];
     type PerHome<V: Copy> = [V; HOMES];
     type PerKnot = <H::Target as ModelOwner>::PerKnot;
+    type PerSource = <H::Target as ModelOwner>::PerSource;
 
     #[inline(always)]
     fn view(
@@ -113,5 +114,10 @@ where
     #[inline]
     fn per_knot(&self) -> <H::Target as ModelOwner>::PerKnot {
         self.model.per_knot()
+    }
+
+    #[inline]
+    fn per_source(&self) -> <H::Target as ModelOwner>::PerSource {
+        self.model.per_source()
     }
 }

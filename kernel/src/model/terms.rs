@@ -24,7 +24,9 @@ pub trait Terms: Copy + Default + 'static {
     const REVOLUTES: bool;
     /// Universal joints without a spider.
     const UNIVERSALS: bool;
-    /// All of these.
+    /// Sources of inputs other than tables over time.
+    const SOURCES: bool;
+    /// All of these but the sources, which are no part of an evaluation.
     const ALL: bool = Self::GRAVITY
         && Self::LOADS
         && Self::TSDAS
@@ -54,6 +56,7 @@ impl Terms for AllTerms {
     const CLEARANCES: bool = true;
     const REVOLUTES: bool = true;
     const UNIVERSALS: bool = true;
+    const SOURCES: bool = true;
 }
 
 /// Terms of a model whose counts are const generics: a kind occurs where its count is not 0.
@@ -70,6 +73,7 @@ pub struct CountedTerms<
     const CLEARANCES: usize,
     const REVOLUTES: usize,
     const UNIVERSALS: usize,
+    const SOURCES: usize,
 >;
 
 impl<
@@ -84,6 +88,7 @@ impl<
     const CLEARANCES: usize,
     const REVOLUTES: usize,
     const UNIVERSALS: usize,
+    const SOURCES: usize,
 > Terms
     for CountedTerms<
         TSDAS,
@@ -97,6 +102,7 @@ impl<
         CLEARANCES,
         REVOLUTES,
         UNIVERSALS,
+        SOURCES,
     >
 {
     const GRAVITY: bool = GRAVITY > 0;
@@ -110,4 +116,5 @@ impl<
     const CLEARANCES: bool = CLEARANCES > 0;
     const REVOLUTES: bool = REVOLUTES > 0;
     const UNIVERSALS: bool = UNIVERSALS > 0;
+    const SOURCES: bool = SOURCES > 0;
 }

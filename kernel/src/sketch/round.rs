@@ -193,6 +193,7 @@ macro_rules! models {
                             lever: $vector(&u.lever),
                             axis: $vector(&u.axis),
                         }),
+                        sources: [],
                     }
                     .checked()
                 }

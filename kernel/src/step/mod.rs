@@ -24,6 +24,7 @@ use crate::real::Real;
 use crate::rotation;
 use crate::schedule::{self, KnotStep, LoadWindow, Signal, StageTime};
 use crate::solve::Seat;
+use crate::sources::{self, SourceStep};
 use crate::space::{BlockOf, Linear as _, Moment as _, Space as _};
 use crate::status::Cause;
 
@@ -97,6 +98,8 @@ pub struct Workspace<'s, 'm, P: Geometry, T> {
     pub(crate) windows: &'s [LoadWindow],
     /// The tables' knots among the steps.
     pub(crate) knots: &'s [KnotStep<P::Real>],
+    /// The sources among the steps.
+    pub(crate) sources: &'s [SourceStep],
     /// The inputs' signals.
     pub(crate) signals: &'s mut [Signal<P::Real>],
     /// The bodies' states.
@@ -138,13 +141,19 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
     }
 
     /// Brings the tables of inputs to the time of a stage, at `part` of this step, 0 to 1. A step
-    /// begins with part 0; a scheme that never calls this holds its inputs over the step.
+    /// begins with part 0; a scheme that never calls this holds its inputs over the step. A table over a
+    /// sensor is held over it by every scheme.
     #[inline(always)]
     pub fn sample_inputs(&mut self, part: P::Real) {
         if T::INPUTS {
             let at = StageTime { step: self.step, part, h: self.h };
-            let ModelRef { inputs, knots, .. } = self.model;
-            if schedule::sample(inputs, knots, self.knots, at, self.signals) {
+            let ModelRef { inputs, knots, sources, .. } = self.model;
+            let mut changed = schedule::sample(inputs, knots, self.knots, at, self.signals);
+            if T::SOURCES && !self.sources.is_empty() {
+                let (steps, knot_steps) = (self.sources, self.knots);
+                changed |= sources::sample(sources, knots, steps, knot_steps, at, self.signals);
+            }
+            if changed {
                 self.ledger.fresh = false;
             }
         }

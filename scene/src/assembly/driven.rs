@@ -1,30 +1,18 @@
 //! Inputs and what read-outs need: parts of the model that name other parts.
 
 use dbd_kernel::elements::input::{Input, InputKind, Knot};
+use dbd_kernel::elements::source::{Source, SourceLaw};
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::{BodyIndex, F64, Vec3};
 
 use crate::assembly::{Assembly, Defect, index};
+use crate::drive::{Curve, Drive};
 use crate::hinge::Hinge;
 use crate::pair::Pair;
 use crate::spring::Spring;
 
 /// Axes closer than this (one less the cosine of their angle) are one axis.
 const SAME_AXIS: f64 = 1e-12;
-
-/// What drives an input.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Drive {
-    /// The caller; this value at first.
-    Caller(f64),
-    /// A table of (time \[s\], value).
-    Table {
-        /// Ascending in time, at least one.
-        knots: Vec<[f64; 2]>,
-        /// Straight lines between the knots instead of steps.
-        linear: bool,
-    },
-}
 
 /// Why a group cannot be an anchor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -105,18 +93,51 @@ impl Assembly {
         drive: &Drive,
     ) -> Result<InputIndex, Defect> {
         let row = index(self.model.inputs.len(), 1, "inputs")?;
-        let (value, knot, knots) = match drive {
-            Drive::Caller(value) => (*value, 0, 0),
-            Drive::Table { knots, .. } => {
-                let first = index(self.model.knots.len(), knots.len(), "knots")?;
-                (0.0, first, knots.len() as u16)
-            }
+        let input = InputIndex(row);
+        let value = if let Drive::Caller(value) = drive { *value } else { 0.0 };
+        let (knot, knots) = match drive {
+            Drive::Table(curve) => self.add_knots(curve, curve.knots.len())?,
+            _ => (0, 0),
         };
-        if let Drive::Table { knots, linear } = drive {
-            let rows = (0..knots.len()).filter_map(|i| Knot::of_table(knots, i, *linear));
-            self.model.knots.extend(rows);
-        }
         self.model.inputs.push(Input { kind, value, knot, knots });
-        Ok(InputIndex(row))
+        match drive {
+            Drive::Sine(sine) => {
+                index(self.model.sources.len(), 1, "sources of inputs")?;
+                self.model.sources.push(Source::sine(input, *sine));
+            }
+            Drive::Periodic(curve) => {
+                let [first, .., last] = curve.knots[..] else { return Ok(input) };
+                self.add_source(input, SourceLaw::Periodic { period: last[0] - first[0] }, curve)?;
+            }
+            Drive::Caller(_) | Drive::Table(_) | Drive::Over => {}
+        }
+        Ok(input)
+    }
+
+    /// Lets an input follow a table that repeats or stands over a read-out.
+    pub(crate) fn add_source(
+        &mut self,
+        input: InputIndex,
+        law: SourceLaw<F64>,
+        curve: &Curve,
+    ) -> Result<(), Defect> {
+        index(self.model.sources.len(), 1, "sources of inputs")?;
+        // The last knot of a period is its end.
+        let ends = usize::from(matches!(law, SourceLaw::Periodic { .. }));
+        let (knot, knots) = self.add_knots(curve, curve.knots.len() - ends)?;
+        self.model.sources.push(Source { input, knot, knots, law });
+        Ok(())
+    }
+
+    /// Adds the first knots of a table: their first row, and how many they are.
+    fn add_knots(
+        &mut self,
+        Curve { knots, linear }: &Curve,
+        count: usize,
+    ) -> Result<(u16, u16), Defect> {
+        let first = index(self.model.knots.len(), count, "knots")?;
+        let rows = (0..count).filter_map(|i| Knot::of_table(knots, i, *linear));
+        self.model.knots.extend(rows);
+        Ok((first, count as u16))
     }
 }

@@ -9,7 +9,7 @@ mod moved;
 mod resolved;
 mod written;
 
-pub(crate) use driven::{Drive, NoAnchor};
+pub(crate) use driven::NoAnchor;
 pub(crate) use resolved::Resolved;
 
 use std::cell::RefCell;

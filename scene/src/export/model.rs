@@ -14,7 +14,7 @@ use super::UNUSED;
 use super::names::{constant_name, constant_names, quoted, type_name};
 use super::number::{SourceGeometry, SourceNumber};
 use super::rows::{
-    body, bushing, group, input, knot, list, load, point_on_line, readout, revolute, state,
+    body, bushing, group, input, knot, list, load, point_on_line, readout, revolute, source, state,
     torsion, tsda, universal,
 };
 use crate::{Elimination, Scene, SceneModel};
@@ -53,6 +53,7 @@ pub(super) fn model_in<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>
         model.revolutes.len(),
         model.universals.len(),
         if model.dampers.is_empty() { 0 } else { model.bodies.len() },
+        model.sources.len(),
     ];
     let counts = counts.map(|n| n.to_string()).join(", ");
     let mut out = String::new();
@@ -80,6 +81,7 @@ pub(super) fn model_in<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>
     line(&format_args!("    clearances: {},", list(&model.clearances, |c| c.number())));
     line(&format_args!("    revolutes: {},", list(&model.revolutes, revolute::<P>)));
     line(&format_args!("    universals: {},", list(&model.universals, universal::<P>)));
+    line(&format_args!("    sources: {},", list(&model.sources, source::<P>)));
     line(&"}");
     line(&".checked();");
     let names = constant_names(scene.readouts.iter().map(|readout| readout.name.as_str()));

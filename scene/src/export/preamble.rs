@@ -44,6 +44,7 @@ pub(super) fn shared(scene: &Scene, step: f64) -> String {
          use dbd_kernel::{{\n    \
              {types}\
              elements::input::{{Input, InputKind, Knot}},\n    \
+             elements::source::{{Sensor, Source, SourceLaw}},\n    \
              index::{{ClearanceIndex, DamperIndex, InputIndex}},\n    \
              model::{{Group, Law}},\n    \
              readouts::Readout,\n\

@@ -4,6 +4,7 @@
 
 use dbd_kernel::body::Body;
 use dbd_kernel::elements::input::{Input, InputKind, Knot};
+use dbd_kernel::elements::source::{Sensor, Source, SourceLaw};
 use dbd_kernel::index::{BodyIndex, DamperIndex};
 use dbd_kernel::model::Group;
 use dbd_kernel::readouts::Readout;
@@ -162,6 +163,48 @@ pub(super) fn readout<P: SourceGeometry>(readout: &Readout<P>) -> String {
 pub(super) fn knot<R: SourceNumber>(knot: &Knot<R>) -> String {
     let (time, value, slope) = (knot.time.number(), knot.value.number(), knot.slope.number());
     format!("Knot {{ time: {time}, value: {value}, slope: {slope} }}")
+}
+
+fn sensor<P: SourceGeometry>(sensor: &Sensor<P>) -> String {
+    let at = |kind: &str, body: BodyIndex, point: &P::Local| {
+        format!("{kind} {{ body: {}, point: {} }}", index(body), P::local(point))
+    };
+    let kind = match sensor {
+        Sensor::Angle { spring, offset } => {
+            format!("Angle {{ spring: {spring}, offset: {} }}", offset.number())
+        }
+        Sensor::Rate { spring } => format!("Rate {{ spring: {spring} }}"),
+        Sensor::Point { body, point } => at("Point", *body, point),
+        Sensor::Velocity { body, point } => at("Velocity", *body, point),
+    };
+    format!("Sensor::{kind}")
+}
+
+pub(super) fn source<P: SourceGeometry>(source: &Source<P>) -> String {
+    let law = match &source.law {
+        SourceLaw::Sine { period, phase, amplitude, rate, offset } => format!(
+            "Sine {{ period: {}, phase: {}, amplitude: {}, rate: {}, offset: {} }}",
+            period.number(),
+            phase.number(),
+            amplitude.number(),
+            rate.number(),
+            offset.number(),
+        ),
+        SourceLaw::Periodic { period } => format!("Periodic {{ period: {} }}", period.number()),
+        SourceLaw::Over { sensor, weights: [x, y, z], offset } => format!(
+            "Over {{ sensor: {}, weights: [{}, {}, {}], offset: {} }}",
+            self::sensor(sensor),
+            x.number(),
+            y.number(),
+            z.number(),
+            offset.number(),
+        ),
+    };
+    let Source { input, knot, knots, .. } = source;
+    format!(
+        "Source {{ input: InputIndex({}), knot: {knot}, knots: {knots}, law: SourceLaw::{law} }}",
+        input.0
+    )
 }
 
 pub(super) fn torsion<P: SourceGeometry>(spring: &TorsionSpring<P::Space>) -> String {

@@ -1,14 +1,19 @@
-//! Tables of inputs of which the run reaches little, and drives of bodies that more joints may have to guide.
+//! Tables and sines of inputs of which the run reaches little or which its step does not resolve, and drives of bodies that more joints may have to guide.
 
 use crate::lint::{Severity, Warning, short};
 use crate::{Facts, Scene};
 use dbd_kernel::elements::input::InputKind;
+use dbd_kernel::elements::source::SourceLaw;
 
 /// Straight lines may lead to one knot beyond the end, but hardly to one so many durations away.
 const FAR: f64 = 100.0;
 
+/// A period of fewer steps is not that of the scene.
+const COARSE: f64 = 10.0;
+
 pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     undriven(scene, facts, warnings);
+    sources(scene, warnings);
     for (row, info) in scene.inputs.iter().enumerate().filter(|(_, info)| info.table) {
         let input = &scene.model.inputs[usize::from(info.index.0)];
         let knots = &scene.model.knots[usize::from(input.knot)..][..usize::from(input.knots)];
@@ -31,6 +36,42 @@ pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
                 short(scene.duration),
                 short(last)
             ),
+        });
+    }
+}
+
+/// Sines and repeated tables that the run sees little of, or whose period its step does not resolve.
+fn sources(scene: &Scene, warnings: &mut Vec<Warning>) {
+    for source in &scene.model.sources {
+        let row = usize::from(source.input.0);
+        let (SourceLaw::Sine { period, .. } | SourceLaw::Periodic { period }) = source.law else {
+            continue;
+        };
+        let is_table = matches!(source.law, SourceLaw::Periodic { .. });
+        let is_coarse = |step: &f64| period < COARSE * step;
+        let text = if let Some(step) = scene.step.filter(is_coarse) {
+            format!(
+                "its period of {} s is {} steps of {} s: a smaller `step` resolves it",
+                short(period),
+                short(period / step),
+                short(step)
+            )
+        } else if period > if is_table { 1.0 } else { FAR } * scene.duration * (1.0 + 1e-9) {
+            let what = if is_table { "table repeats" } else { "sine swings" };
+            format!(
+                "its {what} every {} s, the run ends at {} s: is its time in s, is the `duration` long enough?",
+                short(period),
+                short(scene.duration)
+            )
+        } else {
+            continue;
+        };
+        let name = scene.inputs.get(row).map_or("", |info| &info.name);
+        warnings.push(Warning {
+            severity: Severity::Warning,
+            name: format!("input `{name}`"),
+            line: scene.file_lines.inputs.get(row).copied(),
+            text,
         });
     }
 }

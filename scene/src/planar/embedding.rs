@@ -5,6 +5,7 @@
 //! energies, tensions and forces of a planar run are those of its elements there.
 
 use dbd_kernel::elements::input::{Input, InputKind};
+use dbd_kernel::elements::source::{Sensor, Source, SourceLaw};
 use dbd_kernel::model::Law;
 use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::{
@@ -42,6 +43,8 @@ impl Planar {
             torsions: flat.torsions.iter().map(torsion).collect(),
             loads: flat.loads.iter().map(load).collect(),
             inputs: flat.inputs.iter().map(input).collect(),
+            // What they read is said in the world's axes there.
+            sources: whole.sources.clone(),
             ..flat.clone()
         }
     }
@@ -68,6 +71,27 @@ impl Planar {
             Readout::Imu { body, point } => Readout::Imu { body, point: flat(body, point) },
             other => other,
         }
+    }
+
+    /// A source of the scene as one of the model in the plane.
+    pub(super) fn source(&self, source: &Source<F64>) -> Source<F64> {
+        let SourceLaw::Over { sensor, weights, offset } = source.law else { return *source };
+        let readout = match sensor {
+            Sensor::Point { body, point } => Readout::Point { body, point },
+            Sensor::Velocity { body, point } => Readout::PointVelocity { body, point },
+            // A number is the same in the plane.
+            Sensor::Angle { .. } | Sensor::Rate { .. } => return *source,
+        };
+        let shown = |v: Vec3<f64>| match self.reading(&readout, Reading::Vector(v)) {
+            Reading::Vector(v) => weights[0] * v.x + weights[1] * v.y + weights[2] * v.z,
+            _ => 0.0,
+        };
+        let origin = shown(Vec3::ZERO);
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let weights = axes.map(|[x, y, z]| shown(Vec3::new(x, y, z)) - origin);
+        let sensor = self.readout(&readout).sensor().unwrap_or(sensor);
+        let law = SourceLaw::Over { sensor, weights, offset: origin + offset };
+        Source { law, ..*source }
     }
 
     /// What a read-out of the scene shows, from what that of the plane shows.

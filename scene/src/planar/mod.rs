@@ -115,7 +115,10 @@ fn in_plane(scene: &Scene, normal: Vec3<f64>) -> Result<Planar, Unplanar> {
     let at_rest = groups::read(scene, &plane, near, &mut model, &mut leaves);
     driven::read(scene, &plane, near, &mut model, &mut leaves);
     if departures.is_empty() {
-        Ok(Planar { model, plane, at_rest })
+        let mut planar = Planar { model, plane, at_rest };
+        let sources = scene.model.sources.iter();
+        planar.model.sources = sources.map(|source| planar.source(source)).collect();
+        Ok(planar)
     } else {
         Err(Unplanar { plane: name, departures })
     }

@@ -46,6 +46,7 @@ const TEXTS: &[&str] = &[
     "target",
     "frame",
     "interpolate",
+    "over",
     "offsets",
     "about",
     "shape",

@@ -29,6 +29,7 @@ pub fn frozen(model: &SceneModel<F64>, state: &State<SceneModel<F64>>) -> SceneM
     }
     frozen.inputs.clear();
     frozen.knots.clear();
+    frozen.sources.clear();
     frozen.clearances.clear();
     for spring in &mut frozen.torsions {
         let orientation = |body: BodyIndex| {

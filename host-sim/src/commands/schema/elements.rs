@@ -159,7 +159,27 @@ pub(super) fn of_input(key: &str, tables: &[TableKeys]) -> Option<Key> {
         "value" => Key(number(Any), "The value at t = 0, held until the caller sets it", "0"),
         "table" => Key(
             json!({ "type": "array", "items": numbers(2, Any), "minItems": 1 }),
-            "[[time in s, value], …], times ascending: the scene drives the input",
+            "[[time in s, value], …], times ascending: the scene drives the input; with `over` [[reading, value], …]",
+            "none",
+        ),
+        "periodic" => Key(
+            json!({ "type": "boolean" }),
+            "Whether the table repeats; its last time is the end of the period, its last value the first",
+            "false",
+        ),
+        "jump" => Key(
+            json!({ "type": "boolean" }),
+            "Whether a periodic table may end at another value than it begins with",
+            "false",
+        ),
+        "over" => Key(
+            name(),
+            "The column of a read-out that the table stands over instead of time: \"angle\", \"tip.x\"",
+            "time",
+        ),
+        "sine" => Key(
+            within("sine", tables, &["amplitude", "frequency"]),
+            "offset + amplitude·sin(2π·frequency·t + phase): the scene drives the input",
             "none",
         ),
         "interpolate" => {

@@ -1,4 +1,4 @@
-//! What the keys of tables within tables mean and take: points, links, shapes, orientations, stiffnesses, spiders, rates.
+//! What the keys of tables within tables mean and take: points, links, shapes, orientations, stiffnesses, spiders, rates, sines.
 //!
 //! `(table, key) => schema`, and whole tables of them.
 
@@ -17,6 +17,7 @@ pub(super) fn schema(table: &str, key: &str, tables: &[TableKeys]) -> Option<Val
         "stiffness" => of_stiffness(key),
         "spider" => of_spider(key),
         "rate" => of_rate(key),
+        "sine" => of_sine(key),
         _ => None,
     };
     found.map(Key::schema)
@@ -158,6 +159,16 @@ fn of_spider(key: &str) -> Option<Key> {
         "angular_velocity" => {
             Key(numbers(3, Any), "[x, y, z] rad/s about its own axes", "as the first body turns")
         }
+        _ => return None,
+    })
+}
+
+fn of_sine(key: &str) -> Option<Key> {
+    Some(match key {
+        "amplitude" => Key(number(Any), "In the unit of the input", ""),
+        "frequency" => Key(number(Positive), "Hz, > 0", ""),
+        "phase" => Key(number(Any), "rad, or a text such as \"90 deg\": at t = 0", "0"),
+        "offset" => Key(number(Any), "In the unit of the input", "0"),
         _ => return None,
     })
 }

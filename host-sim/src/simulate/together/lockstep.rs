@@ -78,8 +78,11 @@ pub fn simulate_together(
 /// same times, so that all evaluate forces as often.
 fn alike(method: &Method, members: &[Member<'_>]) -> Vec<usize> {
     let Some(first) = members.first().filter(|_| lanes(method) > 1) else { return Vec::new() };
-    let goes =
-        |scene: &Scene| scene.planar.is_none() && scene.model.knots == first.scene.model.knots;
+    let tables = &first.scene.model;
+    let goes = |scene: &Scene| {
+        let model = &scene.model;
+        scene.planar.is_none() && model.knots == tables.knots && model.sources == tables.sources
+    };
     (0..members.len()).filter(|row| goes(members[*row].scene)).collect()
 }
 
