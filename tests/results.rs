@@ -29,6 +29,11 @@ impl Row {
         self.text(column).parse().unwrap_or_else(|_| panic!("no number in {column} of {self:?}"))
     }
 
+    /// The names of the columns.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(|(name, _)| name.as_str())
+    }
+
     /// Whether columns hold these texts.
     #[must_use]
     pub fn is(&self, wanted: &[(&str, &str)]) -> bool {

@@ -7,7 +7,7 @@ use nalgebra::{Isometry3, Matrix3, Translation3, Unit, UnitQuaternion, Vector3};
 use crate::defaults::Attributes;
 use crate::error::Fault;
 use crate::mass::{Mass, Solid};
-use crate::place::Place;
+use crate::place::{Place, Source};
 use crate::settings::{Settings, along};
 
 /// What a joint leaves free.
@@ -75,6 +75,24 @@ pub(crate) struct Joint {
     pub(crate) damping: f64,
     /// \[rad, m\] the ends of its coordinate, whether it is held to them or not.
     pub(crate) range: Option<[f64; 2]>,
+    /// \[kg·m², kg\] inertia that an actuator's rotor adds.
+    pub(crate) armature: f64,
+    /// Whether it is left out: its coordinate then stays that of the file's pose.
+    pub(crate) locked: bool,
+}
+
+impl Joint {
+    /// How the file calls it: its name, or its kind.
+    pub(crate) fn called(&self) -> String {
+        let word = self.freedom.word();
+        self.name.as_ref().map_or(word.to_owned(), |name| format!("{word} `{name}`"))
+    }
+
+    /// The joint as an element of the file.
+    pub(crate) fn source(&self) -> Source {
+        let name = self.name.as_ref().map_or(String::new(), |name| format!(" name=\"{name}\""));
+        (format!("<joint{name} type=\"{}\">", self.freedom.word()), self.place)
+    }
 }
 
 /// Reads a `<joint>`.
@@ -109,6 +127,8 @@ pub(crate) fn joint(given: &Attributes<'_>, settings: &Settings) -> Result<Joint
         stiffness: off("spring", linear("stiffness")?),
         damping: off("damper", linear("damping")?),
         range: given.numbers("range", 2, 2)?.map(|range| [scaled(range[0]), scaled(range[1])]),
+        armature: given.magnitude("armature", 0.0)?,
+        locked: false,
     })
 }
 
@@ -125,6 +145,8 @@ pub(crate) fn free_joint(name: Option<&str>, place: Place) -> Joint {
         stiffness: 0.0,
         damping: 0.0,
         range: None,
+        armature: 0.0,
+        locked: false,
     }
 }
 
@@ -135,6 +157,8 @@ pub(crate) struct Geom {
     pub(crate) solid: Option<Solid>,
     /// Its `type`, or what it takes its shape from.
     pub(crate) word: &'static str,
+    /// The mesh that it is.
+    pub(crate) mesh: Option<String>,
     /// Its pose in the body's frame.
     pub(crate) pose: Isometry3<f64>,
 }
@@ -148,8 +172,9 @@ pub(crate) fn geom(given: &Attributes<'_>, settings: &Settings) -> Result<Geom, 
     let mut pose = settings.pose(given)?;
     // A mesh gives its size to a shape that stands for it.
     if given.get("mesh").is_some() || matches!(word, "plane" | "hfield" | "mesh" | "sdf") {
+        let mesh = given.text("mesh").filter(|_| word == "mesh").map(str::to_owned);
         let word = if given.get("mesh").is_some() { "mesh" } else { word };
-        return Ok(Geom { solid: None, word, pose });
+        return Ok(Geom { solid: None, word, mesh, pose });
     }
     let needed = match word {
         "sphere" => 1,
@@ -189,7 +214,7 @@ pub(crate) fn geom(given: &Attributes<'_>, settings: &Settings) -> Result<Geom, 
         "ellipsoid" => Solid::Ellipsoid([size[0], size[1], size[2]]),
         _ => Solid::Box([size[0], size[1], size[2]]),
     };
-    Ok(Geom { solid: Some(solid), word, pose })
+    Ok(Geom { solid: Some(solid), word, mesh: None, pose })
 }
 
 /// Reads an `<inertial>`.

@@ -49,7 +49,7 @@ pub(crate) fn find(
         }
     }
     let rigid: Vec<usize> = (0..tree.bodies.len()).map(|body| lead(tree, body)).collect();
-    let above: Vec<usize> = rigid.iter().map(|lead| rigid[tree.bodies[*lead].parent]).collect();
+    let above: Vec<usize> = rigid.iter().map(|lead| rigid[tree.parent(*lead)]).collect();
     let touch = |i: usize, j: usize| {
         let (a, b) = (&tree.surfaces[i], &tree.surfaces[j]);
         let meet = a.kind & b.affinity != 0 || b.kind & a.affinity != 0;
@@ -71,7 +71,7 @@ pub(crate) fn find(
 
 /// The first of the bodies that are rigid with a body.
 fn lead(tree: &Tree, mut body: usize) -> usize {
-    while body != WORLD && tree.bodies[body].joints.is_empty() {
+    while body != WORLD && tree.bodies[body].joint.is_none() {
         body = tree.bodies[body].parent;
     }
     body

@@ -15,7 +15,29 @@ use crate::place::Place;
 /// The class of what names none.
 pub(crate) const MAIN: &str = "main";
 
-type Class = BTreeMap<String, Vec<Attribute>>;
+/// Actuators in their forms, which have one class among them all.
+const SHORTCUTS: &[&str] = &[
+    "general",
+    "motor",
+    "position",
+    "velocity",
+    "intvelocity",
+    "damper",
+    "cylinder",
+    "muscle",
+    "adhesion",
+    "pid",
+    "orientation",
+    "dcmotor",
+];
+
+/// The attributes of elements by their kinds; of actuators in any form together, and as they stand in their
+/// order.
+#[derive(Clone, Debug, Default)]
+struct Class {
+    kinds: BTreeMap<String, Vec<Attribute>>,
+    shortcuts: Vec<Element>,
+}
 
 /// All classes.
 #[derive(Debug, Default)]
@@ -27,7 +49,7 @@ impl Defaults {
     /// Reads the sections in their order.
     pub(crate) fn read(root: &Element) -> Result<Self, Fault> {
         let mut defaults = Self::default();
-        defaults.classes.insert(MAIN.into(), Class::new());
+        defaults.classes.insert(MAIN.into(), Class::default());
         for section in root.sections("default") {
             let name = section.text("class").unwrap_or(MAIN).to_owned();
             let class = defaults.classes.get(&name).or(defaults.classes.get(MAIN));
@@ -39,10 +61,15 @@ impl Defaults {
 
     fn class(&mut self, section: &Element, name: &str, mut class: Class) -> Result<(), Fault> {
         for child in section.children.iter().filter(|child| child.name != "default") {
-            let kept = class.entry(child.name.clone()).or_default();
+            let is_actuator = SHORTCUTS.contains(&child.name.as_str());
+            let kind = if is_actuator { "actuator" } else { &child.name };
+            let kept = class.kinds.entry(kind.to_owned()).or_default();
             for attribute in &child.attributes {
                 kept.retain(|old| old.name != attribute.name);
                 kept.push(attribute.clone());
+            }
+            if is_actuator {
+                class.shortcuts.push(child.clone());
             }
         }
         self.classes.insert(name.to_owned(), class.clone());
@@ -62,20 +89,35 @@ impl Defaults {
         element: &'e Element,
         within: &str,
     ) -> Result<Attributes<'e>, Fault> {
+        self.of_kind(element, &element.name, within)
+    }
+
+    /// The actuators that a class gives, in their order.
+    pub(crate) fn shortcuts(&self, class: &str) -> &[Element] {
+        self.classes.get(class).map_or(&[], |class| &class.shortcuts)
+    }
+
+    /// The attributes of an element whose class knows it as `kind`.
+    pub(crate) fn of_kind<'e>(
+        &'e self,
+        element: &'e Element,
+        kind: &str,
+        within: &str,
+    ) -> Result<Attributes<'e>, Fault> {
         let own = element.attribute("class");
         let name = own.map_or(within, |attribute| attribute.value.as_str());
         let place = own.map_or(element.place, |attribute| attribute.place);
         let class = self.class_of(name, place)?;
-        let defaults = class.get(&element.name).map_or(&[][..], Vec::as_slice);
+        let defaults = class.kinds.get(kind).map_or(&[][..], Vec::as_slice);
         Ok(Attributes { element, defaults })
     }
 
     /// Refuses a class that there is not.
-    pub(crate) fn class_of(
-        &self,
-        name: &str,
-        place: Place,
-    ) -> Result<&BTreeMap<String, Vec<Attribute>>, Fault> {
+    pub(crate) fn check(&self, name: &str, place: Place) -> Result<(), Fault> {
+        self.class_of(name, place).map(drop)
+    }
+
+    fn class_of(&self, name: &str, place: Place) -> Result<&Class, Fault> {
         self.classes.get(name).ok_or_else(|| {
             let meant = nearest(name, self.classes.keys().map(String::as_str));
             let help = meant.map_or("a class of a <default>".into(), |meant| {

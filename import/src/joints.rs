@@ -1,125 +1,244 @@
 //! The joints of the tree and their springs.
 //!
-//! `joint => revolute, spherical or translational joint; its stiffness => torsion spring, or spring along
-//! the axis`. A body's weight that is taken off it becomes a load.
+//! `stage => joint between two parts; stiffness => torsion spring, or spring along the axis`. A body's weight
+//! that is taken off it becomes a load.
 
-use nalgebra::Vector3;
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use crate::body::{Freedom, Joint};
-use crate::mechanism::{Line, Link, Load, Mechanism, Torsion, Type, rounded};
+use crate::chain::{Stage, Way, centre};
+use crate::coordinate::{Coordinate, Law};
+use crate::mechanism::{Link, Load, Mechanism, Signal, Torsion, Type};
+use crate::notation::{text, vector};
 use crate::omission::{Kind, Omissions};
 use crate::settings::Settings;
+use crate::tree::Tree;
+
+/// \[rad\] a ball counts as not turned at the start.
+const UNTURNED: f64 = 1e-9;
 
 /// Adds the joints of all parts in their order.
-pub(crate) fn add(mechanism: &mut Mechanism<'_>, settings: &Settings, omissions: &mut Omissions) {
+pub(crate) fn add(
+    mechanism: &mut Mechanism<'_>,
+    stages: &[Stage],
+    settings: &Settings,
+    omissions: &mut Omissions,
+) {
     for part in 0..mechanism.parts.parts.len() {
-        let tree = mechanism.tree;
         let lead = mechanism.parts.parts[part].lead;
-        let body = &tree.bodies[lead];
-        let between = [mechanism.side(body.parent), Some(part)];
-        let Some(joint) = body.joints.first() else {
-            let at = mechanism.pose.start[lead].translation.vector;
-            let link = Link {
-                name: mechanism.own_name(&body.name),
-                kind: Type::Fixed,
-                between,
-                at: [at; 2],
-                span: mechanism.span(between),
-                source: (format!("<body name=\"{}\"> without a joint", body.name), body.place),
-            };
-            mechanism.links.push(link);
-            continue;
-        };
-        if joint.freedom != Freedom::Free {
-            tree_joint(mechanism, lead, joint, part);
+        match stages.iter().find(|stage| stage.body == lead) {
+            Some(stage) => of_stage(mechanism, stage, omissions),
+            None => welded(mechanism, lead, part),
         }
     }
+    carriers(mechanism);
     weightless(mechanism, settings, omissions);
 }
 
-/// A joint with its spring.
-fn tree_joint(mechanism: &mut Mechanism<'_>, lead: usize, joint: &Joint, part: usize) {
+/// A body without a joint that is a part of its own.
+fn welded(mechanism: &mut Mechanism<'_>, lead: usize, part: usize) {
     let body = &mechanism.tree.bodies[lead];
     let between = [mechanism.side(body.parent), Some(part)];
-    let name = mechanism.own_name(joint.name.as_deref().unwrap_or(&body.name));
-    let at = mechanism.point(lead, joint.anchor);
-    let axis = mechanism.pose.start[lead].rotation * joint.axis.into_inner();
-    let (kind, word) = match joint.freedom {
-        Freedom::Hinge => (Type::Revolute(axis), "hinge"),
-        Freedom::Slide => (Type::Translational(axis), "slide"),
-        Freedom::Ball | Freedom::Free => (Type::Spherical, "ball"),
-    };
-    let called = joint.name.as_deref().map_or(String::new(), |name| format!(" name=\"{name}\""));
-    let source = (format!("<joint{called} type=\"{word}\">"), joint.place);
-    let span = mechanism.span(between);
-    mechanism.links.push(Link {
-        name: name.clone(),
-        kind,
+    let at = mechanism.pose.start[lead].translation.vector;
+    let link = Link {
+        name: mechanism.own_name(&body.name),
+        kind: Type::Fixed,
         between,
         at: [at; 2],
-        span,
-        source: source.clone(),
-    });
-    if joint.stiffness == 0.0 && joint.damping == 0.0 {
-        return;
+        span: mechanism.span(between),
+        source: (format!("<body name=\"{}\"> without a joint", body.name), body.place),
+    };
+    mechanism.links.push(link);
+}
+
+/// The joint of a stage, its coordinates and their springs.
+fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissions) {
+    let tree = mechanism.tree;
+    let of = |body: &usize| tree.bodies[*body].joint.as_ref();
+    let joints: Vec<&Joint> = stage.joints.iter().filter_map(of).collect();
+    let first = joints[0];
+    let between = [mechanism.side(stage.base), mechanism.side(stage.body)];
+    // An axis turns with the joints before its own and with that itself.
+    let axes: Vec<Vector3<f64>> = stage
+        .joints
+        .iter()
+        .zip(&joints)
+        .map(|(body, joint)| mechanism.pose.start[*body].rotation * joint.axis.into_inner())
+        .collect();
+    let kind = match (stage.way, first.freedom) {
+        (Way::Free | Way::Plane, _) | (Way::Single, Freedom::Free) => None,
+        (Way::Single, Freedom::Hinge) => Some(Type::Revolute(axes[0])),
+        (Way::Single, Freedom::Slide) => Some(Type::Translational(axes[0])),
+        (Way::Cylindrical, _) => Some(Type::Cylindrical(axes[0])),
+        (Way::Universal, _) => Some(Type::Universal([axes[0], axes[1]])),
+        (Way::Single, Freedom::Ball) | (Way::Spherical, _) => Some(Type::Spherical),
+    };
+    // What a slide moves is where its hinge is: the axis of a cylindrical joint goes through that.
+    let hinge = joints.iter().find(|joint| joint.freedom == Freedom::Hinge).copied();
+    let anchor = match stage.way {
+        Way::Cylindrical | Way::Plane => hinge.unwrap_or(first).anchor,
+        _ => centre(&joints),
+    };
+    let at = mechanism.point(stage.body, anchor);
+    let mut name = String::new();
+    if let Some(kind) = kind {
+        let body = &tree.bodies[last_of(tree, stage)];
+        let names: Vec<&str> = joints.iter().filter_map(|joint| joint.name.as_deref()).collect();
+        name = mechanism.own_name(&match names[..] {
+            [] => body.name.clone(),
+            _ => names.join("-"),
+        });
+        let sources: Vec<String> = joints.iter().map(|joint| joint.source().0).collect();
+        let span = mechanism.span(between);
+        let source = (sources.join(", "), first.place);
+        // Far out on a line its pull turns the body that has the line: rather a whole body than a carrier.
+        let slides = matches!(kind, Type::Translational(_)) && tree.carries(stage.base);
+        let between = if slides { [between[1], between[0]] } else { between };
+        mechanism.links.push(Link { name: name.clone(), kind, between, at: [at; 2], span, source });
     }
-    match joint.freedom {
-        Freedom::Hinge => {
-            // At the twist θ the coordinate is q + θ, and the torque k·(springref − q − θ).
-            let q = mechanism.pose.coordinates[lead];
-            let preload = joint.stiffness * (joint.spring_reference - q);
-            let name = mechanism.own_name(&format!("{name}-spring"));
-            let words = format!("stiffness, damping and springref of {}", source.0);
-            let source = (words, joint.place);
+    for (number, joint) in joints.iter().enumerate() {
+        let body = stage.joints[number];
+        let q = mechanism.pose.coordinates[body];
+        let travel = joint.range.map_or(0.0, |[from, to]| (from - q).abs().max((to - q).abs()));
+        let axis = axes[number];
+        let coordinate = match (stage.way, joint.freedom) {
+            (Way::Spherical | Way::Free, _) | (_, Freedom::Free) => continue,
+            (_, Freedom::Ball) => {
+                ball(mechanism, stage, joint, &name, omissions);
+                continue;
+            }
+            (Way::Plane, Freedom::Hinge) => {
+                Coordinate::Turn { joint: None, between, axis, is_of_second: false }
+            }
+            (_, Freedom::Hinge) => {
+                let about = match stage.way {
+                    Way::Universal => Some(["first", "second"][number]),
+                    _ => None,
+                };
+                let is_of_second = about == Some("second");
+                let joint = Some((name.clone(), about));
+                Coordinate::Turn { joint, between, axis, is_of_second }
+            }
+            (Way::Plane, Freedom::Slide) => {
+                let Some(part) = mechanism.side(stage.body) else { continue };
+                let normal = axes.iter().zip(&joints).find(|(_, j)| j.freedom == Freedom::Hinge);
+                let across = normal.map_or(axis, |(normal, _)| normal.cross(&axis));
+                Coordinate::Shift { part, at, axis, across }
+            }
+            (_, Freedom::Slide) => Coordinate::Slide { between, at, axis, travel },
+        };
+        let called = joint.name.clone().unwrap_or_else(|| name.clone());
+        if joint.stiffness > 0.0 || joint.damping > 0.0 {
+            let rest = if joint.stiffness > 0.0 { joint.spring_reference - q } else { 0.0 };
             let (stiffness, damping) = (joint.stiffness, joint.damping);
-            mechanism.torsions.push(Torsion {
-                name,
-                between,
-                axis,
-                stiffness,
-                damping,
-                preload,
-                source,
-            });
+            let law = Law { stiffness, damping, rest, bias: 0.0 };
+            let words = format!("stiffness, damping and springref of {}", joint.source().0);
+            let source = (words, joint.place);
+            let wanted = format!("{called}-spring");
+            let made = coordinate.spring(mechanism, &wanted, law, source);
+            mechanism.elements.insert(body, made);
         }
-        Freedom::Slide => {
-            spring_along(mechanism, lead, &name);
-        }
-        Freedom::Ball | Freedom::Free => {}
+        mechanism.coordinates.insert(body, coordinate);
     }
 }
 
-/// The name of the spring along a slide, which is made where there is none yet: a motor acts on it, too.
+/// The body of the file that a stage belongs to.
+fn last_of(tree: &Tree, stage: &Stage) -> usize {
+    (stage.body..tree.bodies.len()).find(|body| !tree.carries(*body)).unwrap_or(stage.body)
+}
+
+/// The springs of a ball: one about each axis of its body.
 ///
-/// Its end on the parent lies ahead on the axis, farther than the slide goes: then its length is a
-/// straight function of the coordinate, its pull on the body goes along the axis, and both ends lie on
-/// one line, so that it turns nothing.
-pub(crate) fn spring_along(mechanism: &mut Mechanism<'_>, lead: usize, slide: &str) -> String {
-    let wanted = format!("{slide}-spring");
-    if mechanism.lines.iter().any(|line| line.name == wanted) {
-        return wanted;
+/// MuJoCo's torque is stiffness·φ about the axis of the turn φ. The three twists are φ and 0, 0 where that
+/// is one of their axes; about other axes they agree with it up to φ³.
+fn ball(
+    mechanism: &mut Mechanism<'_>,
+    stage: &Stage,
+    joint: &Joint,
+    name: &str,
+    omissions: &mut Omissions,
+) {
+    if joint.stiffness == 0.0 && joint.damping == 0.0 {
+        return;
     }
-    let joint = &mechanism.tree.bodies[lead].joints[0];
-    let between = [mechanism.side(mechanism.tree.bodies[lead].parent), mechanism.side(lead)];
-    let at = mechanism.point(lead, joint.anchor);
-    let axis = mechanism.pose.start[lead].rotation * joint.axis.into_inner();
-    let q = mechanism.pose.coordinates[lead];
-    let rest = if joint.stiffness > 0.0 { joint.spring_reference - q } else { 0.0 };
-    let travel = joint.range.map_or(0.0, |[from, to]| (from - q).abs().max((to - q).abs()));
-    let length = rounded((2.0 * mechanism.size()).max(2.0 * travel).max(4.0 * rest.abs()));
-    let source = (format!("stiffness, damping and springref of the slide `{slide}`"), joint.place);
-    let (stiffness, damping) = (joint.stiffness, joint.damping);
-    let name = mechanism.own_name(&wanted);
-    mechanism.lines.push(Line {
-        name: name.clone(),
-        between,
-        points: [at + axis * length, at],
-        free_length: length - rest,
-        stiffness,
-        damping,
-        source,
-    });
-    name
+    let (tree, pose) = (mechanism.tree, mechanism.pose);
+    let between = [mechanism.side(stage.base), mechanism.side(stage.body)];
+    let relative = |poses: &[Isometry3<f64>]| -> UnitQuaternion<f64> {
+        poses[tree.bodies[stage.body].parent].rotation.inverse() * poses[stage.body].rotation
+    };
+    let turned = relative(&pose.start).angle_to(&relative(&pose.first));
+    if turned > UNTURNED && joint.stiffness > 0.0 {
+        let what = format!(
+            "{}: stiffness {} N·m/rad, turned by {turned} rad at the start; a scene says such a spring \
+             from its rest on: a keyframe with that joint at 1 0 0 0",
+            joint.called(),
+            joint.stiffness
+        );
+        omissions.add(Kind::Spring, joint.place, what);
+        return;
+    }
+    let frame = pose.start[stage.body].rotation;
+    let words = format!("stiffness and damping of {}", joint.source().0);
+    for (axis, letter) in
+        [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().zip(["x", "y", "z"])
+    {
+        let spring = Torsion {
+            name: mechanism.own_name(&format!("{name}-spring-{letter}")),
+            between,
+            axis: frame * axis,
+            stiffness: joint.stiffness,
+            damping: joint.damping,
+            preload: 0.0,
+            source: (words.clone(), joint.place),
+        };
+        mechanism.torsions.push(spring);
+    }
+    mechanism.notes.push(format!(
+        "{}: its spring and damper are three, about the axes of its body: exact for turns about one of \
+         them, else for small ones; at a turn φ the torque is off by about φ²/9 of it",
+        joint.called()
+    ));
+}
+
+/// What is good to know of carriers, and where the centres of mass are that they have moved.
+fn carriers(mechanism: &mut Mechanism<'_>) {
+    for shares in &mechanism.parts.shares {
+        let body = &mechanism.tree.bodies[shares.body];
+        for (carrier, exact) in &shares.carriers {
+            let Some(part) = mechanism.side(*carrier) else { continue };
+            let name = mechanism.name(Some(part)).to_owned();
+            let mass = mechanism.parts.parts[part].mass.mass;
+            let what = if *exact {
+                "taken off the bodies beside it where that changes no motion".to_owned()
+            } else {
+                let share = mechanism.options.carriers.unwrap_or(0.0);
+                format!(
+                    "of which `{}` gives {share} of its own: its motion is off by about as much",
+                    body.name
+                )
+            };
+            mechanism.notes.push(format!(
+                "body `{name}` stands between joints of `{}`: {mass:.3e} kg, {what}",
+                body.name
+            ));
+        }
+    }
+    for (number, part) in mechanism.parts.parts.iter().enumerate() {
+        let whole = part.whole;
+        if mechanism.tree.carries(part.named) || whole == part.mass.centre {
+            continue;
+        }
+        let at = mechanism.point(part.lead, whole);
+        let keys = vec![
+            format!("body = {}", text(mechanism.name(Some(number)))),
+            format!("point = {}", vector(mechanism.within(Some(number), at), mechanism.size())),
+        ];
+        let body = &mechanism.tree.bodies[part.named];
+        let wanted = format!("{}-centre", body.name);
+        let name = mechanism.signal_name(&wanted, "point", &mechanism.readouts);
+        let words = format!("centre of mass of <body name=\"{}\">, carriers included", body.name);
+        mechanism.readouts.push(Signal { name, kind: "point", keys, source: (words, body.place) });
+    }
 }
 
 /// \[m\] a force that acts this close to a part's centre of mass, in radii of gyration, acts at it.

@@ -5,6 +5,7 @@
 use crate::body::{Freedom, Joint};
 use crate::defaults::Attributes;
 use crate::error::Fault;
+use crate::mechanism::Mechanism;
 use crate::omission::{Kind, Omissions};
 use crate::settings::Settings;
 
@@ -18,7 +19,7 @@ pub(crate) fn of_joint(
 ) -> Result<(), Fault> {
     let place = given.element.place;
     let word = joint.freedom.word();
-    let [coordinate, force, inertia] = joint.freedom.units();
+    let [coordinate, force, _] = joint.freedom.units();
     if given.limited("limited", "range", settings.automatic_limits)?
         && !settings.is_off("limit")
         && let Some([from, to]) = joint.range
@@ -36,17 +37,32 @@ pub(crate) fn of_joint(
         let what = format!("{word} `{name}`: actuators {} to {} {force}", range[0], range[1]);
         omissions.add(Kind::Limit, place, what);
     }
-    let armature = given.magnitude("armature", 0.0)?;
-    if armature > 0.0 {
-        let what = format!("{word} `{name}`: armature {armature} {inertia}");
-        omissions.add(Kind::Armature, place, what);
-    }
     let friction = given.magnitude("frictionloss", 0.0)?;
     if friction > 0.0 && !settings.is_off("frictionloss") {
         let what = format!("{word} `{name}`: dry friction {friction} {force}");
         omissions.add(Kind::FrictionLoss, place, what);
     }
     springs(given, joint, name, omissions)
+}
+
+/// Lists the armatures, beside what their joints move without them: whether one may be left out.
+pub(crate) fn armatures(mechanism: &Mechanism<'_>, omissions: &mut Omissions) {
+    for (number, body) in mechanism.tree.bodies.iter().enumerate() {
+        let Some(joint) = body.joint.as_ref().filter(|joint| joint.armature > 0.0) else {
+            continue;
+        };
+        let [_, _, unit] = joint.freedom.units();
+        let armature = joint.armature;
+        let beside = mechanism.driven.get(&number).map_or(String::new(), |driven| {
+            format!(" beside the {:.3e} that it moves", driven - armature)
+        });
+        let name = joint.name.as_ref().unwrap_or(&body.name);
+        let what = format!(
+            "{} `{name}`: armature {armature} {unit}{beside}: inertia of one joint, which no body has",
+            joint.freedom.word()
+        );
+        omissions.add(Kind::Armature, joint.place, what);
+    }
 }
 
 /// Springs and dampers that are no torsion spring about an axis and no line.
@@ -67,12 +83,11 @@ fn springs(
         );
         omissions.add(Kind::Spring, place, what);
     }
-    if matches!(joint.freedom, Freedom::Ball | Freedom::Free) {
-        let turning =
-            [("stiffness", joint.stiffness, "N·m/rad"), ("damping", joint.damping, "N·m·s/rad")];
-        for (what, size, unit) in turning.into_iter().filter(|(_, size, _)| *size > 0.0) {
-            let unit = if joint.freedom == Freedom::Free { "in SI units" } else { unit };
-            omissions.add(Kind::Spring, place, format!("{word} `{name}`: {what} {size} {unit}"));
+    if joint.freedom == Freedom::Free {
+        let both = [("stiffness", joint.stiffness), ("damping", joint.damping)];
+        for (what, size) in both.into_iter().filter(|(_, size)| *size > 0.0) {
+            let what = format!("{word} `{name}`: {what} {size} in SI units");
+            omissions.add(Kind::Spring, place, what);
         }
     }
     for what in ["stiffness", "damping", "springyield"] {

@@ -15,43 +15,61 @@
 //! - `defaults`: classes of attributes, and attributes as numbers.
 //! - `settings`: what the file says of itself: units, sequences, gravity.
 //! - `mass`: mass, centre and inertia, of shapes, too.
+//! - `bulk`, `mesh`: what meshes hold.
 //! - `body`: one body, its joints, geoms and sites.
 //! - `geom`: geoms beside their mass: what touches, what can be seen.
 //! - `lacks`: what a joint has that a scene has no counterpart for.
-//! - `tree`: all of them, in their frames.
+//! - `tree`, `weigh`: all of them, in their frames, and their masses.
 //! - `contact`: which geoms can touch.
 //! - `pose`: joint coordinates become poses.
 //! - [`options`]: what is stated rather than read.
+//! - `chain`: several joints of one body, and which joints of a scene say them.
+//! - `carrier`: bodies between joints, and their mass.
 //! - `part`: bodies without joints become one with their parents.
 //! - `mechanism`: joints, springs, inputs, read-outs between parts.
-//! - `joints`, `loops`, `signals`: what brings them in, from the tree, equalities, actuators and sensors.
+//! - `coordinate`: what springs and inputs act on.
+//! - `inertia`: what joints have to move.
+//! - `servo`: actuators that are linear laws.
+//! - `joints`, `loops`, `tendons`, `actuators`, `signals`: what brings them in.
 //! - `write`: the scene's text.
 //! - `assembled`: springs of a mechanism whose loops are open at the file's pose.
+//! - `model`: all of it, from a file's elements to the scene.
 
 pub mod error;
 pub mod omission;
 pub mod options;
 pub mod place;
 
+mod actuators;
 mod assembled;
 mod body;
+mod bulk;
+mod carrier;
+mod chain;
 mod contact;
+mod coordinate;
 mod defaults;
 mod element;
 mod file;
 mod geom;
+mod inertia;
 mod joints;
 mod lacks;
 mod loops;
 mod mass;
 mod mechanism;
+mod mesh;
+mod model;
 mod notation;
 mod part;
 mod pose;
 mod schema;
+mod servo;
 mod settings;
 mod signals;
+mod tendons;
 mod tree;
+mod weigh;
 mod write;
 
 use std::path::Path;
@@ -61,8 +79,6 @@ pub use omission::{Kind, Omission};
 pub use options::{Options, TOLERANCE, Weld};
 
 use crate::element::Document;
-use crate::error::Fault;
-use crate::omission::Omissions;
 
 /// A scene that was made of a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,32 +117,14 @@ pub fn import_text(
 ) -> Result<Imported, ImportError> {
     let mut document = Document::read(text, name, folder)?;
     let root = std::mem::take(&mut document.root);
-    let mut omissions = Omissions::default();
-    let made = (|| -> Result<(String, Vec<String>), Fault> {
-        schema::check(&root, &mut omissions)?;
-        let settings = settings::read(&root, &mut omissions)?;
-        let defaults = defaults::Defaults::read(&root)?;
-        let tree = tree::read(&root, &settings, &defaults, &mut omissions)?;
-        contact::find(&root, &tree, &settings, &mut omissions)?;
-        let pose = pose::Pose::of(&tree, &root, options.keyframe.as_deref())?;
-        let parts = part::Parts::of(&tree, &settings, options.weld)?;
-        let mut mechanism = mechanism::Mechanism::new(&tree, &parts, &pose, options);
-        joints::add(&mut mechanism, &settings, &mut omissions);
-        loops::add(&mut mechanism, &root, &settings, &mut omissions)?;
-        signals::add(&mut mechanism, &root, &settings, &defaults, &mut omissions)?;
-        let head = write::Head { settings: &settings, texts: &document.texts };
-        let mut scene = write::scene(&mechanism, &head, omissions.list(), name);
-        if assembled::settle(&mut mechanism, &scene) {
-            scene = write::scene(&mechanism, &head, omissions.list(), name);
-        }
-        Ok((scene, mechanism.notes))
-    })();
+    let made = model::Model::read(&root, folder)
+        .and_then(|model| model.scene(&document.texts, name, options));
+    let (made, omissions) = made.map_err(|fault| fault.refuse(&document.texts))?;
     let omitted = omissions.named(&document.texts);
-    let (scene, notes) = made.map_err(|fault| fault.refuse(&document.texts))?;
     let refused: Vec<Omission> =
         omitted.iter().filter(|o| !options.ignored.contains(&o.kind)).cloned().collect();
     if !refused.is_empty() {
         return Err(ImportError::Omitted { file: name.to_owned(), omissions: refused });
     }
-    Ok(Imported { scene, omitted, notes })
+    Ok(Imported { scene: made.0, omitted, notes: made.1 })
 }

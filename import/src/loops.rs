@@ -51,7 +51,11 @@ fn omit(element: &Element, omissions: &mut Omissions) {
     omissions.add(
         Kind::Equality,
         element.place,
-        format!("{}: {}", element.called(), words.join(", ")),
+        format!(
+            "{}: {}, which couples what a scene leaves apart",
+            element.called(),
+            words.join(", ")
+        ),
     );
 }
 

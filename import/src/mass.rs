@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Isometry3, Matrix3, Rotation3, SymmetricEigen, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Matrix4, Rotation3, SymmetricEigen, UnitQuaternion, Vector3};
 
 /// Products of inertia below this share of the trace are rounding.
 const NEGLIGIBLE: f64 = 1e-12;
@@ -116,6 +116,34 @@ impl Mass {
         let basis = Matrix3::from_columns(&[x, y, x.cross(&y)]);
         let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(basis));
         (turn, order.map(|which| eigen.eigenvalues[which]))
+    }
+
+    /// \[N·m·s\] angular momentum about the centre of mass at an angular velocity, in its frame.
+    pub(crate) fn momentum(&self, rate: &Vector3<f64>) -> Vector3<f64> {
+        self.inertia * rate
+    }
+
+    /// \[kg·m², kg·m, kg\] the pseudo-inertia ∫(p, 1)(p, 1)ᵀ dm in its frame.
+    pub(crate) fn pseudo(&self) -> Matrix4<f64> {
+        let second = Matrix3::identity() * (0.5 * self.inertia.trace()) - self.inertia;
+        let (m, c) = (self.mass, self.centre);
+        let mut pseudo = (second + c * c.transpose() * m).to_homogeneous();
+        pseudo.fixed_view_mut::<3, 1>(0, 3).copy_from(&(c * m));
+        pseudo.fixed_view_mut::<1, 3>(3, 0).copy_from(&(c * m).transpose());
+        pseudo[(3, 3)] = m;
+        pseudo
+    }
+
+    /// The mass of a pseudo-inertia, none of one without mass.
+    pub(crate) fn of_pseudo(pseudo: &Matrix4<f64>) -> Self {
+        let m = pseudo[(3, 3)];
+        if m <= 0.0 {
+            return Self::default();
+        }
+        let c: Vector3<f64> = pseudo.fixed_view::<3, 1>(0, 3) / m;
+        let second: Matrix3<f64> = pseudo.fixed_view::<3, 3>(0, 0) - c * c.transpose() * m;
+        let inertia = Matrix3::identity() * second.trace() - second;
+        Self::tensor(m, &inertia, &Isometry3::translation(c.x, c.y, c.z))
     }
 
     /// \[m\] root mean square distance of the mass from its centre.

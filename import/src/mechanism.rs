@@ -2,22 +2,20 @@
 //!
 //! `parts, poses => what a scene is written of`.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::{Isometry3, Vector3};
 
+use crate::coordinate::Coordinate;
 use crate::notation::fitting;
 use crate::options::Options;
 use crate::part::Parts;
-use crate::place::Place;
+use crate::place::Source;
 use crate::pose::Pose;
 use crate::tree::{Tree, moved};
 
 /// A part, or the world.
 pub(crate) type Side = Option<usize>;
-
-/// Where something comes from: words and place.
-pub(crate) type Source = (String, Place);
 
 /// Two points of a joint count as one that are not farther apart than this share of its span.
 const CLOSED: f64 = 1e-9;
@@ -29,6 +27,10 @@ pub(crate) enum Type {
     Revolute(Vector3<f64>),
     /// About a point.
     Spherical,
+    /// About an axis and along it.
+    Cylindrical(Vector3<f64>),
+    /// About an axis of the first body and one of the second.
+    Universal([Vector3<f64>; 2]),
     /// Along an axis.
     Translational(Vector3<f64>),
     /// None.
@@ -84,7 +86,7 @@ pub(crate) struct Torsion {
     pub(crate) source: Source,
 }
 
-/// A spring along the axis of a slide.
+/// A spring between two points.
 #[derive(Clone, Debug)]
 pub(crate) struct Line {
     /// Its name.
@@ -95,6 +97,27 @@ pub(crate) struct Line {
     pub(crate) points: [Vector3<f64>; 2],
     /// \[m\]
     pub(crate) free_length: f64,
+    /// \[N/m\]
+    pub(crate) stiffness: f64,
+    /// \[N·s/m\]
+    pub(crate) damping: f64,
+    /// Where it comes from.
+    pub(crate) source: Source,
+}
+
+/// A spring that holds a point of a part to a line of the world.
+#[derive(Clone, Debug)]
+pub(crate) struct Rail {
+    /// Its name.
+    pub(crate) name: String,
+    /// The part.
+    pub(crate) part: usize,
+    /// \[m\] a point of the line.
+    pub(crate) line: Vector3<f64>,
+    /// Its direction.
+    pub(crate) across: Vector3<f64>,
+    /// \[m\] the point of the part, world.
+    pub(crate) at: Vector3<f64>,
     /// \[N/m\]
     pub(crate) stiffness: f64,
     /// \[N·s/m\]
@@ -141,8 +164,20 @@ pub(crate) struct Mechanism<'m> {
     pub(crate) links: Vec<Link>,
     /// Torsion springs.
     pub(crate) torsions: Vec<Torsion>,
-    /// Springs along slides.
+    /// Springs along slides and tendons.
     pub(crate) lines: Vec<Line>,
+    /// Springs of slides in the plane.
+    pub(crate) rails: Vec<Rail>,
+    /// Coordinates of joints, by their bodies.
+    pub(crate) coordinates: BTreeMap<usize, Coordinate>,
+    /// The elements of their springs.
+    pub(crate) elements: BTreeMap<usize, String>,
+    /// Tendons by their names, and the elements of their springs.
+    pub(crate) tendons: BTreeMap<String, (Coordinate, Option<String>)>,
+    /// \[kg·m², kg\] what hinges and slides have to move, by their bodies.
+    pub(crate) driven: BTreeMap<usize, f64>,
+    /// Whether the scene is planar.
+    pub(crate) planar: bool,
     /// Loads.
     pub(crate) loads: Vec<Load>,
     /// Inputs.
@@ -170,6 +205,12 @@ impl<'m> Mechanism<'m> {
             links: Vec::new(),
             torsions: Vec::new(),
             lines: Vec::new(),
+            rails: Vec::new(),
+            coordinates: BTreeMap::new(),
+            elements: BTreeMap::new(),
+            tendons: BTreeMap::new(),
+            driven: BTreeMap::new(),
+            planar: false,
             loads: Vec::new(),
             inputs: Vec::new(),
             readouts: Vec::new(),
@@ -202,7 +243,7 @@ impl<'m> Mechanism<'m> {
 
     /// The name of a part, that of its first body.
     pub(crate) fn name(&self, side: Side) -> &str {
-        side.map_or("world", |part| &self.tree.bodies[self.parts.parts[part].lead].name)
+        side.map_or("world", |part| &self.tree.bodies[self.parts.parts[part].named].name)
     }
 
     /// The pose of a part's principal axes where the scene begins.

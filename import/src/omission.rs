@@ -42,21 +42,21 @@ kinds! {
     Armature = "armature",
     /// dry friction of joints
     FrictionLoss = "frictionloss",
-    /// the second and further joints of a body
+    /// joints of a body that no joints of a scene say exactly
     Joints = "joints",
-    /// stiffness and damping of ball joints, damping of free bodies, stiffness that is not linear
+    /// springs of balls that start turned, springs and dampers of free bodies, stiffness that is not linear
     Spring = "spring",
-    /// tendons
+    /// tendons that are no spring between two sites
     Tendon = "tendon",
     /// equalities between joints, tendons and flexes, welds at another angle
     Equality = "equality",
-    /// actuators that are no plain motor at a hinge or a slide
+    /// actuators that are no linear law at a hinge, a slide or a tendon
     Actuator = "actuator",
     /// compensation of gravity that is no constant force at a centre of mass
     GravityCompensation = "gravcomp",
     /// wind and resistance of a medium
     Fluid = "fluid",
-    /// mass of meshes, height fields and shells
+    /// mass of meshes that cannot be read, of shapes around meshes, of shells of shapes
     Mesh = "mesh",
     /// bodies that are moved from outside
     Mocap = "mocap",
@@ -94,7 +94,7 @@ pub fn table(omissions: &[Omission]) -> String {
 }
 
 /// What was found so far.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Omissions {
     found: Vec<(Kind, Place, String)>,
 }

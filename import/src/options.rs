@@ -31,6 +31,9 @@ pub struct Options {
     pub span: Option<f64>,
     /// \[m\] by how much a loop may stay open, > 0; else [`TOLERANCE`] times the size of the mechanism.
     pub tolerance: Option<f64>,
+    /// Fraction of a body's mass that a body between two of its joints takes where none is exact, > 0 and
+    /// < 1; else such a body is refused.
+    pub carriers: Option<f64>,
     /// \[s\] simulated time, > 0.
     pub duration: f64,
     /// What becomes of bodies without joints.
@@ -49,6 +52,7 @@ impl Default for Options {
             damping: 0.0,
             span: None,
             tolerance: None,
+            carriers: None,
             duration: 1.0,
             weld: Weld::Merge,
             keyframe: None,

@@ -15,6 +15,9 @@ pub struct Place {
     pub(crate) line: usize,
 }
 
+/// Where something comes from: words and place.
+pub(crate) type Source = (String, Place);
+
 /// The texts by their names.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Texts {

@@ -10,7 +10,7 @@ use crate::defaults::Attributes;
 use crate::element::Element;
 use crate::error::Fault;
 use crate::settings::quaternion;
-use crate::tree::{Tree, WORLD, moved};
+use crate::tree::{Body, Tree, WORLD, moved};
 
 /// The poses of all bodies.
 #[derive(Clone, Debug)]
@@ -34,18 +34,9 @@ impl Pose {
         let Some(keyframe) = keyframe else {
             return Ok(Self { start: first.clone(), first, coordinates });
         };
-        let keys: Vec<&Element> =
-            root.sections("keyframe").flat_map(|section| &section.children).collect();
-        let Some(key) = keys.iter().find(|key| key.text("name") == Some(keyframe)) else {
-            let names: Vec<&str> = keys.iter().filter_map(|key| key.text("name")).collect();
-            let help = if names.is_empty() {
-                "the file has no keyframe with a name".to_owned()
-            } else {
-                format!("its keyframes: {}", names.join(", "))
-            };
-            return Err(Fault::at(root.place, format!("has no keyframe `{keyframe}`"), help));
-        };
-        let count: usize = tree.bodies.iter().map(|body| body.coordinates).sum();
+        let key = key(root, keyframe)?;
+        let own = |body: &Body| body.joint.as_ref().map_or(0, |one| one.freedom.coordinates());
+        let count: usize = tree.bodies.iter().map(own).sum();
         let given = Attributes::own(key);
         let Some(values) = given.numbers("qpos", count, count)? else {
             return Ok(Self { start: first.clone(), first, coordinates });
@@ -55,15 +46,46 @@ impl Pose {
             return Err(Fault::at(given.place("qvel"), "`qvel` is not 0", help));
         }
         let mut rest = values.as_slice();
-        let mut own = Vec::with_capacity(tree.bodies.len());
+        let mut given = Vec::with_capacity(tree.bodies.len());
         for body in &tree.bodies {
-            let (mine, others) = rest.split_at(body.coordinates);
+            let (mine, others) = rest.split_at(own(body));
             rest = others;
-            own.push((!mine.is_empty()).then_some(mine));
+            given.push((!mine.is_empty()).then_some(mine));
         }
-        let (start, coordinates) = place(tree, &own);
+        let (start, coordinates) = place(tree, &given);
         Ok(Self { first, start, coordinates })
     }
+
+    /// The poses at which every spring of a hinge or a slide is at rest: there MuJoCo measures the lengths
+    /// that tendons take for their free ones.
+    pub(crate) fn at_rest(tree: &Tree) -> Vec<Isometry3<f64>> {
+        let rest: Vec<Option<[f64; 1]>> = tree
+            .bodies
+            .iter()
+            .map(|body| {
+                let joint = body.joint.as_ref()?;
+                let coordinate = matches!(joint.freedom, Freedom::Hinge | Freedom::Slide);
+                coordinate.then_some([joint.spring_reference])
+            })
+            .collect();
+        let given: Vec<Given<'_>> = rest.iter().map(|one| one.as_ref().map(|q| &q[..])).collect();
+        place(tree, &given).0
+    }
+}
+
+/// The keyframe of a name.
+pub(crate) fn key<'e>(root: &'e Element, name: &str) -> Result<&'e Element, Fault> {
+    let keys: Vec<&Element> =
+        root.sections("keyframe").flat_map(|section| &section.children).collect();
+    keys.iter().copied().find(|key| key.text("name") == Some(name)).ok_or_else(|| {
+        let names: Vec<&str> = keys.iter().filter_map(|key| key.text("name")).collect();
+        let help = if names.is_empty() {
+            "the file has no keyframe with a name".to_owned()
+        } else {
+            format!("its keyframes: {}", names.join(", "))
+        };
+        Fault::at(root.place, format!("has no keyframe `{name}`"), help)
+    })
 }
 
 /// Places each body in its parent, which is placed before it.
@@ -74,8 +96,8 @@ fn place(tree: &Tree, given: &[Given<'_>]) -> (Vec<Isometry3<f64>>, Vec<f64>) {
         let parent = if number == WORLD { Isometry3::identity() } else { poses[body.parent] };
         let mut pose = parent * body.pose;
         let mut coordinate = 0.0;
-        if let Some(joint) = body.joints.first() {
-            let own = given[number];
+        if let Some(joint) = &body.joint {
+            let own = given[number].filter(|_| !joint.locked);
             let value = own.map_or(joint.reference, |own| own[0]);
             let change = value - joint.reference;
             let turned_by = |turn: UnitQuaternion<f64>, pose: &Isometry3<f64>| {

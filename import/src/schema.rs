@@ -22,9 +22,10 @@ const SECTIONS: &[&str] = &[
     "actuator",
     "sensor",
     "keyframe",
+    "asset",
 ];
 const PASSED_OVER: &[&str] =
-    &["size", "statistic", "visual", "asset", "custom", "extension", "deformable", "include"];
+    &["size", "statistic", "visual", "custom", "extension", "deformable", "include"];
 
 /// What may stand in a body or a frame.
 const BODY: &[&str] = &[
@@ -45,6 +46,52 @@ const BODY: &[&str] = &[
 ];
 
 const POSE: &[&str] = &["pos", "quat", "axisangle", "euler", "xyaxes", "zaxis"];
+
+/// What an actuator of a linear law may have, in one of its forms.
+const ACTUATOR: &[&str] = &[
+    "actdim",
+    "actearly",
+    "actlimited",
+    "actrange",
+    "armature",
+    "biasprm",
+    "biastype",
+    "body",
+    "class",
+    "cranklength",
+    "cranksite",
+    "ctrllimited",
+    "ctrlrange",
+    "damping",
+    "dampratio",
+    "delay",
+    "dynprm",
+    "dyntype",
+    "ffrange",
+    "forcelimited",
+    "forcerange",
+    "gainprm",
+    "gaintype",
+    "gear",
+    "group",
+    "inheritrange",
+    "input",
+    "interp",
+    "joint",
+    "jointinparent",
+    "kp",
+    "kv",
+    "lengthrange",
+    "name",
+    "nsample",
+    "refsite",
+    "site",
+    "slidersite",
+    "tendon",
+    "timeconst",
+    "user",
+    "velrange",
+];
 
 /// The attributes of elements that are read: section, element, names, whether it has a pose.
 type Known = (&'static str, &'static str, &'static [&'static str], bool);
@@ -234,34 +281,60 @@ const ATTRIBUTES: &[Known] = &[
         ],
         false,
     ),
+    ("actuator", "motor", ACTUATOR, false),
+    ("actuator", "position", ACTUATOR, false),
+    ("actuator", "velocity", ACTUATOR, false),
+    ("actuator", "general", ACTUATOR, false),
     (
-        "actuator",
-        "motor",
+        "tendon",
+        "spatial",
         &[
+            "actuatorfrclimited",
+            "actuatorfrcrange",
             "armature",
-            "body",
             "class",
-            "cranklength",
-            "cranksite",
-            "ctrllimited",
-            "ctrlrange",
             "damping",
-            "delay",
-            "forcelimited",
-            "forcerange",
-            "gear",
+            "frictionloss",
             "group",
-            "interp",
-            "joint",
-            "jointinparent",
-            "lengthrange",
+            "limited",
+            "margin",
+            "material",
             "name",
-            "nsample",
-            "refsite",
-            "site",
-            "slidersite",
-            "tendon",
+            "range",
+            "rgba",
+            "solimpfriction",
+            "solimplimit",
+            "solreffriction",
+            "solreflimit",
+            "springlength",
+            "springyield",
+            "stiffness",
             "user",
+            "width",
+        ],
+        false,
+    ),
+    (
+        "asset",
+        "mesh",
+        &[
+            "builtin",
+            "class",
+            "content_type",
+            "face",
+            "file",
+            "inertia",
+            "material",
+            "maxhullvert",
+            "name",
+            "normal",
+            "params",
+            "refpos",
+            "refquat",
+            "scale",
+            "smoothnormal",
+            "texcoord",
+            "vertex",
         ],
         false,
     ),
@@ -294,7 +367,7 @@ pub(crate) fn check(root: &Element, omissions: &mut Omissions) -> Result<(), Fau
                 children(section, EQUALITIES, omissions);
                 section.children.iter().for_each(|child| attributes(child, name, omissions));
             }
-            "actuator" => {
+            "actuator" | "tendon" | "asset" => {
                 section.children.iter().for_each(|child| attributes(child, name, omissions))
             }
             "default" => defaults(section, omissions),
@@ -319,6 +392,10 @@ fn defaults(class: &Element, omissions: &mut Omissions) {
         match child.name.as_str() {
             "default" => defaults(child, omissions),
             "joint" | "geom" | "site" => attributes(child, "worldbody", omissions),
+            "mesh" => attributes(child, "asset", omissions),
+            "motor" | "position" | "velocity" | "general" => {
+                attributes(child, "actuator", omissions);
+            }
             _ => {}
         }
     }

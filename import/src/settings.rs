@@ -2,6 +2,8 @@
 //!
 //! `<compiler>, <option> => settings`; of several elements later attributes go before earlier ones.
 
+use std::path::{Path, PathBuf};
+
 use nalgebra::{Isometry3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 
 use crate::defaults::Attributes;
@@ -44,6 +46,10 @@ pub(crate) struct Settings {
     pub(crate) automatic_limits: bool,
     /// Whether geoms that touch nothing are dropped before masses are summed.
     pub(crate) discard_visual: bool,
+    /// The folder of meshes, from that of the model.
+    pub(crate) meshes: String,
+    /// Whether folders of files are cut off.
+    pub(crate) strips_paths: bool,
     /// \[m/s²\]
     pub(crate) gravity: Vector3<f64>,
     /// \[s\] the file's own step.
@@ -70,6 +76,8 @@ pub(crate) fn read(root: &Element, omissions: &mut Omissions) -> Result<Settings
         total_mass: -1.0,
         automatic_limits: true,
         discard_visual: false,
+        meshes: String::new(),
+        strips_paths: false,
         gravity: Vector3::new(0.0, 0.0, -9.81),
         timestep: 0.002,
         off: Vec::new(),
@@ -119,6 +127,10 @@ fn compiler(settings: &mut Settings, given: &Attributes<'_>) -> Result<(), Fault
     settings.total_mass = given.number("settotalmass")?.unwrap_or(settings.total_mass);
     settings.automatic_limits = given.flag("autolimits", settings.automatic_limits)?;
     settings.discard_visual = given.flag("discardvisual", settings.discard_visual)?;
+    settings.strips_paths = given.flag("strippath", settings.strips_paths)?;
+    if let Some(folder) = given.text("meshdir").or(given.text("assetdir")) {
+        settings.meshes = folder.to_owned();
+    }
     Ok(())
 }
 
@@ -169,6 +181,14 @@ impl Settings {
             _ => None,
         };
         on_its_own || by_another.is_some_and(|other| self.off.iter().any(|name| name == other))
+    }
+
+    /// The path of a mesh's file, from the folder of the model.
+    pub(crate) fn mesh_path(&self, file: &str) -> PathBuf {
+        // MuJoCo takes either slash on every system.
+        let file = file.replace('\\', "/");
+        let name = if self.strips_paths { file.rsplit('/').next().unwrap_or(&file) } else { &file };
+        Path::new(&self.meshes.replace('\\', "/")).join(name)
     }
 
     /// \[rad\] of an angle of the file.

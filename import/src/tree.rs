@@ -7,17 +7,19 @@ use std::collections::BTreeMap;
 use dbd_scene::nearest;
 use nalgebra::{Isometry3, Unit, Vector3};
 
-use crate::body::{self, Freedom, Geom, Joint};
+use crate::body::{self, Freedom, Joint};
 use crate::defaults::{Attributes, Defaults, MAIN};
 use crate::element::{Attribute, Element};
 use crate::error::Fault;
 use crate::geom::{Look, Surface};
 use crate::lacks;
-use crate::mass::{Mass, Solid};
+use crate::mass::Mass;
+use crate::mesh::Meshes;
 use crate::notation::fitting;
 use crate::omission::{Kind, Omissions};
 use crate::place::Place;
-use crate::settings::{InertiaSource, Settings};
+use crate::settings::Settings;
+use crate::weigh::Masses;
 
 /// The number of the world among the bodies.
 pub(crate) const WORLD: usize = 0;
@@ -33,14 +35,17 @@ pub(crate) struct Body {
     pub(crate) parent: usize,
     /// Its pose in its parent's frame.
     pub(crate) pose: Isometry3<f64>,
-    /// Its joints.
-    pub(crate) joints: Vec<Joint>,
-    /// How many coordinates a keyframe gives for it; more than those of its joints where some were left out.
-    pub(crate) coordinates: usize,
+    /// Its joint.
+    pub(crate) joint: Option<Joint>,
+    /// The first of the bodies that carry it: those before it, one for each joint but the last, that MuJoCo
+    /// has as one body; its own number where it has one joint or none.
+    pub(crate) chain: usize,
     /// Its mass in its own frame.
     pub(crate) mass: Mass,
     /// Where its mass comes from, in words.
     pub(crate) mass_words: Vec<(String, Place)>,
+    /// The first mass of it that is not known: why, where.
+    pub(crate) unweighed: Option<(String, Place)>,
     /// The share of its weight that is taken off it.
     pub(crate) weightless: f64,
 }
@@ -56,31 +61,35 @@ pub(crate) struct Tree {
     pub(crate) looks: Vec<Look>,
     /// Sites by name: the body and the pose in its frame.
     pub(crate) sites: BTreeMap<String, (usize, Isometry3<f64>)>,
+    /// What is good to know.
+    pub(crate) notes: Vec<String>,
     names: BTreeMap<String, usize>,
 }
 
 /// Where something stands.
 #[derive(Clone, Copy)]
-struct Within<'w> {
-    body: usize,
-    class: &'w str,
-    frame: &'w Isometry3<f64>,
+pub(crate) struct Within<'w> {
+    /// Its body.
+    pub(crate) body: usize,
+    /// The class of what names none there.
+    pub(crate) class: &'w str,
+    /// Its frame in that of the body.
+    pub(crate) frame: &'w Isometry3<f64>,
 }
 
-struct Reader<'r> {
-    settings: &'r Settings,
-    defaults: &'r Defaults,
-    omissions: &'r mut Omissions,
-    tree: Tree,
+/// What reads bodies.
+pub(crate) struct Reader<'r> {
+    /// What the file says of itself.
+    pub(crate) settings: &'r Settings,
+    /// Classes.
+    pub(crate) defaults: &'r Defaults,
+    /// Meshes.
+    pub(crate) meshes: &'r mut Meshes,
+    /// What has no counterpart.
+    pub(crate) omissions: &'r mut Omissions,
+    /// The bodies so far.
+    pub(crate) tree: Tree,
     joints: BTreeMap<String, Place>,
-}
-
-/// Masses of a body, before it is known which counts.
-#[derive(Default)]
-struct Masses {
-    inertial: Option<(Mass, Place)>,
-    geoms: Vec<(Mass, Place, String)>,
-    unknown: Vec<(Place, String)>,
 }
 
 /// Reads all bodies.
@@ -91,6 +100,7 @@ pub(crate) fn read(
     root: &Element,
     settings: &Settings,
     defaults: &Defaults,
+    meshes: &mut Meshes,
     omissions: &mut Omissions,
 ) -> Result<Tree, Fault> {
     let world = Body {
@@ -98,10 +108,11 @@ pub(crate) fn read(
         place: root.place,
         parent: WORLD,
         pose: Isometry3::identity(),
-        joints: Vec::new(),
-        coordinates: 0,
+        joint: None,
+        chain: WORLD,
         mass: Mass::default(),
         mass_words: Vec::new(),
+        unweighed: None,
         weightless: 0.0,
     };
     let tree = Tree {
@@ -109,9 +120,11 @@ pub(crate) fn read(
         surfaces: Vec::new(),
         looks: Vec::new(),
         sites: BTreeMap::new(),
+        notes: Vec::new(),
         names: BTreeMap::from([("world".into(), WORLD)]),
     };
-    let mut reader = Reader { settings, defaults, omissions, tree, joints: BTreeMap::new() };
+    let joints = BTreeMap::new();
+    let mut reader = Reader { settings, defaults, meshes, omissions, tree, joints };
     for section in root.sections("worldbody") {
         let frame = settings.pose(&Attributes::own(section))?;
         let within = Within { body: WORLD, class: MAIN, frame: &frame };
@@ -176,16 +189,17 @@ impl Reader<'_> {
 
     fn class<'c>(&self, element: &'c Element, class: &'c str) -> Result<&'c str, Fault> {
         let Some(given) = element.attribute("childclass") else { return Ok(class) };
-        self.defaults.class_of(&given.value, given.place)?;
+        self.defaults.check(&given.value, given.place)?;
         Ok(&given.value)
     }
 
     fn body(&mut self, element: &Element, within: Within<'_>) -> Result<(), Fault> {
         let given = Attributes::own(element);
-        let number = self.tree.bodies.len();
+        let chain = self.tree.bodies.len();
+        let number = chain + joints_in(element).saturating_sub(1);
         let name = match element.text("name").filter(|name| !name.is_empty()) {
             Some(name) => name.to_owned(),
-            None => format!("body-{}", number),
+            None => format!("body-{number}"),
         };
         if let Some(earlier) = self.tree.names.insert(name.clone(), number) {
             let line = self.tree.bodies[earlier].place.line;
@@ -193,26 +207,33 @@ impl Reader<'_> {
             let place = given.place("name");
             return Err(Fault::at(place, message, "a name of its own, not \"world\""));
         }
-        let fits = fitting(&name);
-        let numbered = (2..).map(|number| format!("{fits}-{number}"));
-        let taken = |name: &String| self.tree.bodies.iter().any(|body| body.name == *name);
-        let mut names = std::iter::once(fits.clone()).chain(numbered);
-        let name = names.find(|name| !taken(name)).unwrap_or(fits);
         if given.flag("mocap", false)? {
             let what = format!("body `{name}`, which is moved from outside, stands still");
             self.omissions.add(Kind::Mocap, element.place, what);
         }
-        self.tree.bodies.push(Body {
-            name,
+        let body = Body {
+            name: self.tree.own_name(&name),
             place: element.place,
             parent: within.body,
             pose: within.frame * self.settings.pose(&given)?,
-            joints: Vec::new(),
-            coordinates: 0,
+            joint: None,
+            chain,
             mass: Mass::default(),
             mass_words: Vec::new(),
+            unweighed: None,
             weightless: given.number("gravcomp")?.unwrap_or(0.0),
-        });
+        };
+        for carrier in chain..=number {
+            let mut one = body.clone();
+            if carrier > chain {
+                (one.parent, one.pose) = (carrier - 1, Isometry3::identity());
+            }
+            if carrier < number {
+                one.name = self.tree.own_name(&format!("{}.carrier", body.name));
+                one.weightless = 0.0;
+            }
+            self.tree.bodies.push(one);
+        }
         let class = self.class(element, within.class)?;
         let mut masses = Masses::default();
         let inside = Within { body: number, class, frame: &Isometry3::identity() };
@@ -221,7 +242,6 @@ impl Reader<'_> {
     }
 
     fn joint(&mut self, element: &Element, within: Within<'_>) -> Result<(), Fault> {
-        let number = self.tree.bodies[within.body].joints.len();
         let (name, place) = (element.text("name"), element.place);
         if within.body == WORLD {
             return Err(Fault::at(place, "stands in the world", "a joint stands in a <body>"));
@@ -242,125 +262,37 @@ impl Reader<'_> {
         joint.anchor =
             within.frame * nalgebra::Point3::from(joint.anchor) - nalgebra::Point3::origin();
         joint.axis = Unit::new_unchecked(within.frame.rotation * joint.axis.into_inner());
-        let body = &mut self.tree.bodies[within.body];
-        if joint.freedom == Freedom::Free && body.parent != WORLD {
+        let body = &self.tree.bodies[within.body];
+        let (chain, called) = (body.chain, name.unwrap_or(&body.name).to_owned());
+        let bodies = &mut self.tree.bodies;
+        if joint.freedom == Freedom::Free && bodies[chain].parent != WORLD {
             let help = "only a body of the world is free; others have their parent";
             return Err(Fault::at(place, "a free joint of a body within another", help));
         }
-        body.coordinates += joint.freedom.coordinates();
-        let called = joint.name.clone().unwrap_or_else(|| body.name.clone());
-        if number > 0 {
-            let first = body.joints[0].name.clone().unwrap_or_else(|| "the first".into());
-            let what = format!(
-                "{} `{called}` of body `{}` beside {first}: one joint per body is taken",
-                joint.freedom.word(),
-                body.name
-            );
-            self.omissions.add(Kind::Joints, place, what);
-            return Ok(());
+        if joint.freedom == Freedom::Free && chain < within.body {
+            let help = "a free body has no other joint";
+            return Err(Fault::at(place, "a free joint beside others", help));
         }
         if element.name == "joint" {
             lacks::of_joint(&given, &joint, &called, self.settings, self.omissions)?;
         }
-        self.tree.bodies[within.body].joints.push(joint);
-        Ok(())
-    }
-
-    fn geom(
-        &mut self,
-        element: &Element,
-        within: Within<'_>,
-        masses: &mut Masses,
-    ) -> Result<(), Fault> {
-        let given = self.defaults.of(element, within.class)?;
-        let geom = body::geom(&given, self.settings)?;
-        let words = match (&geom.solid, element.text("name")) {
-            (Some(solid), Some(name)) => format!("geom `{name}`, {}", solid.words()),
-            (Some(solid), None) => format!("geom, {}", solid.words()),
-            (None, Some(name)) => format!("geom `{name}`, {}", geom.word),
-            (None, None) => format!("geom, {}", geom.word),
-        };
-        let bits = |name: &str| -> Result<u32, Fault> { Ok(given.magnitude(name, 1.0)? as u32) };
-        let surface = Surface {
-            body: within.body,
-            place: element.place,
-            words: words.clone(),
-            kind: bits("contype")?,
-            affinity: bits("conaffinity")?,
-        };
-        let unseen = surface.kind == 0 && surface.affinity == 0;
-        self.tree.surfaces.push(surface);
-        if given.text("fluidshape").is_some_and(|shape| shape != "none") {
-            let what = format!("{words}: resistance of a medium");
-            self.omissions.add(Kind::Fluid, element.place, what);
-        }
-        let group = given.number("group")?.unwrap_or(0.0);
-        let [least, most] = self.settings.inertia_groups;
-        let mass = given.number("mass")?;
-        let density = given.number("density")?.unwrap_or(1000.0);
-        let massless = mass.map_or(density == 0.0, |mass| mass == 0.0);
-        // Geoms that touch nothing are gone where that is asked for, mass and all.
-        let dropped = self.settings.discard_visual && unseen;
-        if let Some(solid) = geom.solid.filter(|_| !dropped) {
-            let pose = within.frame * geom.pose;
-            self.tree.looks.extend(Look::of(&given, within.body, solid, pose, &words)?);
-        }
-        let counted = (least..=most).contains(&group) && !dropped;
-        if !counted || massless || matches!(geom.word, "plane" | "hfield") {
-            return Ok(());
-        }
-        match geom {
-            Geom { solid: Some(solid), pose, .. } if !given.flag("shellinertia", false)? => {
-                let mass = mass.unwrap_or_else(|| density * solid.volume());
-                let own = weight(&solid, mass, &(within.frame * pose));
-                masses.geoms.push((own, element.place, words));
-            }
-            _ => masses.unknown.push((element.place, words)),
-        }
-        Ok(())
-    }
-
-    /// The mass of a body of what was found in it.
-    fn weigh(&mut self, number: usize, masses: Masses) -> Result<(), Fault> {
-        let inertial = match self.settings.inertia {
-            InertiaSource::Geoms => None,
-            _ => masses.inertial,
-        };
-        let body = &mut self.tree.bodies[number];
-        if let Some((mass, place)) = inertial {
-            body.mass = mass;
-            body.mass_words.push(("<inertial>".into(), place));
-        } else if self.settings.inertia != InertiaSource::Inertial {
-            for (mass, place, words) in masses.geoms {
-                body.mass = body.mass.and(&mass);
-                body.mass_words.push((words, place));
-            }
-            for (place, words) in masses.unknown {
-                let what = format!("{words}: its mass and inertia in body `{}`", body.name);
-                self.omissions.add(Kind::Mesh, place, what);
-            }
-        }
-        let [least, least_moment] = self.settings.bounds;
-        if body.mass.mass < least {
-            body.mass.mass = least;
-            body.mass_words.push((format!("boundmass={least}"), self.settings.compiler));
-        }
-        if least_moment > 0.0 {
-            body.mass = body.mass.with_moments(|moments| moments.map(|m| m.max(least_moment)));
-        }
-        if self.settings.balance {
-            body.mass = body.mass.with_moments(|[a, b, c]| {
-                let impossible = a + b < c || b + c < a || a + c < b;
-                if impossible { [(a + b + c) / 3.0; 3] } else { [a, b, c] }
-            });
+        // MuJoCo takes a body through its joints in their order; each of its carriers has one of them.
+        let next = bodies[chain..=within.body].iter_mut().find(|body| body.joint.is_none());
+        if let Some(body) = next {
+            body.joint = Some(joint);
         }
         Ok(())
     }
 }
 
-/// A solid's mass at its pose.
-fn weight(solid: &Solid, mass: f64, pose: &Isometry3<f64>) -> Mass {
-    Mass::principal(mass, solid.moments(mass), pose)
+/// How many joints a body has, those in its frames included.
+fn joints_in(element: &Element) -> usize {
+    let of = |child: &Element| match child.name.as_str() {
+        "joint" | "freejoint" => 1,
+        "frame" => joints_in(child),
+        _ => 0,
+    };
+    element.children.iter().map(of).sum()
 }
 
 impl Tree {
@@ -380,10 +312,33 @@ impl Tree {
             .ok_or_else(|| Self::unknown("site", name, self.sites.keys().map(String::as_str)))
     }
 
-    /// The body of the joint of a name; `None` where that was left out.
-    pub(crate) fn joint(&self, name: &str) -> Option<usize> {
-        let is = |joint: &Joint| joint.name.as_deref() == Some(name);
-        self.bodies.iter().position(|body| body.joints.iter().any(is))
+    /// The body of the joint of a name.
+    pub(crate) fn joint(&self, name: &Attribute) -> Result<usize, Fault> {
+        let named = |body: &Body| body.joint.as_ref()?.name.clone();
+        let found = self.bodies.iter().position(|body| named(body).as_deref() == Some(&name.value));
+        found.ok_or_else(|| {
+            let names: Vec<String> = self.bodies.iter().filter_map(named).collect();
+            Self::unknown("joint", name, names.iter().map(String::as_str))
+        })
+    }
+
+    /// Whether a body only carries another through one of its joints: it has no mass of its own.
+    pub(crate) fn carries(&self, body: usize) -> bool {
+        self.bodies.get(body + 1).is_some_and(|next| next.chain <= body)
+    }
+
+    /// The parent of a body as the file has it.
+    pub(crate) fn parent(&self, body: usize) -> usize {
+        self.bodies[self.bodies[body].chain].parent
+    }
+
+    /// A name that no body has yet: the one wanted, or that with a number.
+    fn own_name(&self, wanted: &str) -> String {
+        let wanted = fitting(wanted);
+        let numbered = (2..).map(|number| format!("{wanted}-{number}"));
+        let mut names = std::iter::once(wanted.clone()).chain(numbered);
+        let taken = |name: &String| self.bodies.iter().any(|body| body.name == *name);
+        names.find(|name| !taken(name)).unwrap_or(wanted)
     }
 
     /// The refusal of a name that nothing has.

@@ -7,11 +7,11 @@ use std::fmt::Write as _;
 use nalgebra::Vector3;
 
 use crate::mass::Solid;
-use crate::mechanism::{Mechanism, Side, Signal, Source, Type, rounded};
+use crate::mechanism::{Mechanism, Side, Signal, Type, rounded};
 use crate::notation::{fitting, line, number, snapped, text, vector};
 use crate::omission::Kind;
 use crate::options::{TOLERANCE, Weld};
-use crate::place::{Place, Texts};
+use crate::place::{Place, Source, Texts};
 use crate::settings::Settings;
 
 /// How an imported scene begins.
@@ -89,6 +89,12 @@ fn top(
     if settings.gravity != Vector3::zeros() {
         let _ = writeln!(out, "gravity = {}", vector(settings.gravity, 0.0));
     }
+    if mechanism.planar {
+        out.push_str(
+            "# In the plane a body is free without a joint: so are two slides and a hinge.\n",
+        );
+        out.push_str("planar = true\n");
+    }
     if mechanism.links.iter().any(|link| !link.is_closed()) {
         let tolerance = options.tolerance.unwrap_or_else(|| rounded(TOLERANCE * mechanism.size()));
         out.push_str("\n# Closes the joints that have two places, up to this gap in m.\n");
@@ -100,13 +106,22 @@ fn bodies(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
     let size = mechanism.size();
     for (number_of, part) in mechanism.parts.parts.iter().enumerate() {
         out.push('\n');
+        let carries = mechanism.tree.carries(part.named);
         for body in &part.bodies {
             let body = &mechanism.tree.bodies[*body];
             let masses = body.mass_words.iter();
             let masses: Vec<String> =
                 masses.map(|(words, place)| format!("{words}, {}", texts.shown(*place))).collect();
-            let masses = if masses.is_empty() { "no mass".into() } else { masses.join("; ") };
-            let words = format!("<body name=\"{}\">", body.name);
+            let masses = match (masses.is_empty(), carries) {
+                (_, true) => "of its neighbours".into(),
+                (true, _) => "no mass".into(),
+                _ => masses.join("; "),
+            };
+            let words = if carries {
+                format!("between joints of a <body>: {}", body.name)
+            } else {
+                format!("<body name=\"{}\">", body.name)
+            };
             comment(out, &(words, body.place), texts);
             let _ = writeln!(out, "#   mass: {}", line(&masses));
         }
@@ -132,6 +147,8 @@ fn joints(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
         let kind = match link.kind {
             Type::Revolute(_) => "revolute",
             Type::Spherical => "spherical",
+            Type::Cylindrical(_) => "cylindrical",
+            Type::Universal(_) => "universal",
             Type::Translational(_) => "translational",
             Type::Fixed => "fixed",
         };
@@ -151,6 +168,15 @@ fn joints(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
             }
             Type::Spherical => {
                 let _ = writeln!(out, "arm = {span}");
+            }
+            Type::Cylindrical(axis) => {
+                let (axis, offset) = (vector(axis, 1.0), number(link.span * 0.25));
+                let _ = writeln!(out, "axis = {axis}\nspan = {span}\noffset = {offset}");
+            }
+            Type::Universal(axes) => {
+                let [a, b] = axes.map(|axis| vector(axis, 1.0));
+                let _ =
+                    writeln!(out, "axes = [{a}, {b}]\nspan = {span}\nrealisation = \"bushing\"");
             }
             Type::Translational(axis) => {
                 let _ = writeln!(
@@ -184,6 +210,18 @@ fn springs(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
         let _ = writeln!(out, "free_length = {}", number(line.free_length));
         let _ = writeln!(out, "stiffness = {}", number(line.stiffness));
         let _ = writeln!(out, "damping = {}", number(line.damping));
+    }
+    for rail in &mechanism.rails {
+        out.push('\n');
+        comment(out, &rail.source, texts);
+        let _ = writeln!(out, "[[point_on_line]]\nname = {}", text(&rail.name));
+        let _ = writeln!(out, "between = {}", between(mechanism, [None, Some(rail.part)]));
+        let _ = writeln!(out, "line_point = {}", vector(rail.line, size));
+        let _ = writeln!(out, "line_direction = {}", vector(rail.across, 1.0));
+        let point = mechanism.within(Some(rail.part), rail.at);
+        let _ = writeln!(out, "point = {}\nfree_length = 0.0", vector(point, size));
+        let _ = writeln!(out, "stiffness = {}", number(rail.stiffness));
+        let _ = writeln!(out, "damping = {}", number(rail.damping));
     }
     for spring in &mechanism.torsions {
         out.push('\n');

@@ -1,12 +1,13 @@
 """MuJoCo as judge of imported scenes: where it has the centres of mass of an MJCF file's bodies.
 
     python3 -m venv target/judge && target/judge/bin/pip install mujoco
-    target/judge/bin/python tests/import/judge.py record tests/import/two-loops.xml > tests/import/two-loops.csv
+    target/judge/bin/python tests/import/judge.py record FILE.xml [KEYFRAME] > FILE.csv
     target/judge/bin/python tests/import/judge.py distance FILE.xml out/SCENE/trace.csv [KEYFRAME]
 
 `record` writes a table of 0.5 s: time, then x, y, z of each group of bodies that are rigid with each other, by
 the name of its first. `distance` prints how far a trace of host-sim is from MuJoCo's, body by body. What a scene
-has no counterpart for is off: contact, limits, armature, dry friction, tendons, equalities of joints.
+has no counterpart for is off: contact, limits, armature, dry friction, equalities of joints, tendons that are not
+between two sites, actuators that are no linear law or act at neither a joint nor a tendon. Controls are the keyframe's.
 """
 
 import csv
@@ -20,9 +21,8 @@ DURATION, SAMPLES = 0.5, 50
 
 def load(file, step):
     spec = mujoco.MjSpec.from_file(file)
-    for name in ("sensors", "actuators", "tendons"):
-        for one in list(getattr(spec, name, [])):
-            spec.delete(one)
+    for one in list(spec.sensors):
+        spec.delete(one)
     for one in list(spec.equalities):
         if one.type not in (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD):
             spec.delete(one)
@@ -31,6 +31,14 @@ def load(file, step):
     model.opt.disableflags |= off.mjDSBL_CONTACT | off.mjDSBL_LIMIT | off.mjDSBL_FRICTIONLOSS
     model.opt.disableflags |= off.mjDSBL_REFSAFE
     model.dof_armature[:] = 0
+    site = mujoco.mjtWrap.mjWRAP_SITE
+    for tendon in range(model.ntendon):
+        first = model.tendon_adr[tendon]
+        if model.tendon_num[tendon] != 2 or any(model.wrap_type[first : first + 2] != site):
+            model.tendon_stiffness[tendon] = model.tendon_damping[tendon] = 0
+    linear = (model.actuator_dyntype == 0) & (model.actuator_gaintype == 0) & (model.actuator_biastype <= 1)
+    linear &= (model.actuator_trntype <= 1) | (model.actuator_trntype == int(mujoco.mjtTrn.mjTRN_TENDON))
+    model.actuator_gainprm[~linear] = model.actuator_biasprm[~linear] = 0
     model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4
     model.opt.timestep = step
     model.opt.iterations, model.opt.tolerance = 200, 0
@@ -57,7 +65,7 @@ def trajectory(file, step, keyframe=None):
     model = load(file, step)
     data = mujoco.MjData(model)
     if keyframe:
-        data.qpos[:] = model.key(keyframe).qpos
+        data.qpos[:], data.ctrl[:] = model.key(keyframe).qpos, model.key(keyframe).ctrl
     mujoco.mj_forward(model, data)
     names = [model.body(lead).name for lead in groups(model)]
     places, times, worst = [centres(model, data)], [0.0], 0.0
@@ -72,9 +80,9 @@ def trajectory(file, step, keyframe=None):
     return names, np.array(times), np.array(places), worst
 
 
-def record(file):
-    names, times, places, worst = trajectory(file, 1e-5)
-    _, _, coarse, _ = trajectory(file, 2e-5)
+def record(file, keyframe=None):
+    names, times, places, worst = trajectory(file, 1e-5, keyframe)
+    _, _, coarse, _ = trajectory(file, 2e-5, keyframe)
     print(f"# MuJoCo {mujoco.__version__}, RK4, step 1e-5 s; loops open by {worst:.1e} m at most;")
     print(f"# at twice the step it is {np.abs(places - coarse).max():.1e} m off. Written by tests/import/judge.py")
     print(",".join(["time"] + [f"{name}.{axis}" for name in names for axis in "xyz"]))

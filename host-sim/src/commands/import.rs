@@ -46,6 +46,9 @@ pub struct ImportArguments {
     /// By how much a loop may stay open, m [default: 1e-4 of the mechanism's size]
     #[arg(long, value_name = "m", value_parser = above_zero, allow_hyphen_values = true)]
     pub tolerance: Option<f64>,
+    /// Fraction of a body's mass that a body between two of its joints takes where no joint says them, e.g. 0.01
+    #[arg(long, value_name = "FRACTION", value_parser = fraction, allow_hyphen_values = true)]
+    pub carriers: Option<f64>,
     /// What becomes of a body without a joint
     #[arg(long, value_enum, default_value = "merge")]
     pub weld: WeldArgument,
@@ -102,6 +105,12 @@ fn above_zero(text: &str) -> Result<f64, String> {
 
 fn not_negative(text: &str) -> Result<f64, String> {
     number(text).and_then(|n| if n >= 0.0 { Ok(n) } else { Err("it is below 0".into()) })
+}
+
+fn fraction(text: &str) -> Result<f64, String> {
+    number(text).and_then(|n| {
+        if n > 0.0 && n < 1.0 { Ok(n) } else { Err("it is not between 0 and 1".into()) }
+    })
 }
 
 /// Why nothing was imported.
@@ -188,6 +197,7 @@ impl ImportArguments {
             damping: self.damping,
             span: self.span,
             tolerance: self.tolerance,
+            carriers: self.carriers,
             duration: self.duration.seconds(),
             weld: match self.weld {
                 WeldArgument::Merge => Weld::Merge,

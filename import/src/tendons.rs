@@ -1,0 +1,141 @@
+//! Tendons between two sites.
+//!
+//! `<spatial> of two sites => TSDA`. Others are no spring between two points and are listed.
+
+use crate::coordinate::{Coordinate, Law};
+use crate::defaults::{Attributes, Defaults, MAIN};
+use crate::element::Element;
+use crate::error::Fault;
+use crate::mechanism::Mechanism;
+use crate::omission::{Kind, Omissions};
+use crate::pose::Pose;
+use crate::settings::Settings;
+use crate::tree::moved;
+
+/// Adds the springs of all tendons in their order.
+pub(crate) fn add(
+    mechanism: &mut Mechanism<'_>,
+    root: &Element,
+    settings: &Settings,
+    defaults: &Defaults,
+    omissions: &mut Omissions,
+) -> Result<(), Fault> {
+    for section in root.sections("tendon") {
+        for element in &section.children {
+            let given = defaults.of_kind(element, "tendon", MAIN)?;
+            if let Some(why) = tendon(mechanism, &given, settings, omissions)? {
+                let part = |name: &str| given.text(name).map(|value| format!("{name} {value}"));
+                let names = ["stiffness", "damping", "springlength", "range", "frictionloss"];
+                let words: Vec<String> = names.into_iter().filter_map(part).collect();
+                let (called, count) = (element.called(), element.children.len());
+                let what = format!("{called}: {count} points or joints {}", words.join(", "));
+                omissions.add(Kind::Tendon, element.place, format!("{}: {why}", what.trim_end()));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Adds the spring of a tendon, or says why it has none.
+fn tendon(
+    mechanism: &mut Mechanism<'_>,
+    given: &Attributes<'_>,
+    settings: &Settings,
+    omissions: &mut Omissions,
+) -> Result<Option<&'static str>, Fault> {
+    let element = given.element;
+    if element.name != "spatial" {
+        return Ok(Some("a scene couples no joints"));
+    }
+    let [first, second] = &element.children[..] else {
+        return Ok(Some("a scene has springs between two sites, none over others"));
+    };
+    let (Some(one), Some(two)) = (first.attribute("site"), second.attribute("site")) else {
+        return Ok(Some(
+            "a scene has springs between two sites, none around geoms or over pulleys",
+        ));
+    };
+    let ((a, pose_a), (b, pose_b)) = (mechanism.tree.site(one)?, mechanism.tree.site(two)?);
+    let (at_a, at_b) = (pose_a.translation.vector, pose_b.translation.vector);
+    let between = [mechanism.side(a), mechanism.side(b)];
+    if between[0] == between[1] {
+        mechanism.notes.push(format!("{} keeps its length and is left out", element.called()));
+        return Ok(None);
+    }
+    let lengths = given.numbers("springlength", 1, 2)?.unwrap_or_else(|| vec![-1.0]);
+    if lengths.last().is_some_and(|last| *last != lengths[0]) {
+        return Ok(Some("between its two spring lengths nothing pulls: one length"));
+    }
+    let off = |flag: &str, value: f64| if settings.is_off(flag) { 0.0 } else { value };
+    let linear = |name: &str| -> Result<f64, Fault> {
+        Ok(given.numbers(name, 1, 3)?.map_or(0.0, |numbers| numbers[0]))
+    };
+    let stiffness = off("spring", linear("stiffness")?);
+    let damping = off("damper", linear("damping")?);
+    if stiffness < 0.0 || damping < 0.0 {
+        return Ok(Some("its stiffness and damping are not ≥ 0"));
+    }
+    let free = if lengths[0] < 0.0 {
+        let rest = Pose::at_rest(mechanism.tree);
+        (moved(&rest[b], at_b) - moved(&rest[a], at_a)).norm()
+    } else {
+        lengths[0]
+    };
+    if free == 0.0 && damping > 0.0 {
+        return Ok(Some("a damper of no length brakes every motion, not that along it alone"));
+    }
+    limits(given, settings, omissions)?;
+    let points = [mechanism.point(a, at_a), mechanism.point(b, at_b)];
+    let name = element.text("name").unwrap_or("tendon").to_owned();
+    let coordinate = Coordinate::Length { between, points };
+    let mut made = None;
+    if stiffness > 0.0 || damping > 0.0 {
+        let rest = free - (points[1] - points[0]).norm();
+        let law = Law { stiffness, damping, rest, bias: 0.0 };
+        let words =
+            format!("<spatial name=\"{name}\"> between `{}` and `{}`", one.value, two.value);
+        made = Some(coordinate.spring(mechanism, &name, law, (words, element.place)));
+        if let Some(line) = mechanism.lines.last_mut() {
+            // As it is written: not what rounding makes of a sum and a difference.
+            line.free_length = free;
+        }
+    }
+    mechanism.tendons.insert(name, (coordinate, made));
+    Ok(None)
+}
+
+/// Lists what a tendon has that a spring has not.
+fn limits(
+    given: &Attributes<'_>,
+    settings: &Settings,
+    omissions: &mut Omissions,
+) -> Result<(), Fault> {
+    let (element, called) = (given.element, given.element.called());
+    let mut add =
+        |kind: Kind, what: String| omissions.add(kind, element.place, format!("{called}: {what}"));
+    for (limited, name, unit) in
+        [("limited", "range", "m"), ("actuatorfrclimited", "actuatorfrcrange", "N")]
+    {
+        let off = name == "range" && settings.is_off("limit");
+        if given.limited(limited, name, settings.automatic_limits)?
+            && let (Some(range), false) = (given.numbers(name, 2, 2)?, off)
+        {
+            add(Kind::Limit, format!("{name} {} to {} {unit}", range[0], range[1]));
+        }
+    }
+    let armature = given.magnitude("armature", 0.0)?;
+    if armature > 0.0 {
+        add(Kind::Armature, format!("armature {armature} kg"));
+    }
+    let friction = given.magnitude("frictionloss", 0.0)?;
+    if friction > 0.0 && !settings.is_off("frictionloss") {
+        add(Kind::FrictionLoss, format!("dry friction {friction} N"));
+    }
+    for (name, least) in [("stiffness", 1), ("damping", 1), ("springyield", 0)] {
+        let numbers = given.numbers(name, 1, 3)?.unwrap_or_default();
+        if numbers.get(least..).unwrap_or_default().iter().any(|number| *number != 0.0) {
+            add(Kind::Spring, format!("{name} {numbers:?}, which is not linear"));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,158 @@
+//! The mass of a body: of its `<inertial>`, else of its geoms.
+//!
+//! `geoms, meshes, <inertial> => mass of a body`. Which counts is known once all of them are read.
+
+use nalgebra::Isometry3;
+
+use crate::body;
+use crate::element::Element;
+use crate::error::Fault;
+use crate::geom::{Look, Surface};
+use crate::mass::Mass;
+use crate::mesh::REMEDY;
+use crate::omission::Kind;
+use crate::place::Place;
+use crate::settings::InertiaSource;
+use crate::tree::{Reader, Within};
+
+/// Masses of a body, before it is known which counts.
+#[derive(Default)]
+pub(crate) struct Masses {
+    /// Of an `<inertial>`.
+    pub(crate) inertial: Option<(Mass, Place)>,
+    geoms: Vec<(Weight, Place, String)>,
+}
+
+/// The mass of a geom.
+enum Weight {
+    /// Known.
+    Known(Mass),
+    /// Of a mesh at a pose, with a mass or a density.
+    Mesh(String, Isometry3<f64>, Option<f64>, f64),
+    /// Not known, and why.
+    Unknown(&'static str),
+}
+
+impl Reader<'_> {
+    /// Reads a `<geom>`: its mass, what it touches, what of it can be seen.
+    pub(crate) fn geom(
+        &mut self,
+        element: &Element,
+        within: Within<'_>,
+        masses: &mut Masses,
+    ) -> Result<(), Fault> {
+        let given = self.defaults.of(element, within.class)?;
+        let geom = body::geom(&given, self.settings)?;
+        let words = match (&geom.solid, element.text("name")) {
+            (Some(solid), Some(name)) => format!("geom `{name}`, {}", solid.words()),
+            (Some(solid), None) => format!("geom, {}", solid.words()),
+            (None, Some(name)) => format!("geom `{name}`, {}", geom.word),
+            (None, None) => format!("geom, {}", geom.word),
+        };
+        let bits = |name: &str| -> Result<u32, Fault> { Ok(given.magnitude(name, 1.0)? as u32) };
+        let surface = Surface {
+            body: within.body,
+            place: element.place,
+            words: words.clone(),
+            kind: bits("contype")?,
+            affinity: bits("conaffinity")?,
+        };
+        let unseen = surface.kind == 0 && surface.affinity == 0;
+        self.tree.surfaces.push(surface);
+        if given.text("fluidshape").is_some_and(|shape| shape != "none") {
+            let what = format!("{words}: resistance of a medium");
+            self.omissions.add(Kind::Fluid, element.place, what);
+        }
+        let group = given.number("group")?.unwrap_or(0.0);
+        let [least, most] = self.settings.inertia_groups;
+        let mass = given.number("mass")?;
+        let density = given.number("density")?.unwrap_or(1000.0);
+        let massless = mass.map_or(density == 0.0, |mass| mass == 0.0);
+        // Geoms that touch nothing are gone where that is asked for, mass and all.
+        let dropped = self.settings.discard_visual && unseen;
+        if let Some(solid) = geom.solid.filter(|_| !dropped) {
+            let pose = within.frame * geom.pose;
+            self.tree.looks.extend(Look::of(&given, within.body, solid, pose, &words)?);
+        }
+        let counted = (least..=most).contains(&group) && !dropped;
+        if !counted || massless || matches!(geom.word, "plane" | "hfield") {
+            return Ok(());
+        }
+        let pose = within.frame * geom.pose;
+        let weight = match (geom.solid, geom.mesh) {
+            (Some(solid), _) if !given.flag("shellinertia", false)? => {
+                let mass = mass.unwrap_or_else(|| density * solid.volume());
+                Weight::Known(Mass::principal(mass, solid.moments(mass), &pose))
+            }
+            (Some(_), _) => Weight::Unknown("a shell of a shape"),
+            (None, Some(mesh)) => Weight::Mesh(mesh, pose, mass, density),
+            (None, None) => {
+                Weight::Unknown("a shape that is fitted to a mesh, or a signed distance field")
+            }
+        };
+        masses.geoms.push((weight, element.place, words));
+        Ok(())
+    }
+
+    /// The mass of a body of what was found in it.
+    pub(crate) fn weigh(&mut self, number: usize, masses: Masses) -> Result<(), Fault> {
+        let inertial = match self.settings.inertia {
+            InertiaSource::Geoms => None,
+            _ => masses.inertial,
+        };
+        let body = &mut self.tree.bodies[number];
+        if let Some((mass, place)) = inertial {
+            body.mass = mass;
+            body.mass_words.push(("<inertial>".into(), place));
+        } else if self.settings.inertia != InertiaSource::Inertial {
+            for (weight, place, words) in masses.geoms {
+                let found = match weight {
+                    Weight::Known(mass) => Ok((mass, words.clone())),
+                    Weight::Unknown(why) => Err(why.to_owned()),
+                    Weight::Mesh(mesh, pose, mass, density) => match self.meshes.bulk(&mesh) {
+                        Ok(bulk) => {
+                            if let Some(enclosed) = bulk.enclosed {
+                                self.tree.notes.push(format!(
+                                    "mesh `{mesh}` has {:.4e} m³ as MuJoCo counts it, of which its faces enclose \
+                                     {enclosed:.4e}: inertia=\"exact\" takes those",
+                                    bulk.size()
+                                ));
+                            }
+                            let words = format!("{words} `{mesh}`: {}", bulk.words);
+                            let mass = mass.unwrap_or_else(|| density * bulk.size());
+                            Ok((bulk.mass(mass, &pose), words))
+                        }
+                        Err(why) => Err(format!("mesh `{mesh}`, {why}")),
+                    },
+                };
+                match found {
+                    Ok((mass, words)) => {
+                        body.mass = body.mass.and(&mass);
+                        body.mass_words.push((words, place));
+                    }
+                    Err(why) => {
+                        let called = &body.name;
+                        let what = format!("{words}: its mass in body `{called}`: {why}; {REMEDY}");
+                        self.omissions.add(Kind::Mesh, place, what);
+                        body.unweighed.get_or_insert((why, place));
+                    }
+                }
+            }
+        }
+        let [least, least_moment] = self.settings.bounds;
+        if body.mass.mass < least {
+            body.mass.mass = least;
+            body.mass_words.push((format!("boundmass={least}"), self.settings.compiler));
+        }
+        if least_moment > 0.0 {
+            body.mass = body.mass.with_moments(|moments| moments.map(|m| m.max(least_moment)));
+        }
+        if self.settings.balance {
+            body.mass = body.mass.with_moments(|[a, b, c]| {
+                let impossible = a + b < c || b + c < a || a + c < b;
+                if impossible { [(a + b + c) / 3.0; 3] } else { [a, b, c] }
+            });
+        }
+        Ok(())
+    }
+}
