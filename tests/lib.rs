@@ -1,5 +1,6 @@
 //! Systems and measures that the tests across crates share.
 
+pub mod mechanisms;
 pub mod page;
 pub mod results;
 
