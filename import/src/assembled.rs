@@ -6,7 +6,8 @@
 use dbd_scene::Scene;
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::mechanism::{Mechanism, Side};
+use crate::mechanism::Mechanism;
+use crate::part::Side;
 use crate::settings::quaternion;
 
 /// Sets the preloads to those of the closed pose; whether any changed. A scene that is refused changes

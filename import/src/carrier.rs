@@ -13,7 +13,6 @@ use nalgebra::{Isometry3, Matrix4, Vector3, Vector4};
 use crate::body::Freedom;
 use crate::chain::{Stage, Way, centre};
 use crate::mass::Mass;
-use crate::part::Part;
 use crate::tree::Tree;
 
 /// A body gives at most this fraction of what it can, so that it stays as round as the carrier becomes.
@@ -95,7 +94,7 @@ pub(crate) struct Shares {
 pub(crate) fn share(
     tree: &Tree,
     stages: &[Stage],
-    parts: &mut [Part],
+    masses: &mut [Mass],
     side: impl Fn(usize) -> (Option<usize>, Isometry3<f64>),
     share: Option<f64>,
 ) -> Result<Vec<Shares>, usize> {
@@ -107,7 +106,7 @@ pub(crate) fn share(
         let (Some(own), true) = (part_of(stage.body), first < last) else { continue };
         let carriers: Vec<usize> =
             stages[first..last].iter().filter_map(|one| part_of(one.body)).collect();
-        let mut body = parts[own].mass.pseudo();
+        let mut body = masses[own].pseudo();
         let mut given = vec![Matrix4::zeros(); carriers.len()];
         let like = body;
         if let Some(one) = given.last_mut() {
@@ -121,9 +120,9 @@ pub(crate) fn share(
             match part {
                 None => shared.take(None, one, &like),
                 Some(part) => {
-                    let mut before = parts[part].mass.seen_from(&pose.inverse()).pseudo();
+                    let mut before = masses[part].seen_from(&pose.inverse()).pseudo();
                     shared.take(Some(&mut before), one, &like);
-                    parts[part].mass = Mass::of_pseudo(&before).seen_from(&pose);
+                    masses[part] = Mass::of_pseudo(&before).seen_from(&pose);
                 }
             }
         }
@@ -143,9 +142,9 @@ pub(crate) fn share(
             *one += piece;
             body -= piece;
         }
-        parts[own].mass = Mass::of_pseudo(&body);
+        masses[own] = Mass::of_pseudo(&body);
         for (part, one) in carriers.iter().zip(&given) {
-            parts[*part].mass = Mass::of_pseudo(one);
+            masses[*part] = Mass::of_pseudo(one);
         }
         let numbers = stages[first..last].iter().map(|one| one.body);
         all.push(Shares { body: stage.body, carriers: numbers.zip(exact).collect() });

@@ -5,7 +5,6 @@
 use crate::body::{Freedom, Joint};
 use crate::defaults::Attributes;
 use crate::error::Fault;
-use crate::mechanism::Mechanism;
 use crate::omission::{Kind, Omissions};
 use crate::settings::Settings;
 
@@ -43,26 +42,6 @@ pub(crate) fn of_joint(
         omissions.add(Kind::FrictionLoss, place, what);
     }
     springs(given, joint, name, omissions)
-}
-
-/// Lists the armatures, beside what their joints move without them: whether one may be left out.
-pub(crate) fn armatures(mechanism: &Mechanism<'_>, omissions: &mut Omissions) {
-    for (number, body) in mechanism.tree.bodies.iter().enumerate() {
-        let Some(joint) = body.joint.as_ref().filter(|joint| joint.armature > 0.0) else {
-            continue;
-        };
-        let [_, _, unit] = joint.freedom.units();
-        let armature = joint.armature;
-        let beside = mechanism.driven.get(&number).map_or(String::new(), |driven| {
-            format!(" beside the {:.3e} that it moves", driven - armature)
-        });
-        let name = joint.name.as_ref().unwrap_or(&body.name);
-        let what = format!(
-            "{} `{name}`: armature {armature} {unit}{beside}: inertia of one joint, which no body has",
-            joint.freedom.word()
-        );
-        omissions.add(Kind::Armature, joint.place, what);
-    }
 }
 
 /// Springs and dampers that are no torsion spring about an axis and no line.

@@ -19,15 +19,17 @@
 //! - `body`: one body, its joints, geoms and sites.
 //! - `geom`: geoms beside their mass: what touches, what can be seen.
 //! - `lacks`: what a joint has that a scene has no counterpart for.
-//! - `tree`, `weigh`: all of them, in their frames, and their masses.
+//! - `weigh`: masses of bodies.
+//! - `tree`: all of them, in their frames.
 //! - `contact`: which geoms can touch.
 //! - `pose`: joint coordinates become poses.
 //! - [`options`]: what is stated rather than read.
 //! - `chain`: several joints of one body, and which joints of a scene say them.
 //! - `carrier`: bodies between joints, and their mass.
 //! - `part`: bodies without joints become one with their parents.
-//! - `mechanism`: joints, springs, inputs, read-outs between parts.
 //! - `coordinate`: what springs and inputs act on.
+//! - `mechanism`: joints, springs, inputs, read-outs between parts.
+//! - `elements`: springs and inputs along coordinates.
 //! - `inertia`: what joints have to move.
 //! - `servo`: actuators that are linear laws.
 //! - `joints`, `loops`, `tendons`, `actuators`, `signals`: what brings them in.
@@ -50,6 +52,7 @@ mod contact;
 mod coordinate;
 mod defaults;
 mod element;
+mod elements;
 mod file;
 mod geom;
 mod inertia;

@@ -9,13 +9,10 @@ use nalgebra::{Isometry3, Vector3};
 use crate::coordinate::Coordinate;
 use crate::notation::fitting;
 use crate::options::Options;
-use crate::part::Parts;
+use crate::part::{Parts, Side};
 use crate::place::Source;
 use crate::pose::Pose;
 use crate::tree::{Tree, moved};
-
-/// A part, or the world.
-pub(crate) type Side = Option<usize>;
 
 /// Two points of a joint count as one that are not farther apart than this share of its span.
 const CLOSED: f64 = 1e-9;

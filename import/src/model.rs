@@ -23,7 +23,7 @@ use crate::place::Texts;
 use crate::pose::Pose;
 use crate::settings::{self, Settings};
 use crate::tree::{self, Tree};
-use crate::{actuators, assembled, inertia, joints, lacks, loops, schema, signals, tendons, write};
+use crate::{actuators, assembled, inertia, joints, loops, schema, signals, tendons, write};
 
 /// What was read of a file.
 pub(crate) struct Model<'m> {
@@ -112,7 +112,7 @@ impl<'m> Model<'m> {
         let mut mechanism = Mechanism::new(&tree, &parts, &pose, options);
         mechanism.planar = stages.iter().any(|stage| stage.way == Way::Plane);
         mechanism.driven = inertia::driven(&tree, &pose.first);
-        lacks::armatures(&mechanism, &mut omissions);
+        joints::armatures(&mechanism, &mut omissions);
         let (root, settings, defaults) = (self.root, &self.settings, &self.defaults);
         joints::add(&mut mechanism, &stages, settings, &mut omissions);
         loops::add(&mut mechanism, root, settings, &mut omissions)?;

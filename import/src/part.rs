@@ -15,6 +15,9 @@ use crate::options::{Options, Weld};
 use crate::settings::Settings;
 use crate::tree::{Tree, WORLD};
 
+/// A part, or the world.
+pub(crate) type Side = Option<usize>;
+
 /// Bodies that are rigid with each other.
 #[derive(Clone, Debug)]
 pub(crate) struct Part {
@@ -109,9 +112,11 @@ impl Parts {
             part.whole = part.mass.centre;
         }
         let side = |body: usize| of[body];
-        let shares = carrier::share(tree, stages, &mut parts, side, options.carriers)
+        let mut masses: Vec<Mass> = parts.iter().map(|part| part.mass.clone()).collect();
+        let shares = carrier::share(tree, stages, &mut masses, side, options.carriers)
             .map_err(Unfit::Carriers)?;
-        for part in &mut parts {
+        for (part, mass) in parts.iter_mut().zip(masses) {
+            part.mass = mass;
             part.settle(tree, settings)?;
         }
         Ok(Self { parts, of, shares })

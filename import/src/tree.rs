@@ -19,7 +19,7 @@ use crate::notation::fitting;
 use crate::omission::{Kind, Omissions};
 use crate::place::Place;
 use crate::settings::Settings;
-use crate::weigh::Masses;
+use crate::weigh::{Masses, Scales, Within};
 
 /// The number of the world among the bodies.
 pub(crate) const WORLD: usize = 0;
@@ -66,29 +66,10 @@ pub(crate) struct Tree {
     names: BTreeMap<String, usize>,
 }
 
-/// Where something stands.
-#[derive(Clone, Copy)]
-pub(crate) struct Within<'w> {
-    /// Its body.
-    pub(crate) body: usize,
-    /// The class of what names none there.
-    pub(crate) class: &'w str,
-    /// Its frame in that of the body.
-    pub(crate) frame: &'w Isometry3<f64>,
-}
-
 /// What reads bodies.
-pub(crate) struct Reader<'r> {
-    /// What the file says of itself.
-    pub(crate) settings: &'r Settings,
-    /// Classes.
-    pub(crate) defaults: &'r Defaults,
-    /// Meshes.
-    pub(crate) meshes: &'r mut Meshes,
-    /// What has no counterpart.
-    pub(crate) omissions: &'r mut Omissions,
-    /// The bodies so far.
-    pub(crate) tree: Tree,
+struct Reader<'r> {
+    scales: Scales<'r>,
+    tree: Tree,
     joints: BTreeMap<String, Place>,
 }
 
@@ -124,13 +105,16 @@ pub(crate) fn read(
         names: BTreeMap::from([("world".into(), WORLD)]),
     };
     let joints = BTreeMap::new();
-    let mut reader = Reader { settings, defaults, meshes, omissions, tree, joints };
+    let (surfaces, looks, notes) = (Vec::new(), Vec::new(), Vec::new());
+    let scales = Scales { settings, defaults, meshes, omissions, surfaces, looks, notes };
+    let mut reader = Reader { scales, tree, joints };
     for section in root.sections("worldbody") {
         let frame = settings.pose(&Attributes::own(section))?;
         let within = Within { body: WORLD, class: MAIN, frame: &frame };
         reader.hold(section, within, &mut Masses::default())?;
     }
-    let mut tree = reader.tree;
+    let Scales { surfaces, looks, notes, .. } = reader.scales;
+    let mut tree = Tree { surfaces, looks, notes, ..reader.tree };
     if tree.bodies.len() == 1 {
         return Err(Fault::at(root.place, "has no bodies", "<body>s in a <worldbody>"));
     }
@@ -158,27 +142,28 @@ impl Reader<'_> {
             match child.name.as_str() {
                 "body" => self.body(child, within)?,
                 "frame" => {
-                    let frame = within.frame * self.settings.pose(&Attributes::own(child))?;
+                    let frame =
+                        within.frame * self.scales.settings.pose(&Attributes::own(child))?;
                     let class = self.class(child, within.class)?;
                     self.hold(child, Within { class, frame: &frame, ..within }, masses)?;
                 }
                 "joint" | "freejoint" => self.joint(child, within)?,
                 "inertial" => {
-                    let mass = body::inertial(&Attributes::own(child), self.settings)?;
+                    let mass = body::inertial(&Attributes::own(child), self.scales.settings)?;
                     masses.inertial = Some((mass.seen_from(within.frame), child.place));
                 }
-                "geom" => self.geom(child, within, masses)?,
+                "geom" => self.scales.geom(child, within, masses)?,
                 "site" => {
-                    let given = self.defaults.of(child, within.class)?;
+                    let given = self.scales.defaults.of(child, within.class)?;
                     if let Some(name) = child.text("name") {
-                        let pose = within.frame * self.settings.pose(&given)?;
+                        let pose = within.frame * self.scales.settings.pose(&given)?;
                         self.tree.sites.insert(name.to_owned(), (within.body, pose));
                     }
                 }
                 "composite" | "flexcomp" | "attach" | "replicate" | "plugin" => {
                     let what =
                         format!("<{}>, which makes parts that are not in the file", child.name);
-                    self.omissions.add(Kind::Generated, child.place, what);
+                    self.scales.omissions.add(Kind::Generated, child.place, what);
                 }
                 // Cameras, lights, and what has no known name.
                 _ => {}
@@ -189,7 +174,7 @@ impl Reader<'_> {
 
     fn class<'c>(&self, element: &'c Element, class: &'c str) -> Result<&'c str, Fault> {
         let Some(given) = element.attribute("childclass") else { return Ok(class) };
-        self.defaults.check(&given.value, given.place)?;
+        self.scales.defaults.check(&given.value, given.place)?;
         Ok(&given.value)
     }
 
@@ -209,13 +194,14 @@ impl Reader<'_> {
         }
         if given.flag("mocap", false)? {
             let what = format!("body `{name}`, which is moved from outside, stands still");
-            self.omissions.add(Kind::Mocap, element.place, what);
+            self.scales.omissions.add(Kind::Mocap, element.place, what);
         }
+        let name = self.tree.own_name(&name);
         let body = Body {
-            name: self.tree.own_name(&name),
+            name: name.clone(),
             place: element.place,
             parent: within.body,
-            pose: within.frame * self.settings.pose(&given)?,
+            pose: within.frame * self.scales.settings.pose(&given)?,
             joint: None,
             chain,
             mass: Mass::default(),
@@ -238,7 +224,11 @@ impl Reader<'_> {
         let mut masses = Masses::default();
         let inside = Within { body: number, class, frame: &Isometry3::identity() };
         self.hold(element, inside, &mut masses)?;
-        self.weigh(number, masses)
+        let weighed = self.scales.weigh(&name, masses);
+        let body = &mut self.tree.bodies[number];
+        (body.mass, body.mass_words, body.unweighed) =
+            (weighed.mass, weighed.words, weighed.unknown);
+        Ok(())
     }
 
     fn joint(&mut self, element: &Element, within: Within<'_>) -> Result<(), Fault> {
@@ -253,11 +243,11 @@ impl Reader<'_> {
         let given = if element.name == "freejoint" {
             Attributes::own(element)
         } else {
-            self.defaults.of(element, within.class)?
+            self.scales.defaults.of(element, within.class)?
         };
         let mut joint = match element.name.as_str() {
             "freejoint" => body::free_joint(name, place),
-            _ => body::joint(&given, self.settings)?,
+            _ => body::joint(&given, self.scales.settings)?,
         };
         joint.anchor =
             within.frame * nalgebra::Point3::from(joint.anchor) - nalgebra::Point3::origin();
@@ -274,7 +264,7 @@ impl Reader<'_> {
             return Err(Fault::at(place, "a free joint beside others", help));
         }
         if element.name == "joint" {
-            lacks::of_joint(&given, &joint, &called, self.settings, self.omissions)?;
+            lacks::of_joint(&given, &joint, &called, self.scales.settings, self.scales.omissions)?;
         }
         // MuJoCo takes a body through its joints in their order; each of its carriers has one of them.
         let next = bodies[chain..=within.body].iter_mut().find(|body| body.joint.is_none());

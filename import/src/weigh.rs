@@ -5,15 +5,15 @@
 use nalgebra::Isometry3;
 
 use crate::body;
+use crate::defaults::Defaults;
 use crate::element::Element;
 use crate::error::Fault;
 use crate::geom::{Look, Surface};
 use crate::mass::Mass;
-use crate::mesh::REMEDY;
-use crate::omission::Kind;
+use crate::mesh::{Meshes, REMEDY};
+use crate::omission::{Kind, Omissions};
 use crate::place::Place;
-use crate::settings::InertiaSource;
-use crate::tree::{Reader, Within};
+use crate::settings::{InertiaSource, Settings};
 
 /// Masses of a body, before it is known which counts.
 #[derive(Default)]
@@ -33,7 +33,47 @@ enum Weight {
     Unknown(&'static str),
 }
 
-impl Reader<'_> {
+/// Where something stands.
+#[derive(Clone, Copy)]
+pub(crate) struct Within<'w> {
+    /// Its body.
+    pub(crate) body: usize,
+    /// The class of what names none there.
+    pub(crate) class: &'w str,
+    /// Its frame in that of the body.
+    pub(crate) frame: &'w Isometry3<f64>,
+}
+
+/// What reads geoms and weighs bodies.
+pub(crate) struct Scales<'r> {
+    /// What the file says of itself.
+    pub(crate) settings: &'r Settings,
+    /// Classes.
+    pub(crate) defaults: &'r Defaults,
+    /// Meshes.
+    pub(crate) meshes: &'r mut Meshes,
+    /// What has no counterpart.
+    pub(crate) omissions: &'r mut Omissions,
+    /// The geoms so far.
+    pub(crate) surfaces: Vec<Surface>,
+    /// What of them can be seen.
+    pub(crate) looks: Vec<Look>,
+    /// What is good to know.
+    pub(crate) notes: Vec<String>,
+}
+
+/// The mass of a body.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Weighed {
+    /// In its own frame.
+    pub(crate) mass: Mass,
+    /// Where it comes from, in words.
+    pub(crate) words: Vec<(String, Place)>,
+    /// The first part of it that is not known: why, where.
+    pub(crate) unknown: Option<(String, Place)>,
+}
+
+impl Scales<'_> {
     /// Reads a `<geom>`: its mass, what it touches, what of it can be seen.
     pub(crate) fn geom(
         &mut self,
@@ -58,7 +98,7 @@ impl Reader<'_> {
             affinity: bits("conaffinity")?,
         };
         let unseen = surface.kind == 0 && surface.affinity == 0;
-        self.tree.surfaces.push(surface);
+        self.surfaces.push(surface);
         if given.text("fluidshape").is_some_and(|shape| shape != "none") {
             let what = format!("{words}: resistance of a medium");
             self.omissions.add(Kind::Fluid, element.place, what);
@@ -72,7 +112,7 @@ impl Reader<'_> {
         let dropped = self.settings.discard_visual && unseen;
         if let Some(solid) = geom.solid.filter(|_| !dropped) {
             let pose = within.frame * geom.pose;
-            self.tree.looks.extend(Look::of(&given, within.body, solid, pose, &words)?);
+            self.looks.extend(Look::of(&given, within.body, solid, pose, &words)?);
         }
         let counted = (least..=most).contains(&group) && !dropped;
         if !counted || massless || matches!(geom.word, "plane" | "hfield") {
@@ -95,15 +135,15 @@ impl Reader<'_> {
     }
 
     /// The mass of a body of what was found in it.
-    pub(crate) fn weigh(&mut self, number: usize, masses: Masses) -> Result<(), Fault> {
+    pub(crate) fn weigh(&mut self, called: &str, masses: Masses) -> Weighed {
         let inertial = match self.settings.inertia {
             InertiaSource::Geoms => None,
             _ => masses.inertial,
         };
-        let body = &mut self.tree.bodies[number];
+        let mut body = Weighed::default();
         if let Some((mass, place)) = inertial {
             body.mass = mass;
-            body.mass_words.push(("<inertial>".into(), place));
+            body.words.push(("<inertial>".into(), place));
         } else if self.settings.inertia != InertiaSource::Inertial {
             for (weight, place, words) in masses.geoms {
                 let found = match weight {
@@ -112,7 +152,7 @@ impl Reader<'_> {
                     Weight::Mesh(mesh, pose, mass, density) => match self.meshes.bulk(&mesh) {
                         Ok(bulk) => {
                             if let Some(enclosed) = bulk.enclosed {
-                                self.tree.notes.push(format!(
+                                self.notes.push(format!(
                                     "mesh `{mesh}` has {:.4e} m³ as MuJoCo counts it, of which its faces enclose \
                                      {enclosed:.4e}: inertia=\"exact\" takes those",
                                     bulk.size()
@@ -128,13 +168,12 @@ impl Reader<'_> {
                 match found {
                     Ok((mass, words)) => {
                         body.mass = body.mass.and(&mass);
-                        body.mass_words.push((words, place));
+                        body.words.push((words, place));
                     }
                     Err(why) => {
-                        let called = &body.name;
                         let what = format!("{words}: its mass in body `{called}`: {why}; {REMEDY}");
                         self.omissions.add(Kind::Mesh, place, what);
-                        body.unweighed.get_or_insert((why, place));
+                        body.unknown.get_or_insert((why, place));
                     }
                 }
             }
@@ -142,7 +181,7 @@ impl Reader<'_> {
         let [least, least_moment] = self.settings.bounds;
         if body.mass.mass < least {
             body.mass.mass = least;
-            body.mass_words.push((format!("boundmass={least}"), self.settings.compiler));
+            body.words.push((format!("boundmass={least}"), self.settings.compiler));
         }
         if least_moment > 0.0 {
             body.mass = body.mass.with_moments(|moments| moments.map(|m| m.max(least_moment)));
@@ -153,6 +192,6 @@ impl Reader<'_> {
                 if impossible { [(a + b + c) / 3.0; 3] } else { [a, b, c] }
             });
         }
-        Ok(())
+        body
     }
 }

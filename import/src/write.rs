@@ -7,10 +7,11 @@ use std::fmt::Write as _;
 use nalgebra::Vector3;
 
 use crate::mass::Solid;
-use crate::mechanism::{Mechanism, Side, Signal, Type, rounded};
+use crate::mechanism::{Mechanism, Signal, Type, rounded};
 use crate::notation::{fitting, line, number, snapped, text, vector};
 use crate::omission::Kind;
 use crate::options::{TOLERANCE, Weld};
+use crate::part::Side;
 use crate::place::{Place, Source, Texts};
 use crate::settings::Settings;
 

@@ -1,0 +1,123 @@
+//! Elements and inputs along coordinates.
+//!
+//! `coordinate, law => torsion spring, TSDA or point on a line; input`.
+
+use nalgebra::Vector3;
+
+use crate::coordinate::{Coordinate, Law};
+use crate::mechanism::{Line, Mechanism, Rail, Torsion, rounded};
+use crate::notation::{text, vector};
+use crate::place::Source;
+
+/// An input as it acts on a coordinate: its type, its keys, the sign of its value.
+pub(crate) type Drive = (&'static str, Vec<String>, f64);
+
+impl Coordinate {
+    /// Adds the element of a law; its name.
+    pub(crate) fn spring(
+        &self,
+        mechanism: &mut Mechanism<'_>,
+        wanted: &str,
+        law: Law,
+        source: Source,
+    ) -> String {
+        let name = mechanism.own_name(wanted);
+        let Law { stiffness, damping, rest, bias } = law;
+        match *self {
+            Self::Turn { between, axis, is_of_second, .. } => {
+                // At the twist θ the torque is k·(rest − θ) + bias; seen from the second body θ is turned round.
+                let preload = stiffness * rest + bias;
+                let [first, second] = between;
+                let (between, preload) =
+                    if is_of_second { ([second, first], -preload) } else { (between, preload) };
+                let name = name.clone();
+                mechanism.torsions.push(Torsion {
+                    name,
+                    between,
+                    axis,
+                    stiffness,
+                    damping,
+                    preload,
+                    source,
+                });
+            }
+            Self::Slide { between, at, axis, travel } => {
+                // The end on the first body lies ahead on the axis, farther than the slide goes: then the length
+                // is a straight function of the coordinate, the pull goes along the axis, and both ends
+                // lie on one line, so that it turns nothing.
+                let zero = law.zero();
+                let reach = (2.0 * mechanism.size()).max(2.0 * travel);
+                let length = rounded(reach.max(4.0 * zero.abs()));
+                if travel == 0.0 {
+                    mechanism.notes.push(format!(
+                        "`{name}` acts along a slide without a range: right up to a travel of {length} m"
+                    ));
+                }
+                mechanism.lines.push(Line {
+                    name: name.clone(),
+                    between,
+                    points: [at + axis * length, at],
+                    free_length: length - zero,
+                    stiffness,
+                    damping,
+                    source,
+                });
+            }
+            Self::Length { between, points } => {
+                let free_length = (points[1] - points[0]).norm() + law.zero();
+                mechanism.lines.push(Line {
+                    name: name.clone(),
+                    between,
+                    points,
+                    free_length,
+                    stiffness,
+                    damping,
+                    source,
+                });
+            }
+            Self::Shift { part, at, axis, across } => {
+                let line = at + axis * law.zero();
+                let name = name.clone();
+                mechanism.rails.push(Rail {
+                    name,
+                    part,
+                    line,
+                    across,
+                    at,
+                    stiffness,
+                    damping,
+                    source,
+                });
+            }
+        }
+        name
+    }
+
+    /// What an input needs to push along it; `element` is the TSDA that it acts beside.
+    pub(crate) fn drive(&self, mechanism: &Mechanism<'_>, element: &str) -> Drive {
+        let vector = |v: Vector3<f64>| vector(v, 1.0);
+        match self {
+            Self::Turn { joint: Some((joint, about)), .. } => {
+                let mut keys = vec![format!("target = {}", text(joint))];
+                keys.extend(about.map(|about| format!("about = \"{about}\"")));
+                ("joint_torque", keys, 1.0)
+            }
+            Self::Turn { between, axis, .. } => {
+                let body = text(mechanism.name(between[1]));
+                ("torque", vec![format!("body = {body}"), format!("axis = {}", vector(*axis))], 1.0)
+            }
+            Self::Slide { .. } => ("actuator", vec![format!("target = {}", text(element))], 1.0),
+            // A TSDA pulls its ends together.
+            Self::Length { .. } => ("actuator", vec![format!("target = {}", text(element))], -1.0),
+            Self::Shift { part, at, axis, .. } => {
+                let point = mechanism.within(Some(*part), *at);
+                let keys = vec![
+                    format!("body = {}", text(mechanism.name(Some(*part)))),
+                    format!("point = {}", crate::notation::vector(point, mechanism.size())),
+                    format!("axis = {}", vector(*axis)),
+                ];
+                ("force", keys, 1.0)
+            }
+        }
+    }
+}
