@@ -438,6 +438,7 @@ mod tests {
             clearances,
             revolutes,
             universals,
+            sources: [],
         };
         let _ = short.checked();
     }
