@@ -24,7 +24,7 @@
 //! - [`frequency`]: how fast a model can vibrate.
 //! - `guards`, [`extents`], `refusal`, [`plant`]: what a step must not have made; what a precision cannot
 //!   hold; why a plant refuses what it is given; model, scheme, step and state together.
-//! - [`energy`], [`watch`]: what a state holds; guards that look at it and at how fast it can vibrate.
+//! - [`energy`], [`power`], [`watch`]: what a state holds; who changes that, and how fast; guards that look at it and at how fast it can vibrate.
 //! - [`fingerprint`], [`snapshot`], [`readouts`]: what a state belongs to; a state as bytes from machine to
 //!   machine; what sensors see.
 //! - [`builder`], `convert`, `format`: models assembled at run time, nalgebra's types, defmt's
@@ -99,6 +99,7 @@ pub mod planar;
 pub mod plane;
 pub mod plant;
 mod pose;
+pub mod power;
 pub mod reach;
 pub mod readouts;
 pub mod real;

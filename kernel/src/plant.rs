@@ -206,6 +206,21 @@ where
         }
     }
 
+    /// The signals of the inputs at `part` of the coming step, 0 to 1: what its stages see. At 1 they are
+    /// those before what jumps there.
+    pub fn signals_at(&self, part: RealOf<H::Target>) -> <H::Target as ModelOwner>::PerInput {
+        let view = self.model.view();
+        let knots = self.knots.as_ref();
+        let at = StageTime { step: self.state.step, part, h: self.h };
+        let mut signals = self.state.signals.clone();
+        if <H::Target as ModelOwner>::Terms::INPUTS {
+            sample(view.inputs, view.knots, knots, at, signals.as_mut());
+            let steps = self.sources.as_ref();
+            sources::sample(view.sources, view.knots, steps, knots, at, signals.as_mut());
+        }
+        signals
+    }
+
     /// One step. A failure latches: the state stays as the failed step left it, and later calls
     /// change nothing and return the same failure.
     #[inline]

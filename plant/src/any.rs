@@ -7,6 +7,7 @@
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::plant::{InputError, StateError};
 use dbd_kernel::readouts::{Reading, Readout};
+use dbd_kernel::schedule::Signal;
 use dbd_kernel::snapshot::SnapshotError;
 use dbd_kernel::{BodyState, Energy, F64, State, Status};
 use dbd_scene::SceneModel;
@@ -44,6 +45,9 @@ pub trait AnyPlant: Send {
 
     /// The states of all bodies, as [`AnyPlant::state`] has them, in place of what `bodies` held.
     fn bodies(&self, bodies: &mut Vec<BodyState<F64>>);
+
+    /// Values \[N, N·m or m\] and rates of all inputs at the end of the coming step, before what jumps there.
+    fn signals_at_end(&self) -> Vec<Signal<f64>>;
 
     /// \[J\] the energies of the present state by kind.
     fn energy(&self) -> Energy<f64>;

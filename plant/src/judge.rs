@@ -7,9 +7,10 @@
 
 use dbd_kernel::energy::{energy, energy_with_extensions};
 use dbd_kernel::model::{Group, Law};
+use dbd_kernel::readouts::each_tension;
 use dbd_kernel::status::Cause;
 use dbd_kernel::{BodyState, Energy, F64, State};
-use dbd_scene::{Scene, SceneModel};
+use dbd_scene::{OneSided, Scene, SceneModel};
 
 use crate::any::AnyPlant;
 use crate::budget::{Budget, free_length};
@@ -24,6 +25,12 @@ const TORN: f64 = 1000.0;
 /// meant: its elements may point elsewhere by as many radians, and hold other directions as much
 /// more or less. Mounts of rubber that carry a car open by a fifth.
 pub const OPENED: f64 = 0.25;
+
+/// \[1\] a spring is on a side whose extension is beyond this share of its free length: far above rounding.
+const SIDE: f64 = 1e-5;
+
+/// The same of the scene's warnings at t = 0, by so many times more.
+const WARNED: f64 = 100.0;
 
 /// Why a run ended early.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,6 +95,37 @@ pub struct Turning {
     pub since: Option<f64>,
 }
 
+/// What a raw spring that acts on both sides, though its name says one, did in the states that were judged.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reversal {
+    /// The spring.
+    pub spring: OneSided,
+    /// \[N\] its tension at first.
+    first: Option<f64>,
+    /// \[N\] the smallest tension that counts.
+    least: f64,
+    /// \[s\] when it was first found on the other side, and \[N\] its tension then.
+    pub since: Option<(f64, f64)>,
+    /// \[N\] the largest tension on the other side, and \[s\] when.
+    pub most: (f64, f64),
+}
+
+impl Reversal {
+    /// Takes the tension \[N\] at `time` \[s\].
+    fn push(&mut self, tension: f64, time: f64) {
+        let other = if self.spring.pulls { -tension } else { tension };
+        let first = *self.first.get_or_insert(other);
+        // What is on the other side at the start is warned of before the run.
+        if other <= self.least || first > WARNED * self.least {
+            return;
+        }
+        self.since.get_or_insert((time, tension));
+        if other > self.most.0.abs() {
+            self.most = (tension, time);
+        }
+    }
+}
+
 /// What a state holds.
 pub struct Verdict {
     /// \[J\] its energy.
@@ -109,6 +147,7 @@ pub struct Judge {
     beyond: Vec<f64>,
     openings: Vec<Opening>,
     turning: Turning,
+    reversals: Vec<Reversal>,
     /// \[m\] the extension of a joint's element at which it counts as torn.
     torn: f64,
     step_size: f64,
@@ -146,6 +185,7 @@ impl Judge {
         let start = State::initial(model);
         let budget = Budget::new(model, &start, &energy(model, &start, step_size), unit(plant));
         let [extensions, beyond] = [(); 2].map(|()| vec![0.0; scene.joints.len()]);
+        let reversals = reversals(scene, model);
         let (model, turning) = (model.clone(), Turning::default());
         Self {
             model,
@@ -155,6 +195,7 @@ impl Judge {
             beyond,
             openings,
             turning,
+            reversals,
             torn,
             step_size,
             budget,
@@ -180,6 +221,12 @@ impl Judge {
         self.turning
     }
 
+    /// The springs named as what acts on one side, and whether they acted on the other so far.
+    #[must_use]
+    pub fn reversals(&self) -> &[Reversal] {
+        &self.reversals
+    }
+
     /// What a state holds.
     ///
     /// # Errors
@@ -191,6 +238,7 @@ impl Judge {
         }
         let (joint, extension) = self.look(state);
         self.look_at_turns(state);
+        self.look_at_springs(state);
         let time = state.step as f64 * self.step_size;
         if let Some(growth) = self.budget.beyond(&self.model, state, &energy, time) {
             return Err(if self.torn > 0.0 && extension > self.torn {
@@ -220,6 +268,20 @@ impl Judge {
         if turn > LARGEST_TURN * (1.0 + 1e-9) {
             self.turning.since.get_or_insert(time);
         }
+    }
+
+    /// Takes note of the side on which springs act.
+    fn look_at_springs(&mut self, state: &State<SceneModel<F64>>) {
+        if self.reversals.is_empty() {
+            return;
+        }
+        let time = state.step as f64 * self.step_size;
+        each_tension(&self.model, state, |group, tension| {
+            let of_group = |one: &&mut Reversal| one.spring.group == group;
+            if let Some(one) = self.reversals.iter_mut().find(of_group) {
+                one.push(tension, time);
+            }
+        });
     }
 
     /// The energy, and every joint's extension, in one pass over the elements.
@@ -252,6 +314,17 @@ impl Judge {
         let rows = self.extensions.iter().copied().enumerate();
         rows.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
     }
+}
+
+/// The springs to be looked at.
+fn reversals(scene: &Scene, model: &SceneModel<F64>) -> Vec<Reversal> {
+    let one = |spring: OneSided| {
+        let group = model.groups.get(spring.group).filter(|group| group.law == Law::Tsda)?;
+        let tsda = model.tsdas.get(usize::from(group.element))?;
+        let least = SIDE * tsda.stiffness * tsda.free_length;
+        Some(Reversal { spring, first: None, least, since: None, most: (0.0, 0.0) })
+    };
+    scene.one_sided_springs().into_iter().filter_map(one).collect()
 }
 
 /// Whether a scene's total energy is meant to stay as it is.

@@ -22,8 +22,8 @@ use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::schedule::Signal;
 use dbd_kernel::snapshot::SnapshotError;
 use dbd_kernel::{
-    BodyIndex, BodyState, Energy, F32, F64, Fixed, Geometry, Planar32, Planar64, Scheme, State,
-    Status,
+    BodyIndex, BodyState, Energy, F32, F64, Fixed, Geometry, Planar32, Planar64, Real as _, Scheme,
+    State, Status,
 };
 use dbd_scene::{Misfit, Planar, Scene, SceneModel, widen};
 
@@ -317,6 +317,10 @@ where
         if let Some(planar) = &self.planar {
             planar.states_outward(bodies);
         }
+    }
+
+    fn signals_at_end(&self) -> Vec<Signal<f64>> {
+        self.plant.signals_at(P::Real::ONE).iter().map(Signal::convert).collect()
     }
 
     fn energy(&self) -> Energy<f64> {

@@ -75,7 +75,7 @@ pub use geometry::GeometryInfo;
 pub use hinge::Hinge;
 pub use input::InputInfo;
 pub use joints::{Assembled, JointInfo, Moved, OpenJoint, Realisation};
-pub use lint::{Severity, Warning};
+pub use lint::{OneSided, Severity, Warning};
 pub use lookup::{UnfitInput, UnknownName};
 pub use nearest::nearest;
 pub use origin::Setting;

@@ -120,7 +120,8 @@ fn schema_and_reader_refuse_alike() {
             for key in &keys {
                 met.insert(key.clone());
                 // Where a truth value stands a number must not.
-                let wrong = if key == "planar" || key == "settle" { json!(1) } else { json!(true) };
+                let truths = ["planar", "settle", "periodic", "jump"];
+                let wrong = if truths.contains(&key.as_str()) { json!(1) } else { json!(true) };
                 let (said, valid, words) = changed(key, Some(wrong));
                 assert!(said.is_some() && !valid, "{words}, the schema takes it: {valid}");
                 changed(key, Some(json!(-1)));

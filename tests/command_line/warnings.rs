@@ -344,3 +344,33 @@ fn a_run_says_when_a_body_came_to_turn_too_far_in_a_step() {
     assert!(step.contains("turns by 0.15 rad in a step of 1ms at t = 0"), "{step}");
     assert!(run.contains("turned by 0.45 rad in a step at t = 0.3s"), "{run}");
 }
+
+/// A rope that goes slack in the motion pushes from then on, a stop that is left pulls.
+#[test]
+fn a_run_says_when_a_rope_pushed_and_a_stop_pulled() {
+    let folder = Folder::new();
+    let text = |name: &str, velocity: f64| {
+        format!(
+            "name = \"swing\"\nduration = 1\n[[body]]\nname = \"b\"\nmass = 1\ninertia = [1, 1, 1]\n\
+             position = [1, 0, 0]\nvelocity = [{velocity}, 0, 0]\n[[tsda]]\nname = \"{name}\"\n\
+             between = [\"world\", \"b\"]\npoints = [[0, 0, 0], [0, 0, 0]]\nstiffness = 100\nfree_length = 1\n"
+        )
+    };
+    let said = |name: &str, velocity: f64| {
+        let summary = folder.summary(&folder.scene(&text(name, velocity)), &["--step", "1ms"]);
+        warnings(&summary)
+    };
+    // ω = 10 rad/s: slack from π/10 s on, at most v·√(k·m) = 5 N a quarter of the period later.
+    let [rope] = &said("tow rope", 0.5)[..] else { panic!("one warning") };
+    for part in [
+        "tsda `tow rope` (world–b) (line 9): pushed from t = 0.315s on",
+        "at most with 5 N at t = 0.471s",
+        "no rope does",
+    ] {
+        assert!(rope.contains(part), "{rope}");
+    }
+    let [stop] = &said("end_stop", -0.5)[..] else { panic!("one warning") };
+    assert!(stop.contains("`end_stop`") && stop.contains("pulled from t = 0.315s on"), "{stop}");
+    assert_eq!(said("tow rope", 0.0), [""; 0]);
+    assert_eq!(said("spring", 0.5), [""; 0]);
+}

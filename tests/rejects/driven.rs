@@ -203,7 +203,7 @@ const CASES: &[Case] = &[
     case("value = 2.5", "«periodic = true", "`periodic` of input `push` stands without `table`", "repeats"),
     case("value = 2.5", "«over = \"angle\"", "`over` of input `push` stands without `table`", "the read-out"),
     case("interpolate = \"linear\"", "over = «\"angel\"", "names no column of a read-out: \"angel\"", "did you mean \"angle\"?"),
-    case("interpolate = \"linear\"", "over = «\"tip\"", "names no column of a read-out: \"tip\"", "did you mean"),
+    case("interpolate = \"linear\"", "over = «\"tip\"", "names no column of a read-out: \"tip\"", "of a point one of its columns"),
     case("interpolate = \"linear\"", "over = \"angle\"\n«periodic = true", "`periodic` of input `motor` contradicts `over`", "holds its ends"),
     case("axis = [0, 0, 1] # up", "axis = [0, 0, 1]\ntable = [[0, 0]]\n«over = \"angle\"", "`over` of input `road` does not go with the type \"anchor\"", "over time, or a `sine`"),
     case("interpolate = \"linear\"", "«sine = { amplitude = 1, frequency = 2 }", "`sine` of input `motor` contradicts `table`", "a `table` or a `sine`"),

@@ -28,14 +28,14 @@ use crate::commands::golden::{GoldenOptions, GoldenRefusal, GoldenWatch};
 use crate::commands::modes::lowest;
 use crate::commands::rounding::{of_losses, of_noise};
 use crate::commands::surveyed::surveyed;
-use crate::commands::warnings::{of_run, of_scene, of_step, of_turns};
+use crate::commands::warnings::{of_run, of_scene, of_springs, of_step, of_turns};
 use crate::report::{
     JointOpening, ReadoutFigures, SetValue, Shown, Statistics, Summary, TraceWriter, show, text,
     trace,
 };
 use crate::simulate::{
-    Ending, EnergyLimit, EnergyStop, EnergyWatch, FailedRun, Observer, Sample, SimulationError,
-    simulate,
+    Balance, Ending, EnergyLimit, EnergyStop, EnergyWatch, FailedRun, Observer, Sample,
+    SimulationError, simulate,
 };
 use crate::terminal::LoadError;
 
@@ -253,12 +253,13 @@ pub fn run(
         trace,
         recording,
         statistics: Statistics::default(),
+        balance: Balance::new(scene, &options.method, &plan).map_err(SimulationError::from)?,
         watch: options.watch_energy.map(|limit| EnergyWatch::new(scene, limit)),
         golden,
         progress: &mut |steps| progress(Stage::Stepping, steps, plan.steps),
     };
     let ending = simulate(scene, &options.method, &plan, &mut recorder)?;
-    let Recorder { trace, recording, statistics, watch, golden, .. } = recorder;
+    let Recorder { trace, recording, statistics, balance, watch, golden, .. } = recorder;
     let mut trace_hash = None;
     if let (Some(files), Some(trace)) = (&mut files, trace) {
         let (file, hash) = trace.finish().map_err(RunError::Write)?;
@@ -273,6 +274,7 @@ pub fn run(
     let mut summary =
         summarise(scene, &options.method, &plan, &frequencies, &ending, &statistics, &failure);
     summary.trace_hash = trace_hash;
+    summary.energy_balance = balance.filter(|_| failure.is_none()).map(|balance| balance.balance());
     let stop = watch.and_then(|watch| watch.stop());
     summary.of_watch(watch, stop);
     summary.of_file(options.out.as_ref().map(|out| &out.file));
@@ -306,6 +308,7 @@ struct Recorder<'o, 'p> {
     trace: Option<TraceWriter<PendingFile>>,
     recording: Option<Recording>,
     statistics: Statistics,
+    balance: Option<Balance>,
     watch: Option<EnergyWatch>,
     golden: Option<GoldenWatch<'o>>,
     progress: &'p mut dyn FnMut(u64),
@@ -314,6 +317,9 @@ struct Recorder<'o, 'p> {
 impl Observer for Recorder<'_, '_> {
     fn sample(&mut self, sample: &Sample<'_>) -> io::Result<()> {
         self.statistics.push(sample);
+        if let Some(balance) = &mut self.balance {
+            balance.advance(sample.state.step);
+        }
         if let Some(watch) = &mut self.watch {
             watch.look(sample.time, sample.energy.total());
         }
@@ -360,6 +366,7 @@ fn summarise(
     };
     let mut warnings = of_step(scene, frequencies, method, plan.step, "the step");
     warnings.extend(of_run(scene, &ending.openings));
+    warnings.extend(of_springs(&ending.reversals));
     warnings.extend(of_turns(scene, frequencies, method, plan.step, &ending.turning));
     warnings.extend(of_losses(scene, method, &ending.losses));
     let readouts = ReadoutFigures::of(scene, statistics.readings());
@@ -405,6 +412,7 @@ fn summarise(
         set: SetValue::of(scene),
         assembled: AssembledCheck::of(scene).map(|assembled| assembled.sentence()),
         settled: SettledCheck::of(scene).map(|settled| settled.sentence()),
+        energy_balance: None,
         watch_energy: None,
         golden: None,
         modes: None,

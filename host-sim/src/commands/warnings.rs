@@ -5,11 +5,11 @@
 
 use dbd_kernel::damping::Damping;
 use dbd_plant::digits::{approximate, significant};
-use dbd_plant::judge::{OPENED, Opening, Turning};
+use dbd_plant::judge::{OPENED, Opening, Reversal, Turning};
 use dbd_plant::time::{display, rounded};
 use dbd_plant::{Frequencies, Method, OrientationName};
 use dbd_scene::default_step::LARGEST_TURN;
-use dbd_scene::{ElementDamping, Facts, Scene, Severity};
+use dbd_scene::{ElementDamping, Facts, OneSided, Scene, Severity};
 
 use crate::commands::rounding::{self, COMPOSED, named};
 use crate::compliance::{Stretch, stretches};
@@ -158,6 +158,26 @@ pub fn of_run(scene: &Scene, openings: &[Opening]) -> Vec<String> {
         text += &format!("; so did {named}");
     }
     vec![text + ": stiffness, masses and loads do not go together, or the step is too long"]
+}
+
+/// Springs named as ropes, tyres or stops that changed to the side on which no such thing acts.
+#[must_use]
+pub fn of_springs(reversals: &[Reversal]) -> Vec<String> {
+    let sentence = |one: &Reversal| {
+        let (since, at_first) = one.since?;
+        let OneSided { name, line, word, pulls, .. } = &one.spring;
+        let (does, slack) = if *pulls { ("pushed", "slack") } else { ("pulled", "off") };
+        let force = |newtons: f64| format!("{} N", significant(newtons.abs(), 3));
+        Some(format!(
+            "{name} (line {line}): {does} from t = {} on, there with {}, at most with {} at t = {}, which no {word} \
+             does: it is {slack} then in truth; a `clearance` or another model of it lets it go",
+            display(rounded(since, 6)),
+            force(at_first),
+            force(one.most.0),
+            display(rounded(one.most.1, 6)),
+        ))
+    };
+    reversals.iter().filter_map(sentence).collect()
 }
 
 /// By so much more than at t = 0 a body must have come to turn in a step for a run to say so, too.

@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::report::golden::GoldenOutcome;
 use crate::report::statistics::ReadoutFigures;
+use crate::simulate::EnergyBalance;
 use crate::simulate::watch::{EnergyStop, EnergyWatch, Watched};
 use crate::terminal::SceneFile;
 use crate::terminal::text::json;
@@ -104,6 +105,9 @@ pub struct Summary {
     pub settled: Option<String>,
     /// The joint that opened by the largest share of its free length; `None` where none has one.
     pub widest_joint: Option<JointOpening>,
+    /// Where the energy came from and went, of a scene with loads or inputs that came to its end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_balance: Option<EnergyBalance>,
     /// The watch over the energy, where there was one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub watch_energy: Option<EnergyWatch>,
@@ -269,6 +273,9 @@ impl Summary {
             ("advised step", advised),
             ("state hash", self.state_hash.clone().unwrap_or_else(|| "– (no sample)".into())),
         ];
+        rows.extend(
+            self.energy_balance.as_ref().map(|balance| ("energy, balance", account(balance))),
+        );
         if let Some(watch) = &self.watch_energy {
             let [largest, limit] =
                 [watch.largest, watch.limit].map(|joules| significant(joules, 4));
@@ -296,6 +303,21 @@ impl Summary {
         rows.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
         rows
     }
+}
+
+/// What gave and took energy, and what none of it explains: `loads +1.2 J, dampers −0.3 J; 2e-9 J remain`.
+fn account(balance: &EnergyBalance) -> String {
+    let EnergyBalance { loads, inputs, anchors, dampers, remains } = *balance;
+    let joules = |value: f64| significant(value, 4).replace('-', "−");
+    let parts =
+        [("loads", loads), ("inputs", inputs), ("moved ground", anchors), ("dampers", -dampers)];
+    let parts = parts.into_iter().filter(|(_, value)| *value != 0.0);
+    let parts = parts.map(|(name, value)| {
+        format!("{name} {}{} J", if value > 0.0 { "+" } else { "" }, joules(value))
+    });
+    let parts: Vec<String> = parts.collect();
+    let work = if parts.is_empty() { "no work".into() } else { parts.join(", ") };
+    format!("{work}; {} J remain", joules(remains))
 }
 
 /// Frequencies in words, those that nothing holds counted: `5 × 0 Hz, 3.68 Hz, 12.1 Hz`.

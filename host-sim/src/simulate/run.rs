@@ -7,7 +7,7 @@ use std::io;
 use std::time::{Duration, Instant};
 
 use dbd_kernel::{Energy, F64, State, Status};
-use dbd_plant::judge::{Judge, Opening, Trouble, Turning, Verdict};
+use dbd_plant::judge::{Judge, Opening, Reversal, Trouble, Turning, Verdict};
 use dbd_plant::numerals::Numerals;
 use dbd_plant::readings::append;
 use dbd_plant::rounding::{Loss, RoundingWatch};
@@ -78,6 +78,8 @@ pub struct Ending {
     pub turning: Turning,
     /// What single precision lost of bodies' motion, seen at every step.
     pub losses: Vec<Loss>,
+    /// The springs named as what acts on one side, and whether they acted on the other, seen likewise.
+    pub reversals: Vec<Reversal>,
 }
 
 /// Why a run could not be carried out.
@@ -221,6 +223,7 @@ impl<'c> Course<'c> {
             openings: self.judge.openings().to_vec(),
             turning: self.judge.turning(),
             losses: self.rounding.as_ref().map(RoundingWatch::losses).unwrap_or_default(),
+            reversals: self.judge.reversals().to_vec(),
         }
     }
 }

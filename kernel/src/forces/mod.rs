@@ -211,6 +211,20 @@ pub(crate) fn pushed<P: Geometry, T: Terms>(
     }
 }
 
+/// What loads and inputs push by themselves; torques in body axes.
+pub(crate) fn push_loads_and_inputs<P: Geometry, T: Terms>(
+    model: &ModelRef<'_, P, T>,
+    windows: &[LoadWindow],
+    step: u64,
+    places: Places<'_, P>,
+    wrenches: &mut [Wrench<P::Space>],
+) {
+    start(model, None, (windows, step), places, wrenches);
+    for (wrench, frame) in wrenches.iter_mut().zip(places.frames) {
+        wrench.torque = P::moment_to_body(frame, wrench.torque);
+    }
+}
+
 /// Weight in a field of gravity, loads and inputs.
 #[inline(always)]
 fn start<P: Geometry, T: Terms>(

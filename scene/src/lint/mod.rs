@@ -16,6 +16,8 @@ mod readouts;
 mod springs;
 mod torsion_springs;
 
+pub use springs::OneSided;
+
 use std::fmt;
 
 use crate::{Facts, Scene};

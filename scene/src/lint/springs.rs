@@ -161,6 +161,36 @@ fn extension(scene: &Scene, group: &Group, facts: &GroupFacts) -> f64 {
     beyond.copysign(whole)
 }
 
+/// A raw spring that acts on both sides though its name says one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OneSided {
+    /// Its group in the model.
+    pub group: usize,
+    /// What messages call it: ``tsda `left rope` (world–hand)``.
+    pub name: String,
+    /// Its line in the scene file, from 1.
+    pub line: usize,
+    /// What its name says it is: `rope`.
+    pub word: &'static str,
+    /// Whether such a thing only pulls; it only pushes otherwise.
+    pub pulls: bool,
+}
+
+impl Scene {
+    /// The raw springs that act on both sides though their names say one: ropes that may push, tyres and stops
+    /// that may pull.
+    #[must_use]
+    pub fn one_sided_springs(&self) -> Vec<OneSided> {
+        let raw = self.joints.last().map_or(0, |joint| joint.groups.end);
+        let named = self.raw_names.iter().zip(&self.file_lines.tsdas).enumerate();
+        let one = |(row, (name, line)): (usize, (&String, &usize))| {
+            let (word, pulls) = one_sided(name)?;
+            Some(OneSided { group: raw + row, name: name.clone(), line: *line, word, pulls })
+        };
+        named.filter_map(one).collect()
+    }
+}
+
 /// The word of an element's own name that says it acts on one side only, and whether it pulls.
 fn one_sided(label: &str) -> Option<(&'static str, bool)> {
     let name = label.split('`').nth(1)?.to_lowercase();

@@ -1,0 +1,253 @@
+//! Where the energy of a run came from and where it went.
+//!
+//! `(scene, method, plan; steps done) => work of loads, inputs and moved ground, what dampers took, what remains`.
+//!
+//! A second plant of the run goes along with it, a step at a time, so that the time of the first one's steps
+//! stays what it is. The powers at both ends of a step, each with the loads and signals of that step, make its
+//! work by the trapezoidal rule; from one jump or bend of loads and signals to the next its ends are corrected by
+//! differences (Gregory), which makes it of fourth order. Ground that jumps between two steps gives what the springs'
+//! energy jumps by. Not seen is what happens within a step: a damper that stops a body in less.
+
+use dbd_kernel::elements::input::InputKind;
+use dbd_kernel::energy::energy;
+use dbd_kernel::power::power;
+use dbd_kernel::schedule::{LoadWindow, Signal};
+use dbd_kernel::{F64, State};
+use dbd_plant::{AnyPlant, Method, Plan, PlantError, plant};
+use dbd_scene::{Scene, SceneModel};
+use serde::Serialize;
+
+type States = State<SceneModel<F64>>;
+
+/// What a run's energy came from: `E(t) − E(0) = loads + inputs + anchors − dampers + remains`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct EnergyBalance {
+    /// \[J\] work of the loads.
+    pub loads: f64,
+    /// \[J\] work of the inputs: forces, torques, actuators.
+    pub inputs: f64,
+    /// \[J\] work of ground that inputs move.
+    pub anchors: f64,
+    /// \[J\] what dampers took.
+    pub dampers: f64,
+    /// \[J\] what of the change of the energy none of them explains: errors of the scheme, of rounding and of
+    /// this account.
+    pub remains: f64,
+}
+
+/// Keeps account of a run.
+pub struct Balance {
+    plant: Box<dyn AnyPlant>,
+    /// The model that steps, its numbers taken as exact.
+    model: SceneModel<F64>,
+    windows: Vec<LoadWindow>,
+    initial: f64,
+    work: EnergyBalance,
+    /// Since what acts last jumped or bent.
+    piece: Piece,
+}
+
+/// Powers \[W\] of loads, inputs, moved ground and dampers.
+type Powers = [f64; 4];
+
+/// Steps in which what acts is smooth.
+#[derive(Clone, Default)]
+struct Piece {
+    /// The first three powers, or as many as there are.
+    first: Vec<Powers>,
+    /// The last three, the latest last.
+    last: Vec<Powers>,
+}
+
+impl Piece {
+    fn push(&mut self, powers: Powers) {
+        if self.first.len() < 3 {
+            self.first.push(powers);
+        }
+        if self.last.len() == 3 {
+            self.last.remove(0);
+        }
+        self.last.push(powers);
+    }
+
+    /// \[J\] what the trapezoidal rule lacks at both ends in steps of `h` \[s\]: Gregory's differences of first and
+    /// second order.
+    fn correction(&self, h: f64) -> Powers {
+        let ([a0, a1, a2], [b2, b1, b0]) = (&self.first[..], &self.last[..]) else {
+            return Powers::default();
+        };
+        std::array::from_fn(|i| {
+            let slopes = (b0[i] - b1[i]) - (a1[i] - a0[i]);
+            let bends = (b0[i] - 2.0 * b1[i] + b2[i]) + (a2[i] - 2.0 * a1[i] + a0[i]);
+            -h * (slopes / 12.0 + bends / 24.0)
+        })
+    }
+}
+
+impl Balance {
+    /// The account of a run that begins; `None` of a scene whose energy nothing changes.
+    ///
+    /// # Errors
+    /// Where there is no plant of the method with the plan's step.
+    pub fn new(scene: &Scene, method: &Method, plan: &Plan) -> Result<Option<Self>, PlantError> {
+        if scene.model.loads.is_empty() && scene.model.inputs.is_empty() {
+            return Ok(None);
+        }
+        let plant = plant(scene, method, plan.step)?;
+        let model = plant.model().clone();
+        let windows =
+            model.loads.iter().map(|load| LoadWindow::new(load.from, load.until, plan.step));
+        let windows = windows.collect();
+        let initial = plant.energy().total();
+        let work = EnergyBalance::default();
+        Ok(Some(Self { plant, model, windows, initial, work, piece: Piece::default() }))
+    }
+
+    /// Follows the run to this number of steps.
+    pub fn advance(&mut self, steps: u64) {
+        let mut state = self.plant.state();
+        while state.step < steps && self.plant.status().is_running() {
+            state = self.step(&state);
+        }
+    }
+
+    fn step(&mut self, state: &States) -> States {
+        let h = self.plant.step_size();
+        if self.piece.last.is_empty() {
+            self.piece.push(self.powers(state));
+        }
+        let signals = self.plant.signals_at_end();
+        let _ = self.plant.step();
+        let next = self.plant.state();
+        // What acted in the step, where it ended.
+        let end = State { step: state.step, signals, ..next.clone() };
+        let (begun, ended) =
+            (self.piece.last.last().copied().unwrap_or_default(), self.powers(&end));
+        self.piece.push(ended);
+        self.work.add(std::array::from_fn(|i| 0.5 * h * (begun[i] + ended[i])));
+        self.work.anchors += self.jump(&end, &next);
+        let bends = end.signals != next.signals
+            || self.windows.iter().any(|window| window.changes_at(next.step));
+        if bends {
+            self.work.add(self.piece.correction(h));
+            self.piece = Piece::default();
+        }
+        next
+    }
+
+    fn powers(&self, state: &States) -> Powers {
+        let powers = power(&self.model, state, self.plant.step_size()).unwrap_or_default();
+        [powers.loads, powers.inputs, powers.ground, powers.dampers]
+    }
+
+    /// \[J\] by what ground that jumps changes the energy.
+    fn jump(&self, before: &States, after: &States) -> f64 {
+        let model = &self.model;
+        let value = |signal: &Signal<f64>| signal.value;
+        let rows = model.inputs.iter().zip(before.signals.iter().zip(&after.signals));
+        let jumps = rows.into_iter().any(|(input, (before, after))| {
+            matches!(input.kind, InputKind::Anchor { .. }) && value(before) != value(after)
+        });
+        if !jumps {
+            return 0.0;
+        }
+        let of = |state: &States| energy(model, state, self.plant.step_size()).potential();
+        of(after) - of(before)
+    }
+
+    /// The account so far.
+    #[must_use]
+    pub fn balance(&self) -> EnergyBalance {
+        let mut work = self.work;
+        work.add(self.piece.correction(self.plant.step_size()));
+        let EnergyBalance { loads, inputs, anchors, dampers, .. } = work;
+        let change = self.plant.energy().total() - self.initial;
+        EnergyBalance { remains: change - (loads + inputs + anchors - dampers), ..work }
+    }
+}
+
+impl EnergyBalance {
+    fn add(&mut self, [loads, inputs, anchors, dampers]: Powers) {
+        self.loads += loads;
+        self.inputs += inputs;
+        self.anchors += anchors;
+        self.dampers += dampers;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dbd_plant::plan::{Request, StepRequest, plan};
+
+    use super::*;
+
+    const SCENE: &str = r#"
+name = "driven"
+duration = 1
+[[body]]
+name = "b"
+mass = 2
+inertia = [0.1, 0.2, 0.2]
+position = [1, 0.1, 0]
+[[tsda]]
+name = "mount"
+between = ["world", "b"]
+points = [[0, 0, 0], [0, 0.1, 0]]
+stiffness = 400
+damping = 8
+free_length = 1
+[[load]]
+body = "b"
+force = [10, 4, 0]
+from = 0.25
+until = 0.5
+[[input]]
+name = "push"
+type = "force"
+body = "b"
+axis = [1, 1, 0]
+table = [[0, 0], [0.5, 20], [0.75, -20]]
+[[input]]
+name = "shake"
+type = "anchor"
+target = "mount"
+axis = [1, 0, 0]
+sine = { amplitude = "2 cm", frequency = 6 }
+"#;
+
+    /// The account of a run by a model that is not quite the one that steps.
+    fn balance(wrong: impl FnOnce(&mut SceneModel<F64>)) -> EnergyBalance {
+        let scene = Scene::parse(SCENE, "driven.toml").unwrap();
+        let request = Request { step: StepRequest::Given(1e-3), duration: 1.0, every: Some(0.1) };
+        let plan = plan(&request).unwrap();
+        let mut balance = Balance::new(&scene, &Method::default(), &plan).unwrap().unwrap();
+        wrong(&mut balance.model);
+        balance.advance(plan.steps);
+        balance.balance()
+    }
+
+    #[test]
+    fn a_wrong_sign_remains() {
+        let right = balance(|_| {});
+        let least = [right.loads, right.inputs, right.anchors, right.dampers]
+            .into_iter()
+            .fold(f64::INFINITY, |least, part| least.min(part.abs()));
+        assert!(right.remains.abs() < 1e-3 * least, "{right:?}");
+        let wrong: [(&str, fn(&mut SceneModel<F64>)); 4] = [
+            ("load", |model| model.loads[0].force = -model.loads[0].force),
+            ("damper", |model| model.dampers[0] = -model.dampers[0]),
+            ("input", |model| {
+                let InputKind::Force { direction, .. } = &mut model.inputs[0].kind else { return };
+                *direction = -*direction;
+            }),
+            ("anchor", |model| {
+                let InputKind::Anchor { direction } = &mut model.inputs[1].kind else { return };
+                *direction = -*direction;
+            }),
+        ];
+        for (name, wrong) in wrong {
+            let found = balance(wrong);
+            assert!(found.remains.abs() > 0.1 * least, "{name}: {found:?}, right: {right:?}");
+        }
+    }
+}

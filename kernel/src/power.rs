@@ -1,0 +1,118 @@
+//! Who changes the energy of a state, and how fast: loads, inputs, moved ground, dampers.
+//!
+//! `(model, state) => powers`, in the model's precision; for hosts, which judge a run by them. With the energy E
+//! of [`crate::energy`], `dE/dt = loads + inputs + ground − dampers`, whatever the pose: springs and gravity only
+//! turn one energy into another. Not known here: a jump of moved ground, which changes the energy at once.
+
+use crate::forces::{
+    At, Dampers, DampersLeft, Evaluation, ExplicitDampers, Instant, Turns, Wrench,
+    evaluate_out_of_line, push_loads_and_inputs, record,
+};
+use crate::geometry::Geometry;
+use crate::index::BodyIndex;
+use crate::model::{FrameOf, ModelOwner, RealOf, SpaceOf};
+use crate::pose::{End, Places, place_bodies};
+use crate::real::Real;
+use crate::schedule::LoadWindow;
+use crate::space::Linear as _;
+use crate::state::State;
+use crate::status::Cause;
+
+/// Powers \[W\].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Power<R> {
+    /// \[W\] what loads give to the bodies.
+    pub loads: R,
+    /// \[W\] what inputs give to them: forces, torques, actuators.
+    pub inputs: R,
+    /// \[W\] what moved ground gives through springs and dampers.
+    pub ground: R,
+    /// \[W\] what dampers take, those at moved ground included.
+    pub dampers: R,
+}
+
+/// The powers in a state, loads as they act in its step of `step_size` \[s\], dampers by their law `c·v²`.
+///
+/// # Errors
+/// [`Cause::UndefinedTwist`] names the first torsion spring whose twist is undefined.
+pub fn power<M: ModelOwner>(
+    model: &M,
+    state: &State<M>,
+    step_size: f64,
+) -> Result<Power<RealOf<M>>, Cause> {
+    let view = model.view();
+    let (bodies, signals) = (state.bodies.as_ref(), state.signals.as_ref());
+    let mut windows = model.per_load();
+    for (window, load) in windows.as_mut().iter_mut().zip(view.loads) {
+        *window = LoadWindow::new(load.from, load.until, step_size);
+    }
+    let mut frames = model.per_body(FrameOf::<M>::default());
+    place_bodies::<M::Precision>(bodies, frames.as_mut());
+    let mut wrenches = model.per_body(Wrench::<SpaceOf<M>>::default());
+    let into_bodies = |wrenches: &[Wrench<SpaceOf<M>>]| {
+        let rows = bodies.iter().zip(wrenches);
+        rows.fold(RealOf::<M>::ZERO, |sum, (body, wrench)| {
+            let v = M::Precision::velocity(&body.velocity);
+            let w = M::Precision::spin(&body.angular_velocity);
+            sum + wrench.force.dot(v) + wrench.torque.dot(w)
+        })
+    };
+    let places = Places { frames: frames.as_ref(), signals };
+    let unmoved = Places { signals: &[], ..places };
+    push_loads_and_inputs(&view, windows.as_ref(), state.step, unmoved, wrenches.as_mut());
+    let loads = into_bodies(wrenches.as_ref());
+    push_loads_and_inputs(&view, &[], state.step, places, wrenches.as_mut());
+    let inputs = into_bodies(wrenches.as_ref());
+
+    // What springs, and springs and dampers, give to the bodies and take from moved ground.
+    let with = forces::<M, ExplicitDampers>(model, state, into_bodies)?;
+    let without = forces::<M, DampersLeft>(model, state, into_bodies)?;
+    let mut ground = [RealOf::<M>::ZERO; 2];
+    for group in view.groups {
+        let (anchor, sign) = match [group.a, group.b].map(BodyIndex::anchor_row) {
+            [Some(_), _] => (group.a, -RealOf::<M>::ONE),
+            [_, Some(_)] => (group.b, RealOf::<M>::ONE),
+            _ => continue,
+        };
+        let rate = End::new(&view, places, anchor, None).velocity;
+        let on = (bodies, &[][..]);
+        let records = [
+            record::<_, _, ExplicitDampers>(&view, places, on, group),
+            record::<_, _, DampersLeft>(&view, places, on, group),
+        ];
+        for (sum, record) in ground.iter_mut().zip(records) {
+            let Some(record) = record else { continue };
+            *sum = *sum + sign * record.force.dot(rate);
+        }
+    }
+    let [whole, springs] = ground;
+    let dampers = (whole - springs) - (with - without);
+    Ok(Power { loads, inputs, ground: whole, dampers })
+}
+
+/// What all forces of a state give to the bodies, loads apart.
+fn forces<M: ModelOwner, D: Dampers>(
+    model: &M,
+    state: &State<M>,
+    into_bodies: impl Fn(&[Wrench<SpaceOf<M>>]) -> RealOf<M>,
+) -> Result<RealOf<M>, Cause> {
+    let mut frames = model.per_body(FrameOf::<M>::default());
+    let mut wrenches = model.per_body(Wrench::default());
+    let mut turns = state.turns.clone();
+    evaluate_out_of_line::<M::Precision, M::Terms, D>(
+        &model.view(),
+        Instant {
+            step: state.step,
+            windows: &[],
+            signals: state.signals.as_ref(),
+            bodies: state.bodies.as_ref(),
+            in_line: false,
+            rests: &[],
+            placed: false,
+        },
+        Turns { counts: turns.as_mut(), at: At::Stage },
+        Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() },
+    )?;
+    Ok(into_bodies(wrenches.as_ref()))
+}
