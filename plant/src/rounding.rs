@@ -27,9 +27,9 @@ pub struct Loss {
     pub body: usize,
     /// Whether it is a turn \[rad\] and not a way \[m\].
     pub turn: bool,
-    /// The most that was lost, \[m\] or \[rad\].
+    /// \[m, rad\] the most that was lost.
     pub lost: f64,
-    /// How far the body went from its start at most, by its velocity, in the same unit.
+    /// \[m, rad\] how far the body went from its start at most, by its velocity.
     pub moved: f64,
     /// \[s\] when the loss was largest.
     pub time: f64,

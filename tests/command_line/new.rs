@@ -43,7 +43,8 @@ fn a_new_project_is_whole_and_stands_alone() {
     let last = read("tests/golden.txt").lines().last().unwrap().to_owned();
     let options = ["--precision", "f32", "--damping", "joint-wise", "--duration", "5s"];
     let run = folder.summary("cart-pendulum", &options);
-    assert_eq!(last, format!("{} {}", run["steps"], run["state_hash"].as_str().unwrap()));
+    let bits = format!("{} {}", run["steps"], run["state_hash"].as_str().unwrap());
+    assert_eq!(last, bits, "{}", done.out);
     // Nothing is ever overwritten, not even what is empty.
     let again = new(&project, &[]);
     assert_eq!(again.exit, Exit::Refused);

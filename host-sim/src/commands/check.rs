@@ -6,7 +6,7 @@
 
 use dbd_plant::digits::significant;
 use dbd_plant::frequencies::advised_text;
-use dbd_plant::time::display;
+use dbd_plant::time::{display, rounded};
 use std::f64::consts::TAU;
 
 use dbd_plant::{DampingName, Frequencies, Method, PrecisionName};
@@ -109,7 +109,8 @@ impl EstimateCheck {
     }
 
     fn text(&self) -> String {
-        let [own, joint_wise] = [self.sweeps, self.joint_wise].map(|count| significant(count, 2));
+        let [own, joint_wise] =
+            [self.sweeps, self.joint_wise].map(|count| significant(rounded(count, 2), 2));
         let damped = match own == joint_wise {
             true => String::new(),
             false => format!(", {joint_wise} with joint-wise damping"),

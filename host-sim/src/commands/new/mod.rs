@@ -16,6 +16,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 use dbd_plant::digits::significant;
+use dbd_plant::time::rounded;
 use dbd_plant::{PlanError, PlantError, plant};
 use dbd_scene::Scene;
 use dbd_scene::export::{constant_name, type_name};
@@ -175,7 +176,7 @@ fn project(
     let estimate = estimate.map_or_else(String::new, |count| {
         format!(
             "some {} instructions per step, estimated by bodies and elements",
-            significant(count, 2)
+            significant(rounded(count, 2), 2)
         )
     });
     let reasons: String = choice.reasons.iter().map(|reason| format!("- {reason}\n")).collect();
