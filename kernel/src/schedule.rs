@@ -8,7 +8,7 @@
 //! with. At θ = 1 a knot that falls on the step's end does not act yet: a jump belongs to the step
 //! it begins.
 
-use crate::elements::input::{Input, Knot};
+use crate::elements::input::{Input, InputKind, Knot};
 use crate::geometry::Geometry;
 use crate::real::{Constant, Real, choose};
 use crate::words::{WordSource, WordVisitor, Words};
@@ -202,6 +202,30 @@ fn table<R: Real>(knots: &[Knot<R>], steps: &[KnotStep<R>], at: StageTime<R>) ->
     // What is held stays so for ever, also where the time since is beyond what the number can hold.
     let rise = choose!(R, knot.slope.equals(R::ZERO), R::ZERO, knot.slope * since);
     Some(Signal { value: knot.value + rise, rate: knot.slope })
+}
+
+/// Whether the ground jumps at the start of this step or within it, by a table that holds its values.
+pub(crate) fn ground_jumps<P: Geometry>(
+    inputs: &[Input<P>],
+    knots: &[Knot<P::Real>],
+    steps: &[KnotStep<P::Real>],
+    (step, h): (u64, P::Real),
+) -> bool {
+    inputs.iter().any(|input| {
+        let range = input.knot as usize..input.knot as usize + input.knots as usize;
+        let (InputKind::Anchor { .. }, Some(knots), Some(steps)) =
+            (input.kind, knots.get(range.clone()), steps.get(range))
+        else {
+            return false;
+        };
+        knots.windows(2).zip(steps.iter().skip(1)).any(|(pair, at)| {
+            let within = at.offset > P::Real::constant(ON_THE_END) * h;
+            let [before, after] = pair else { return false };
+            at.first == step.wrapping_add(within.into())
+                && before.slope == P::Real::ZERO
+                && before.value != after.value
+        })
+    })
 }
 
 #[cfg(test)]

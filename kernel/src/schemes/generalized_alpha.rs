@@ -25,7 +25,8 @@
 //! `(M + γ/μ·h·C + β/μ·h²·K)·a = F` is the acceleration of the whole first step, `a = d`.
 //!
 //! What is pushed from outside, loads and inputs, may jump. Accelerations are therefore remembered
-//! without it, and it is added to them as it is where a step begins.
+//! without it, and it is added to them as it is where a step begins. Ground that jumps by a table throws what it holds:
+//! the step begins as a first one.
 
 use crate::body::{Body, Increment};
 use crate::damping::Damping;
@@ -193,7 +194,8 @@ impl Scheme for GeneralizedAlpha {
         &self,
         stepper: &mut Stepper<'_, '_, P, T, Self::Memory<P>>,
     ) -> Result<(), Cause> {
-        let begins = !stepper.ledger.begun;
+        // What is remembered is of no use where the ground jumps.
+        let begins = !stepper.ledger.begun || stepper.ground_jumps();
         if begins {
             stepper.memory.iter_mut().for_each(|memory| *memory = Default::default());
         } else if stepper.is_pushed() {

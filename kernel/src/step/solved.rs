@@ -6,6 +6,7 @@ use crate::forces::pushed;
 use crate::geometry::Geometry;
 use crate::model::Terms;
 use crate::pose::{Places, place_bodies};
+use crate::schedule::ground_jumps;
 use crate::solve::{Pencil, System, assemble};
 use crate::status::Cause;
 use crate::step::Workspace;
@@ -15,6 +16,13 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
     #[inline(always)]
     pub(crate) fn is_pushed(&self) -> bool {
         (T::LOADS && !self.model.loads.is_empty()) || (T::INPUTS && !self.model.inputs.is_empty())
+    }
+
+    /// Whether the ground jumps at the start of this step or within it.
+    #[inline(always)]
+    pub(crate) fn ground_jumps(&self) -> bool {
+        let Self { model, knots, step, h, .. } = self;
+        T::INPUTS && ground_jumps(model.inputs, model.knots, knots, (*step, *h))
     }
 
     /// Brings the frames to the present pose.
