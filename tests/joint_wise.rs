@@ -6,28 +6,13 @@ use dbd_kernel::{
     F32, F64, Geometry, JointWise, Leapfrog, Plant, Scheme, SemiImplicitEuler, State,
 };
 use dbd_scene::{Scene, SceneModel, widen};
+use dbd_tests::mechanisms::Random;
 use dbd_tests::page::{block, figure, table};
 use dbd_tests::{momenta, scene};
 
 /// The scenes with damped joints.
 const DAMPED: [&str; 5] =
     ["cart-pendulum", "delta-pick-and-place", "double-wishbone", "gripper", "macpherson"];
-
-/// Numbers in [0, 1) by xorshift (Marsaglia 2003).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn vector(&mut self) -> [f64; 3] {
-        [(); 3].map(|()| 2.0 * self.unit() - 1.0)
-    }
-}
 
 /// A joint's keys beside its place.
 const JOINTS: [&str; 5] = [

@@ -74,7 +74,7 @@ fn every_mechanism_moves_as_the_reference_does() {
         }
     }
     assert!(off.is_empty(), "{} mechanisms differ: {}", off.len(), off.join("\n\n"));
-    let joints: Vec<&str> = texts.split("[[").filter(|part| part.starts_with("joint")).collect();
+    let joints: Vec<&str> = texts.split("\n[[").filter(|part| part.starts_with("joint")).collect();
     for kind in JOINTS {
         for bushing in [false, true] {
             let slides = matches!(*kind, "cylindrical" | "translational");

@@ -152,6 +152,12 @@ fn every_key_of_a_summary_is_in_the_reference() {
     let done = folder.run(&folder.scene(&open), &["--json"]);
     let summary: Value = serde_json::from_str(&done.out).unwrap();
     written.extend(summary.as_object().unwrap().keys().cloned());
+    // And of one that a load drives.
+    let loaded =
+        PENDULUM.replacen("[[body]]", "[[load]]\nbody = \"bob\"\nforce = [1, 0, 0]\n[[body]]", 1);
+    let done = folder.run(&folder.scene(&loaded), &["--json"]);
+    let summary: Value = serde_json::from_str(&done.out).unwrap();
+    written.extend(summary.as_object().unwrap().keys().cloned());
     for key in &written {
         assert!(documented.contains(key), "`{key}` is in no line of the reference");
     }

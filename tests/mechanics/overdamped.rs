@@ -12,6 +12,7 @@ use dbd_kernel::{
 };
 use dbd_reference::trajectory::Trajectory;
 use dbd_scene::{Scene, SceneModel};
+use dbd_tests::mechanisms::Random;
 use dbd_tests::page::{block, figure, table};
 use dbd_tests::scene;
 use nalgebra::Vector3;
@@ -332,17 +333,5 @@ fn a_damped_step_never_adds_energy() {
             most / start,
             model.dampers
         );
-    }
-}
-
-/// Numbers in [0, 1) by xorshift (Marsaglia 2003).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 }

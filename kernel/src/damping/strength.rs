@@ -28,9 +28,10 @@ pub struct Strength {
     pub of: DampersOf,
     /// \[1/s\] c/μ of the strongest.
     pub rate: f64,
-    /// \[1/s\] c/μ of the strongest that crosses another as strong, of its own group or of one
-    /// that shares a body; of the two the smaller; 0 without such a pair. Dampers on one line and at
-    /// right angles do not cross.
+    /// \[1/s\] the largest `Σ_j c_j·K_ij²/K_ii` of a damper i: what all dampers of its own group and of
+    /// those that share a body, it itself included, take along its motion, but at most twice what crosses it,
+    /// `Σ_j min(c_i·K_ii, c_j·K_jj)`. 0 where none crosses another: dampers on one line and at right angles do
+    /// not.
     pub crossed: f64,
 }
 
@@ -78,23 +79,26 @@ fn look<M: ModelOwner>(
     for mount in pose.mounts() {
         let Some(ends) = pose.ends(mount) else { continue };
         let [mut strongest, mut crossed] = [RealOf::<M>::ZERO; 2];
-        for (_, other, others) in pose.meeting(held.as_ref(), ends) {
-            pose.each_damper(mount, |_, _, coefficient, direction| {
-                let Some(motion) = Motion::new(&view, ends, coefficient, direction) else { return };
-                let rate = coefficient * motion.rate;
-                strongest = larger(strongest, rate);
+        pose.each_damper(mount, |_, _, coefficient, direction| {
+            let Some(motion) = Motion::new(&view, ends, coefficient, direction) else { return };
+            let rate = coefficient * motion.rate;
+            let [mut along, mut across] = [RealOf::<M>::ZERO; 2];
+            for (_, other, others) in pose.meeting(held.as_ref(), ends) {
                 pose.each_damper(other, |_, _, coefficient, direction| {
                     let its = Motion::new(&view, others, coefficient, direction);
                     let Some(its) = its else { return };
                     let here = motion.rate(others, direction);
+                    along = along + coefficient * here * (here / motion.rate);
                     let square = here / motion.rate * (here / its.rate);
                     if square * (one - square) > crossing {
                         let its_rate = coefficient * its.rate;
-                        crossed = larger(crossed, if its_rate < rate { its_rate } else { rate });
+                        across = across + smaller(rate, its_rate);
                     }
                 });
-            });
-        }
+            }
+            strongest = larger(strongest, rate);
+            crossed = larger(crossed, smaller(along, across + across));
+        });
         let of = match mount {
             Mount::Group(row) => DampersOf::Group(row),
             Mount::Torsion(row) => DampersOf::Torsion(row),
@@ -106,4 +110,8 @@ fn look<M: ModelOwner>(
 
 fn larger<R: Real>(a: R, b: R) -> R {
     if b > a { b } else { a }
+}
+
+fn smaller<R: Real>(a: R, b: R) -> R {
+    if b < a { b } else { a }
 }

@@ -14,8 +14,8 @@ pub struct ElementDamping {
     pub row: usize,
     /// \[1/s\] c/μ of its strongest damper, at which this alone would stop its bodies.
     pub rate: f64,
-    /// \[1/s\] the same of its strongest damper that crosses another as strong, at angles that are
-    /// neither none nor right; 0 without one.
+    /// \[1/s\] the same of all dampers along the motion of one that others cross, at angles that are neither
+    /// none nor right; 0 without one: [`Strength::crossed`].
     pub crossed: f64,
 }
 

@@ -10,10 +10,13 @@ use dbd_plant::plan::step_of;
 use dbd_plant::plant::{check_extents, check_inputs, check_step, check_stiffness};
 use dbd_plant::rounding::RoundingWatch;
 use dbd_plant::time::{Time, display, rounded};
-use dbd_plant::{DampingName, Frequencies, Method, PlantError, PrecisionName, SchemeName, plant};
+use dbd_plant::{
+    DampingName, Frequencies, Method, PlanError, PlantError, PrecisionName, SchemeName, plant,
+};
 use dbd_scene::Scene;
+use miette::Diagnostic;
+use thiserror::Error;
 
-use super::NewError;
 use crate::arguments::names;
 use crate::commands::export::ExportPrecision;
 use crate::commands::rounding::of_losses;
@@ -53,6 +56,19 @@ pub struct ChoiceOptions {
     pub step: Option<Time>,
 }
 
+/// Why nothing can be chosen.
+#[derive(Debug, Error, Diagnostic)]
+pub enum ChoiceError {
+    /// There is no such method, or it does not hold the scene.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Plant(#[from] PlantError),
+    /// No step fits the scene.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Step(#[from] PlanError),
+}
+
 /// How a project's plant steps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
@@ -70,8 +86,8 @@ impl Choice {
     /// What is asked for, and the rest from short runs.
     ///
     /// # Errors
-    /// [`NewError`] where there is no such method, or it does not hold the scene.
-    pub fn of(scene: &Scene, options: &ChoiceOptions) -> Result<Self, NewError> {
+    /// [`ChoiceError`] where there is no such method, or it does not hold the scene.
+    pub fn of(scene: &Scene, options: &ChoiceOptions) -> Result<Self, ChoiceError> {
         let scheme = options.scheme.unwrap_or_default();
         let asked = options.precision.map(ExportPrecision::name);
         let mut method = Method::new(scheme, None, asked.unwrap_or(PrecisionName::F32))

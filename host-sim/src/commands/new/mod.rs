@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand};
 use dbd_plant::digits::significant;
 use dbd_plant::time::rounded;
-use dbd_plant::{PlanError, PlantError, plant};
+use dbd_plant::plant;
 use dbd_scene::Scene;
 use dbd_scene::export::{constant_name, type_name};
 use dbd_study::costs::Costs;
@@ -27,7 +27,7 @@ use thiserror::Error;
 
 use crate::examples;
 use crate::terminal::Found;
-use choice::{Choice, ChoiceOptions};
+use choice::{Choice, ChoiceError, ChoiceOptions};
 use dependencies::Dependencies;
 
 pub use name::NameError;
@@ -95,12 +95,9 @@ pub enum NewError {
         /// The folder or the file.
         path: PathBuf,
     },
-    /// Single precision cannot hold the scene.
+    /// No method or no step holds the scene.
     #[error(transparent)]
-    Plant(#[from] PlantError),
-    /// No step fits the scene.
-    #[error(transparent)]
-    Step(#[from] PlanError),
+    Choice(#[from] ChoiceError),
     /// The scene fails within the golden run.
     #[error("the scene {scene} fails with {method}: {failure}")]
     Fails {
@@ -125,8 +122,7 @@ impl Diagnostic for NewError {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         match self {
             Self::Name(error) => error.help(),
-            Self::Plant(error) => error.help(),
-            Self::Step(error) => error.help(),
+            Self::Choice(error) => error.help(),
             Self::Taken { .. } => Some(Box::new("another name; nothing is ever overwritten")),
             Self::Fails { scene, .. } => {
                 let help = format!("host-sim run {scene} with that method finds a step that works");
@@ -258,7 +254,8 @@ fn placeholder(text: &str) -> Option<(&str, &str, &str)> {
 
 /// Lines `STEPS HASH` after 1, 10, 100, … steps and at the end, as the project's own run shows them.
 fn golden(scene: &Scene, choice: &Choice, steps: u64) -> Result<String, NewError> {
-    let mut plant = plant(scene, &choice.method, choice.step)?;
+    let plant = plant(scene, &choice.method, choice.step);
+    let mut plant = plant.map_err(ChoiceError::from)?;
     let (mut lines, mut next, mut done) = (String::new(), 1, 0);
     while done < steps {
         let count = next.min(steps) - done;
