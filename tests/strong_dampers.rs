@@ -116,7 +116,7 @@ fn no_scene_that_ships_is_warned_of() {
         let advised = Frequencies::of(&scene).advised_step();
         for step in scene.step.into_iter().chain(advised) {
             for damping in [DampingName::Sweeps, DampingName::JointWise] {
-                let method = leapfrog.clone().with_damping(damping).unwrap();
+                let method = leapfrog.with_damping(damping).unwrap();
                 assert_eq!(warning(&scene, &method, step), None, "{name} at {step}");
                 assert_eq!(warning(&scene, &method, 2.0 * step), None, "{name} at {step}");
             }
