@@ -16,8 +16,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 use dbd_plant::digits::significant;
-use dbd_plant::time::rounded;
 use dbd_plant::plant;
+use dbd_plant::time::rounded;
 use dbd_scene::Scene;
 use dbd_scene::export::{constant_name, type_name};
 use dbd_study::costs::Costs;
