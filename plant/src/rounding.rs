@@ -17,8 +17,8 @@ const COUNTED: f64 = 1024.0;
 /// A loss is told from this share of the motion on,
 pub const LOST: f64 = 1e-3;
 
-/// where it is more than this many last digits.
-const TOLD: f64 = 16.0;
+/// where it is more than this many last digits: less is what joints give way by, which they put right.
+const TOLD: f64 = 1024.0;
 
 /// What a body's sums lost of its motion.
 #[derive(Clone, Copy, Debug, PartialEq)]

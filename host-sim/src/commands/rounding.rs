@@ -156,7 +156,7 @@ pub fn of_noise(
     noisy.sort_by(|a, b| (b.1 / b.2).total_cmp(&(a.1 / a.2)));
     let ((worst, noise, shown, unit), others) = noisy.split_first()?;
     let mut text = format!(
-        "read-out `{worst}` may be off by some {} {unit} at any moment, {} {} {unit}",
+        "read-out `{worst}` may be off by some {} {unit} or more at any moment, {} {} {unit}",
         significant(*noise, 1),
         if figures.is_some() { "where it shows at most" } else { "beside a weight of" },
         significant(*shown, 2),
