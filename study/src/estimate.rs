@@ -6,13 +6,13 @@
 
 use dbd_kernel::model::Law;
 use dbd_plant::plan::step_of;
-use dbd_plant::{DampingName, Frequencies, Method, Named as _, PrecisionName, plant};
+use dbd_plant::{DampingName, Frequencies, Method, Named as _, PrecisionName, SchemeName, plant};
 use dbd_scene::Scene;
 
 use crate::costs::Costs;
 
-/// Steps after which bodies turn about the axes about which they turn.
-const STEPS: u64 = 20;
+/// Steps after which bodies turn about the axes about which they turn: as many as are counted.
+const STEPS: u64 = 68;
 
 /// Instructions per body, per axis that it turns about, per element and per damped element: in space and in a plane.
 /// Fitted to the rows of leapfrog in f32 in docs/costs.csv by least squares of the relative errors.
@@ -55,7 +55,7 @@ const IN_PLANE: Share = Share {
 };
 
 /// Instructions of a step of a scene by a method; `None` for a way of damping, a scheme or a precision of which
-/// nothing was counted.
+/// nothing was counted, and of scenes with dampers by other schemes than leapfrog and semi-implicit Euler.
 #[must_use]
 pub fn instructions(scene: &Scene, method: &Method, counted: &Costs) -> Option<f64> {
     let model = scene.stepped();
@@ -65,6 +65,11 @@ pub fn instructions(scene: &Scene, method: &Method, counted: &Costs) -> Option<f
         Some(name) if name == DampingName::JointWise.name() => true,
         Some(_) => return None,
     };
+    let name = method.scheme_name();
+    let kicks = name == SchemeName::Leapfrog.name() || name == SchemeName::SemiImplicitEuler.name();
+    if !kicks && !model.dampers.is_empty() {
+        return None;
+    }
     let [plain, on_line] = share.dampers[usize::from(joint_wise)];
     let mut sum = share.body * model.bodies.len() as f64;
     sum += share.axis * turning(scene) as f64 + share.torsion * model.torsions.len() as f64;
@@ -80,7 +85,7 @@ pub fn instructions(scene: &Scene, method: &Method, counted: &Costs) -> Option<f
         sum += group.elements() as f64 * (each + if damped { damper } else { 0.0 });
     }
     let ratio = counted.over_leapfrog(
-        method.scheme_name(),
+        name,
         method.newton(),
         method.precision_name(),
         method.orientation_name(),

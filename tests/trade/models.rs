@@ -3,7 +3,7 @@
 use dbd_plant::digits::{approximate, significant};
 use dbd_study::costs::Costs;
 use dbd_study::grid::Grid;
-use dbd_study::variants::compare;
+use dbd_study::variants::{STIFFER, compare};
 use dbd_tests::{page, scene};
 
 /// Planar linkages, one of links in space, and what has dampers.
@@ -26,7 +26,8 @@ fn the_page_says_what_other_models_of_a_mechanism_come_to() {
             let step = one.stable_step.unwrap();
             let difference = one.difference.unwrap();
             // What is faster is so without another motion; 3ruu's spiders weigh something.
-            assert!(difference < 1e-3 || name == "3ruu", "{name}, {}: {difference:e}", one.name);
+            let alike = one.name != STIFFER && name != "3ruu";
+            assert!(difference < 1e-3 || !alike, "{name}, {}: {difference:e}", one.name);
             table += &format!(
                 "| {name} | {} | {} | {} | {} | {} | {} |\n",
                 if one == &all[0] { "spatial, TSDAs" } else { &one.name },
