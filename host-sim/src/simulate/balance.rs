@@ -233,7 +233,8 @@ sine = { amplitude = "2 cm", frequency = 6 }
             .into_iter()
             .fold(f64::INFINITY, |least, part| least.min(part.abs()));
         assert!(right.remains.abs() < 1e-3 * least, "{right:?}");
-        let wrong: [(&str, fn(&mut SceneModel<F64>)); 4] = [
+        type Change = fn(&mut SceneModel<F64>);
+        let wrong: [(&str, Change); 4] = [
             ("load", |model| model.loads[0].force = -model.loads[0].force),
             ("damper", |model| model.dampers[0] = -model.dampers[0]),
             ("input", |model| {
