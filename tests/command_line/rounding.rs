@@ -1,5 +1,7 @@
 //! What rounding loses is told, by the right amount; fixed point does not lose it.
 
+use std::f64::consts::FRAC_PI_4;
+
 use dbd_plant::{Method, PrecisionName, plant};
 use dbd_scene::Scene;
 use serde_json::Value;
@@ -10,7 +12,7 @@ use crate::{Folder, call};
 fn drifter(place: &str, velocity: &str, rate: &str) -> String {
     format!(
         "name = \"drift\"\nduration = 2\nevery = 0.5\ngravity = [0, 0, 0]\n[[body]]\nname = \"b\"\nmass = 2\n\
-         inertia = [0.02, 0.02, 0.02]\nposition = {place}\nvelocity = {velocity}\nangular_velocity = {rate}\n"
+         inertia = [0.02, 0.02, 0.02]\nposition = {place}\norientation = {{ axis = [0, 0, 1], angle = \"90 deg\" }}\nvelocity = {velocity}\nangular_velocity = {rate}\n"
     )
 }
 
@@ -29,13 +31,15 @@ fn lost(text: &str) -> f64 {
 #[test]
 fn the_loss_that_a_run_tells_is_the_one_that_it_has() {
     let folder = Folder::new();
+    // Half the angle at the end of two seconds.
+    let turned = FRAC_PI_4 + 4.363e-3;
     for (place, velocity, rate, step, column, meant) in [
         // 1 mm/s at 1.5 m: stands still, and runs fast.
         ("[0, 0, 1.5]", "[0, 0, 1e-3]", "[0, 0, 0]", "20us", "b.z", 1.5 + 2e-3),
         ("[0, 0, 1.5]", "[0, 0, 1e-3]", "[0, 0, 0]", "100us", "b.z", 1.5 + 2e-3),
         ("[20, 0, 0]", "[1e-2, 0, 0]", "[0, 0, 0]", "50us", "b.x", 20.0 + 2e-2),
-        // A quarter of a degree per second about one axis: half its angle's sine.
-        ("[0, 0, 0]", "[0, 0, 0]", "[0, 0, 4.363e-3]", "20us", "b.qz", 0.5 * 4.363e-3 * 2.0),
+        // A quarter of a degree per second about one axis: the sine of half the angle.
+        ("[0, 0, 0]", "[0, 0, 0]", "[0, 0, 4.363e-3]", "20us", "b.qz", turned.sin()),
     ] {
         let scene = folder.scene(&drifter(place, velocity, rate));
         let options = ["--precision", "f32", "--step", step];
@@ -43,7 +47,7 @@ fn the_loss_that_a_run_tells_is_the_one_that_it_has() {
         let trace = folder.trace("scene");
         let row = trace.header.iter().position(|name| name == column).unwrap();
         let last: f64 = trace.rows.last().unwrap()[row].parse().unwrap();
-        let half = if column == "b.qz" { 2.0 } else { 1.0 };
+        let half = if column == "b.qz" { 2.0 / turned.cos() } else { 1.0 };
         let off = half * (last - meant).abs();
         let text = said(&summary, "has lost").unwrap_or_else(|| panic!("{step}: {summary}"));
         assert!((lost(&text) / off - 1.0).abs() < 0.06, "{off:e}: {text}");
@@ -64,7 +68,7 @@ fn the_loss_that_a_run_tells_is_the_one_that_it_has() {
 fn place_of(place: &str, column: &str) -> f64 {
     let numbers = place.trim_matches(['[', ']']).split(", ").map(|n| n.parse::<f64>().unwrap());
     let row = ["b.x", "b.y", "b.z"].iter().position(|name| *name == column);
-    row.map_or(0.0, |row| numbers.collect::<Vec<f64>>()[row])
+    row.map_or(FRAC_PI_4.sin(), |row| numbers.collect::<Vec<f64>>()[row])
 }
 
 /// A tumbling handle flips in fixed point when it does in double precision, at any step.
