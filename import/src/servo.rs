@@ -83,7 +83,8 @@ impl Servo {
         }
     }
 
-    /// What a shortcut writes. One of another form than that before it begins anew, but for `general`.
+    /// Takes the attributes of an actuator element. A form other than that of the defaults begins from MuJoCo's own
+    /// values, but for `general`.
     fn write(&mut self, given: &Attributes<'_>) -> Result<(), Fault> {
         let form = given.element.name.as_str();
         if form != "general" && self.form != "general" && self.form != form {

@@ -169,6 +169,18 @@ pub fn plant_of_model(
     with_precision!(method, P => with_scheme!(method, scheme => new.typed::<P, _>(scheme)))
 }
 
+/// Whether a method steps a scene with steps of `step` \[s\]: its precision holds the step, what inputs are given, places
+/// and displacements, and its matrix bears the stiffness.
+///
+/// # Errors
+/// Those of [`check_step`], [`check_inputs`], [`check_extents`] and [`check_stiffness`], in this order.
+pub fn check(scene: &Scene, method: &Method, step: f64) -> Result<(), PlantError> {
+    check_step(method, step)?;
+    check_inputs(scene, method)?;
+    check_extents(scene, method, step)?;
+    check_stiffness(scene, method, step)
+}
+
 /// Whether a step is positive and finite once it is rounded to a method's precision.
 ///
 /// # Errors

@@ -14,10 +14,10 @@ use crate::any::AnyPlant;
 /// A step counts where it adds less than this many times the last digit of what it adds to.
 const COUNTED: f64 = 1024.0;
 
-/// A loss is told from this share of the motion on,
-pub const LOST: f64 = 1e-3;
+/// \[1\] Least share of its motion that a body must lose to be listed.
+const LOST: f64 = 1e-3;
 
-/// where it is more than this many last digits: less is what joints give way by, which they put right.
+/// \[1\] Least loss to be listed, in last digits: joints give way by less, and put it right.
 const TOLD: f64 = 1024.0;
 
 /// What a body's sums lost of its motion.
@@ -107,7 +107,7 @@ impl RoundingWatch {
         std::mem::swap(&mut self.last, &mut self.next);
     }
 
-    /// What bodies lost, by more than [`LOST`] of how far they went and than what a number can tell, the largest share
+    /// The bodies that lost more than a thousandth of how far they went and more than 1024 last digits, the largest share
     /// first.
     #[must_use]
     pub fn losses(&self) -> Vec<Loss> {

@@ -75,7 +75,7 @@ impl Table {
         }
     }
 
-    /// What a source says over time; a table over a sensor is none.
+    /// The signal of a source over time. A table over a sensor has none: it depends on the state.
     #[must_use]
     pub fn of_source(source: &Source<F64>, knots: &[Knot<f64>]) -> Self {
         match source.law {

@@ -11,7 +11,7 @@ use crate::time::{display, rounded};
 /// \[rad\] by so much the last digit of a unit quaternion in single precision turns a body.
 pub const LAST_TURN: f64 = f32::EPSILON as f64;
 
-/// A body that starts so slowly that rounding may change its motion by this share is told of.
+/// \[1\] Largest share of a body's motion that rounding may change, at the velocity of t = 0, without a warning.
 const TOLD: f64 = 0.1;
 
 /// \[m\] the last digit of a position in single precision, that of its largest coordinate.

@@ -15,7 +15,9 @@ use crate::costs::Costs;
 const STEPS: u64 = 68;
 
 /// Instructions per body, per axis that it turns about, per element and per damped element: in space and in a plane.
-/// Fitted to the rows of leapfrog in f32 in docs/costs.csv by least squares of the relative errors.
+/// Fitted to the rows of leapfrog in f32 in docs/costs.csv by least squares of the relative errors. Not counted, and taken
+/// from what is most alike: spatial point bushings and damped bushings; in a plane torsion springs, points on lines,
+/// revolute and universal bushings and all dampers.
 struct Share {
     body: f64,
     axis: f64,
@@ -41,7 +43,7 @@ const IN_SPACE: Share = Share {
     dampers: [[639.0, 1239.0], [193.0, 259.0]],
 };
 
-/// Of two scenes alone, without torsion springs and dampers, which are taken as a part of those in space.
+/// From the two planar scenes that were counted.
 const IN_PLANE: Share = Share {
     body: 140.0,
     axis: 0.0,

@@ -70,6 +70,43 @@ fn a_project_has_the_scene_that_is_asked_for() {
     assert!(manifest["build-dependencies"]["dbd-scene"].is_str());
 }
 
+/// What is asked for is what the build script says; where nothing is, a carriage that f32 would lose goes in fixed point.
+#[test]
+fn a_project_steps_as_it_is_asked_to_or_as_its_scene_needs() {
+    let folder = Folder::new();
+    let built = |name: &str, options: &[&str]| {
+        let done = new(&folder.path(name), options);
+        assert_eq!((done.exit, done.err.as_str()), (Exit::Done, ""), "{name}");
+        let script = fs::read_to_string(folder.path(name).join("build.rs")).unwrap();
+        let call = script.lines().find(|line| line.contains("dbd_scene::")).unwrap().trim();
+        (call.to_owned(), done.out)
+    };
+    let asked = ["--scheme", "semi-implicit-euler", "--damping", "sweeps", "--step", "250us"];
+    let (call, _) = built("asked", &[&asked[..], &["--precision", "f64"]].concat());
+    assert_eq!(
+        call,
+        "dbd_scene::Build::scene(\"scenes/cart-pendulum.toml\").scheme(\"semi-implicit-euler\")\
+         .precision(\"f64\").step(\"250us\").write();"
+    );
+    let creeping = "name = \"lift\"\ngravity = [0, 0, 0]\nduration = 2\nstep = \"20us\"\n[[body]]\n\
+                    name = \"carriage\"\nmass = 3\ninertia = [1, 1, 1]\nposition = [0, 0, 1.5]\n\
+                    velocity = [0, 0, 1e-3]\n";
+    let scene = folder.scene(creeping);
+    let (call, said) = built("slow", &["--scene", &scene]);
+    assert!(call.contains(".precision(\"fixed\").write();"), "{call}");
+    assert!(said.contains("fixed, for in f32 body `carriage` has lost"), "{said}");
+    let (call, said) = built("single", &["--scene", &scene, "--precision", "f32"]);
+    assert_eq!(
+        (call.as_str(), said.contains("has lost")),
+        ("dbd_scene::build(\"scenes/scene.toml\");", false)
+    );
+    // In a plane there is no fixed point; that f32 loses motion is said.
+    let flat = folder.scene(&creeping.replace("duration = 2", "duration = 2\nplanar = true"));
+    let (call, said) = built("flat", &["--scene", &flat]);
+    assert!(!call.contains("precision"), "{call}");
+    assert!(said.contains("f32, though body `carriage` has lost"), "{said}");
+}
+
 #[test]
 fn what_cannot_be_a_project_is_refused_and_nothing_is_written() {
     let folder = Folder::new();

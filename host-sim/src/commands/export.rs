@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueHint};
 use dbd_output::file::write_at;
 use dbd_plant::plan::step_of;
-use dbd_plant::plant::{check_extents, check_inputs, check_step, check_stiffness};
+use dbd_plant::plant::check;
 use dbd_plant::time::Time;
 use dbd_plant::{
     DampingName, Frequencies, Method, Named as _, PlanError, PlantError, PrecisionName, SchemeName,
@@ -126,10 +126,7 @@ pub fn export(scene: &Scene, options: &ExportOptions) -> Result<String, ExportEr
     };
     let step = step_of(scene, options.step.map(Time::seconds), longest)?;
     for method in &methods {
-        check_step(method, step)?;
-        check_inputs(scene, method)?;
-        check_extents(scene, method, step)?;
-        check_stiffness(scene, method, step)?;
+        check(scene, method, step)?;
     }
     let precisions = precisions.into_iter().map(ExportPrecision::source).collect();
     Ok(source::source(scene, &source::Export { precisions, scheme, step }))

@@ -33,10 +33,10 @@ const SHORTEST_FIRST: f64 = 0.003;
 /// \[m\] what `fixed` holds of places and of points of bodies.
 const FIXED_DIGIT: f64 = 1.0 / (1 << 27) as f64;
 
-/// A mechanism whose points `fixed` rounds by more than this share of its size is told of.
+/// \[1\] Largest rounding of a point in `fixed`, as a share of the mechanism's size, without a warning.
 const COARSE: f64 = 1e-6;
 
-/// Noise of a force that is more than this share of it is told of.
+/// \[1\] Largest noise of a force, as a share of the force, without a warning.
 const NOISY: f64 = 0.01;
 
 /// The first of these names, and how many more there are; `None` without any.

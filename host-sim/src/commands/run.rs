@@ -13,7 +13,7 @@ use dbd_output::file::PendingFile;
 use dbd_output::set::FileSet;
 use dbd_plant::judge::{Opening, conserves_energy};
 use dbd_plant::plan::{Request, StepRequest, plan};
-use dbd_plant::plant::{check_extents, check_inputs, check_step, check_stiffness};
+use dbd_plant::plant::check;
 use dbd_plant::{Frequencies, Method, Plan, PlanError, PlantError};
 use dbd_report::Recording;
 use dbd_scene::{Scene, Setting};
@@ -228,10 +228,7 @@ pub fn run(
     let frequencies = Frequencies::of(scene);
     let plan =
         plan_of(scene, options, &frequencies).map_err(|error| refused(scene, options, error))?;
-    check_step(&options.method, plan.step)?;
-    check_inputs(scene, &options.method)?;
-    check_extents(scene, &options.method, plan.step)?;
-    check_stiffness(scene, &options.method, plan.step)?;
+    check(scene, &options.method, plan.step)?;
     let golden = options.golden.as_ref();
     let golden = golden.map(|golden| golden.begin(scene, &options.method, &plan)).transpose()?;
     let modes = options.modes.map(|count| lowest(scene, count)).transpose()?;

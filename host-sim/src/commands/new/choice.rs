@@ -7,7 +7,7 @@ use clap::Args;
 use dbd_kernel::BodyState;
 use dbd_plant::digits::significant;
 use dbd_plant::plan::step_of;
-use dbd_plant::plant::{check_extents, check_inputs, check_step, check_stiffness};
+use dbd_plant::plant::check;
 use dbd_plant::rounding::RoundingWatch;
 use dbd_plant::time::{Time, display, rounded};
 use dbd_plant::{
@@ -101,10 +101,10 @@ impl Choice {
         if options.damping.is_none() {
             (method, reasons) = damped(scene, method, step)?;
         }
-        if asked.is_none() && scene.planar.is_none() {
+        if asked.is_none() {
             let fixed = method.with_precision(PrecisionName::Fixed);
             if let Some(reason) = loses(scene, &method, step)? {
-                method = match holds(scene, &fixed, step) {
+                method = match check(scene, &fixed, step) {
                     Ok(()) => {
                         reasons.push(format!("fixed, for in f32 {reason}"));
                         fixed
@@ -116,7 +116,7 @@ impl Choice {
                 };
             }
         }
-        holds(scene, &method, step)?;
+        check(scene, &method, step)?;
         Ok(Self { method, step, step_given: options.step.is_some(), reasons })
     }
 
@@ -151,14 +151,6 @@ impl Choice {
         }
         words + &format!(", {}, a step of {}", self.method.precision_name(), display(self.step))
     }
-}
-
-/// Whether a method steps a scene.
-fn holds(scene: &Scene, method: &Method, step: f64) -> Result<(), PlantError> {
-    check_step(method, step)?;
-    check_inputs(scene, method)?;
-    check_extents(scene, method, step)?;
-    check_stiffness(scene, method, step)
 }
 
 /// The method with joint-wise damping where the scheme has it, joints are damped, and it is as accurate.
@@ -218,7 +210,7 @@ fn distance(places: &[[f64; 3]], others: &[[f64; 3]]) -> f64 {
 
 /// What single precision loses of the scene's motion; `None` of one that it keeps or that fails.
 fn loses(scene: &Scene, method: &Method, step: f64) -> Result<Option<String>, PlantError> {
-    holds(scene, method, step)?;
+    check(scene, method, step)?;
     let mut plant = plant(scene, method, step)?;
     let Some(mut watch) = RoundingWatch::new(plant.as_ref()) else { return Ok(None) };
     let steps = ((scene.duration / step).round() as u64).clamp(1, MOST_STEPS);
