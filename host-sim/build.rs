@@ -13,9 +13,9 @@ use std::path::{Path, PathBuf};
 /// Folders and files of the repository whose sources compute what a row of a sweep holds.
 const COMPUTING: [&str; 8] = [
     "kernel/src",
-    "scene/src",
-    "plant/src",
-    "sweep/src",
+    "crates/scene/src",
+    "crates/plant/src",
+    "crates/study/src/sweep",
     "host-sim/src/simulate",
     "host-sim/src/report",
     "host-sim/src/commands/run.rs",

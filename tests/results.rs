@@ -1,6 +1,6 @@
 //! Results that lie in files, because they were counted in an emulator or measured by a clock.
 //!
-//! `docs/costs.csv`, `docs/results/*.csv, tests/golden/hashes.csv => rows`. Lines that begin with `#`
+//! `docs/costs.csv`, `docs/results/*.csv, tests/bits/hashes.csv => rows`. Lines that begin with `#`
 //! say where a file comes from.
 
 use std::path::{Path, PathBuf};

@@ -7,8 +7,8 @@
 //! swings up to twice as far. No statement of what loads, inputs and motion do later.
 
 use dbd_kernel::Vec3;
-use dbd_reference::{Mechanism, State};
 use dbd_scene::{JointElement, Scene};
+use dbd_study::reference::{Mechanism, State};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 /// More bodies are not looked at: the time grows with the third power.

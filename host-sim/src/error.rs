@@ -6,7 +6,6 @@ use dbd_study::SurveyError;
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::commands::bench::BenchError;
 use crate::commands::compare::CompareRefusal;
 use crate::commands::export::ExportError;
 use crate::commands::fmu::FmuError;
@@ -77,10 +76,6 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Reproduce(#[from] ReproduceError),
-    /// Nothing was measured.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Bench(#[from] BenchError),
     /// A sweep was refused, or not brought to its end.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -100,7 +95,7 @@ impl Error {
     #[must_use]
     pub fn exit(&self) -> Exit {
         match self {
-            Self::Load(_) | Self::Method(_) | Self::Plant(_) | Self::Bench(_) => Exit::Refused,
+            Self::Load(_) | Self::Method(_) | Self::Plant(_) => Exit::Refused,
             Self::Export(ExportError::Write { .. })
             | Self::Fmu(FmuError::Write { .. } | FmuError::Archive(ArchiveError::Archive(_)))
             | Self::Import(ImportError::Write { .. })

@@ -9,9 +9,9 @@
 //! - [`report`]: what is left of a run: trace, summary, page.
 //! - [`recorded`]: runs that were recorded, read back.
 //! - [`comparison`]: two of them beside each other.
-//! - [`examples`]: the examples in the help of each command.
+//! - [`help`]: the examples in the help of each command.
 //! - [`arguments`]: what several commands take.
-//! - [`commands`]: `list`, `check`, `run`, `compare`, `sweep`, `trade`, `reproduce`, `bench`, `export`, `fmu`, `import`, `new`, `completions`.
+//! - [`commands`]: `list`, `check`, `run`, `compare`, `sweep`, `trade`, `reproduce`, `export`, `fmu`, `import`, `new`, `completions`.
 //! - [`error`]: what ends a command early.
 //! - [`cli`]: arguments in, exit code out.
 //!
@@ -24,7 +24,7 @@ pub mod commands;
 pub mod comparison;
 pub mod compliance;
 pub mod error;
-pub mod examples;
+pub mod help;
 pub mod recorded;
 pub mod report;
 pub mod simulate;

@@ -2,7 +2,7 @@
 //!
 //! `names => places; array or count => holds`.
 
-use dbd_instance::{Instance, InstanceError};
+use dbd_plant::instance::{Instance, InstanceError};
 use dbd_scene::TIME_COLUMN;
 use numpy::{
     AllowTypeChange, PyArray1, PyArray2, PyArrayLikeDyn, PyArrayMethods as _,

@@ -3,7 +3,7 @@
 //! `InstanceError => exception with its sentence`. The classes are written in Python, in `dbd/_errors.py`, for
 //! each has two bases: `dbd.Error` and the built-in one that it is a case of.
 
-use dbd_instance::InstanceError;
+use dbd_plant::instance::InstanceError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 

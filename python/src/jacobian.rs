@@ -6,7 +6,7 @@
 //! \[m/s, rad/s\], all shifts and turns before all rates. Newton and Euler; the turn φ from a turning body
 //! changes as φ̇ = δω − ω × φ.
 
-use dbd_instance::{Blueprint, Instance, InstanceError, Settings};
+use dbd_plant::instance::{Blueprint, Instance, InstanceError, Settings};
 use dbd_kernel::forces::wrenches;
 use dbd_kernel::{F64, Quaternion, State, Vec3};
 use dbd_scene::SceneModel;

@@ -97,7 +97,7 @@ fn alike(
         return Ok(());
     }
     let (one, other) = (first.get().held(py)?, plant.get().held(py)?);
-    let inputs = |instance: &dbd_instance::Instance| {
+    let inputs = |instance: &dbd_plant::instance::Instance| {
         instance.inputs().iter().map(|input| input.name.clone()).collect::<Vec<_>>()
     };
     if inputs(&one) == inputs(&other) && one.outputs() == other.outputs() {

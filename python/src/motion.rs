@@ -4,7 +4,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use dbd_instance::Instance;
+use dbd_plant::instance::Instance;
 use numpy::{
     AllowTypeChange, PyArray1, PyArray2, PyArrayLikeDyn, PyUntypedArrayMethods as _, ToPyArray as _,
 };
@@ -27,7 +27,7 @@ impl Plant {
     fn advanced(
         &self,
         py: Python<'_>,
-        steps: impl FnOnce(&Instance) -> Result<u64, dbd_instance::InstanceError>,
+        steps: impl FnOnce(&Instance) -> Result<u64, dbd_plant::instance::InstanceError>,
     ) -> PyResult<()> {
         let mut instance = self.held(py)?;
         let steps = steps(&instance).map_err(raise(py))?;

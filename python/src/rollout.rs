@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use dbd_instance::Instance;
+use dbd_plant::instance::Instance;
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 
@@ -38,8 +38,8 @@ impl Stop {
     }
 }
 
-impl From<dbd_instance::InstanceError> for Stop {
-    fn from(error: dbd_instance::InstanceError) -> Self {
+impl From<dbd_plant::instance::InstanceError> for Stop {
+    fn from(error: dbd_plant::instance::InstanceError) -> Self {
         Self::Refused(error.into())
     }
 }

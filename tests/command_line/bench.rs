@@ -1,17 +1,25 @@
-//! `host-sim bench`: what it prints and what it refuses. No time is judged here.
+//! `cargo xtask bench`: what it prints and what it refuses. No time is judged here.
 
 use std::collections::BTreeSet;
 
-use host_sim::terminal::Exit;
+use host_sim::terminal::{Console, Exit};
 use serde_json::Value;
 
-use crate::call;
+use crate::Done;
 
 /// The fewest steps that can be measured.
 const SHORT: [&str; 4] = ["--rounds", "3", "--steps", "1"];
 
-fn bench(words: &[&str]) -> crate::Done {
-    call(&[&["bench"], words, &SHORT].concat())
+fn call(words: &[&str]) -> Done {
+    let (mut out, mut err) = (Vec::new(), Vec::new());
+    let mut console = Console::plain(&mut out, &mut err);
+    let exit = dbd_bench::command::main_with([&["bench"], words].concat(), &mut console);
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    Done { exit, out: text(out), err: text(err) }
+}
+
+fn bench(words: &[&str]) -> Done {
+    call(&[words, &SHORT].concat())
 }
 
 fn measured(words: &[&str]) -> Value {
@@ -43,14 +51,20 @@ fn the_page_names_every_key() {
         "--chains",
         "2,4",
     ]);
-    let page = std::fs::read_to_string(dbd_tests::results::path("docs/command-line.md")).unwrap();
-    let section = page.split_once("\n## `bench`\n").unwrap().1.split("\n## ").next().unwrap();
+    let page = std::fs::read_to_string(dbd_tests::results::path("docs/speed.md")).unwrap();
+    let section = page
+        .split_once("\n## Options of `cargo xtask bench`\n")
+        .unwrap()
+        .1
+        .split("\n## ")
+        .next()
+        .unwrap();
     let mut named = BTreeSet::new();
     keys(&outcome, &mut named);
     for key in named {
         let found =
             section.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == key);
-        assert!(found, "docs/command-line.md does not name `{key}`");
+        assert!(found, "docs/speed.md does not name `{key}`");
     }
     assert!(outcome["fit"]["parts"].as_array().unwrap().len() == 6, "{outcome}");
     let goals = outcome["goals"].as_array().unwrap();
@@ -99,7 +113,7 @@ fn bad_input_is_refused() {
         &["--set", "step=1ms"],
         &["four-bar", "--set", "no.such=1"],
     ] {
-        let done = call(&[&["bench"], words].concat());
+        let done = call(words);
         assert!(done.exit == Exit::Refused && !done.err.is_empty(), "{words:?}: {}", done.err);
         assert!(done.out.is_empty(), "{words:?}");
     }

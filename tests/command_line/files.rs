@@ -11,14 +11,13 @@ use host_sim::terminal::Exit;
 use crate::{Done, Folder, call};
 
 /// A command with `PATH` for the path that it opens.
-const COMMANDS: [&[&str]; 15] = [
+const COMMANDS: [&[&str]; 14] = [
     &["run", "PATH"],
     &["check", "PATH"],
     &["check", "PATH", "--svg", "OUT.svg"],
     &["export", "PATH"],
     &["fmu", "PATH"],
     &["trade", "PATH"],
-    &["bench", "PATH"],
     &["new", "scene", "OUT", "--from", "PATH"],
     &["new", "firmware", "OUT", "--scene", "PATH"],
     &["sweep", "PATH"],

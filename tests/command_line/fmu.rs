@@ -1,4 +1,4 @@
-//! `fmu`: what is written, and what is refused. That importers take it is for `fmu/judges`.
+//! `fmu`: what is written, and what is refused. That importers take it is for `crates/fmu/importers`.
 
 use std::fs;
 

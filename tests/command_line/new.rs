@@ -200,7 +200,7 @@ fn a_scene_without_a_step_has_one_default_step() {
         let single = folder.summary(&scene, &["--precision", "f32"]);
         assert_eq!(single["steps"].to_string(), steps);
         let parsed = dbd_scene::Scene::load(Path::new(&scene)).unwrap();
-        let settings = dbd_instance::Settings::default();
+        let settings = dbd_plant::instance::Settings::default();
         let method = settings.method().unwrap();
         assert_eq!(settings.step_of(&parsed, &method).unwrap(), taken);
     }

@@ -45,7 +45,7 @@ fn the_file_of_the_repository_is_what_the_command_prints() {
 #[test]
 fn every_scene_is_valid() {
     let validator = validator();
-    let all = scenes(&["scenes", "tests/authoring", "fuzz/corpus/scene"]);
+    let all = scenes(&["scenes", "tests/authoring", "tests/fuzz/corpus/scene"]);
     assert!(all.len() > 30);
     for (file, text) in all {
         let scene: Value = toml::from_str(&text).unwrap();
@@ -88,7 +88,7 @@ fn refusal(scene: &Value) -> Option<String> {
 fn schema_and_reader_refuse_alike() {
     let validator = validator();
     let mut met = BTreeSet::new();
-    for (file, text) in scenes(&["fuzz/corpus/scene"]) {
+    for (file, text) in scenes(&["tests/fuzz/corpus/scene"]) {
         let scene: Value = toml::from_str(&text).unwrap();
         let has_defaults = ["defaults", "realisation"].iter().any(|key| scene.get(key).is_some());
         let mut places = Vec::new();

@@ -10,8 +10,8 @@ use dbd_kernel::step::Stepper;
 use dbd_kernel::{
     F32, F64, Geometry, JointWise, Leapfrog, Pefrl, Plant, Real, Scheme, SemiImplicitEuler, State,
 };
-use dbd_reference::trajectory::Trajectory;
 use dbd_scene::{Scene, SceneModel};
+use dbd_study::reference::trajectory::Trajectory;
 use dbd_tests::mechanisms::Random;
 use dbd_tests::page::{block, figure, table};
 use dbd_tests::scene;

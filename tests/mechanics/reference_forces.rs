@@ -8,8 +8,8 @@ use dbd_kernel::schedule::Signal;
 use dbd_kernel::{
     BodyIndex, Dbd, F64, Leapfrog, Load, LoadFrame, ModelOwner, Plant, Scheme, State, Vec3,
 };
-use dbd_reference::signals::Clock;
-use dbd_reference::{self as reference, Mechanism, naive::Naive};
+use dbd_study::reference::signals::Clock;
+use dbd_study::reference::{self as reference, Mechanism, naive::Naive};
 use dbd_tests::{Bench, hung_ring, run, scene, scene_names};
 use nalgebra::Vector3;
 

@@ -9,10 +9,10 @@ use dbd_kernel::{
     Body, CompensatedF32, F32, F64, Fixed, Geometry, Leapfrog, LoadFrame, Model, ModelOwner, Pefrl,
     Planar64, Plant, Rk4, Scheme, Vec3,
 };
-use dbd_reference::Mechanism;
-use dbd_reference::state::State;
-use dbd_reference::truth::{Opinion, integrate};
 use dbd_scene::{Scene, SceneModel};
+use dbd_study::reference::Mechanism;
+use dbd_study::reference::state::State;
+use dbd_study::reference::truth::{Opinion, integrate};
 use dbd_tests::at;
 
 /// A cart of 2 kg on a spring of 50 N/m along x, with this input.

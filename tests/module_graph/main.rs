@@ -14,22 +14,17 @@ use sources::Sources;
 /// The crates that are held to it: all that keep to it.
 const CRATES: &[&str] = &[
     "kernel",
-    "node",
-    "plant",
-    "reference",
-    "bench",
-    "study",
-    "sweep",
-    "ensemble",
-    "instance",
-    "fmu",
-    "output",
-    "picture",
-    "report",
-    "golden",
-    "import",
+    "crates/node",
+    "crates/plant",
+    "crates/study",
+    "crates/ensemble",
+    "crates/fmu",
+    "crates/report",
+    "crates/golden",
+    "crates/import",
     "host-sim",
-    "fuzz",
+    "tests/bench",
+    "tests/fuzz",
 ];
 
 fn sources(name: &str) -> Sources {

@@ -2,6 +2,7 @@
 //! no test can repeat in a moment.
 
 mod bench;
+mod book;
 mod chip;
 mod collect;
 mod pictures;
@@ -194,7 +195,7 @@ fn the_cost_of_sweeps_is_that_of_the_costs() {
 
 #[test]
 fn bits_are_the_golden_ones() {
-    let golden = rows("tests/golden/hashes.csv");
+    let golden = rows("tests/bits/hashes.csv");
     let hash = |scheme: &str, precision: &str| {
         let wanted = [("scene", "four-bar"), ("scheme", scheme), ("precision", precision)];
         let row = golden.iter().find(|row| row.is(&wanted) && row.text("steps") == "10000");

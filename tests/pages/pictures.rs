@@ -1,6 +1,6 @@
 //! Pictures of mechanisms in the pages: what `host-sim check SCENE --svg` writes.
 
-use dbd_picture::Paper;
+use dbd_report::picture::Paper;
 use dbd_tests::page::file;
 use dbd_tests::scene;
 use host_sim::commands::picture::picture;

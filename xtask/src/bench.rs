@@ -1,26 +1,33 @@
 //! `cargo xtask bench`: times of steps and of ensembles on this machine, kept for the pages.
 //!
-//! `host-sim bench, an example of dbd-ensemble => docs/results/{bench.json,ensembles.csv}`. Times are of a machine and a
+//! `the program of dbd-bench, an example of dbd-ensemble => docs/results/{bench.json,ensembles.csv}`. Times are of a machine and a
 //! minute; what is judged are ratios of times that were taken in turn. Run it while nothing else runs.
 
 use anyhow::{Context as _, Result};
 use serde_json::{Value, json};
 
-use crate::command::{cargo, output, program, root, shown};
+use crate::command::{cargo, output, program, root, run as run_command, shown};
 
-/// What `host-sim bench` said, and of which machine.
+/// What the program said, and of which machine.
 const BENCH: &str = "docs/results/bench.json";
 const ENSEMBLES: &str = "docs/results/ensembles.csv";
 
-/// Measures both and writes the files.
+/// The program.
+const BENCH_PROGRAM: [&str; 4] = ["--package", "dbd-bench", "--features", "command"];
+
+/// Measures both and writes the files; measures what the arguments name and writes nothing.
 ///
 /// # Errors
 /// Where building, measuring or writing fails.
-pub fn run() -> Result<()> {
+pub fn run(arguments: &[String]) -> Result<()> {
+    if !arguments.is_empty() {
+        let mut command = cargo();
+        command.args(["run", "--release", "--quiet"]).args(BENCH_PROGRAM).arg("--").args(arguments);
+        return run_command(&mut command);
+    }
     let of = machine()?;
-    let said =
-        measured(&["--package", "host-sim", "--features", "lanes", "--", "bench", "--json"])?;
-    let bench: Value = serde_json::from_str(&said).context("`host-sim bench` said no JSON")?;
+    let said = measured(&[&BENCH_PROGRAM[..], &["--", "--json"]].concat())?;
+    let bench: Value = serde_json::from_str(&said).context("the program said no JSON")?;
     let text = serde_json::to_string_pretty(&json!({ "of": of, "bench": bench }))?;
     write(BENCH, &(text + "\n"))?;
     let said = measured(&["--package", "dbd-ensemble", "--example", "measure"])?;

@@ -1,6 +1,6 @@
 //! `cargo xtask boards`: the programs of a chip with its community's HAL, in QEMU.
 //!
-//! `boards/stm32f405, golden bits => hashes, overruns, verdict`. The folder is a workspace of its own and is built
+//! `firmware/stm32f405, golden bits => hashes, overruns, verdict`. The folder is a workspace of its own and is built
 //! into the directory and with the profile of the firmware, so that `core` and what else they share is built once.
 
 use std::collections::BTreeMap;
@@ -11,11 +11,11 @@ use std::time::Duration;
 use anyhow::{Context as _, Result, bail};
 
 use crate::bits::hashes::{self, Hashes};
+use crate::chip::{Toolchain, firmware, serial, setup};
 use crate::command::{cargo, root, run as run_command};
-use crate::target::{Toolchain, firmware, serial, setup};
 
 /// The workspace. Its own configuration says how cargo runs an image.
-const FOLDER: &str = "boards/stm32f405";
+const FOLDER: &str = "firmware/stm32f405";
 /// Its programs; each but the first has a feature of its name.
 pub const PROGRAMS: [&str; 3] = [PLAIN, "rtic", "embassy"];
 /// The program that needs the HAL alone.

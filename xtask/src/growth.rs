@@ -10,8 +10,8 @@ use anyhow::{Context as _, Result, bail};
 
 use crate::built::{Program, build};
 use crate::callgrind;
+use crate::chip::setup;
 use crate::command::{cargo, root};
-use crate::target::setup;
 
 /// The program, as cargo's messages name it.
 const PROGRAM: &str = "plant::growth";

@@ -8,9 +8,9 @@ use std::process::Command;
 
 use anyhow::{Context as _, Result, bail};
 
+use crate::chip::{Toolchain, debian};
 use crate::command::{cargo, find, output, program, root, run};
 use crate::python;
-use crate::target::{Toolchain, debian};
 
 /// The glibc that the library for Linux asks for at most: that of CentOS 7 and manylinux2014.
 const GLIBC: &str = "2.17";
@@ -58,7 +58,7 @@ fn bare(command: &mut Command) -> &mut Command {
 }
 
 fn for_linux(folder: &Path) -> Result<PathBuf> {
-    let python = python::environment("libraries", "fmu/requirements-libraries.txt")?;
+    let python = python::environment("libraries", "crates/fmu/requirements-libraries.txt")?;
     let tools = python.parent().context("an interpreter lies in a folder")?.to_owned();
     let path = std::env::var_os("PATH").unwrap_or_default();
     let path =
@@ -103,7 +103,7 @@ struct Programs<'w> {
 impl<'w> Programs<'w> {
     fn build(folder: &Path, wine: &'w str) -> Result<Self> {
         let compile = |compiler: &str, options: &[&str], source: &str, name: &str| {
-            let source = format!("fmu/judges/{source}");
+            let source = format!("crates/fmu/importers/{source}");
             let mut command = program(compiler);
             run(command.args(options).args(["-O1", "-o"]).arg(folder.join(name)).arg(source))
         };

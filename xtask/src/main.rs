@@ -11,6 +11,7 @@ mod bits;
 mod boards;
 mod built;
 mod callgrind;
+mod chip;
 mod command;
 mod cost;
 mod fuzz;
@@ -23,14 +24,13 @@ mod prove;
 mod python;
 mod semver;
 mod steps;
-mod target;
-mod tests;
+mod test;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use target::{firmware, project, setup};
+use chip::{firmware, project, setup};
 
 /// Commands for people who work on this repository.
 #[derive(Parser)]
@@ -100,8 +100,12 @@ enum Command {
     /// callgrind; writes docs/results/growth.csv, fails where it grows faster than the bodies.
     Growth,
     /// Times steps and ensembles on this machine, which should do nothing else; writes docs/results/bench.json and
-    /// docs/results/ensembles.csv.
-    Bench,
+    /// docs/results/ensembles.csv. With arguments it measures what these name and writes nothing
+    Bench {
+        /// Scenes and options: `--help` lists them
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<String>,
+    },
     /// Gives random input to the reader of scenes, to snapshots, to steps and to the command line, on
     /// all cores; fails where anything fails.
     Fuzz(fuzz::Campaign),
@@ -157,16 +161,16 @@ fn main() -> ExitCode {
     let command = Cli::parse().command;
     let outcome = attended::attended("still at work", || match command {
         Command::Setup => setup::run().and(python::set_up()),
-        Command::Test { quick: true, .. } => tests::quick(),
-        Command::Test { long, write_times, .. } => tests::run(long, write_times),
-        Command::Tables => tests::tables(),
+        Command::Test { quick: true, .. } => test::quick(),
+        Command::Test { long, write_times, .. } => test::run(long, write_times),
+        Command::Tables => test::tables(),
         Command::Fw { name, long, arguments } => firmware::run(&name, long, &arguments),
         Command::Cost { baseline: true, .. } => cost::baseline(),
         Command::Cost { guards: true, .. } => cost::guards::run(),
         Command::Cost { scenes, compare, .. } => cost::run(&scenes, compare),
         Command::Instructions { baseline } => instructions::run(baseline),
         Command::Growth => growth::run(),
-        Command::Bench => bench::run(),
+        Command::Bench { arguments } => bench::run(&arguments),
         Command::Fuzz(campaign) => fuzz::run(&campaign),
         Command::Bits { names } => bits::machines::run(&names),
         Command::Precisions { scenes } => precisions::run(&scenes),

@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, Result, bail};
 
 use crate::built::{Program, host_sim};
+use crate::chip::debian;
 use crate::command::{cargo, find, output, program, root, run, succeeds, target_dir};
 use crate::steps::Steps;
-use crate::target::debian;
 
 /// The oldest Python of which the package is.
 const OLDEST: &str = "import sys; sys.exit(sys.version_info < (3, 10))";
@@ -31,7 +31,7 @@ pub fn check() -> Result<()> {
 /// Adds the steps. The command line is that of the programs that were built, else it is built.
 pub fn add_steps(steps: &mut Steps, programs: &[Program]) {
     let importers = "FMUs in their importers";
-    match environment("importers", "fmu/judges/requirements.txt") {
+    match environment("importers", "crates/fmu/importers/requirements.txt") {
         Ok(python) => steps.step(importers, || in_importers(&python, programs)),
         Err(error) => steps.skip(importers, &format!("{error:#}")),
     }
@@ -47,7 +47,7 @@ pub fn add_steps(steps: &mut Steps, programs: &[Program]) {
 /// # Errors
 /// Where one of them cannot be made; what to install is part of the message.
 pub fn set_up() -> Result<()> {
-    environment("importers", "fmu/judges/requirements.txt")?;
+    environment("importers", "crates/fmu/importers/requirements.txt")?;
     environment("package", "python/requirements-tests.txt").map(drop)
 }
 
@@ -96,7 +96,7 @@ fn in_importers(python: &Path, programs: &[Program]) -> Result<()> {
     let (built, library) = (target_dir().join("debug/libdbd_fmu.so"), root().join(LIBRARY));
     output(program("strip").arg("-o").arg(&library).arg(&built)).context("binutils are missing")?;
     let mut tests = program(python);
-    tests.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "fmu/judges"]);
+    tests.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "crates/fmu/importers"]);
     tests.env("HOST_SIM", &host_sim).env("FMU_LIBRARY", library);
     run(tests.env_remove("PYTHONPATH"))
 }

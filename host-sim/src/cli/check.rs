@@ -4,8 +4,8 @@ use std::io::IsTerminal as _;
 use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
-use dbd_picture::Paper;
 use dbd_plant::{DampingName, Method, Named as _, PrecisionName, SchemeName};
+use dbd_report::picture::Paper;
 
 use crate::arguments::{SceneArgument, names};
 use crate::cli::named::{damped, leaving, load};

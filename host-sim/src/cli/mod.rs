@@ -25,7 +25,6 @@ use crate::cli::named::load;
 use crate::cli::reproduce::{ReproduceArguments, reproduce_items};
 use crate::cli::run::{RunArguments, run_scene};
 use crate::cli::trade::{TradeArguments, trade_scene};
-use crate::commands::bench::{BenchArguments, bench};
 use crate::commands::compare::CompareArguments;
 use crate::commands::completions::script;
 use crate::commands::export::{self, ExportArguments};
@@ -36,7 +35,7 @@ use crate::commands::new::{FirmwareArguments, NewCommand, SceneArguments, firmwa
 use crate::commands::schema;
 use crate::commands::sweep::{SweepArguments, sweep};
 use crate::error::Error;
-use crate::examples;
+use crate::help;
 use crate::terminal::text::json;
 use crate::terminal::{Catalogue, Console, Exit, Progress};
 
@@ -64,55 +63,52 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Lists the scenes that have a name: those in scenes/ and those that are built in
-    #[command(after_help = examples::LIST)]
+    #[command(after_help = help::LIST)]
     List {
         /// As JSON
         #[arg(long)]
         json: bool,
     },
     /// Runs a scene: writes OUT/SCENE/{trace.csv,summary.json,report.html}, prints the summary
-    #[command(after_help = examples::RUN)]
+    #[command(after_help = help::RUN)]
     Run(RunArguments),
     /// Reads and assembles a scene without running it: counts, joints, frequencies, warnings
-    #[command(after_help = examples::CHECK)]
+    #[command(after_help = help::CHECK)]
     Check(CheckArguments),
     /// Surveys speed against accuracy: writes OUT/SCENE/trade.{csv,svg,html,json}, trade-cortex-m4f.svg
     /// where steps were counted, and trade-*.cache; prints what to choose
-    #[command(after_help = examples::TRADE)]
+    #[command(after_help = help::TRADE)]
     Trade(TradeArguments),
     /// Measures the results of the method's paper again: writes OUT/reproduce/reproduce.{html,md,json} and files of
     /// each item, prints the paper's value, this one's and a verdict
-    #[command(after_help = examples::REPRODUCE)]
+    #[command(after_help = help::REPRODUCE)]
     Reproduce(ReproduceArguments),
-    /// Measures what a step costs here: the kernel in turn with the std reference and a plain loop
-    #[command(after_help = examples::BENCH)]
-    Bench(BenchArguments),
     /// Runs a scene with many values: writes OUT/SPEC/sweep.{csv,html,json}, a row per case; finished cases
     /// never run again
-    #[command(after_help = examples::SWEEP)]
+    #[command(after_help = help::SWEEP)]
     Sweep(SweepArguments),
     /// Compares two recorded runs, two schemes or a PC and a chip: bits, first difference, how far apart; writes
     /// OUT/compare/NAME/{report.html,compare.json}; exit code 0 where they are equal, 1 where not
-    #[command(after_help = examples::COMPARE)]
+    #[command(after_help = help::COMPARE)]
     Compare(CompareArguments),
     /// Prints Rust source of a scene's const model and of its plant, for a firmware
-    #[command(after_help = examples::EXPORT)]
+    #[command(after_help = help::EXPORT)]
     Export(ExportArguments),
     /// Writes an FMU of a scene, with which other tools simulate it: FMI 2.0 or 3.0, co-simulation
-    #[command(after_help = examples::FMU)]
+    #[command(after_help = help::FMU)]
     Fmu(FmuArguments),
     /// Makes a scene of MuJoCo's MJCF: each part with the line it comes from; what has no counterpart is
     /// listed with its size and refused, unless its kind is ignored
-    #[command(after_help = examples::IMPORT)]
+    #[command(after_help = help::IMPORT)]
     Import(ImportArguments),
     /// Writes a new project or a new scene that runs as it is
     #[command(subcommand, disable_help_subcommand = true)]
     New(NewCommand),
     /// Prints the JSON Schema of scene files, from which editors complete keys
-    #[command(after_help = examples::SCHEMA)]
+    #[command(after_help = help::SCHEMA)]
     Schema,
     /// Prints a script that completes commands, options and scenes for a shell
-    #[command(after_help = examples::COMPLETIONS)]
+    #[command(after_help = help::COMPLETIONS)]
     Completions {
         /// The shell
         shell: Shell,
@@ -142,7 +138,6 @@ where
         Command::Check(arguments) => check_scene(&catalogue, &arguments, console),
         Command::Trade(arguments) => trade_scene(&catalogue, &arguments, console),
         Command::Reproduce(arguments) => reproduce_items(&arguments, console),
-        Command::Bench(arguments) => bench_systems(&catalogue, &arguments, console),
         Command::Sweep(arguments) => sweep_scene(&catalogue, &arguments, console),
         Command::Compare(arguments) => compare(&catalogue, &arguments, console),
         Command::Export(arguments) => export_scene(&catalogue, &arguments, console),
@@ -183,26 +178,6 @@ fn usage(error: &clap::Error, console: &mut Console<'_>) -> Exit {
 
 fn complete(catalogue: &Catalogue, shell: Shell, console: &mut Console<'_>) -> Result<Exit, Error> {
     console.print(&script(Cli::command(), &catalogue.names(), shell))?;
-    Ok(Exit::Done)
-}
-
-fn bench_systems(
-    catalogue: &Catalogue,
-    arguments: &BenchArguments,
-    console: &mut Console<'_>,
-) -> Result<Exit, Error> {
-    let mut silence = std::io::sink();
-    let lines = if arguments.quiet { &mut silence as &mut dyn Write } else { &mut *console.err };
-    let bars = console.terminal && !arguments.quiet;
-    let mut progress = Progress::of_many(bars, "rounds", lines);
-    let done = bench(catalogue, arguments, &mut |done, all| progress.update(done, all));
-    progress.finish();
-    let outcome = done?;
-    if arguments.json {
-        console.print(&json(&outcome))?;
-    } else if !arguments.quiet {
-        console.print(&outcome.text(console.look))?;
-    }
     Ok(Exit::Done)
 }
 

@@ -9,13 +9,13 @@ use std::io::{self, BufRead as _};
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
-use dbd_output::file::write_at;
 use dbd_plant::plan::step_of;
 use dbd_plant::plant::check;
 use dbd_plant::time::Time;
 use dbd_plant::{
     DampingName, Frequencies, Method, Named as _, PlanError, PlantError, PrecisionName, SchemeName,
 };
+use dbd_report::output::file::write_at;
 use dbd_scene::Scene;
 use dbd_scene::export::{self as source, ExportScheme, HEAD, SchemeError};
 use miette::Diagnostic;

@@ -8,7 +8,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use dbd_output::file;
+use dbd_report::output::file;
 use dbd_scene::file::read_text;
 use miette::Diagnostic;
 use serde::Deserialize;

@@ -14,7 +14,6 @@
 //! - [`compare`]: two recorded runs in one report.
 //! - [`trade`]: speed against accuracy.
 //! - [`mod@reproduce`]: the results of the method's paper, measured again.
-//! - [`mod@bench`]: what a step costs this machine.
 //! - [`export`]: Rust source of a scene's const model and its plant.
 //! - [`mod@fmu`]: a scene becomes an FMU for other tools.
 //! - [`mod@import`]: another program's file becomes a scene.
@@ -23,7 +22,6 @@
 //! - [`completions`]: a script for a shell.
 
 pub mod assembled;
-pub mod bench;
 pub mod check;
 pub mod compare;
 pub mod completions;

@@ -6,8 +6,8 @@ use std::fmt;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use dbd_output::file::write_at;
-use dbd_picture::{Mechanism, Paper, svg};
+use dbd_report::output::file::write_at;
+use dbd_report::picture::{Mechanism, Paper, svg};
 use dbd_scene::Scene;
 use miette::Diagnostic;
 use thiserror::Error;

@@ -7,8 +7,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use dbd_output::file;
-use dbd_output::set::FileSet;
+use dbd_report::output::file;
+use dbd_report::output::set::FileSet;
 use dbd_study::paper::{Finding, ITEMS, Item, PaperError, item, page, plot, store};
 use miette::Diagnostic;
 use serde::Serialize;

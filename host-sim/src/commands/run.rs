@@ -9,13 +9,13 @@ use std::io;
 use std::path::PathBuf;
 
 use dbd_kernel::damping::Damping;
-use dbd_output::file::PendingFile;
-use dbd_output::set::FileSet;
 use dbd_plant::judge::{Opening, conserves_energy};
 use dbd_plant::plan::{Request, StepRequest, plan};
 use dbd_plant::plant::check;
 use dbd_plant::{Frequencies, Method, Plan, PlanError, PlantError};
 use dbd_report::Recording;
+use dbd_report::output::file::PendingFile;
+use dbd_report::output::set::FileSet;
 use dbd_scene::{Scene, Setting};
 use dbd_study::command::with_changes;
 use dbd_study::modes::ModesError;

@@ -6,7 +6,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use dbd_output::set::FileSet;
+use dbd_report::output::set::FileSet;
 use dbd_scene::Scene;
 use dbd_study::frame::frame;
 use dbd_study::{Phase, SurveyError, Trade, TradeOptions, files, survey};

@@ -15,7 +15,7 @@ use crate::commands::rounding::{self, COMPOSED, named};
 use crate::compliance::{Stretch, stretches};
 
 /// h·c/μ up to which slow motion is within 1 %: of dampers that cross with all that act beside them, on
-/// mechanisms at random (`tests/strong_dampers.rs`), and of each under compositions, by the table in
+/// mechanisms at random (`tests/dynamics/strong_dampers.rs`), and of each under compositions, by the table in
 /// docs/schemes.md.
 const STRONGEST_CROSSED: f64 = 2.5;
 const STRONGEST_COMPOSED: f64 = 0.3;

@@ -6,7 +6,7 @@ use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use dbd_output::file::write_at;
+use dbd_report::output::file::write_at;
 use dbd_scene::{Scene, SceneError};
 use miette::Diagnostic;
 use thiserror::Error;

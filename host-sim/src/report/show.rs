@@ -5,8 +5,8 @@
 
 use std::io::{self, Write as _};
 
-use dbd_output::set::FileSet;
 use dbd_report::data::{Mode, Text};
+use dbd_report::output::set::FileSet;
 use dbd_report::{Data, Recorded, Recording, gltf, page};
 use dbd_scene::Scene;
 

@@ -3,10 +3,10 @@
 //! `(scene, plan, summary) => failures, warnings, picture, tables, command line`, in HTML that needs no
 //! scripts.
 
-use dbd_picture::{Mechanism, Paper};
 use dbd_plant::Plan;
 use dbd_plant::time::display;
 use dbd_report::data::{FORMAT, Table, Text};
+use dbd_report::picture::{Mechanism, Paper};
 use dbd_scene::Scene;
 use dbd_study::command::with_changes;
 
@@ -40,7 +40,7 @@ pub fn text(scene: &Scene, plan: &Plan, summary: &Summary, called: &str) -> Text
     Text {
         failures: failures.into_iter().collect(),
         warnings: warnings(summary),
-        picture: pictured.then(|| dbd_picture::svg(&Mechanism::of(scene), Paper::Page)),
+        picture: pictured.then(|| dbd_report::picture::svg(&Mechanism::of(scene), Paper::Page)),
         tables: vec![table("Summary", rows), table("Versions", versions(summary))],
         commands: vec![(String::new(), command(scene, plan, summary, called))],
         notes: note.into_iter().collect(),

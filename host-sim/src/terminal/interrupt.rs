@@ -6,7 +6,7 @@
 /// From now on a signal that ends the program removes first what is not complete.
 #[cfg(unix)]
 pub fn clean_up_on_signals() {
-    use dbd_output::file::give_up_all;
+    use dbd_report::output::file::give_up_all;
     use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM};
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;

@@ -12,8 +12,8 @@ use std::collections::BTreeMap;
 
 use anyhow::{Result, bail};
 
+use crate::chip::{Toolchain, firmware, setup};
 use crate::steps::Steps;
-use crate::target::{Toolchain, firmware, setup};
 
 use checks::{CHECKS, Check};
 pub use image::{Image, instruction};

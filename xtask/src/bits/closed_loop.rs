@@ -9,8 +9,8 @@ use anyhow::{Context as _, Result, bail};
 
 use crate::bits::host::{self, Host};
 use crate::built::build;
+use crate::chip::{Toolchain, firmware, setup};
 use crate::command::{cargo, program};
-use crate::target::{Toolchain, firmware, setup};
 
 /// What the program names its loops.
 const LOOPS: [&str; 2] = ["cart-pendulum", "delta-pick-and-place"];

@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 use anyhow::{Context as _, Result, bail};
 
 use crate::bits::host::Host;
+use crate::chip::{Toolchain, firmware};
 use crate::command::root;
-use crate::target::{Toolchain, firmware};
 
 /// Steps per combination.
 const STEPS: &str = "10000";
@@ -21,11 +21,11 @@ const INSTRUCTIONS: &str = "3000";
 const UNLIMITED: &str = "1000000000";
 
 /// Rows `scene,scheme,precision,step,steps,hash`.
-pub const GOLDEN: &str = "tests/golden/hashes.csv";
+pub const GOLDEN: &str = "tests/bits/hashes.csv";
 /// The same of damping joint by joint.
-const JOINT_WISE: &str = "tests/golden/joint-wise.csv";
+const JOINT_WISE: &str = "tests/bits/joint-wise.csv";
 /// The same of fixed point.
-pub const FIXED: &str = "tests/golden/fixed.csv";
+pub const FIXED: &str = "tests/bits/fixed.csv";
 
 /// Runs the program everywhere and compares; at length also many more steps in fixed point.
 ///

@@ -8,8 +8,8 @@ use std::process::Command;
 use anyhow::{Context as _, Result};
 
 use crate::built::{Program, build};
+use crate::chip::firmware;
 use crate::command::{cargo, output, program};
-use crate::target::firmware;
 
 /// The same programs twice.
 pub struct Host {
@@ -72,7 +72,7 @@ pub fn plant(built: &[Program]) -> Result<PathBuf> {
 }
 
 fn named(built: &[Program], name: &str) -> Result<PathBuf> {
-    let name = format!("firmware::{name}");
+    let name = format!("qemu::{name}");
     let program = built.iter().find(|program| program.name == name && !program.tests);
     Ok(program.with_context(|| format!("{name} was not built"))?.path.clone())
 }

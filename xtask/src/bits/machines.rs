@@ -11,16 +11,16 @@ use anyhow::{Context as _, Result, bail};
 
 use crate::bits::{host, relay};
 use crate::built::{Program, build};
+use crate::chip::{Toolchain, debian, firmware};
 use crate::command::{cargo, find, output, program, root};
 use crate::steps::Steps;
-use crate::target::{Toolchain, debian, firmware};
 
 /// Where the outcome is kept.
 const FILE: &str = "docs/results/bits.csv";
 const HEADER: &str = "build,byte_order,optimisation,hashes,tests,relayed";
 /// The tables of golden bits, whose rows the test `golden` compares.
 const GOLDEN: [&str; 3] =
-    ["tests/golden/hashes.csv", "tests/golden/fixed.csv", "tests/golden/orientations.csv"];
+    ["tests/bits/hashes.csv", "tests/bits/fixed.csv", "tests/bits/orientations.csv"];
 
 /// Levels of optimisation on the host, and flags of the compiler.
 const LEVELS: [(&str, &str, &str); 6] = [

@@ -6,8 +6,8 @@
 use anyhow::{Context as _, Result, bail};
 
 use crate::bits::host::Host;
+use crate::chip::{Toolchain, firmware};
 use crate::command::root;
-use crate::target::{Toolchain, firmware};
 
 /// The program's parts, see there.
 const WHOLE: &str = "0";

@@ -5,7 +5,7 @@
 use anyhow::Result;
 
 use crate::baseline::{Baseline, Count, Key};
-use crate::target::{Toolchain, firmware};
+use crate::chip::{Toolchain, firmware};
 
 const FILE: Baseline = Baseline {
     file: "docs/costs-baseline.csv",

@@ -4,8 +4,8 @@
 
 use anyhow::{Context as _, Result, bail};
 
+use crate::chip::{firmware, setup};
 use crate::command::root;
-use crate::target::{firmware, setup};
 
 const FILE: &str = "docs/results/guards.csv";
 

@@ -12,8 +12,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, Result, bail};
 
 use crate::audit::{Image, instruction};
+use crate::chip::{Toolchain, firmware};
 use crate::command::{cargo, output, program, root, run as run_command, target_dir};
-use crate::target::{Toolchain, firmware};
 
 use super::cycles::{self, Class};
 use super::row::Cost;

@@ -2,8 +2,8 @@
 //!
 //! `program cost in QEMU, image of the audit => rows`. Instructions, plant, model and stack are
 //! measured by the program; `.text` is the code that the step reaches, with its literals, known for
-//! the steps that the audit links. Which scenes with which values: `firmware/build.rs`; which schemes and
-//! dampings: `firmware/src/chart.rs`.
+//! the steps that the audit links. Which scenes with which values: `firmware/qemu/build.rs`; which schemes and
+//! dampings: `firmware/qemu/src/chart.rs`.
 
 pub mod baseline;
 mod compare;
@@ -16,8 +16,8 @@ mod row;
 use anyhow::{Context as _, Result, bail};
 
 use crate::audit::{Image, Root};
+use crate::chip::{Toolchain, firmware, setup};
 use crate::command::root;
-use crate::target::{Toolchain, firmware, setup};
 
 use mix::Mix;
 use row::Cost;

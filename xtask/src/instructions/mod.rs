@@ -13,8 +13,8 @@ use anyhow::{Context as _, Result, bail};
 use crate::baseline::{Baseline, Count, Key};
 use crate::built::{Program, build};
 use crate::callgrind;
+use crate::chip::setup;
 use crate::command::{cargo, output, program};
-use crate::target::setup;
 
 use table::Row;
 

@@ -4,7 +4,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use dbd_output::file;
+use dbd_report::output::file;
 use dbd_scene::file::read_text;
 use serde::Deserialize;
 

@@ -22,7 +22,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
 use dbd_golden::BandList;
-use dbd_output::set::FileSet;
+use dbd_report::output::set::FileSet;
 use miette::Diagnostic;
 use thiserror::Error;
 

@@ -6,11 +6,11 @@
 use std::path::Path;
 
 use dbd_golden::Quantity as BodyQuantity;
-use dbd_picture::{Mechanism, Paper, svg};
 use dbd_plant::time::display;
 use dbd_report::curves::Curves;
 use dbd_report::data::{Data, FORMAT, FirstDifference, Kind, Run, Section, Table, Text};
 use dbd_report::page::html;
+use dbd_report::picture::{Mechanism, Paper, svg};
 use dbd_scene::Scene;
 use dbd_study::command::quoted;
 

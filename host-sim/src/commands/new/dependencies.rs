@@ -19,7 +19,7 @@ impl Dependencies {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
         let sources = root.filter(|root| {
             !registry
-                && ["kernel", "scene"]
+                && ["kernel", "crates/scene"]
                     .iter()
                     .all(|room| root.join(room).join("Cargo.toml").is_file())
         });
@@ -27,7 +27,7 @@ impl Dependencies {
         match sources.and_then(Path::to_str) {
             Some(root) => Self {
                 kernel: in_folder(&format!("{root}/kernel")),
-                scene: in_folder(&format!("{root}/scene")),
+                scene: in_folder(&format!("{root}/crates/scene")),
                 origin: format!("its crates are those in {root}"),
             },
             None => {

@@ -25,7 +25,7 @@ use dbd_study::estimate::instructions;
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::examples;
+use crate::help;
 use crate::terminal::Found;
 use choice::{Choice, ChoiceError, ChoiceOptions};
 use dependencies::Dependencies;
@@ -60,10 +60,10 @@ const TEMPLATES: &[(&str, &str)] = &[
 #[derive(Clone, Debug, Subcommand)]
 pub enum NewCommand {
     /// Writes a project with a scene as a plant in firmware: builds, runs in QEMU and on the PC
-    #[command(after_help = examples::NEW_FIRMWARE)]
+    #[command(after_help = help::NEW_FIRMWARE)]
     Firmware(FirmwareArguments),
     /// Writes a commented scene that runs as it is, and the schema from which editors complete its keys
-    #[command(after_help = examples::NEW_SCENE)]
+    #[command(after_help = help::NEW_SCENE)]
     Scene(SceneArguments),
 }
 

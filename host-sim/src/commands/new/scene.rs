@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
-use dbd_output::file::write_at;
+use dbd_report::output::file::write_at;
 use dbd_scene::file::read_text;
 
 use super::{NewError, filled, name};

@@ -9,9 +9,9 @@ use std::{io, iter};
 use dbd_plant::plant::{check_extents, check_inputs, check_step, check_stiffness};
 use dbd_plant::{Frequencies, Method, Plan};
 use dbd_scene::{BODY_COLUMNS, ENERGY_COLUMNS, Scene, SceneError};
-use dbd_sweep::check::{Misfit, Trial};
-use dbd_sweep::columns::Column;
-use dbd_sweep::row::{OK, Row};
+use dbd_study::sweep::check::{Misfit, Trial};
+use dbd_study::sweep::columns::Column;
+use dbd_study::sweep::row::{OK, Row};
 use miette::Diagnostic;
 
 use crate::commands::run::{RunOptions, plan_within};

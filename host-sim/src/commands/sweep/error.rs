@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use dbd_sweep::refusal::{Refusal, SpecError};
+use dbd_study::sweep::refusal::{Refusal, SpecError};
 use miette::Diagnostic;
 use thiserror::Error;
 

@@ -8,12 +8,12 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use dbd_output::file;
-use dbd_output::set::FileSet;
+use dbd_report::output::file;
+use dbd_report::output::set::FileSet;
 use dbd_scene::file::read_text;
-use dbd_sweep::shard::Shard;
-use dbd_sweep::store::Store;
-use dbd_sweep::table::Table;
+use dbd_study::sweep::shard::Shard;
+use dbd_study::sweep::store::Store;
+use dbd_study::sweep::table::Table;
 use serde::Deserialize;
 
 use crate::commands::folder::FolderError;
@@ -110,7 +110,7 @@ impl SweepFolder {
             #[cfg(feature = "parquet")]
             {
                 let mut file = files.begin(PARQUET)?;
-                dbd_sweep::parquet::write(table, &mut file)?;
+                dbd_study::sweep::parquet::write(table, &mut file)?;
                 files.add(file);
             }
             // One of another build is not of this table.

@@ -8,12 +8,12 @@ use std::path::Path;
 use dbd_kernel::GeneralizedAlpha;
 use dbd_plant::Method;
 use dbd_study::command::quoted;
-use dbd_sweep::Spec;
-use dbd_sweep::cases::Cases;
-use dbd_sweep::check::{CheckError, Trial as _, check};
-use dbd_sweep::columns::{Column, columns};
-use dbd_sweep::key::{Digest, Key};
-use dbd_sweep::row::{self, Row};
+use dbd_study::sweep::Spec;
+use dbd_study::sweep::cases::Cases;
+use dbd_study::sweep::check::{CheckError, Trial as _, check};
+use dbd_study::sweep::columns::{Column, columns};
+use dbd_study::sweep::key::{Digest, Key};
+use dbd_study::sweep::row::{self, Row};
 
 use crate::commands::folder::Destination;
 use crate::commands::run::{RunError, RunOptions, run};

@@ -16,13 +16,13 @@ use std::path::PathBuf;
 use std::thread;
 
 use clap::{Args, ValueHint};
-use dbd_sweep::cases::Cases;
-use dbd_sweep::key::Key;
-use dbd_sweep::page::{Page, html};
-use dbd_sweep::row::Row;
-use dbd_sweep::shard::Shard;
-use dbd_sweep::store::Store;
-use dbd_sweep::table::Table;
+use dbd_study::sweep::cases::Cases;
+use dbd_study::sweep::key::Key;
+use dbd_study::sweep::page::{Page, html};
+use dbd_study::sweep::row::Row;
+use dbd_study::sweep::shard::Shard;
+use dbd_study::sweep::store::Store;
+use dbd_study::sweep::table::Table;
 
 use crate::commands::run::RunError;
 use crate::commands::sweep::error::SweepError;

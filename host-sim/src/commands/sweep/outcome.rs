@@ -2,10 +2,10 @@
 //!
 //! `(sweep, finished cases) => rows of text, JSON`. What `sweep.json` holds is the same whoever ran which case.
 
-use dbd_sweep::cases::Cases;
-use dbd_sweep::row::OK;
-use dbd_sweep::shard::Shard;
-use dbd_sweep::store::Store;
+use dbd_study::sweep::cases::Cases;
+use dbd_study::sweep::row::OK;
+use dbd_study::sweep::shard::Shard;
+use dbd_study::sweep::store::Store;
 use serde::Serialize;
 
 use crate::commands::sweep::error::SweepError;
@@ -87,17 +87,17 @@ impl SweepOutcome {
     pub fn new(sweep: &Sweep, store: &Store, shard: Shard, ran: u64, missing: Vec<usize>) -> Self {
         let Sweep { spec, file, found, columns, .. } = sweep;
         let statistics = || spec.statistics.iter().map(|statistic| statistic.name()).collect();
-        let column = |column: &dbd_sweep::columns::Column| ColumnOutcome {
+        let column = |column: &dbd_study::sweep::columns::Column| ColumnOutcome {
             name: column.name.clone(),
             unit: column.unit.clone(),
             statistics: statistics(),
         };
-        let axis = |axis: &dbd_sweep::axis::Axis| AxisOutcome {
+        let axis = |axis: &dbd_study::sweep::axis::Axis| AxisOutcome {
             path: axis.path.clone(),
             unit: axis.unit(),
             values: axis.values.len(),
         };
-        let damage = |damage: &dbd_sweep::store::Damage| {
+        let damage = |damage: &dbd_study::sweep::store::Damage| {
             let (file, lines) = (damage.file.display(), damage.lines);
             let lines = if lines == 1 { "a line".into() } else { format!("{lines} lines") };
             match &damage.aside {

@@ -1,0 +1,419 @@
+//! Every lane has the bits of its instance stepped by itself.
+
+use crate::InLanes;
+use dbd_kernel::elements::source::SourceLaw;
+use dbd_kernel::geometry::Named;
+use dbd_kernel::index::{ClearanceIndex, DamperIndex, InputIndex};
+use dbd_kernel::model::{Group, Law};
+use dbd_kernel::status::Cause;
+#[cfg(dbd_long)]
+use dbd_kernel::{BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, Pefrl, Rk4, SemiImplicitEuler};
+use dbd_kernel::{
+    Body, BodyIndex, BodyState, F64, Leapfrog, Plant, Quaternion, Real, Status, TorsionSpring,
+    Tsda, Vec3,
+};
+use dbd_scene::{Scene, SceneModel};
+
+use super::{Batch, Members, PlantOf};
+use crate::InstructionSet;
+#[cfg(all(target_arch = "x86_64", dbd_long))]
+use crate::register::Singles512;
+#[cfg(target_arch = "x86_64")]
+use crate::register::{Doubles256, Singles256 as Eight};
+use crate::register::{Register, Singles};
+
+/// Where there is no other register.
+#[cfg(not(target_arch = "x86_64"))]
+type Eight = Singles;
+
+/// Whether this machine can use [`Eight`] lanes.
+fn eight() -> bool {
+    cfg!(not(target_arch = "x86_64")) || InstructionSet::Avx2.is_there()
+}
+
+/// A scene that ships, and its step.
+fn shipped(name: &str) -> (SceneModel<F64>, f64) {
+    let path = format!("{}/../../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&path).unwrap();
+    let scene = Scene::parse(&text, &path).unwrap();
+    (scene.model, scene.step.unwrap())
+}
+
+/// Instances of a model: the first as it is, every other with masses, springs, dampers, clearances,
+/// tables and velocities of its own, also out of the plane of a planar mechanism.
+fn instances(model: &SceneModel<F64>, count: usize) -> Vec<SceneModel<F64>> {
+    let instance = |i: usize| {
+        let mut own = model.clone();
+        let part = 1.0 + 0.03 * i as f64;
+        for (row, body) in own.bodies.iter_mut().enumerate() {
+            let [x, y, z] = body.inertia.to_f64();
+            let taller = 1.0 + 0.01 * ((i * 7 + row * 3) % 5) as f64;
+            *body = Body::from_f64(body.mass * part, [x * part, y * part * taller, z * part]);
+        }
+        own.tsdas.iter_mut().for_each(|spring| spring.stiffness *= 2.0 - part);
+        own.lines.iter_mut().for_each(|line| line.stiffness *= 2.0 - part);
+        own.dampers.iter_mut().for_each(|damper| *damper *= part);
+        own.clearances.iter_mut().for_each(|clearance| *clearance *= part);
+        own.torsions.iter_mut().for_each(|spring| spring.stiffness *= part);
+        own.knots.iter_mut().for_each(|knot| knot.value *= part);
+        for state in &mut own.initial {
+            let push = 0.02 * i as f64;
+            state.velocity = state.velocity + Vec3::new(push, -push, 0.5 * push);
+            let spin = state.angular_velocity;
+            state.angular_velocity = spin + Vec3::new(0.3 * push, 0.0, push);
+        }
+        own
+    };
+    (0..count).map(instance).collect()
+}
+
+fn plants<R: Real + Named, S: InLanes>(
+    models: &[SceneModel<F64>],
+    scheme: S,
+    step: f64,
+) -> Vec<PlantOf<R, S>> {
+    let plant = |model: &SceneModel<F64>| Plant::new(Box::new(model.convert()), scheme, step);
+    models.iter().map(|model| plant(model).unwrap()).collect()
+}
+
+/// Steps instances in lanes and by themselves, in parts that are no blocks, and compares all bits.
+fn compare<V: Register, S: InLanes + Send>(
+    name: &str,
+    models: &[SceneModel<F64>],
+    scheme: S,
+    step: f64,
+) -> Vec<PlantOf<V::Number, S>> {
+    let mut alone = plants::<V::Number, S>(models, scheme, step);
+    let mut batch = Members::<V, S>::new(plants(models, scheme, step));
+    for steps in [1, 70, 64, 30] {
+        batch.advance(steps);
+        for (i, plant) in alone.iter_mut().enumerate() {
+            let _ = plant.advance(steps);
+            let lane = batch.member(i);
+            let what = format!("{name}, {}, {}, instance {i}", S::NAME, V::Number::NAME);
+            assert_eq!(lane.status(), plant.status(), "{what}");
+            assert_eq!(lane.hash(), plant.hash(), "{what}");
+            let counted = batch.evaluations(i);
+            assert!(counted.is_none_or(|counted| counted == plant.evaluations()), "{what}");
+        }
+    }
+    alone
+}
+
+/// Planar and in space, with torsion springs, points on lines, dampers, clearances, inputs.
+const SCENES: [&str; 8] = [
+    "hexagon",
+    "gripper",
+    "double-wishbone",
+    "macpherson",
+    "delta-pick-and-place",
+    "cart-pendulum",
+    "crank-slider",
+    "gyroscope",
+];
+
+fn every_scene<V: Register, S: InLanes + Send>(scheme: S, scenes: &[&str]) {
+    for name in scenes {
+        let (model, step) = shipped(name);
+        // One lane runs a twin.
+        let models = instances(&model, V::LANES - 1);
+        let alone = compare::<V, S>(name, &models, scheme, step);
+        assert!(alone.iter().all(|plant| plant.status().is_running()), "{name}");
+        assert!(alone.windows(2).all(|pair| pair[0].hash() != pair[1].hash()), "{name}");
+    }
+}
+
+#[test]
+fn lanes_have_the_bits_of_their_instances() {
+    if eight() {
+        every_scene::<Eight, _>(Leapfrog, &SCENES);
+    }
+}
+
+/// Each scheme takes a minute to compile: `RUSTFLAGS="--cfg dbd_long" cargo test -p dbd-ensemble --lib`.
+#[cfg(dbd_long)]
+#[test]
+fn lanes_have_the_bits_of_their_instances_in_every_scheme() {
+    let some = ["gripper", "macpherson", "gyroscope"];
+    every_scene::<Eight, _>(Explicit(Leapfrog), &some);
+    every_scene::<Eight, _>(SemiImplicitEuler, &some);
+    every_scene::<Eight, _>(Pefrl, &some);
+    every_scene::<Eight, _>(BlanesMoanS6, &some);
+    every_scene::<Eight, _>(Rk4, &some);
+    every_scene::<Eight, _>(Dbd { newton: 1 }, &some);
+    every_scene::<Eight, _>(DbdP1 { newton: 0 }, &some);
+    every_scene::<Eight, _>(DbdP2 { newton: 2 }, &some);
+}
+
+#[test]
+fn any_machine_has_lanes() {
+    every_scene::<Singles, _>(Leapfrog, &SCENES);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[test]
+fn other_registers_of_this_machine_give_the_same_bits() {
+    if InstructionSet::Avx2.is_there() {
+        every_scene::<Doubles256, _>(Leapfrog, &SCENES);
+    }
+    #[cfg(dbd_long)]
+    if InstructionSet::Avx512.is_there() {
+        every_scene::<Singles512, _>(Leapfrog, &SCENES);
+    }
+}
+
+/// A flywheel on a torsion spring whose axis leans on no principal axis, let go with a spin about it.
+fn flywheel(spin: f64) -> SceneModel<F64> {
+    let axis = [0.0, 0.6, 0.8];
+    SceneModel {
+        bodies: vec![Body::from_f64(1.0, [0.4, 0.5, 0.6])],
+        initial: vec![BodyState::<F64>::new(
+            [0.0; 3],
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0; 3],
+            axis.map(|part| spin * part),
+        )],
+        torsions: vec![TorsionSpring {
+            a: BodyIndex::WORLD,
+            b: BodyIndex(0),
+            axis: Vec3::from_f64(axis),
+            reference: Quaternion::IDENTITY,
+            stiffness: 0.02,
+            preload: 0.01,
+            damper: DamperIndex(0),
+        }],
+        dampers: vec![1e-3],
+        ..SceneModel::default()
+    }
+}
+
+#[test]
+fn points_that_coincide_in_one_lane_give_it_no_force() {
+    if !eight() {
+        return;
+    }
+    // A ball tied to the origin, at it or apart from it, and let go or thrown.
+    let ball = |x: f64| {
+        let mut model = flywheel(0.0);
+        model.torsions.clear();
+        model.dampers.clear();
+        model.initial[0].position.x = x;
+        model.initial[0].velocity.y = x;
+        model.groups = vec![Group {
+            law: Law::Tsda,
+            a: BodyIndex::WORLD,
+            b: BodyIndex(0),
+            stars: 1,
+            arms: 1,
+            shared: false,
+            point: 0,
+            element: 0,
+            damper: DamperIndex::NONE,
+            clearance: ClearanceIndex::NONE,
+        }];
+        model.points = vec![Vec3::ZERO; 2];
+        model.tsdas = vec![Tsda { stiffness: 30.0, free_length: 0.2 }];
+        model
+    };
+    let models: Vec<_> = [0.5, 0.0, -0.1].into_iter().map(ball).collect();
+    let alone = compare::<Eight, _>("ball", &models, Leapfrog, 0.01);
+    assert_eq!(alone[1].state().bodies[0].position, Vec3::ZERO);
+}
+
+#[test]
+fn each_lane_counts_its_own_turns() {
+    if !eight() {
+        return;
+    }
+    let spins = [40.0, -40.0, 0.0, 7.0];
+    let models: Vec<_> = spins.into_iter().map(flywheel).collect();
+    let alone = compare::<Eight, _>("flywheel", &models, Leapfrog, 0.01);
+    let turns: Vec<i32> = alone.iter().map(|plant| plant.state().turns[0]).collect();
+    assert!(turns[0] > 5 && turns[1] < -5 && turns[2] == 0, "{turns:?}");
+    #[cfg(dbd_long)]
+    {
+        compare::<Eight, _>("flywheel", &models, BlanesMoanS6, 0.01);
+        compare::<Eight, _>("flywheel", &models, Rk4, 0.01);
+    }
+}
+
+#[test]
+fn a_failed_lane_stops_alone_with_the_bits_of_its_failure() {
+    if !eight() {
+        return;
+    }
+    let (model, step) = shipped("gripper");
+    let mut models = instances(&model, 4);
+    // Too stiff for the step: it leaves the range of numbers or spins too fast.
+    models[1].tsdas.iter_mut().for_each(|spring| spring.stiffness *= 1e4);
+    // Fails in the first step.
+    models[2].initial[0].angular_velocity = Vec3::new(0.0, 0.0, 3.0 / step);
+    let alone = compare::<Eight, _>("gripper", &models, Leapfrog, step);
+    let failed: Vec<bool> = alone.iter().map(|plant| !plant.status().is_running()).collect();
+    assert_eq!(failed, [false, true, true, false]);
+    // Those that did not fail have gone on in their lanes.
+    let mut batch = Members::<Eight, _>::new(plants::<f32, _>(&models, Leapfrog, step));
+    batch.advance(165);
+    let counted = [0, 1, 2, 3].map(|member| batch.evaluations(member));
+    let own = |member: usize| Some(alone[member].evaluations());
+    assert_eq!(counted, [own(0), None, None, own(3)]);
+    assert!(matches!(
+        alone[2].status(),
+        Status::Failed(failure) if failure.step == 1 && matches!(failure.cause, Cause::Spin { .. })
+    ));
+}
+
+#[test]
+fn a_lane_without_a_twist_fails_where_its_instance_does() {
+    if !eight() {
+        return;
+    }
+    // Half a turn about an axis normal to the spring's.
+    let tumbling = |rate: f64| {
+        let mut model = flywheel(0.0);
+        model.initial[0].angular_velocity = Vec3::new(rate, 0.0, 0.0);
+        model.torsions[0].stiffness = 0.0;
+        model.torsions[0].preload = 0.0;
+        model.dampers[0] = 0.0;
+        model
+    };
+    // Exactly half a turn after 157 steps of 0.01 s.
+    let rate = std::f64::consts::PI / 1.57;
+    let models: Vec<_> = [0.0, rate, 0.3].into_iter().map(tumbling).collect();
+    let alone = compare::<Eight, _>("tumbling", &models, Leapfrog, 0.01);
+    assert!(matches!(
+        alone[1].status(),
+        Status::Failed(failure) if matches!(failure.cause, Cause::UndefinedTwist { .. })
+    ));
+    assert!(alone[0].status().is_running() && alone[2].status().is_running());
+}
+
+#[test]
+fn an_instance_may_be_changed_between_steps() {
+    if !eight() {
+        return;
+    }
+    let (model, step) = shipped("cart-pendulum");
+    let models = instances(&model, 4);
+    let mut alone = plants::<f32, _>(&models, Leapfrog, step);
+    let mut batch = Members::<Eight, _>::new(plants(&models, Leapfrog, step));
+    for round in 0..6 {
+        let value = 0.3 * f64::from(round);
+        let (own, lane) = (&mut alone[1], batch.member_mut(1));
+        own.set_input(InputIndex(0), value).unwrap();
+        lane.set_input(InputIndex(0), value).unwrap();
+        // One that is at another step than the others.
+        if round == 3 {
+            alone[2].reset();
+            batch.member_mut(2).reset();
+        }
+        batch.advance(17);
+        for (i, plant) in alone.iter_mut().enumerate() {
+            let _ = plant.advance(17);
+            assert_eq!(batch.member(i).hash(), plant.hash(), "round {round}, instance {i}");
+        }
+    }
+    assert!(alone[0].hash() != alone[1].hash() && alone[2].state().step < alone[0].state().step);
+}
+
+/// What a sweep weighs is each lane's own.
+#[test]
+fn shares_of_dampers_are_each_lanes_own() {
+    if !eight() {
+        return;
+    }
+    let (model, step) = shipped("double-wishbone");
+    let mut models = instances(&model, 3);
+    // Without dampers of its own a lane has none of the others' shares.
+    models[1].dampers.iter_mut().for_each(|damper| *damper = 0.0);
+    compare::<Eight, _>("double-wishbone", &models, Leapfrog, step);
+}
+
+/// Sines, tables that repeat and tables over what a lane's own sensor reads.
+#[test]
+fn sources_are_each_lanes_own() {
+    let text = r#"
+name = "driven"
+duration = 1
+[[body]]
+name = "b"
+mass = 2
+inertia = [0.1, 0.2, 0.25]
+position = [0.3, 0, 0]
+[[tsda]]
+between = ["world", "b"]
+points = [[0, 1, 0], [0.1, 0, 0]]
+stiffness = 50
+free_length = 1
+[[torsion_spring]]
+name = "coil"
+between = ["world", "b"]
+axis = [0, 0, 1]
+stiffness = 5
+[[input]]
+name = "hum"
+type = "torque"
+body = "b"
+axis = [0, 0, 1]
+sine = { amplitude = 0.5, frequency = 7 }
+[[input]]
+name = "beat"
+type = "force"
+body = "b"
+axis = [0, 1, 0]
+table = [[0, 1], [0.01, -1], [0.03, 1]]
+periodic = true
+interpolate = "linear"
+[[input]]
+name = "wind"
+type = "force"
+body = "b"
+axis = [1, 0, 0]
+over = "turn"
+table = [[-0.02, 3], [0, 1], [0.02, -3]]
+[[input]]
+name = "brake"
+type = "force"
+body = "b"
+axis = [0, 1, 0]
+over = "speed.y"
+table = [[-1, 3], [1, -3]]
+interpolate = "linear"
+[[readout]]
+name = "turn"
+type = "joint_angle"
+target = "coil"
+[[readout]]
+name = "speed"
+type = "point_velocity"
+body = "b"
+"#;
+    let model = Scene::parse(text, "driven.toml").unwrap().model;
+    let mut models = instances(&model, 3);
+    for (i, own) in models.iter_mut().enumerate() {
+        if let SourceLaw::Sine { amplitude, .. } = &mut own.sources[0].law {
+            *amplitude *= 1.0 + i as f64;
+        }
+    }
+    if eight() {
+        compare::<Eight, _>("driven", &models, Leapfrog, 1e-3);
+    }
+    compare::<Singles, _>("driven", &models, Leapfrog, 1e-3);
+    if let SourceLaw::Sine { period, .. } = &mut models[1].sources[0].law {
+        *period *= 2.0;
+    }
+    let found = crate::alike::difference(&models[0].convert::<F64>(), &models[1].convert());
+    assert!(matches!(found, Some(crate::Difference::Part { part: "source of an input", row: 0 })));
+}
+
+#[test]
+fn the_scenes_have_what_lanes_decide_by() {
+    let models = SCENES.map(|name| shipped(name).0);
+    let any = |part: fn(&SceneModel<F64>) -> bool| models.iter().any(part);
+    assert!(any(|model| !model.clearances.is_empty()));
+    assert!(any(|model| !model.knots.is_empty()));
+    assert!(any(|model| !model.lines.is_empty()));
+    assert!(any(|model| !model.torsions.is_empty()));
+    assert!(any(|model| model.dampers.is_empty()));
+    assert!(any(|model| model.dampers.len() > 30));
+}

@@ -1,0 +1,149 @@
+//! The variables of an FMU, and what they are.
+//!
+//! `instance => variables`, the place of each its value reference: time, inputs, outputs, parameters. The model
+//! description and the interface both read this list.
+
+use std::collections::BTreeSet;
+
+use dbd_plant::instance::{Instance, InstanceError, SceneNumber};
+use dbd_scene::BODY_COLUMNS;
+
+use crate::names::structured;
+
+/// How many communication steps a scene without a sampling interval has.
+const SAMPLES: f64 = 500.0;
+
+/// Numbers of a scene that are about its run, which the importer has.
+const OF_THE_RUN: [&str; 3] = ["duration", "step", "every"];
+
+/// What a variable is to the plant.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Role {
+    /// The independent variable.
+    Time,
+    /// One of the instance's inputs, by its place.
+    Input(usize),
+    /// One of its outputs, by its place; whether inputs may act on it without a step.
+    Output(usize, bool),
+    /// A parameter, by its path.
+    Parameter(String),
+}
+
+/// A variable of an FMU.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variable {
+    /// Its name, structured where [`Description::is_structured`].
+    pub name: String,
+    /// What it is to the plant.
+    pub role: Role,
+    /// The SI unit; empty for a plain number.
+    pub unit: String,
+    /// \[`unit`\] its first value; `None` where that is computed.
+    pub start: Option<f64>,
+    /// What it is, in a few words.
+    pub description: String,
+}
+
+/// What an importer knows of an FMU before it loads it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Description {
+    /// The scene's name.
+    pub name: String,
+    /// What the scene shows.
+    pub description: String,
+    /// \[s\] the scene's duration.
+    pub duration: f64,
+    /// \[s\] the plant's step.
+    pub step: f64,
+    /// \[s\] a communication step that suits: the scene's sampling interval in whole steps of the plant.
+    pub communication_step: f64,
+    /// Whether all names follow FMI's structured naming.
+    pub is_structured: bool,
+    /// The variables; the place of each is its value reference.
+    pub variables: Vec<Variable>,
+}
+
+impl Description {
+    /// What an instance at t = 0 is.
+    ///
+    /// # Errors
+    /// None that making the instance has not shown.
+    pub fn of(instance: &Instance) -> Result<Self, InstanceError> {
+        let (scene, step) = (instance.scene(), instance.step_size());
+        let every = scene.every.unwrap_or(scene.duration / SAMPLES);
+        let mut listed = vec![listed("time", Role::Time, "s", None, "time".into())];
+        for (place, input) in instance.inputs().iter().enumerate() {
+            let what = format!("input of the type {}, held until it is set again", input.kind);
+            let role = Role::Input(place);
+            listed.push(self::listed(&input.name, role, input.unit, Some(input.start), what));
+        }
+        let states = scene.body_names.len() * BODY_COLUMNS.len();
+        for (place, output) in instance.outputs().iter().enumerate() {
+            let role = Role::Output(place, place >= states);
+            let what = output.description.clone();
+            listed.push(self::listed(&output.name, role, output.unit, None, what));
+        }
+        for SceneNumber { path, value, unit } in instance.parameters()? {
+            if !OF_THE_RUN.contains(&path.as_str()) {
+                let what = format!("number of the scene, {path}");
+                let role = Role::Parameter(path.clone());
+                listed.push(self::listed(&path, role, &unit, Some(value), what));
+            }
+        }
+        let is_structured = name_all(&mut listed);
+        Ok(Self {
+            name: scene.name.clone(),
+            description: scene.description.clone(),
+            duration: scene.duration,
+            step,
+            communication_step: (every / step).round().max(1.0) * step,
+            is_structured,
+            variables: listed,
+        })
+    }
+}
+
+fn listed(name: &str, role: Role, unit: &str, start: Option<f64>, description: String) -> Variable {
+    Variable { name: name.into(), role, unit: unit.into(), start, description }
+}
+
+/// Gives each variable a name of its own; whether all are structured.
+fn name_all(variables: &mut [Variable]) -> bool {
+    let names: Option<Vec<String>> = variables.iter().map(|v| structured(&v.name)).collect();
+    let is_structured = names.is_some();
+    let mut taken = BTreeSet::new();
+    for (row, variable) in variables.iter_mut().enumerate() {
+        let own = names.as_ref().map_or(&variable.name, |names| &names[row]);
+        let kind = match variable.role {
+            Role::Time | Role::Output(..) => "output",
+            Role::Input(_) => "input",
+            Role::Parameter(_) => "parameter",
+        };
+        let mut name = own.clone();
+        while !taken.insert(name.clone()) {
+            name = format!("{kind}.{name}");
+        }
+        variable.name = name;
+    }
+    is_structured
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_there_once() {
+        let of = |name: &str, role| listed(name, role, "", None, String::new());
+        let mut variables = [
+            of("drive", Role::Input(0)),
+            of("drive", Role::Output(0, true)),
+            of("upper arm.x", Role::Output(1, false)),
+        ];
+        assert!(name_all(&mut variables));
+        let names = variables.each_ref().map(|variable| variable.name.as_str());
+        assert_eq!(names, ["drive", "output.drive", "'upper arm'.x"]);
+        variables[0].name = "Körper".into();
+        assert!(!name_all(&mut variables));
+    }
+}

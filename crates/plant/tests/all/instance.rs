@@ -1,0 +1,171 @@
+//! Instances against plain plants, and what they refuse.
+
+use dbd_plant::instance::{Blueprint, Instance, InstanceError, Settings};
+use dbd_plant::{Method, plant};
+use dbd_scene::Scene;
+
+fn path(name: &str) -> String {
+    format!("{}/../../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn of(name: &str, settings: Settings) -> Instance {
+    Instance::new(Blueprint::load(path(name)).unwrap(), settings).unwrap()
+}
+
+fn cart() -> Instance {
+    of("cart-pendulum", Settings::default())
+}
+
+#[test]
+fn a_run_has_the_bits_of_a_plain_plant() {
+    for (name, precision) in [("3ruu", None), ("cart-pendulum", Some("f32")), ("hexagon", None)] {
+        let settings = Settings { precision: precision.map(str::to_owned), ..Settings::default() };
+        let mut instance = of(name, settings.clone());
+        let scene = Scene::load(path(name)).unwrap();
+        let method: Method = settings.method().unwrap();
+        let mut plain = plant(&scene, &method, instance.step_size()).unwrap();
+        instance.advance_to(instance.step_size() * 500.0).unwrap();
+        plain.advance(500).ok().unwrap();
+        assert_eq!(instance.hash(), plain.hash(), "{name}");
+        let values = instance.values();
+        assert_eq!(values.len() + 1, scene.columns().len());
+        assert_eq!(values[..3], plain.state().bodies[0].position.to_f64());
+        assert_eq!(values[7..10], plain.state().bodies[0].velocity.to_f64());
+        let total = instance.output("energy.total").unwrap();
+        assert_eq!(instance.value(total), plain.energy().total());
+        // One by one as all together.
+        for (row, value) in values.iter().enumerate() {
+            assert_eq!(instance.value(row).to_bits(), value.to_bits());
+        }
+        let names: Vec<_> = instance.outputs().iter().map(|output| output.name.clone()).collect();
+        assert_eq!(names, scene.columns()[1..]);
+    }
+}
+
+#[test]
+fn a_state_goes_on_in_another_instance_with_inputs_and_parameters() {
+    let mut one = cart();
+    let mass = one.parameters().unwrap().into_iter().find(|p| p.path.ends_with(".mass")).unwrap();
+    assert_eq!(mass.unit, "kg");
+    one.set_parameters([(mass.path.as_str(), mass.value * 1.5)]).unwrap();
+    let now = one.parameters().unwrap().into_iter().find(|p| p.path == mass.path).unwrap();
+    assert_eq!(now.value, mass.value * 1.5);
+    one.set_input(0, 3.0).unwrap();
+    one.advance(100).unwrap();
+    let state = one.save().unwrap();
+    one.advance(400).unwrap();
+
+    let mut other = cart();
+    other.restore(&state).unwrap();
+    assert_eq!((other.input_value(0), other.plant().steps()), (Some(3.0), 100));
+    let mut copy = other.duplicate().unwrap();
+    for instance in [&mut other, &mut copy] {
+        instance.advance(400).unwrap();
+        assert_eq!(instance.hash(), one.hash());
+        assert_eq!(instance.values(), one.values());
+    }
+    // Back in the same one.
+    one.restore(&state).unwrap();
+    one.advance(400).unwrap();
+    assert_eq!(one.hash(), other.hash());
+    // The parameter did change the run.
+    let mut plain = cart();
+    plain.set_input(0, 3.0).unwrap();
+    plain.advance(500).unwrap();
+    assert_ne!(plain.hash(), one.hash());
+}
+
+#[test]
+fn damaged_and_foreign_states_change_nothing() {
+    let mut one = cart();
+    one.set_parameters([("body.cart.mass", 2.0)]).unwrap();
+    one.advance(10).unwrap();
+    let (state, hash) = (one.save().unwrap(), one.hash());
+    for length in 0..state.len() {
+        assert!(one.restore(&state[..length]).is_err());
+    }
+    for byte in 0..state.len() {
+        let mut damaged = state.clone();
+        damaged[byte] ^= 0x10;
+        assert!(one.restore(&damaged).is_err(), "{byte}");
+    }
+    let foreign = of("four-bar", Settings::default()).save().unwrap();
+    assert!(matches!(one.restore(&foreign), Err(InstanceError::State(_))));
+    assert_eq!(one.hash(), hash);
+    one.restore(&state).unwrap();
+}
+
+#[test]
+fn times_are_whole_numbers_of_steps_within_a_hundredth() {
+    let mut one = cart();
+    let step = one.step_size();
+    // As an importer adds them up.
+    let mut time = 0.0;
+    for _ in 0..1000 {
+        time += 10.0 * step;
+        one.advance_to(time).unwrap();
+    }
+    assert_eq!(one.plant().steps(), 10_000);
+    for (time, message) in [
+        (time + 0.5 * step, "is no whole number of steps of"),
+        (time - step, "cannot be gone to"),
+        (f64::NAN, "cannot be gone to"),
+        (f64::INFINITY, "cannot be gone to"),
+        (-1.0, "cannot be gone to"),
+    ] {
+        let error = one.advance_to(time).unwrap_err().sentence();
+        assert!(error.contains(message), "{error}");
+    }
+    assert_eq!(one.plant().steps(), 10_000);
+}
+
+#[test]
+fn what_is_wrong_is_said_with_what_would_be_right() {
+    let blueprint = |text: &str| Blueprint::new("bad.toml", text);
+    let text = std::fs::read_to_string(path("cart-pendulum")).unwrap();
+    let settings = |change: fn(&mut Settings)| {
+        let mut settings = Settings::default();
+        change(&mut settings);
+        settings
+    };
+    for (blueprint, settings, message) in [
+        (blueprint("name = 3"), Settings::default(), "bad.toml:1:8: "),
+        (blueprint(&text).with("body.cat.mass=1"), Settings::default(), "did you mean `cart`?"),
+        (blueprint(&text), settings(|s| s.scheme = Some("euler".into())), "dbd, dbd-p1"),
+        (blueprint(&text), settings(|s| s.step = Some(f64::NAN)), "a step of NaN"),
+        (blueprint(&text), settings(|s| s.newton = Some(2)), "has no Newton iterations"),
+        (
+            blueprint(&text),
+            settings(|s| (s.scheme, s.damping) = (Some("rk4".into()), Some("sweeps".into()))),
+            "no sweeps damping",
+        ),
+    ] {
+        let error = Instance::new(blueprint, settings).err().unwrap().sentence();
+        assert!(error.contains(message), "{error}");
+    }
+    let mut one = cart();
+    for (error, message) in [
+        (one.set_input(0, f64::NAN).unwrap_err(), "cannot take NaN"),
+        (one.set_input(7, 0.0).unwrap_err(), "no input `number 7`"),
+        (one.input("forse").unwrap_err(), "no input `forse`"),
+        (one.output("cart.xx").unwrap_err(), "did you mean `cart."),
+        (one.set_parameters([("body.cart.mass", f64::INFINITY)]).unwrap_err(), "cannot be inf"),
+        (one.set_parameters([("body.cart.mass", -1.0)]).unwrap_err(), "a finite number > 0 in kg"),
+        (one.set_parameters([("body.cat.mass", 1.0)]).unwrap_err(), "did you mean `cart`?"),
+    ] {
+        assert!(error.sentence().contains(message), "{}", error.sentence());
+    }
+    assert!(Blueprint::load("nowhere.toml").is_err());
+}
+
+#[test]
+fn a_failure_latches_and_names_the_body() {
+    let mut one = of("four-bar", Settings { step: Some(0.1), ..Settings::default() });
+    let error = one.advance(1000).unwrap_err().sentence();
+    assert!(error.contains("body `") && error.contains("a shorter step"), "{error}");
+    assert_eq!(one.advance(1).unwrap_err().sentence(), error);
+    assert!(matches!(one.save(), Err(InstanceError::State(_))));
+    one.reset();
+    assert_eq!(one.plant().steps(), 0);
+    one.save().unwrap();
+}

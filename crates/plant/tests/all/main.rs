@@ -1,0 +1,6 @@
+//! Plants by name: their bits, where runs end, components of other tools.
+
+mod instance;
+mod judged;
+mod planar;
+mod plant;

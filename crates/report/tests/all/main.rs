@@ -1,0 +1,4 @@
+//! Pictures of the scenes that ship.
+
+mod geometry;
+mod pictures;

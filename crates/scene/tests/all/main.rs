@@ -1,0 +1,18 @@
+//! Scenes: what is read, derived, written, refused and warned of.
+
+mod assemble;
+mod authoring;
+mod driven;
+mod equations;
+mod four_bar;
+mod freedoms;
+mod geometry;
+mod injected;
+mod long_form;
+mod long_texts;
+mod parameters;
+mod planar;
+mod properties;
+mod quantities;
+mod realisations;
+mod warnings;

@@ -1,0 +1,124 @@
+//! What drives a mechanism from outside: loads, inputs and tables over sensors.
+//!
+//! `(instant: windows, signals) => wrenches on bodies`.
+
+use dbd_kernel::elements::input::Knot;
+use dbd_kernel::elements::source::Sensor as KernelSensor;
+use dbd_kernel::{F64, LoadFrame};
+use nalgebra::Vector3;
+
+use crate::reference::elements::{Element, Pair, TorsionSpring, push, turn};
+use crate::reference::instant::{End, Instant, Point, Wrench};
+use crate::reference::signals::at;
+
+/// A constant force and torque over a window of time.
+pub struct Load {
+    /// The body.
+    pub end: End,
+    /// The axes of both.
+    pub frame: LoadFrame,
+    /// \[N\] at the centre of mass.
+    pub force: Vector3<f64>,
+    /// \[N·m\].
+    pub torque: Vector3<f64>,
+    /// \[s\] start and end, the end excluded.
+    pub window: [f64; 2],
+}
+
+impl Element for Load {
+    fn act(&self, at: &Instant<'_>, wrenches: &mut [Wrench]) {
+        let End::Body(row) = self.end else { return };
+        if at.clock.within(self.window[0], self.window[1]) {
+            wrenches[row].force += at.turned(self.end, self.frame, self.force);
+            wrenches[row].torque += at.turned(self.end, self.frame, self.torque);
+        }
+    }
+}
+
+/// A table over what a sensor reads, without a delay: what a plant's steps come to as they get smaller.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensor {
+    /// The input that it drives.
+    pub row: usize,
+    /// What is read.
+    pub sensor: KernelSensor<F64>,
+    /// The direction of a vector's column.
+    pub weights: [f64; 3],
+    /// In the unit of the reading.
+    pub offset: f64,
+    /// Knots over the reading.
+    pub curve: Vec<Knot<f64>>,
+}
+
+impl Sensor {
+    /// What its input says at an instant; `torsions` are the mechanism's.
+    #[must_use]
+    pub fn value(&self, instant: &Instant<'_>, torsions: &[TorsionSpring]) -> f64 {
+        let place = |row: usize, local: [f64; 3]| {
+            instant.place(&Point { end: End::Body(row), local: Vector3::from(local) })
+        };
+        let along = |v: Vector3<f64>| Vector3::from(self.weights).dot(&v);
+        let twist = |spring: u16| torsions[usize::from(spring)].twist(instant);
+        let reading = match self.sensor {
+            KernelSensor::Angle { spring, offset } => twist(spring).angle + offset,
+            KernelSensor::Rate { spring } => twist(spring).rate,
+            KernelSensor::Point { body, point } => {
+                along(place(body.row(), point.to_f64()).position)
+            }
+            KernelSensor::Velocity { body, point } => {
+                along(place(body.row(), point.to_f64()).velocity)
+            }
+        };
+        let reading = reading + self.offset;
+        at(&self.curve, reading, reading).value
+    }
+}
+
+/// An input that pushes.
+pub struct Input {
+    /// Its place among the mechanism's inputs.
+    pub row: usize,
+    /// What it does.
+    pub kind: InputKind,
+}
+
+/// What an input does with its signal.
+pub enum InputKind {
+    /// A force along a direction at a point.
+    Force(Point, Vector3<f64>, LoadFrame),
+    /// A torque about an axis.
+    Torque(End, Vector3<f64>, LoadFrame),
+    /// A torque on the second along the gradient of its turn about an axis, in the axes of each, on the
+    /// first the opposite.
+    JointTorque([End; 2], [Vector3<f64>; 2]),
+    /// A tension between two points.
+    Actuator(Pair),
+}
+
+impl Element for Input {
+    fn act(&self, at: &Instant<'_>, wrenches: &mut [Wrench]) {
+        let value = at.signals[self.row].value;
+        match &self.kind {
+            InputKind::Force(point, direction, frame) => {
+                let force = at.turned(point.end, *frame, *direction) * value;
+                push(wrenches, &at.place(point), force);
+            }
+            InputKind::Torque(end, axis, frame) => {
+                turn(wrenches, *end, at.turned(*end, *frame, *axis) * value);
+            }
+            InputKind::JointTorque([a, b], axes) => {
+                // Half way between the two axes, with the length that the swing between them asks for.
+                let [first, second] = [at.to_world(*a, axes[0]), at.to_world(*b, axes[1])];
+                let half = 0.5 * first.angle(&second);
+                let torque = (first + second).normalize() * (value / half.cos());
+                turn(wrenches, *a, -torque);
+                turn(wrenches, *b, torque);
+            }
+            InputKind::Actuator(pair) => {
+                let stretch = pair.at(at);
+                let along = stretch.displacement.try_normalize(0.0).unwrap_or_default();
+                stretch.pull(along * value, wrenches);
+            }
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! The truth: two integrators of high order at tight tolerances.
+//!
+//! `(mechanism, state, times) => states`. DOP853 (Hairer, Nørsett & Wanner 1993) is the truth, the
+//! pair 9(8) of Verner (2010) the second opinion. Both end a step at every
+//! sample and at every jump of a load or table, so that no sample is interpolated and no step
+//! straddles a jump.
+
+use differential_equations::error::Error;
+use differential_equations::ivp::IVP;
+use differential_equations::methods::ExplicitRungeKutta;
+use differential_equations::ode::ODE;
+use miette::Diagnostic;
+use thiserror::Error;
+
+use crate::reference::equations::{Equations, pack, unpack};
+use crate::reference::mechanism::Mechanism;
+use crate::reference::state::State;
+
+/// Relative and absolute tolerance of a step of DOP853, SI units.
+pub const TOLERANCE: f64 = 1e-12;
+
+/// Tolerances of the second opinion, whose measure of an error is the largest component, not the mean:
+/// at 1e-12 the rounding of light bodies' accelerations would drive its step.
+pub const SECOND_TOLERANCE: f64 = 1e-11;
+
+/// Which integrator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Opinion {
+    /// Dormand & Prince's 8(5,3).
+    Dop853,
+    /// Verner's 9(8).
+    Verner98,
+}
+
+/// Why there is no truth.
+#[derive(Clone, Debug, PartialEq, Error, Diagnostic)]
+#[error("no truth beyond {time} s: {reason}")]
+#[diagnostic(help("a shorter window, before a twist is undefined or a spring's points meet"))]
+pub struct NoTruth {
+    /// \[s\] where the integrator stopped, or the start of the piece.
+    pub time: f64,
+    /// What it says.
+    pub reason: String,
+}
+
+/// The states at ascending `times` \[s\] from `start` at t = 0.
+///
+/// # Errors
+/// Where the integrator gives up.
+pub fn integrate(
+    opinion: Opinion,
+    mechanism: &Mechanism,
+    start: &State,
+    times: &[f64],
+) -> Result<Vec<State>, NoTruth> {
+    let bodies = mechanism.bodies.len();
+    let mut piece = Piece { y: pack(start, 0.0), time: 0.0, step: 0.0 };
+    let mut states = Vec::with_capacity(times.len());
+    let end = times.last().copied().unwrap_or_default();
+    let mut jumps = mechanism.jumps([0.0, end]).into_iter().peekable();
+    for &time in times {
+        while let Some(jump) = jumps.next_if(|jump| *jump < time) {
+            piece.advance(opinion, mechanism, jump)?;
+        }
+        piece.advance(opinion, mechanism, time)?;
+        states.push(unpack(&piece.y, bodies));
+    }
+    Ok(states)
+}
+
+/// How far an integration has come.
+struct Piece {
+    y: Vec<f64>,
+    time: f64,
+    /// \[s\] a step that was accepted, 0 before the first.
+    step: f64,
+}
+
+impl Piece {
+    fn advance(
+        &mut self,
+        opinion: Opinion,
+        mechanism: &Mechanism,
+        end: f64,
+    ) -> Result<(), NoTruth> {
+        if end <= self.time {
+            return Ok(());
+        }
+        let equations = Equations::new(mechanism, [self.time, end]);
+        let (steps, y) = self.solve(opinion, &equations, end)?;
+        self.step = steps.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+        self.y = y;
+        self.time = end;
+        Ok(())
+    }
+
+    /// The times of the steps and the values at the last.
+    fn solve(
+        &self,
+        opinion: Opinion,
+        equations: &Equations<'_>,
+        end: f64,
+    ) -> Result<(Vec<f64>, Vec<f64>), NoTruth> {
+        let problem = IVP::ode(equations, self.time, end, self.y.clone());
+        let first = self.step.min(end - self.time);
+        let solution = match opinion {
+            Opinion::Dop853 => {
+                let method = ExplicitRungeKutta::dop853().rtol(TOLERANCE).atol(TOLERANCE);
+                problem.method(method.h0(first).max_steps(usize::MAX)).solve()
+            }
+            Opinion::Verner98 => {
+                let method = ExplicitRungeKutta::rkv988e();
+                let method = method.rtol(SECOND_TOLERANCE).atol(SECOND_TOLERANCE);
+                problem.method(method.h0(first).max_steps(usize::MAX)).solve()
+            }
+        };
+        match solution {
+            Ok(mut solution) => self.finite(solution.y.pop()).map(|y| (solution.t, y)),
+            Err(Error::StepSize { t, .. } | Error::Stiffness { t, .. }) => {
+                Err(NoTruth { time: t, reason: "no step is short enough".into() })
+            }
+            Err(_) => Err(NoTruth { time: self.time, reason: "no solution".into() }),
+        }
+    }
+
+    fn finite(&self, y: Option<Vec<f64>>) -> Result<Vec<f64>, NoTruth> {
+        y.filter(|y| y.iter().all(|value| value.is_finite()))
+            .ok_or(NoTruth { time: self.time, reason: "the state is not finite".into() })
+    }
+}
+
+impl ODE<f64, Vec<f64>> for Equations<'_> {
+    fn diff(&self, _: f64, y: &Vec<f64>, derivative: &mut Vec<f64>) {
+        self.derivative(y, derivative);
+    }
+}

@@ -1,0 +1,38 @@
+//! Discrete Body Dynamics on Cortex-M4F: const models in flash, board drivers, programs.
+//!
+//! `shipped models => program => lines on the console`. Hardware is touched in [`board`] only;
+//! models and programs also compile for a host, where `hash` prints the same lines.
+#![cfg_attr(target_os = "none", no_std)]
+
+// First, for its macros.
+#[macro_use]
+pub mod models;
+
+pub mod alone;
+pub mod board;
+pub mod chart;
+pub mod closed_loop;
+pub mod console;
+pub mod controllers;
+pub mod hash;
+pub mod relay;
+pub mod root;
+pub mod sample;
+pub mod sensors;
+pub mod trajectory;
+pub mod wiring;
+
+#[cfg(target_os = "none")]
+pub mod cost;
+#[cfg(target_os = "none")]
+pub mod guards;
+
+/// The README's programs compile: the model that they include is one of [`models`].
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+pub mod readme {}
+
+/// The page on controllers compiles and does what it says.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/controllers.md")]
+pub mod controllers_page {}

@@ -1,0 +1,128 @@
+//! Several joints of one body.
+
+use dbd_import::{ImportError, Kind, Options, import_text};
+use dbd_tests::page::{block, figure, table};
+
+use crate::import::{distances, imported, loaded, of, worst};
+
+fn start(stiffness: f64) -> Options {
+    Options { stiffness, duration: 0.5, keyframe: Some("start".into()), ..Options::default() }
+}
+
+/// Universal, cylindrical, spherical joints, carriers, servos, tendons, springs of balls, meshes from a keyframe
+/// on: off by what joints give way, which falls as 1/k.
+#[test]
+fn several_joints_and_servos_move_as_in_mujoco() {
+    let of = |stiffness: f64| {
+        let scene = loaded(&imported("several-joints.xml", &start(stiffness)));
+        distances(&scene, "tests/command_line/import/several-joints.csv")
+    };
+    let (soft, stiff) = (of(1e6), of(1e7));
+    assert!(worst(&stiff) < 1e-4, "{stiff:?}");
+    assert!(worst(&stiff) < worst(&soft) / 5.0, "{soft:?} {stiff:?}");
+    let rows: Vec<Vec<String>> = [("1e6", soft), ("1e7", stiff)]
+        .into_iter()
+        .map(|(k, distances)| {
+            let figures = distances.iter().map(|(_, distance)| figure(distance * 1e3, 2));
+            std::iter::once(k.to_owned()).chain(figures).collect()
+        })
+        .collect();
+    let names = of_names();
+    let head: Vec<&str> =
+        std::iter::once("k [N/m]").chain(names.iter().map(String::as_str)).collect();
+    block("docs/import.md", "several", &table(&head, &rows));
+}
+
+fn of_names() -> Vec<String> {
+    let rows = dbd_tests::results::rows("tests/command_line/import/several-joints.csv");
+    rows[0].names().filter_map(|column| column.strip_suffix(".x")).map(str::to_owned).collect()
+}
+
+/// Two slides and a hinge in a planar model: no joint, in a planar scene; their springs, servos, motors, too.
+#[test]
+fn a_body_may_slide_and_turn_in_the_plane() {
+    let made = imported("in-the-plane.xml", &start(1e7));
+    let scene = loaded(&made);
+    assert!(scene.planar.is_some() && scene.joints.len() == 1, "{}", made.scene);
+    let found = distances(&scene, "tests/command_line/import/in-the-plane.csv");
+    assert!(worst(&found) < 1e-5, "{found:?}");
+}
+
+/// A body with these joints; where `parent` holds, on another that hangs at a hinge.
+fn body(joints: &str, parent: bool) -> String {
+    let own = format!(
+        "<body name='b' pos='0.2 0.1 0'>{joints}\
+         <inertial pos='0.1 0.02 0.03' mass='1' diaginertia='0.01 0.02 0.025'/></body>"
+    );
+    let world = if parent {
+        format!(
+            "<body name='a'><joint name='r' axis='1 0 0'/>\
+             <inertial pos='0 0.1 0' mass='2' diaginertia='0.03 0.02 0.025'/>{own}</body>"
+        )
+    } else {
+        own
+    };
+    format!("<mujoco>\n<worldbody>{world}</worldbody></mujoco>")
+}
+
+const X: &str = "<joint name='x' type='slide' axis='1 0 0'/>";
+const Y: &str = "<joint name='y' type='slide' axis='0 1 0'/>";
+const A: &str = "<joint name='p' axis='1 0 0' stiffness='1'/>";
+const B: &str = "<joint name='q' axis='0 1 0'/>";
+const C: &str = "<joint name='w' axis='0 0 1'/>";
+
+/// Which joints a scene says them with; a carrier takes no mass but that of its neighbours.
+#[test]
+fn joints_of_a_body_are_said_by_the_fewest_joints() {
+    let skew = "<joint name='q' axis='0 1 0' pos='0 0 0.01'/>";
+    let cases: [(String, bool, &[&str], usize); 7] = [
+        ([A, B].concat(), true, &["universal"], 2),
+        ([A, skew].concat(), true, &["revolute", "revolute"], 3),
+        ([A, X].concat(), true, &["cylindrical"], 2),
+        ([X, C].concat(), true, &["translational", "revolute"], 3),
+        ([C, X].concat(), false, &["revolute", "translational"], 2),
+        ([B, C, "<joint axis='1 0 0.1'/>"].concat(), true, &["spherical"], 2),
+        ([A, "<joint type='ball' pos='0 0 0.1'/>"].concat(), true, &["revolute", "spherical"], 3),
+    ];
+    for (joints, parent, kinds, bodies) in cases {
+        let made = of(&body(&joints, parent), &Options::default());
+        let scene = loaded(&made);
+        let own = scene.joints.iter().skip(usize::from(parent));
+        let found: Vec<&str> = own.map(|joint| joint.kind).collect();
+        assert_eq!((found.as_slice(), scene.body_names.len()), (kinds, bodies), "{joints}");
+        let total: f64 = scene.model.bodies.iter().map(|body| body.mass).sum();
+        // The world gives for nothing: a carrier on a hinge of it turns about that hinge alone.
+        let least = if parent { 3.0 } else { 1.0 };
+        assert!(total > least - 1e-12 && (!parent || total < least + 1e-12), "{joints}: {total}");
+        assert_eq!(made.notes.iter().any(|note| note.contains("b.carrier")), kinds.len() > 1);
+    }
+}
+
+/// What neither joints nor carriers say exactly is refused with the way on; a stated share says it nearly, and
+/// ignored it is left with its first joint.
+#[test]
+fn joints_that_cannot_be_said_exactly_are_refused() {
+    let spring = "<joint name='q' axis='0 1 0' damping='0.1'/>";
+    for (joints, named) in
+        [([X, Y, C].concat(), "slide `y`"), ([A, spring, C].concat(), "hinge `w`")]
+    {
+        let text = body(&joints, true);
+        let refused = import_text(&text, "test.xml", "".as_ref(), &Options::default());
+        let Err(ImportError::Omitted { omissions, .. }) = refused else { panic!("{refused:?}") };
+        let [one] = &omissions[..] else { panic!("{omissions:?}") };
+        assert_eq!((one.kind, one.line), (Kind::Joints, 2));
+        assert!(one.what.contains(named) && one.what.contains("--carriers"), "{}", one.what);
+        let near = of(&text, &Options { carriers: Some(0.02), ..Options::default() });
+        assert!(near.omitted.is_empty() && near.notes.iter().any(|note| note.contains("0.02")));
+        let total: f64 = loaded(&near).model.bodies.iter().map(|body| body.mass).sum();
+        assert!((total - 3.0).abs() < 1e-12, "{total}");
+        let first = of(&text, &Options { ignored: vec![Kind::Joints], ..Options::default() });
+        let scene = loaded(&first);
+        assert_eq!(scene.body_names, ["a", "b"]);
+        assert_eq!(scene.joints.len(), 2);
+    }
+    let spatial = body(&[X, Y, C].concat(), false);
+    let refused = import_text(&spatial, "test.xml", "".as_ref(), &Options::default());
+    let Err(ImportError::Omitted { omissions, .. }) = refused else { panic!("{refused:?}") };
+    assert!(omissions[0].what.contains("nor is the model planar"), "{omissions:?}");
+}

@@ -1,0 +1,30 @@
+//! Mechanisms in motion: closed forms, conservation, convergence, stability, independent solvers.
+
+mod accuracy;
+mod bushings;
+mod controllers;
+mod convergence;
+mod covariance;
+mod crank_slider;
+mod damped_orders;
+mod extreme_values;
+mod extremes_mechanics;
+mod fixed;
+mod frequency;
+mod generalized_alpha;
+mod joint_wise;
+mod joints;
+mod near_rigid;
+mod paper;
+mod planar_scenes;
+mod practical;
+mod precision;
+mod random_mechanisms;
+mod reference_generalized_alpha;
+mod reference_implicit;
+mod reference_truth;
+mod scenes;
+mod schemes;
+mod stability;
+mod strong_dampers;
+mod trajectories;

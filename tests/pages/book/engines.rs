@@ -1,0 +1,118 @@
+//! What the kernel reaches beside other programs, in the README.
+//!
+//! `docs/results/{engines,timing,bits}.csv, docs/costs.csv, a short run => table`.
+
+use dbd_tests::page::{block, figure, table};
+use dbd_tests::results::{Row, cost, rows};
+
+use crate::book::figures::at_equal_cost;
+
+/// Microseconds per step of the kernel, from nanoseconds.
+fn own_time(scene: &str, scheme: &str, precision: &str) -> String {
+    let wanted = [("scene", scene), ("scheme", scheme), ("precision", precision)];
+    let all = rows("docs/results/timing.csv");
+    figure(1e-3 * all.iter().find(|row| row.is(&wanted)).unwrap().number("ns_per_step"), 2)
+}
+
+/// Code and model in flash / RAM with stack \[kB\].
+fn memory(scheme: &str, precision: &str) -> String {
+    let counted = cost("four-bar", scheme, precision);
+    let bytes = |columns: [&str; 2]| columns.map(|column| counted.number(column)).iter().sum();
+    let kilo = |bytes: f64| figure(1e-3 * bytes, 2);
+    let flash = kilo(bytes(["text_bytes", "rodata_bytes"]));
+    format!("{flash} / {} kB", kilo(bytes(["plant_ram_bytes", "stack_bytes"])))
+}
+
+/// On how many builds and machines how many hashes were found equal.
+fn bits() -> String {
+    let builds = rows("docs/results/bits.csv");
+    let hashes: Vec<&str> = builds.iter().map(|row| row.text("hashes")).collect();
+    assert!(hashes.iter().all(|count| *count == hashes[0]), "{hashes:?}");
+    format!("{} hashes equal on {} builds and machines", hashes[0], builds.len())
+}
+
+fn own(name: &str, [scheme, precision]: [&str; 2], off: f64) -> Vec<String> {
+    vec![
+        format!("**this kernel**, {name}, {precision}"),
+        own_time("four-bar", scheme, precision),
+        own_time("six-bar", scheme, precision),
+        "springs".into(),
+        format!("{} m", figure(off, 2)),
+        bits(),
+        memory(scheme, precision),
+    ]
+}
+
+/// Another program's row; what was not measured is a dash.
+fn other(row: &Row) -> Vec<String> {
+    let version = row.text("version");
+    let program = format!("{} {version}", row.text("program"));
+    let dash = || "–".to_owned();
+    let remark = Some(row.text("remark")).filter(|text| !text.is_empty() && *text != CLEVER);
+    vec![
+        format!("{}, {}, {}", program.trim(), row.text("method"), row.text("precision")),
+        row.text("four_bar_us").into(),
+        row.text("six_bar_us").into(),
+        row.text("joints").into(),
+        remark.map_or_else(dash, Into::into),
+        dash(),
+        dash(),
+    ]
+}
+
+/// A remark on what it is, not on how well it does.
+const CLEVER: &str = "the method without cleverness";
+
+/// Scenes without and with dampers, and how they step on the chip.
+const ON_THE_CHIP: [(&str, &str, &str, &str); 3] = [
+    ("four-bar", "–", "leapfrog", "f32"),
+    ("cart-pendulum", "every joint", "leapfrog-joint-wise", "f32"),
+    ("double-wishbone", "every joint", "leapfrog-joint-wise", "f32"),
+];
+
+#[test]
+fn the_readme_says_what_a_simulated_second_costs_on_the_chip() {
+    let row = |&(scene, damped, scheme, precision): &(&str, &str, &str, &str)| {
+        let counted = cost(scene, scheme, precision);
+        let [step, each] = ["step_s", "instructions_mean"].map(|column| counted.number(column));
+        let rate = counted.number("estimated_rate_168mhz_hz");
+        vec![
+            scene.to_owned(),
+            damped.into(),
+            format!("{scheme}, {precision}"),
+            figure(1e6 * step, 3),
+            figure(each, 4),
+            figure(1e-6 * each / step, 3),
+            format!("{} %", figure(100.0 / (step * rate), 2)),
+        ]
+    };
+    let head = [
+        "scene",
+        "damped",
+        "method",
+        "step [µs]",
+        "instructions per step",
+        "million per simulated second",
+        "of a 168 MHz core, estimated",
+    ];
+    let lines: Vec<Vec<String>> = ON_THE_CHIP.iter().map(row).collect();
+    block("README.md", "chip", &table(&head, &lines));
+}
+
+#[test]
+fn the_readme_says_what_was_measured() {
+    let [single, double, fourth] = at_equal_cost();
+    let mut lines = vec![
+        own("leapfrog", ["leapfrog", "f32"], single),
+        own("leapfrog", ["leapfrog", "f64"], double),
+        own("pefrl (four evaluations)", ["pefrl", "f64"], fourth),
+    ];
+    lines.extend(rows("docs/results/engines.csv").iter().map(other));
+    let head = ["", "four-bar [µs/step]", "six-bar [µs/step]", "joints", "off", "bits", "memory"];
+    block("README.md", "reach", &table(&head, &lines));
+    // A version that nobody wrote down would be a figure of nothing.
+    for row in rows("docs/results/engines.csv") {
+        let named = !row.text("version").is_empty();
+        assert!(named || row.text("program").contains('C'), "{row:?}");
+    }
+}

@@ -1,0 +1,89 @@
+//! A new firmware project, as its owner meets it: written, run in QEMU, tested on the PC.
+//!
+//! `host-sim new firmware => image, test`. It is built beside the firmware, with its compiler, its
+//! profile and its lock file, so that what both depend on is compiled once.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context as _, Result, bail};
+
+use crate::built::{Program, host_sim};
+use crate::chip::Toolchain;
+use crate::chip::firmware::{LIBRARIES, PROFILE};
+use crate::command::{output, program, root, run, shown};
+
+const NAME: &str = "new-project";
+/// What its golden test says of the first line that differs.
+const DIFFERENCE: &str = "steps and hash: the first that differ";
+
+/// Writes a project, compares what it prints on the target with its golden bits, and, where it is asked
+/// for, tests it here, which compiles its build script's crates once more. The command line is that of the
+/// programs that were built, else it is built.
+///
+/// # Errors
+/// Where a step of it fails, bits differ, or a planted difference is not found.
+pub fn check(toolchain: &Toolchain, here: bool, programs: &[Program]) -> Result<()> {
+    let host_sim = host_sim(programs)?;
+    // Not below the repository, whose .cargo/config.toml cargo would add to the project's.
+    let folder = std::env::temp_dir().join(format!("dbd-{NAME}-{}", std::process::id()));
+    fs::create_dir_all(&folder)?;
+    let checked = written(&host_sim, &folder.join(NAME)).and_then(|project| {
+        on_the_target(toolchain, &project)?;
+        if here { on_the_pc(toolchain, &project) } else { Ok(()) }
+    });
+    fs::remove_dir_all(&folder)?;
+    checked
+}
+
+/// A project in a folder, with the versions that the repository's lock file names.
+fn written(host_sim: &Path, project: &Path) -> Result<PathBuf> {
+    run(program(host_sim).args(["new", "firmware"]).arg(project))?;
+    fs::copy(root().join("Cargo.lock"), project.join("Cargo.lock"))?;
+    Ok(project.to_owned())
+}
+
+/// In the project's folder, with the artefacts of the firmware.
+fn within(command: &mut Command, toolchain: &Toolchain, project: &Path) {
+    let profile = format!("profile.{PROFILE}.inherits='release'");
+    command.current_dir(project).env("CARGO_TARGET_DIR", toolchain.target_dir());
+    command.args(["--offline", "--profile", PROFILE, "--config", &profile]);
+}
+
+fn on_the_target(toolchain: &Toolchain, project: &Path) -> Result<()> {
+    let mut command = toolchain.cargo("run", LIBRARIES);
+    within(&mut command, toolchain, project);
+    println!("$ {}", shown(&command));
+    let printed = output(&mut command)?;
+    let golden = fs::read_to_string(project.join("tests/golden.txt"))?;
+    let expected = format!("{golden}status: ok\n");
+    if printed != expected {
+        bail!("the target printed\n{printed}the golden bits are\n{expected}");
+    }
+    println!("{printed}");
+    Ok(())
+}
+
+fn on_the_pc(toolchain: &Toolchain, project: &Path) -> Result<()> {
+    let test = || {
+        let mut command = toolchain.host_cargo("test");
+        within(&mut command, toolchain, project);
+        command.args(["--quiet", "--test", "golden"]);
+        command
+    };
+    run(&mut test())?;
+    // A test that finds nothing proves nothing.
+    let file = project.join("tests/golden.txt");
+    let golden = fs::read_to_string(&file)?;
+    fs::write(&file, golden.replacen("10 ", "10 0", 1))?;
+    // The test says on its standard output what it found.
+    let found = test().output();
+    fs::write(&file, golden)?;
+    let found = found.context("cargo does not run")?;
+    let said = String::from_utf8_lossy(&found.stdout);
+    if found.status.success() || !said.contains(DIFFERENCE) {
+        bail!("the golden test does not name a planted difference: {said}");
+    }
+    Ok(())
+}
