@@ -13,6 +13,7 @@ mod built;
 mod callgrind;
 mod chip;
 mod command;
+mod compile_times;
 mod cost;
 mod fuzz;
 mod growth;
@@ -142,6 +143,12 @@ enum Command {
     },
     /// Writes a new firmware project, runs it in QEMU and tests it on the host.
     Project,
+    /// CPU time of the compiler for the README's first command, crate by crate, beside their budgets.
+    CompileTimes {
+        /// Makes what is measured the budget.
+        #[arg(long)]
+        write: bool,
+    },
     /// Holds FMUs of all scenes to their importers, and builds and tests the Python package.
     Python,
     /// Builds the library of the FMUs for an older Linux and for Windows, and compares their bits under Wine.
@@ -158,6 +165,9 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    if let Some(code) = compile_times::wrapped() {
+        return code;
+    }
     let command = Cli::parse().command;
     let outcome = attended::attended("still at work", || match command {
         Command::Setup => setup::run().and(python::set_up()),
@@ -180,6 +190,7 @@ fn main() -> ExitCode {
         Command::Project => {
             setup::complete().and_then(|toolchain| project::check(&toolchain, true, &[]))
         }
+        Command::CompileTimes { write } => compile_times::run(write),
         Command::Python => python::check(),
         Command::Libraries => libraries::build(),
         Command::Packages => packages::check(),

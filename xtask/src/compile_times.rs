@@ -1,0 +1,206 @@
+//! CPU time that the compiler takes for each crate of the first command, held to a budget.
+//!
+//! `release build of host-sim, this program around each call of the compiler => seconds per crate => verdict`. Seconds
+//! are a machine's and an hour's; judged is a crate's time over that of all crates from the registry together, which
+//! change with `Cargo.lock` alone.
+
+use std::collections::BTreeMap;
+use std::ffi::OsString;
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+use anyhow::{Context as _, Result, bail};
+
+use crate::command::{cargo, output, program, root, target_dir};
+
+/// Where each call of the compiler leaves a line; it makes this program the compiler's wrapper.
+const LOG: &str = "DBD_COMPILE_LOG";
+const FILE: &str = "xtask/compile-times.csv";
+/// A crate may take so many times its budget before the step fails: parts of it are as noisy as the machine.
+const MOST: f64 = 1.3;
+/// Shares below this are noise.
+const LEAST: f64 = 0.02;
+/// Ticks of a second in `/proc`, on every Linux that has a port of Rust's.
+const TICKS: f64 = 100.0;
+
+/// The compiler's exit code, where cargo called this program in place of the compiler.
+pub fn wrapped() -> Option<ExitCode> {
+    let log = std::env::var_os(LOG)?;
+    let arguments: Vec<OsString> = std::env::args_os().skip(1).collect();
+    let (compiler, rest) = arguments.split_first()?;
+    let status = match Command::new(compiler).args(rest).status() {
+        Ok(status) => status,
+        Err(error) => {
+            eprintln!("cannot run {}: {error}", compiler.display());
+            return Some(ExitCode::FAILURE);
+        }
+    };
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let name = std::env::var("CARGO_PKG_NAME").unwrap_or_default();
+    let folder = std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default();
+    let own = Path::new(&folder).starts_with(root());
+    if let (Some(seconds), false) = (of_children(&stat), name.is_empty()) {
+        let line = format!("{},{seconds}\n", if own { &name } else { REGISTRY });
+        let file = std::fs::OpenOptions::new().append(true).create(true).open(log);
+        // A line that is lost shows as a crate that was not measured.
+        let _ = file.and_then(|mut file| file.write_all(line.as_bytes()));
+    }
+    Some(ExitCode::from(status.code().and_then(|code| u8::try_from(code).ok()).unwrap_or(1)))
+}
+
+/// What stands for all crates that are not the workspace's.
+const REGISTRY: &str = "registry";
+
+/// \[s\] of a process's children that have ended, user and system, of `/proc/PID/stat`.
+fn of_children(stat: &str) -> Option<f64> {
+    let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
+    let ticks = |index: usize| fields.get(index)?.parse::<f64>().ok();
+    Some((ticks(13)? + ticks(14)?) / TICKS)
+}
+
+/// \[s\] per crate.
+type Times = BTreeMap<String, f64>;
+
+/// Builds `host-sim` as the README's first command does and holds its crates to their budgets.
+///
+/// # Errors
+/// Where it does not build, or a crate takes much longer than its budget.
+pub fn check() -> Result<()> {
+    let times = measured(&target_dir())?;
+    let text = std::fs::read_to_string(root().join(FILE))
+        .with_context(|| format!("cannot read {FILE}"))?;
+    let budgets = read(&text);
+    if budgets.keys().any(|name| !times.contains_key(name)) {
+        println!("parts were built before: nothing is measured");
+        return Ok(());
+    }
+    print!("{}", table(&times, &budgets));
+    let over = over(&times, &budgets);
+    if over.is_empty() {
+        return Ok(());
+    }
+    bail!(
+        "{} take more than {MOST} times their budget; where that is meant: \
+         cargo xtask compile-times --write",
+        over.join(", ")
+    )
+}
+
+/// `cargo xtask compile-times`: the same in a folder of its own, from the first crate on.
+///
+/// # Errors
+/// Where building or writing fails, or, where nothing is written, [`check`] would fail.
+pub fn run(write: bool) -> Result<()> {
+    let folder = target_dir().join("compile-times");
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).context("cannot remove the last build")?;
+    }
+    let times = measured(&folder)?;
+    let budgets = std::fs::read_to_string(root().join(FILE)).unwrap_or_default();
+    let budgets = read(&budgets);
+    print!("{}", table(&times, &budgets));
+    if write {
+        let commit = output(program("git").args(["log", "-1", "--format=%h, %cs"]))?;
+        std::fs::write(root().join(FILE), csv(&times, commit.trim()))
+            .with_context(|| format!("cannot write {FILE}"))?;
+        println!("written: {FILE}");
+        return Ok(());
+    }
+    let over = over(&times, &budgets);
+    if over.is_empty() { Ok(()) } else { bail!("over budget: {}", over.join(", ")) }
+}
+
+fn measured(folder: &Path) -> Result<Times> {
+    let log: PathBuf = folder.join("compile-times.log");
+    std::fs::create_dir_all(folder)?;
+    std::fs::write(&log, "").with_context(|| format!("cannot write {}", log.display()))?;
+    let own = std::env::current_exe().context("this program has no path")?;
+    let mut build = cargo();
+    build.args(["build", "--release", "--package", "host-sim", "--target-dir"]).arg(folder);
+    build.env("RUSTC_WRAPPER", own).env(LOG, &log);
+    crate::command::run(&mut build)?;
+    let mut times = Times::new();
+    for line in std::fs::read_to_string(&log)?.lines() {
+        let Some((name, seconds)) = line.split_once(',') else { continue };
+        *times.entry(name.to_owned()).or_default() += seconds.parse().unwrap_or(0.0);
+    }
+    Ok(times)
+}
+
+/// A crate's time over that of the registry's, by name.
+fn shares(times: &Times) -> Times {
+    let whole = times.get(REGISTRY).copied().unwrap_or(f64::INFINITY);
+    let own = times.iter().filter(|(name, _)| *name != REGISTRY);
+    own.map(|(name, seconds)| (name.clone(), seconds / whole)).collect()
+}
+
+/// Crates that take more than they may, with what they take.
+fn over(times: &Times, budgets: &Times) -> Vec<String> {
+    let all = shares(times).into_iter();
+    let most = |name: &str| MOST * budgets.get(name).copied().unwrap_or(0.0) + LEAST;
+    all.filter(|(name, share)| *share > most(name))
+        .map(|(name, share)| format!("{name} ({share:.3} of the registry's)"))
+        .collect()
+}
+
+fn read(csv: &str) -> Times {
+    let row = |line: &str| {
+        let mut fields = line.split(',');
+        Some((fields.next()?.to_owned(), fields.nth(1)?.parse().ok()?))
+    };
+    csv.lines().filter(|line| !line.starts_with('#')).filter_map(row).collect()
+}
+
+fn csv(times: &Times, commit: &str) -> String {
+    let mut text = format!(
+        "# CPU time of the compiler for the first command; share: over that of all crates from the registry, which\n\
+         # is judged. Written by `cargo xtask compile-times --write`; {commit}.\n\
+         crate,seconds,share\n"
+    );
+    for (name, share) in shares(times) {
+        let _ = writeln!(text, "{name},{:.1},{share:.4}", times[&name]);
+    }
+    text
+}
+
+fn table(times: &Times, budgets: &Times) -> String {
+    let shares = shares(times);
+    let whole: f64 = times.values().sum();
+    let mut text = format!("{whole:>8.1} CPU s in all\n");
+    for (name, seconds) in times {
+        let share = shares.get(name).map_or(String::new(), |share| format!("{share:>8.3}"));
+        let budget = budgets.get(name).map_or(String::new(), |share| format!("{share:>8.3}"));
+        let _ = writeln!(text, "{seconds:>8.1} s{share:>8} of{budget:>8}  {name}");
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn times(of: &[(&str, f64)]) -> Times {
+        of.iter().map(|(name, seconds)| ((*name).to_owned(), *seconds)).collect()
+    }
+
+    #[test]
+    fn time_of_children_is_read() {
+        let stat = "7 (a (b) c) S 1 1 1 0 -1 4194304 9 9 0 0 5 6 250 50 20 0 1 0 77";
+        assert_eq!(of_children(stat), Some(3.0));
+        assert_eq!(of_children(""), None);
+    }
+
+    #[test]
+    fn a_crate_that_grew_is_named_on_a_slower_machine_too() {
+        let budgets = read(&csv(&times(&[("a", 10.0), ("b", 1.0), (REGISTRY, 20.0)]), "now"));
+        assert_eq!(budgets, times(&[("a", 0.5), ("b", 0.05)]));
+        let slow = times(&[("a", 30.0), ("b", 3.0), (REGISTRY, 60.0)]);
+        assert!(over(&slow, &budgets).is_empty());
+        let grown = times(&[("a", 45.0), ("b", 3.0), (REGISTRY, 60.0)]);
+        assert_eq!(over(&grown, &budgets), ["a (0.750 of the registry's)"]);
+        let unknown = times(&[("c", 3.0), (REGISTRY, 60.0)]);
+        assert_eq!(over(&unknown, &budgets).len(), 1);
+    }
+}
