@@ -3,18 +3,15 @@
 //! The table `hashes.csv` is part of the interface, `orientations.csv` holds those of Euler angles,
 //! `planar.csv` those of scenes in their plane, `joint-wise.csv` those of damping joint by joint,
 //! `fixed.csv` those of fixed point, `generalized-alpha.csv` those of the scheme with a matrix.
-//! `DBD_BLESS=golden cargo test -p dbd-bits` writes the present hashes; a changed one needs its
+//! `DBD_BLESS=golden cargo test -p dbd-bits --all-features` writes the present hashes; a changed one needs its
 //! reason in the commit.
 
 use std::fmt::Write as _;
 
-use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
-use dbd_kernel::geometry::{F32, F64, Geometry};
-use dbd_kernel::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, Fixed, GeneralizedAlpha, JointWise, Leapfrog, Pefrl,
-    Planar32, Planar64, Plant, Rk4, Scheme, SemiImplicitEuler,
+use dbd_plant::{
+    DampingName, Method, Named as _, OrientationName, PrecisionName, SchemeName, plant,
 };
-use dbd_scene::{Scene, SceneModel};
+use dbd_scene::Scene;
 use dbd_tests::page::golden;
 use dbd_tests::{scene, scene_names};
 
@@ -26,81 +23,92 @@ const LONG: (&str, u64) = ("four-bar", 10_000);
 
 /// \[s\] the step of the scheme with a matrix.
 const SOLVED: f64 = 1e-3;
-const SOLVE: GeneralizedAlpha = GeneralizedAlpha::DEFAULT;
-
-/// What leapfrog is called with its dampers joint by joint.
-const JOINT_WISE: &str = "leapfrog-joint-wise";
 
 /// Scenes of all schemes: planar, with torsion springs, with points on lines, in space, damped.
 const ALL_SCHEMES: [&str; 5] = ["four-bar", "3rrr", "crank-slider", "3ruu", "double-wishbone"];
 
+const F64: PrecisionName = PrecisionName::F64;
+const F32: PrecisionName = PrecisionName::F32;
+const FIXED: PrecisionName = PrecisionName::Fixed;
+
+/// A method and what the tables call its scheme.
+#[derive(Clone)]
+struct Way(Method, String);
+
+fn way(scheme: SchemeName) -> Way {
+    Way(Method::new(scheme, None, F64).unwrap(), scheme.name().to_owned())
+}
+
+impl Way {
+    fn newton(iterations: u32) -> Self {
+        let method = Method::new(SchemeName::Dbd, Some(iterations), F64).unwrap();
+        Self(method, format!("dbd-newton-{iterations}"))
+    }
+
+    fn damped(self, damping: DampingName) -> Self {
+        Self(self.0.with_damping(damping).unwrap(), format!("{}-{}", self.1, damping.name()))
+    }
+}
+
 /// Compares what is with the golden table, or blesses it.
 fn compare(name: &str, present: &str) {
-    golden(&format!("tests/bits/{name}"), present, "cargo test -p dbd-bits");
+    golden(&format!("tests/bits/{name}"), present, "cargo test -p dbd-bits --all-features");
 }
 
-fn row<P: Geometry, S: Scheme>(scene: &Scene, scheme: S, steps: u64) -> String {
-    row_of::<P, S>(scene, S::NAME, scheme, steps)
-}
-
-fn row_of<P: Geometry, S: Scheme>(scene: &Scene, called: &str, scheme: S, steps: u64) -> String {
-    row_of_model::<P, S>(scene, &scene.model, called, scheme, steps)
-}
-
-fn row_of_model<P: Geometry, S: Scheme>(
-    scene: &Scene,
-    model: &SceneModel<F64>,
-    called: &str,
-    scheme: S,
-    steps: u64,
-) -> String {
-    let model: SceneModel<P> = model.convert();
+fn row(scene: &Scene, Way(method, called): &Way, precision: PrecisionName, steps: u64) -> String {
+    let method = method.with_precision(precision);
     let step = scene.step.expect("a golden scene states its step");
-    let mut plant = Plant::new(&model, scheme, step).unwrap();
+    let mut plant = plant(scene, &method, step).unwrap();
     for _ in 0..steps {
         plant.step().ok().unwrap();
     }
-    let (name, precision) = (&scene.name, P::NAME);
-    format!("{name},{called},{precision},{step:e},{steps},{:016x}", plant.hash())
+    let (name, precision) = (&scene.name, precision.name());
+    format!("{name},{called},{precision},{step:e},{steps},{:016x}\n", plant.hash())
+}
+
+fn rows(
+    present: &mut String,
+    scene: &Scene,
+    ways: &[Way],
+    precisions: &[PrecisionName],
+    steps: u64,
+) {
+    for way in ways {
+        for precision in precisions {
+            present.push_str(&row(scene, way, *precision, steps));
+        }
+    }
+}
+
+/// The scenes of the two schemes that every scene has, the longer run first.
+fn all_scenes() -> impl Iterator<Item = (Scene, u64)> {
+    let runs = scene_names().into_iter().map(|name| (name, STEPS));
+    let runs = std::iter::once((LONG.0.to_owned(), LONG.1)).chain(runs);
+    runs.map(|(name, steps)| (scene(&name), steps))
+}
+
+/// The ways beside dbd and leapfrog.
+fn other_ways() -> Vec<Way> {
+    let other = [
+        SchemeName::DbdP1,
+        SchemeName::DbdP2,
+        SchemeName::SemiImplicitEuler,
+        SchemeName::Pefrl,
+        SchemeName::BlanesMoanS6,
+        SchemeName::Rk4,
+    ];
+    std::iter::once(Way::newton(1)).chain(other.map(way)).collect()
 }
 
 #[test]
 fn states_have_their_golden_hashes() {
     let mut present = format!("{HEADER}\n");
-    let mut runs = vec![(LONG.0.to_owned(), LONG.1)];
-    runs.extend(scene_names().into_iter().map(|name| (name, STEPS)));
-    for (name, steps) in runs {
-        let scene = scene(&name);
-        for row in [
-            row::<F64, _>(&scene, Dbd::default(), steps),
-            row::<F32, _>(&scene, Dbd::default(), steps),
-            row::<F64, _>(&scene, Leapfrog, steps),
-            row::<F32, _>(&scene, Leapfrog, steps),
-        ] {
-            writeln!(present, "{row}").unwrap();
-        }
+    let both = [way(SchemeName::Dbd), way(SchemeName::Leapfrog)];
+    for (scene, steps) in all_scenes() {
+        rows(&mut present, &scene, &both, &[F64, F32], steps);
     }
     for name in ALL_SCHEMES {
-        let scene = scene(name);
-        macro_rules! rows {
-            ($($name:expr => $scheme:expr),*) => {$(
-                for row in [
-                    row_of::<F64, _>(&scene, $name, $scheme, STEPS),
-                    row_of::<F32, _>(&scene, $name, $scheme, STEPS),
-                ] {
-                    writeln!(present, "{row}").unwrap();
-                }
-            )*};
-        }
-        rows!(
-            "dbd-newton-1" => Dbd { newton: 1 },
-            DbdP1::NAME => DbdP1::default(),
-            DbdP2::NAME => DbdP2::default(),
-            SemiImplicitEuler::NAME => SemiImplicitEuler,
-            Pefrl::NAME => Pefrl,
-            BlanesMoanS6::NAME => BlanesMoanS6,
-            Rk4::NAME => Rk4
-        );
+        rows(&mut present, &scene(name), &other_ways(), &[F64, F32], STEPS);
     }
     compare("hashes.csv", &present);
 }
@@ -109,16 +117,11 @@ fn states_have_their_golden_hashes() {
 #[test]
 fn states_of_joint_wise_damping_have_their_golden_hashes() {
     let mut present = format!("{HEADER}\n");
+    let way = way(SchemeName::Leapfrog).damped(DampingName::JointWise);
     for name in
         ["cart-pendulum", "delta-pick-and-place", "double-wishbone", "gripper", "macpherson"]
     {
-        let scene = scene(name);
-        for row in [
-            row_of::<F64, _>(&scene, JOINT_WISE, JointWise(Leapfrog), STEPS),
-            row_of::<F32, _>(&scene, JOINT_WISE, JointWise(Leapfrog), STEPS),
-        ] {
-            writeln!(present, "{row}").unwrap();
-        }
+        rows(&mut present, &scene(name), std::slice::from_ref(&way), &[F64, F32], STEPS);
     }
     compare("joint-wise.csv", &present);
 }
@@ -127,35 +130,17 @@ fn states_of_joint_wise_damping_have_their_golden_hashes() {
 #[test]
 fn states_in_fixed_point_have_their_golden_hashes() {
     let mut present = format!("{HEADER}\n");
-    let mut runs = vec![(LONG.0.to_owned(), LONG.1)];
-    runs.extend(scene_names().into_iter().map(|name| (name, STEPS)));
-    for (name, steps) in runs {
-        let scene = scene(&name);
-        writeln!(present, "{}", row::<Fixed, _>(&scene, Dbd::default(), steps)).unwrap();
-        writeln!(present, "{}", row::<Fixed, _>(&scene, Leapfrog, steps)).unwrap();
+    let both = [way(SchemeName::Dbd), way(SchemeName::Leapfrog)];
+    for (scene, steps) in all_scenes() {
+        rows(&mut present, &scene, &both, &[FIXED], steps);
     }
     for name in ALL_SCHEMES {
         let scene = scene(name);
-        macro_rules! rows {
-            ($($name:expr => $scheme:expr),*) => {$(
-                let row = row_of::<Fixed, _>(&scene, $name, $scheme, STEPS);
-                writeln!(present, "{row}").unwrap();
-            )*};
-        }
-        rows!(
-            "dbd-newton-1" => Dbd { newton: 1 },
-            DbdP1::NAME => DbdP1::default(),
-            DbdP2::NAME => DbdP2::default(),
-            SemiImplicitEuler::NAME => SemiImplicitEuler,
-            Pefrl::NAME => Pefrl,
-            BlanesMoanS6::NAME => BlanesMoanS6,
-            Rk4::NAME => Rk4
-        );
+        rows(&mut present, &scene, &other_ways(), &[FIXED], STEPS);
         if !scene.model.dampers.is_empty() {
-            rows!(
-                "leapfrog-explicit" => Explicit(Leapfrog),
-                "leapfrog-joint-wise" => JointWise(Leapfrog)
-            );
+            let damped = [DampingName::Explicit, DampingName::JointWise];
+            let damped = damped.map(|damping| way(SchemeName::Leapfrog).damped(damping));
+            rows(&mut present, &scene, &damped, &[FIXED], STEPS);
         }
     }
     compare("fixed.csv", &present);
@@ -171,14 +156,8 @@ fn states_of_generalized_alpha_have_their_golden_hashes() {
     for name in scenes {
         let mut scene = scene(name);
         scene.step = Some(SOLVED);
-        let model = scene.model.clone().planned();
-        for row in [
-            row_of_model::<F64, _>(&scene, &model, GeneralizedAlpha::NAME, SOLVE, STEPS),
-            row_of_model::<F32, _>(&scene, &model, GeneralizedAlpha::NAME, SOLVE, STEPS),
-            row_of_model::<Fixed, _>(&scene, &model, GeneralizedAlpha::NAME, SOLVE, STEPS),
-        ] {
-            writeln!(present, "{row}").unwrap();
-        }
+        let solved = [way(SchemeName::GeneralizedAlpha)];
+        rows(&mut present, &scene, &solved, &[F64, F32, FIXED], STEPS);
     }
     compare("generalized-alpha.csv", &present);
 }
@@ -186,67 +165,38 @@ fn states_of_generalized_alpha_have_their_golden_hashes() {
 /// Of scenes in their plane: pins, a spherical and a universal joint with a guide, dampers.
 #[test]
 fn states_in_the_plane_have_their_golden_hashes() {
+    let planar = |name: &str| scene(name).with("planar=true").unwrap();
     let mut present = format!("{HEADER}\n");
+    let ways = [SchemeName::Dbd, SchemeName::Leapfrog, SchemeName::Rk4].map(way);
     for name in ["hexagon", "four-bar", "3rrr", "crank-slider", "cart-pendulum"] {
-        let scene = scene(name);
-        let planar = scene.reduced().unwrap_or_else(|found| panic!("{name}: {found:?}"));
-        macro_rules! rows {
-            ($($scheme:expr),*) => {$(
-                for row in [
-                    planar_row::<Planar64, _>(&scene, &planar.model, $scheme),
-                    planar_row::<Planar32, _>(&scene, &planar.model, $scheme),
-                ] {
-                    writeln!(present, "{row}").unwrap();
-                }
-            )*};
-        }
-        rows!(Dbd::default(), Leapfrog, Rk4);
+        rows(&mut present, &planar(name), &ways, &[F64, F32], STEPS);
     }
-    let scene = scene("cart-pendulum");
-    let planar = scene.reduced().unwrap_or_else(|found| panic!("{found:?}"));
-    for row in [
-        row_of_model::<Planar64, _>(&scene, &planar.model, JOINT_WISE, JointWise(Leapfrog), STEPS),
-        row_of_model::<Planar32, _>(&scene, &planar.model, JOINT_WISE, JointWise(Leapfrog), STEPS),
-    ] {
-        writeln!(present, "{row}").unwrap();
-    }
+    let joint_wise = [way(SchemeName::Leapfrog).damped(DampingName::JointWise)];
+    rows(&mut present, &planar("cart-pendulum"), &joint_wise, &[F64, F32], STEPS);
     for name in ["hexagon", "six-bar"] {
-        let mut scene = dbd_tests::scene(name);
+        let mut scene = planar(name);
         scene.step = Some(SOLVED);
-        let planar = scene.reduced().unwrap_or_else(|found| panic!("{name}: {found:?}"));
-        let model = planar.model.clone().planned();
-        for row in [
-            row_of_model::<Planar64, _>(&scene, &model, GeneralizedAlpha::NAME, SOLVE, STEPS),
-            row_of_model::<Planar32, _>(&scene, &model, GeneralizedAlpha::NAME, SOLVE, STEPS),
-        ] {
-            writeln!(present, "{row}").unwrap();
-        }
+        rows(&mut present, &scene, &[way(SchemeName::GeneralizedAlpha)], &[F64, F32], STEPS);
     }
     compare("planar.csv", &present);
 }
 
-fn planar_row<P: Geometry, S: Scheme>(scene: &Scene, model: &SceneModel<F64>, scheme: S) -> String {
-    row_of_model::<P, S>(scene, model, S::NAME, scheme, STEPS)
-}
-
+#[cfg(feature = "comparison")]
 #[test]
 fn states_of_euler_angles_have_their_golden_hashes() {
     let mut present = "scene,scheme,precision,step,steps,hash,orientation\n".to_owned();
     for name in ["four-bar", "crank-slider", "3ruu"] {
         let scene = scene(name);
-        macro_rules! rows {
-            ($($geometry:ty),*) => {$(
-                for row in [
-                    row::<$geometry, _>(&scene, Leapfrog, STEPS),
-                    row::<$geometry, _>(&scene, Pefrl, STEPS),
-                    row::<$geometry, _>(&scene, Rk4, STEPS),
-                ] {
-                    let orientation = <$geometry as Geometry>::ORIENTATION;
-                    writeln!(present, "{row},{orientation}").unwrap();
+        for orientation in [OrientationName::Euler321, OrientationName::Euler321Single] {
+            for precision in [F64, F32] {
+                for scheme in [SchemeName::Leapfrog, SchemeName::Pefrl, SchemeName::Rk4] {
+                    let Way(method, called) = way(scheme);
+                    let turned = Way(method.with_orientation(orientation), called);
+                    let row = row(&scene, &turned, precision, STEPS);
+                    writeln!(present, "{},{}", row.trim_end(), orientation.name()).unwrap();
                 }
-            )*};
+            }
         }
-        rows!(EulerF64, EulerF32, SingleEulerF64, SingleEulerF32);
     }
     compare("orientations.csv", &present);
 }
