@@ -8,7 +8,6 @@
 //! - `rollout`: runs of many steps, and of many plants on threads.
 //! - `arguments`: what Python hands over, and what it gets back as arrays.
 //! - `states`: the bodies' states as arrays.
-//! - `jacobian`: how a plant's motion answers to small changes.
 //! - `plant`: the class `Plant`, its names and parameters.
 //! - `motion`: its methods that step, set, read and save.
 
@@ -18,8 +17,6 @@ mod rollout;
 
 mod arguments;
 mod states;
-
-mod jacobian;
 
 mod plant;
 

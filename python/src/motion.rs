@@ -5,6 +5,7 @@
 use std::sync::atomic::AtomicBool;
 
 use dbd_plant::instance::Instance;
+use dbd_plant::instance::linearisation::Probe;
 use numpy::{
     AllowTypeChange, PyArray1, PyArray2, PyArrayLikeDyn, PyUntypedArrayMethods as _, ToPyArray as _,
 };
@@ -14,7 +15,6 @@ use pyo3::types::{PyBytes, PyTuple};
 
 use crate::arguments::{self, Held};
 use crate::error::{Refusal, raise};
-use crate::jacobian::Probe;
 use crate::plant::Plant;
 use crate::rollout::{Watch, read};
 use crate::states;
@@ -270,9 +270,8 @@ impl Plant {
         let names = outputs.iter().map(|name| instance.output(name));
         let outputs = names.collect::<Result<Vec<_>, _>>().map_err(raise(py))?;
         let mut probe = Probe::new(&instance).map_err(raise(py))?;
-        let refused = |refusal: Refusal| refusal.raised(py);
         probe.shift(&shift);
-        let all = py.detach(|| probe.jacobians(&inputs, &outputs, perturb)).map_err(refused)?;
+        let all = py.detach(|| probe.jacobians(&inputs, &outputs, perturb)).map_err(raise(py))?;
         let matrix = |values, rows, columns| arguments::shaped(py, values, rows, columns);
         let (count, width) = (all.count, inputs.len());
         let matrices = [

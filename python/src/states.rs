@@ -2,10 +2,10 @@
 //!
 //! `plant <=> positions, orientations, velocities, angular velocities`, a row per body.
 
-use dbd_plant::instance::Instance;
 use dbd_kernel::plant::StateError;
 use dbd_kernel::{BodyState, F64};
 use dbd_plant::AnyPlant;
+use dbd_plant::instance::Instance;
 
 use crate::error::Refusal;
 

@@ -31,7 +31,8 @@ pub fn run(arguments: &[String]) -> Result<()> {
     let text = serde_json::to_string_pretty(&json!({ "of": of, "bench": bench }))?;
     write(BENCH, &(text + "\n"))?;
     let said = measured(&["--package", "dbd-ensemble", "--example", "measure"])?;
-    write(ENSEMBLES, &ensembles(&of, &said))
+    write(ENSEMBLES, &ensembles(&of, &said))?;
+    crate::provenance::note(&[BENCH, ENSEMBLES])
 }
 
 /// What the release build of a program prints.

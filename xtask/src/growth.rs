@@ -44,6 +44,7 @@ pub fn run() -> Result<()> {
     std::fs::write(root().join(FILE), csv(&rows))
         .with_context(|| format!("cannot write {FILE}"))?;
     println!("written: {FILE}");
+    crate::provenance::note(&[FILE])?;
     judge(&rows, &SIZES)
 }
 

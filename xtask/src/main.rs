@@ -22,6 +22,7 @@ mod libraries;
 mod packages;
 mod precisions;
 mod prove;
+mod provenance;
 mod python;
 mod semver;
 mod steps;
@@ -149,6 +150,12 @@ enum Command {
         #[arg(long)]
         write: bool,
     },
+    /// Notes files of data as measured at the present commit, where no command here measures them.
+    Provenance {
+        /// Paths from the root.
+        #[arg(required = true)]
+        files: Vec<String>,
+    },
     /// Holds FMUs of all scenes to their importers, and builds and tests the Python package.
     Python,
     /// Builds the library of the FMUs for an older Linux and for Windows, and compares their bits under Wine.
@@ -191,6 +198,7 @@ fn main() -> ExitCode {
             setup::complete().and_then(|toolchain| project::check(&toolchain, true, &[]))
         }
         Command::CompileTimes { write } => compile_times::run(write),
+        Command::Provenance { files } => provenance::note(&files),
         Command::Python => python::check(),
         Command::Libraries => libraries::build(),
         Command::Packages => packages::check(),

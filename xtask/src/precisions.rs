@@ -38,5 +38,6 @@ pub fn run(scenes: &[String]) -> Result<()> {
     std::fs::write(&path, merged(HEAD, &present, &table))
         .with_context(|| format!("cannot write {FILE}"))?;
     println!("written: {FILE}");
-    Ok(())
+    // What was not asked for is as old as it was.
+    if scenes.is_empty() { crate::provenance::note(&[FILE]) } else { Ok(()) }
 }

@@ -91,7 +91,9 @@ fn shown(folder: &Path) -> String {
 fn in_importers(python: &Path, programs: &[Program]) -> Result<()> {
     let host_sim = host_sim(programs)?;
     // With no feature of the kernel's: names that defmt gives to what it logs are none that a library may export.
-    run(cargo().args(["rustc", "--package", "dbd-fmu", "--lib", "--crate-type", "cdylib"]))?;
+    let mut library = cargo();
+    library.args(["rustc", "--package", "dbd-fmu", "--lib", "--crate-type", "cdylib"]);
+    run(library.env("CARGO_PROFILE_DEV_OPT_LEVEL", "1"))?;
     // Without its symbols it is packed into dozens of archives in a fraction of the time.
     let (built, library) = (target_dir().join("debug/libdbd_fmu.so"), root().join(LIBRARY));
     output(program("strip").arg("-o").arg(&library).arg(&built)).context("binutils are missing")?;
@@ -101,7 +103,7 @@ fn in_importers(python: &Path, programs: &[Program]) -> Result<()> {
     run(tests.env_remove("PYTHONPATH"))
 }
 
-/// Builds the wheel as it is published, installs it and runs its tests.
+/// Builds the wheel as it is published but for the level of optimisation, installs it and runs its tests.
 fn package_tests(python: &Path, programs: &[Program]) -> Result<()> {
     run(cargo().args(["fmt", "--check", "--manifest-path", "python/Cargo.toml"]))?;
     let host_sim = host_sim(programs)?;
@@ -113,6 +115,10 @@ fn package_tests(python: &Path, programs: &[Program]) -> Result<()> {
     maturin.args(["-m", "maturin", "build", "--release", "--locked", "--manifest-path"]);
     maturin.arg("python/Cargo.toml").arg("--interpreter").arg(python).arg("--out").arg(&wheels);
     maturin.env("CARGO_TARGET_DIR", root().join("target/python/cargo"));
+    // Its tests step little, and the bits are the same.
+    maturin
+        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1")
+        .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "4");
     run(&mut maturin)?;
     let wheel = std::fs::read_dir(&wheels)?.filter_map(Result::ok).map(|entry| entry.path());
     let wheel = wheel.into_iter().find(|path| path.extension().is_some_and(|end| end == "whl"));

@@ -26,7 +26,7 @@ pub fn run() -> Result<()> {
     std::fs::write(root().join(FILE), format!("{head}{HEADER}\n{}\n", rows.join("\n")))
         .with_context(|| format!("cannot write {FILE}"))?;
     println!("written: {FILE}");
-    Ok(())
+    crate::provenance::note(&[FILE])
 }
 
 /// Lines `guard SCENE SCHEME PRECISION` and five counts, as rows.

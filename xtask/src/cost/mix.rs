@@ -18,7 +18,7 @@ use crate::command::{cargo, output, program, root, run as run_command, target_di
 use super::cycles::{self, Class};
 use super::row::Cost;
 
-const FILE: &str = "docs/costs-mix.csv";
+pub const FILE: &str = "docs/costs-mix.csv";
 /// Programs that count, each in an image of its own.
 const PROGRAMS: [&str; 4] = ["cost", "cost-double", "cost-fixed", "cost-solved"];
 /// The function whose calls are marks.

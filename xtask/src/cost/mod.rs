@@ -18,6 +18,7 @@ use anyhow::{Context as _, Result, bail};
 use crate::audit::{Image, Root};
 use crate::chip::{Toolchain, firmware, setup};
 use crate::command::root;
+use crate::provenance;
 
 use mix::Mix;
 use row::Cost;
@@ -49,7 +50,8 @@ pub fn run(scenes: &[String], compare: bool) -> Result<()> {
     std::fs::write(&file, row::csv(&costs)).with_context(|| format!("cannot write {FILE}"))?;
     println!("written: {FILE}");
     mix::write(&toolchain, &costs, &mixes)?;
-    baseline::write(&toolchain)
+    baseline::write(&toolchain)?;
+    provenance::note(&[FILE, mix::FILE])
 }
 
 /// `cargo xtask cost --baseline`.

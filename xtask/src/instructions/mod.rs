@@ -104,7 +104,8 @@ pub fn run(baseline: bool) -> Result<()> {
     goals.iter().for_each(|goal| println!("{}", goal.line()));
     if baseline {
         table::write(&key, &rows)?;
-        return FILE.write(&key, &counts(&rows));
+        FILE.write(&key, &counts(&rows))?;
+        return crate::provenance::note(&[table::FILE]);
     }
     FILE.check(&key, &counts(&rows))
 }

@@ -7,7 +7,7 @@ use anyhow::{Context as _, Result};
 use crate::baseline::Key;
 use crate::command::root;
 
-const FILE: &str = "docs/results/instructions.csv";
+pub const FILE: &str = "docs/results/instructions.csv";
 /// How far the exponent of growth may be from 1.
 const BAND: f64 = 0.03;
 /// Instructions that a step needs for each of its flops: a core takes four instructions in a cycle and two of

@@ -17,7 +17,9 @@ use crate::built::{Program, build};
 use crate::chip::{Toolchain, firmware, project, setup, trajectory};
 use crate::command::{cargo, run as run_command, succeeds};
 use crate::steps::Steps;
-use crate::{audit, boards, cost, growth, instructions, packages, python};
+use crate::{
+    audit, boards, compile_times, cost, growth, instructions, packages, provenance, python,
+};
 
 use cases::{Case, Selection};
 
@@ -49,6 +51,7 @@ pub fn run(long: bool, write_times: bool) -> Result<()> {
     let (mut steps, mut cases) = (Steps::default(), Vec::new());
     steps.step("rustfmt", || run_command(cargo().args(["fmt", "--all", "--check"])));
     steps.step("packages of what is published", packages::check);
+    steps.step("measured data are those of the sources", provenance::check);
     linter_and_documentation(&mut steps);
     let programs = tests(&mut steps, Selection::All, &mut cases);
     steps.step("work grows with the bodies alone", || growth::check(&programs));
@@ -190,23 +193,11 @@ fn bare(steps: &mut Steps) {
 fn release(steps: &mut Steps, cases: &mut Vec<Case>) -> Option<Host> {
     let (mut host, mut golden, mut counted) = (None, None, Vec::new());
     steps.step("the host's programs are built, optimised as released and not at all", || {
-        let built = build(
-            cargo()
-                .args(["build", "--release"])
-                .args([
-                    "--package",
-                    GOLDEN,
-                    "--test",
-                    "golden",
-                    "--package",
-                    "firmware",
-                    "--bin",
-                    firmware::SHARED,
-                    "--bin",
-                    firmware::PLANT,
-                ])
-                .args(instructions::BUILD),
-        )?;
+        let mut command = cargo();
+        command.args(["build", "--release", "--package", "host-sim", "--bin", "host-sim"]);
+        command.args(["--package", GOLDEN, "--test", "golden", "--package", "firmware"]);
+        command.args(["--bin", firmware::SHARED, "--bin", firmware::PLANT]);
+        let built = compile_times::check(command.args(instructions::BUILD))?;
         golden = built.iter().find(|program| program.tests).cloned();
         counted = built.clone();
         host = Some(Host::new(&built)?);

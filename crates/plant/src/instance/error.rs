@@ -112,6 +112,10 @@ pub enum InstanceError {
         "a state saved by an instance of the same scene, scheme, precision and step"
     ))]
     State(SnapshotError),
+    /// The motion has no derivatives at a state.
+    #[error("{0}")]
+    #[diagnostic(help("other outputs, or another pose"))]
+    Linearisation(String),
 }
 
 impl InstanceError {

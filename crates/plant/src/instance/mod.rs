@@ -54,9 +54,11 @@
 //! - [`variables`]: inputs and outputs, their names and units.
 //! - `running`: a plant, what it is given and what it shows.
 //! - `saved`: its state as bytes.
+//! - [`linearisation`]: how its motion answers to small changes of state and inputs.
 
 pub mod blueprint;
 mod error;
+pub mod linearisation;
 mod running;
 mod saved;
 pub mod settings;

@@ -1,5 +1,6 @@
 //! Instances against plain plants, and what they refuse.
 
+use dbd_plant::instance::linearisation::Probe;
 use dbd_plant::instance::{Blueprint, Instance, InstanceError, Settings};
 use dbd_plant::{Method, plant};
 use dbd_scene::Scene;
@@ -168,4 +169,51 @@ fn a_failure_latches_and_names_the_body() {
     one.reset();
     assert_eq!(one.plant().steps(), 0);
     one.save().unwrap();
+}
+
+/// A weight on a spring of 200 N/m, 1 m long and 0.9 m unstretched: stiffer along it than across.
+#[test]
+fn a_spring_answers_to_small_changes_as_on_paper() {
+    let text = r#"
+name = "spring"
+duration = 1.0
+step = "1 ms"
+[[body]]
+name = "weight"
+mass = 2.0
+inertia = [0.01, 0.01, 0.01]
+position = [0, -1.0, 0]
+[[tsda]]
+between = ["world", "weight"]
+points = [[0, 0, 0], [0, 0, 0]]
+stiffness = 200.0
+damping = 3.0
+free_length = 0.9
+[[input]]
+name = "push"
+type = "force"
+body = "weight"
+axis = [0, 1, 0]
+"#;
+    let spring = Instance::new(Blueprint::new("spring.toml", text), Settings::default()).unwrap();
+    let (push, height) = (spring.input("push").unwrap(), spring.output("weight.y").unwrap());
+    let mut probe = Probe::new(&spring).unwrap();
+    let all = probe.jacobians(&[push], &[height], 1e-4).unwrap();
+    let near = |value: f64, exact: f64| {
+        assert!((value - exact).abs() < 1e-6 * exact.abs().max(1.0), "{value} {exact}");
+    };
+    // Rows of the rates of the shift's rates: 6 + 0 across, 6 + 1 along.
+    let a = |row: usize, column: usize| all.a[12 * row + column];
+    near(all.rate[7], 10.0);
+    near(a(6, 0), -10.0);
+    near(a(7, 1), -100.0);
+    near(a(7, 7), -1.5);
+    near(a(6, 6), 0.0);
+    near(a(1, 7), 1.0);
+    near(all.b[7], 0.5);
+    near(all.c[1], 1.0);
+    near(all.d[0], 0.0);
+    // A turn about an axis changes with the rate about it, and by no force.
+    near(a(3, 9), 1.0);
+    near(a(9, 3), 0.0);
 }

@@ -1,4 +1,4 @@
-//! How a plant's motion answers to small changes of its state and inputs.
+//! Linearisation: how a plant's motion answers to small changes of its state and inputs.
 //!
 //! `(model, state) => f, ∂f/∂x, ∂f/∂u, ∂y/∂x, ∂y/∂u` of ẋ = f(x, u), y = g(x, u), by central differences
 //! of fourth order over the kernel's wrenches in double precision, dampers included. Twelve coordinates
@@ -6,12 +6,14 @@
 //! \[m/s, rad/s\], all shifts and turns before all rates. Newton and Euler; the turn φ from a turning body
 //! changes as φ̇ = δω − ω × φ.
 
-use dbd_plant::instance::{Blueprint, Instance, InstanceError, Settings};
 use dbd_kernel::forces::wrenches;
 use dbd_kernel::{F64, Quaternion, State, Vec3};
 use dbd_scene::SceneModel;
 
-use crate::error::Refusal;
+use crate::instance::blueprint::Blueprint;
+use crate::instance::error::InstanceError;
+use crate::instance::running::Instance;
+use crate::instance::settings::Settings;
 
 /// Weights of the differences at 1 and 2 probes.
 const WEIGHTS: [f64; 2] = [8.0 / 12.0, -1.0 / 12.0];
@@ -19,23 +21,24 @@ const WEIGHTS: [f64; 2] = [8.0 / 12.0, -1.0 / 12.0];
 type Bodies = State<SceneModel<F64>>;
 
 /// The Jacobians of a state, rows one after another.
-pub(crate) struct Jacobians {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Jacobians {
     /// How many coordinates.
-    pub(crate) count: usize,
-    /// ẋ itself.
-    pub(crate) rate: Vec<f64>,
-    /// count × count.
-    pub(crate) a: Vec<f64>,
-    /// count × inputs.
-    pub(crate) b: Vec<f64>,
-    /// outputs × count.
-    pub(crate) c: Vec<f64>,
-    /// outputs × inputs.
-    pub(crate) d: Vec<f64>,
+    pub count: usize,
+    /// \[m/s, rad/s, m/s², rad/s²\] ẋ itself.
+    pub rate: Vec<f64>,
+    /// ∂ẋ/∂x, count × count.
+    pub a: Vec<f64>,
+    /// ∂ẋ/∂u, count × inputs.
+    pub b: Vec<f64>,
+    /// ∂y/∂x, outputs × count.
+    pub c: Vec<f64>,
+    /// ∂y/∂u, outputs × inputs.
+    pub d: Vec<f64>,
 }
 
 /// A plant of the scene in double precision and in space, and the state that it is looked at in.
-pub(crate) struct Probe {
+pub struct Probe {
     instance: Instance,
     state: Bodies,
     rates: Vec<Vec3<f64>>,
@@ -43,7 +46,10 @@ pub(crate) struct Probe {
 
 impl Probe {
     /// The plant of an instance as it is now.
-    pub(crate) fn new(of: &Instance) -> Result<Self, InstanceError> {
+    ///
+    /// # Errors
+    /// Those of [`Instance::new`], where the scene is refused in space or in double precision.
+    pub fn new(of: &Instance) -> Result<Self, InstanceError> {
         let mut blueprint: Blueprint = of.blueprint().clone();
         // A plane's model has no stiffness across it.
         if of.scene().planar.is_some() {
@@ -65,16 +71,17 @@ impl Probe {
         Ok(Self { instance, state, rates })
     }
 
-    /// Moves the state by so much of each coordinate.
-    pub(crate) fn shift(&mut self, by: &[f64]) {
+    /// Moves the state by so much of each coordinate \[m, rad, m/s, rad/s\].
+    pub fn shift(&mut self, by: &[f64]) {
         for (coordinate, by) in by.iter().enumerate() {
             self.state = self.moved(coordinate, *by);
         }
         self.rates = self.state.bodies.iter().map(|body| body.angular_velocity).collect();
     }
 
-    /// How many coordinates.
-    pub(crate) fn count(&self) -> usize {
+    /// How many coordinates: twelve per body.
+    #[must_use]
+    pub fn count(&self) -> usize {
         12 * self.state.bodies.len()
     }
 
@@ -102,11 +109,10 @@ impl Probe {
         &self,
         state: &Bodies,
         turned: Option<(usize, Vec3<f64>)>,
-    ) -> Result<Vec<f64>, Refusal> {
+    ) -> Result<Vec<f64>, InstanceError> {
         let model = self.instance.plant().model();
-        let forces = wrenches(model, state, self.instance.step_size()).map_err(|cause| {
-            Refusal::new("LinearisationError", self.instance.scene().fault(&cause))
-        })?;
+        let forces = wrenches(model, state, self.instance.step_size())
+            .map_err(|cause| InstanceError::Linearisation(self.instance.scene().fault(&cause)))?;
         let mut rates = Vec::with_capacity(self.count());
         for (row, body) in state.bodies.iter().enumerate() {
             rates.extend(body.velocity.to_f64());
@@ -127,8 +133,8 @@ impl Probe {
         Ok(rates)
     }
 
-    fn outputs(&mut self, state: &Bodies, outputs: &[usize]) -> Result<Vec<f64>, Refusal> {
-        let refused = |error| Refusal::new("LinearisationError", format!("{error}"));
+    fn outputs(&mut self, state: &Bodies, outputs: &[usize]) -> Result<Vec<f64>, InstanceError> {
+        let refused = |error| InstanceError::Linearisation(format!("{error}"));
         self.instance.plant_mut().set_state(state).map_err(refused)?;
         let mut values = Vec::with_capacity(outputs.len());
         self.instance.values_of(outputs, &mut values);
@@ -137,12 +143,16 @@ impl Probe {
 
     /// The Jacobians here, by differences of `probe` \[m, rad, m/s, rad/s\] in the state and of
     /// 1 \[its unit\] in inputs, but as small as in the state in displacements.
-    pub(crate) fn jacobians(
+    ///
+    /// # Errors
+    /// [`InstanceError::Linearisation`] where a force or an output is undefined here or nearby,
+    /// [`InstanceError::Input`] where an input cannot be moved.
+    pub fn jacobians(
         &mut self,
         inputs: &[usize],
         outputs: &[usize],
         probe: f64,
-    ) -> Result<Jacobians, Refusal> {
+    ) -> Result<Jacobians, InstanceError> {
         let (count, state) = (self.count(), self.state.clone());
         let mut rate = self.rate(&state, None)?;
         for (row, spin) in self.rates.iter().enumerate() {
@@ -187,9 +197,8 @@ impl Probe {
         if finite(&rate) && [&a, &b, &c, &d].into_iter().all(|all| finite(all)) {
             Ok(Jacobians { count, rate, a, b, c, d })
         } else {
-            let what =
-                "an output or a force is undefined near this state; other outputs, or another pose";
-            Err(Refusal::new("LinearisationError", what))
+            let what = "an output or a force is undefined near this state";
+            Err(InstanceError::Linearisation(what.to_owned()))
         }
     }
 }

@@ -1,0 +1,228 @@
+//! Where measured data come from, so that none of them is older than what it measures.
+//!
+//! `data file => docs/results/provenance.csv: commit, date, its own fingerprint, that of what it stands on`. What
+//! measures notes its file here; `cargo xtask test` fails where a file was changed without a note, or where what it
+//! stands on has changed since. Counts on the target stand on the sample that every test counts anew, figures of
+//! motion on the golden bits, proofs on the sources of what they prove.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, Result, bail};
+
+use crate::command::{output, program, root};
+
+const FILE: &str = "docs/results/provenance.csv";
+const HEAD: &str = "file,commit,date,own,stands_on\n";
+
+const SAMPLE: &[&str] = &["docs/costs-baseline.csv"];
+const INSTRUCTIONS: &[&str] = &["docs/instructions-baseline.csv"];
+const BITS: &[&str] = &["tests/bits/hashes.csv", "tests/bits/fixed.csv"];
+const NUMBERS: &[&str] = &[
+    "kernel/src/arctangent.rs",
+    "kernel/src/fixed",
+    "kernel/src/real.rs",
+    "kernel/src/square_root.rs",
+];
+const SURVEY: &str = "host-sim trade, DBD_COLLECT (docs/trade.md), then cargo xtask provenance";
+
+/// A file of data.
+#[derive(Clone, Copy, Debug)]
+struct Data {
+    file: &'static str,
+    /// Files and folders: where one of them is another, the data are stale.
+    stands_on: &'static [&'static str],
+    /// What measures it anew.
+    command: &'static str,
+}
+
+const fn data(
+    file: &'static str,
+    stands_on: &'static [&'static str],
+    command: &'static str,
+) -> Data {
+    Data { file, stands_on, command }
+}
+
+const DATA: [Data; 15] = [
+    data("docs/costs.csv", SAMPLE, "cargo xtask cost"),
+    data("docs/costs-mix.csv", SAMPLE, "cargo xtask cost"),
+    data("docs/results/guards.csv", SAMPLE, "cargo xtask cost --guards"),
+    data("docs/results/instructions.csv", INSTRUCTIONS, "cargo xtask instructions --baseline"),
+    data("docs/results/bench.json", INSTRUCTIONS, "cargo xtask bench"),
+    data("docs/results/ensembles.csv", INSTRUCTIONS, "cargo xtask bench"),
+    // The test looks at how work grows with smaller chains, and how it does is what matters.
+    data("docs/results/growth.csv", &[], "cargo xtask growth"),
+    data("docs/results/bits.csv", BITS, "cargo xtask bits"),
+    data("docs/results/precisions.csv", BITS, "cargo xtask precisions"),
+    data("docs/results/paper.json", BITS, "see docs/architecture.md, then cargo xtask provenance"),
+    data("docs/results/trade.csv", BITS, SURVEY),
+    data("docs/results/timing.csv", BITS, SURVEY),
+    data("docs/results/precisions-on-chip.csv", BITS, SURVEY),
+    data("docs/results/proof.csv", NUMBERS, "cargo xtask prove"),
+    // Other programs, with their versions in the rows.
+    data("docs/results/engines.csv", &[], "see its head, then cargo xtask provenance"),
+];
+
+/// A row of the table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Note {
+    commit: String,
+    date: String,
+    own: String,
+    stands_on: String,
+}
+
+type Notes = BTreeMap<String, Note>;
+
+/// The step of `cargo xtask test`.
+///
+/// # Errors
+/// Where a file has no note, was changed without one, or is stale; each with what measures it anew.
+pub fn check() -> Result<()> {
+    let text = std::fs::read_to_string(root().join(FILE))
+        .with_context(|| format!("cannot read {FILE}"))?;
+    let faults = faults(&DATA, &read(&text), &present)?;
+    if !faults.is_empty() {
+        bail!("{}", faults.join("\n"));
+    }
+    println!("{} files of data are those of the present sources", DATA.len());
+    Ok(())
+}
+
+/// `cargo xtask provenance FILE…`: notes files as measured now.
+///
+/// # Errors
+/// Where one is no file of data, or the table cannot be written.
+pub fn note(files: &[impl AsRef<str>]) -> Result<()> {
+    let mut notes = read(&std::fs::read_to_string(root().join(FILE)).unwrap_or_default());
+    let commit = output(program("git").args(["log", "-1", "--format=%h,%cs"]))?;
+    let (commit, date) = commit.trim().split_once(',').context("git names no commit")?;
+    for file in files.iter().map(AsRef::as_ref) {
+        let data = DATA.iter().find(|data| data.file == file);
+        let data = data.with_context(|| format!("{file} is no file of data"))?;
+        let note = Note {
+            commit: commit.to_owned(),
+            date: date.to_owned(),
+            own: present(&[file])?,
+            stands_on: present(data.stands_on)?,
+        };
+        notes.insert(file.to_owned(), note);
+    }
+    let row = |(file, note): (&String, &Note)| {
+        format!("{file},{},{},{},{}\n", note.commit, note.date, note.own, note.stands_on)
+    };
+    let text = HEAD.to_owned() + &notes.iter().map(row).collect::<String>();
+    std::fs::write(root().join(FILE), text).with_context(|| format!("cannot write {FILE}"))
+}
+
+fn read(text: &str) -> Notes {
+    let row = |line: &str| {
+        let [file, commit, date, own, stands_on] = line.split(',').collect::<Vec<_>>()[..] else {
+            return None;
+        };
+        let [commit, date, own, stands_on] = [commit, date, own, stands_on].map(str::to_owned);
+        Some((file.to_owned(), Note { commit, date, own, stands_on }))
+    };
+    text.lines().skip(1).filter_map(row).collect()
+}
+
+fn faults(
+    all: &[Data],
+    notes: &Notes,
+    present: &dyn Fn(&[&str]) -> Result<String>,
+) -> Result<Vec<String>> {
+    let mut faults = Vec::new();
+    for Data { file, stands_on, command } in all {
+        let Some(note) = notes.get(*file) else {
+            faults.push(format!("{file} has no row in {FILE}: {command}"));
+            continue;
+        };
+        let Note { commit, date, .. } = note;
+        if note.own != present(&[file])? {
+            faults.push(format!("{file} was changed since it was measured ({date}): {command}"));
+        }
+        if note.stands_on != present(stands_on)? {
+            let on = stands_on.join(", ");
+            faults.push(format!(
+                "{file} is stale: measured at {commit} ({date}), and {on} changed since: {command}"
+            ));
+        }
+    }
+    Ok(faults)
+}
+
+/// FNV-1a 64 of files and of those in folders, in the order of their names; of sources without their comments.
+fn present(paths: &[&str]) -> Result<String> {
+    let mut files = Vec::new();
+    for path in paths {
+        list(&root().join(path), &mut files)?;
+    }
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    for file in files {
+        let text = std::fs::read_to_string(&file)
+            .with_context(|| format!("cannot read {}", file.display()))?;
+        let source = file.extension().is_some_and(|extension| extension == "rs");
+        for line in text.lines().map(str::trim) {
+            if source && line.starts_with("//") {
+                continue;
+            }
+            for byte in line.bytes().chain([b'\n']) {
+                hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+            }
+        }
+    }
+    Ok(format!("{hash:016x}"))
+}
+
+fn list(path: &Path, files: &mut Vec<PathBuf>) -> Result<()> {
+    if !path.is_dir() {
+        files.push(path.to_owned());
+        return Ok(());
+    }
+    let entries = std::fs::read_dir(path)?.map(|entry| Ok(entry?.path()));
+    let mut entries = entries.collect::<Result<Vec<_>>>()?;
+    entries.sort();
+    entries.iter().try_for_each(|entry| list(entry, files))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: [Data; 2] = [data("a.csv", &["b.csv"], "measure a"), data("c.csv", &[], "do c")];
+
+    fn noted(own: &str, stands_on: &str) -> Notes {
+        read(&format!("{HEAD}a.csv,abc1234,2026-11-25,{own},{stands_on}\nc.csv,d,e,c.csv,\n"))
+    }
+
+    fn found(notes: &Notes) -> Vec<String> {
+        faults(&ALL, notes, &|paths| Ok(paths.join("+"))).unwrap()
+    }
+
+    #[test]
+    fn data_that_are_as_noted_have_no_fault() {
+        assert!(found(&noted("a.csv", "b.csv")).is_empty());
+    }
+
+    #[test]
+    fn stale_changed_and_unknown_data_are_named_with_their_command() {
+        let stale = found(&noted("a.csv", "another"));
+        assert!(
+            stale.len() == 1 && stale[0].contains("a.csv is stale: measured at abc1234"),
+            "{stale:?}"
+        );
+        assert!(stale[0].ends_with("b.csv changed since: measure a"), "{stale:?}");
+        let changed = found(&noted("another", "b.csv"));
+        assert!(changed.len() == 1 && changed[0].contains("was changed since"), "{changed:?}");
+        assert_eq!(found(&Notes::new()).len(), 2);
+    }
+
+    #[test]
+    fn every_file_of_data_is_there_and_so_is_what_it_stands_on() {
+        for data in DATA {
+            assert!(present(&[data.file]).is_ok(), "{}", data.file);
+            assert!(present(data.stands_on).is_ok(), "{}", data.file);
+        }
+    }
+}
