@@ -1,7 +1,7 @@
 //! Const models of the shipped scenes, and link arguments of the target's programs.
 //!
 //! `scenes/*.toml => SCENE.rs`, and `models.rs`: one module per scene and the macros `shipped`, `shipped_f32`,
-//! `charted`, `fixed`, `compensated`, `solved`, `solved_double`, `solved_fixed` and `varied` that list them.
+//! `charted`, `fixed`, `solved`, `solved_double`, `solved_fixed` and `varied` that list them.
 //! Link arguments stand here and not in a configuration, so that RUSTFLAGS in the environment
 //! cannot lose them; a host build gets none.
 
@@ -48,8 +48,6 @@ const CHARTED: &[&str] = &[
     "hexagon",
     "six-bar",
 ];
-/// A scene that is counted with compensated sums, too.
-const COMPENSATED: &str = "hexagon";
 /// Scenes whose steps are counted with other values, too, in single precision: the scene, what its name
 /// gets behind it, the changes.
 const VARIED: &[(&str, &str, &[&str])] = &[
@@ -89,16 +87,13 @@ fn main() {
 
 fn models() {
     let [mut modules, mut both, mut f32, mut charted] = [const { String::new() }; 4];
-    let [mut fixed, mut compensated] = [const { String::new() }; 2];
+    let mut fixed = String::new();
     let all = SCENES.iter().map(|name| (name, true));
     for (name, double) in all.chain(SCENES_F32.iter().map(|name| (name, false))) {
         let counted = CHARTED.contains(name);
         let mut build = Build::scene(format!("../../scenes/{name}.toml")).precision("f32");
         if double || counted {
             build = build.precision("f64").precision("fixed");
-        }
-        if *name == COMPENSATED {
-            build = build.precision("f32-compensated");
         }
         let source = source(&build);
         let constant = export::constant_name(name);
@@ -111,20 +106,13 @@ fn models() {
         } else {
             f32 += &format!("            {single};\n");
         }
-        let besides = |suffix: &str| {
-            let capitals = suffix.to_uppercase();
-            format!(
-                "            {module} \"{name}\" {constant}_STEP, {constant}_{capitals}: {model}{suffix};\n"
-            )
-        };
         if counted {
             charted += &line;
         }
         if double || counted {
-            fixed += &besides("Fixed");
-        }
-        if *name == COMPENSATED {
-            compensated += &besides("Compensated");
+            fixed += &format!(
+                "            {module} \"{name}\" {constant}_STEP, {constant}_FIXED: {model}Fixed;\n"
+            );
         }
         modules += &format!("/// The scene `{name}`.\npub mod {module} {{\n{source}}}\n");
     }
@@ -188,7 +176,6 @@ fn models() {
         + &list("shipped_f32", "shipped in single precision", &f32)
         + &list("charted", "of those that are counted in both", &charted)
         + &list("fixed", "in fixed point", &fixed)
-        + &list("compensated", "with compensated sums", &compensated)
         + &list("solved", "with the plan of a matrix", &solved[0])
         + &list("solved_double", "with the plan of a matrix in double precision", &solved[1])
         + &list("solved_fixed", "with the plan of a matrix in fixed point", &solved[2])

@@ -4,8 +4,7 @@
 //! data, the only words of a body that hash and snapshot see.
 
 use crate::attitude::Attitude as _;
-use crate::compensated::Kept;
-use crate::fixed::{Fixed, FixedPlace, FixedTurn};
+use crate::fixed::{Fixed, FixedPlace, FixedTurn, FixedVelocity};
 use crate::geometry::{F32, F64, Geometry};
 use crate::planar::{Planar32, Planar64};
 use crate::plane::{Axial, Heading, Plane, Vec2};
@@ -229,8 +228,8 @@ impl BodyState<Fixed> {
         Self {
             position: FixedPlace::new(position),
             orientation: FixedTurn::new(orientation),
-            velocity: Kept::from_f64(velocity),
-            angular_velocity: Kept::from_f64(angular_velocity),
+            velocity: FixedVelocity::from_f64(velocity),
+            angular_velocity: FixedVelocity::from_f64(angular_velocity),
         }
     }
 }

@@ -45,7 +45,7 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     type Position: Copy + Debug + Default + PartialEq + Send + Words;
     /// The stored orientation of a body.
     type Orientation: Attitude<Real = Self::Real, Turn = <Self::Space as Space>::Turn>;
-    /// A stored velocity, with its compensation where the precision has one.
+    /// A stored velocity, with the rounding error of its sum where the precision keeps one.
     type Velocity: Copy + Debug + Default + PartialEq + Send + Words;
     /// A stored angular velocity, likewise.
     type Spin: Copy + Debug + Default + PartialEq + Send + Words;

@@ -9,8 +9,8 @@
 //! - [`words`], `square_root`, [`real`], [`vector`], [`freedoms`], [`space`], [`plane`], [`arctangent`]: the
 //!   arithmetic, also of blocks of numbers, and the words in which it is stored.
 //! - `compositions`, [`index`]: coefficients, and names of a model's parts.
-//! - [`attitude`], [`reach`], [`pass_sum`], [`geometry`], [`compensated`], [`fixed`], [`planar`], [`euler`], [`loose`]: a precision
-//!   is a type: [`F64`], [`F32`], [`CompensatedF32`], [`Fixed`], in the plane [`Planar64`], [`Planar32`]; an
+//! - [`attitude`], [`reach`], [`pass_sum`], [`geometry`], [`fixed`], [`planar`], [`euler`], [`loose`]: a precision
+//!   is a type: [`F64`], [`F32`], [`Fixed`], in the plane [`Planar64`], [`Planar32`]; an
 //!   orientation is a quaternion or, as in the paper, angles.
 //! - [`body`], [`rotation`], `lockstep`: one rigid body, and how it turns, alone or in lanes.
 //! - [`status`], [`elements`], [`schedule`], [`sources`]: what can fail; the laws, one per file; what happens
@@ -70,7 +70,6 @@ pub mod attitude;
 pub mod body;
 #[cfg(feature = "heapless")]
 pub mod builder;
-pub mod compensated;
 mod compositions;
 #[cfg(feature = "nalgebra")]
 mod convert;
@@ -122,7 +121,6 @@ pub mod watch;
 pub mod words;
 
 pub use body::{Body, BodyState};
-pub use compensated::CompensatedF32;
 pub use elements::load::{Load, LoadFrame};
 pub use elements::point_bushing::PointBushing;
 pub use elements::point_on_line::PointOnLine;

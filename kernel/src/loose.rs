@@ -1,31 +1,25 @@
-//! Fast and loose: single precision with the square root, sine and cosine of `micromath`.
+//! Fast and loose: single precision with the square root of `micromath`.
 //!
-//! Its square root is an approximation by bit shifts, off by up to several per cent, its sine and
-//! cosine by about 1e-3: a spring whose length is off by a share of itself pulls with a force that
-//! nothing causes. For comparison only, never a default; feature `micromath`.
+//! It is an approximation by bit shifts, off by up to several per cent: a spring whose length is off by a
+//! share of itself pulls with a force that nothing causes. For comparison only, never a default; feature `micromath`.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use micromath::F32Ext;
 
-use crate::euler::{EulerAngles, Trigonometric};
 use crate::geometry::{Float, Named};
 use crate::real::{Constant, Real, one_lane};
 use crate::space::Space;
 use crate::words::{Word, WordSource};
 
-/// A number of single precision whose functions are approximations.
+/// A number of single precision whose square root is an approximation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(transparent)]
 pub struct Loose(pub f32);
 
-/// Loose arithmetic with quaternions.
+/// Loose arithmetic, orientations as quaternions.
 pub type Loose32 = Float<Loose>;
-/// Loose arithmetic with Euler angles, two sequences.
-pub type LooseEuler32 = Float<Loose, EulerAngles<Loose, true>>;
-/// Loose arithmetic with yaw–pitch–roll alone.
-pub type LooseSingleEuler32 = Float<Loose, EulerAngles<Loose, false>>;
 
 macro_rules! operator {
     ($($operation:ident $function:ident $sign:tt;)*) => {
@@ -122,26 +116,18 @@ impl Real for Loose {
     }
 }
 
-impl Trigonometric for Loose {
-    fn sin_cos(self) -> (Self, Self) {
-        let (sine, cosine) = F32Ext::sin_cos(self.0);
-        (Self(sine), Self(cosine))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn square_roots_and_sines_are_as_loose_as_said() {
-        let mut worst = [0.0_f64; 2];
+    fn square_roots_are_as_loose_as_said() {
+        let mut worst = 0.0_f64;
         for i in 1..2000 {
             let x = f64::from(i) * 1e-3;
             let root = Loose::from_f64(x).sqrt().to_f64() / libm::sqrt(x) - 1.0;
-            let sine = Loose::from_f64(x).sin_cos().0.to_f64() - libm::sin(x);
-            worst = [worst[0].max(root.abs()), worst[1].max(sine.abs())];
+            worst = worst.max(root.abs());
         }
-        assert!((1e-3..0.1).contains(&worst[0]) && (1e-5..5e-3).contains(&worst[1]), "{worst:?}");
+        assert!((1e-3..0.1).contains(&worst), "{worst}");
     }
 }

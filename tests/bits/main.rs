@@ -187,14 +187,13 @@ fn states_of_euler_angles_have_their_golden_hashes() {
     let mut present = "scene,scheme,precision,step,steps,hash,orientation\n".to_owned();
     for name in ["four-bar", "crank-slider", "3ruu"] {
         let scene = scene(name);
-        for orientation in [OrientationName::Euler321, OrientationName::Euler321Single] {
-            for precision in [F64, F32] {
-                for scheme in [SchemeName::Leapfrog, SchemeName::Pefrl, SchemeName::Rk4] {
-                    let Way(method, called) = way(scheme);
-                    let turned = Way(method.with_orientation(orientation), called);
-                    let row = row(&scene, &turned, precision, STEPS);
-                    writeln!(present, "{},{}", row.trim_end(), orientation.name()).unwrap();
-                }
+        for precision in [F64, F32] {
+            for scheme in [SchemeName::Leapfrog, SchemeName::Pefrl, SchemeName::Rk4] {
+                let Way(method, called) = way(scheme);
+                let orientation = OrientationName::Euler321;
+                let turned = Way(method.with_orientation(orientation), called);
+                let row = row(&scene, &turned, precision, STEPS);
+                writeln!(present, "{},{}", row.trim_end(), orientation.name()).unwrap();
             }
         }
     }

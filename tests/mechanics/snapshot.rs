@@ -1,7 +1,7 @@
 //! Snapshots: exact resume, and every kind of wrong bytes.
 
 use dbd_kernel::elements::input::InputKind;
-use dbd_kernel::euler::{EulerF32, SingleEulerF64};
+use dbd_kernel::euler::{EulerF32, EulerF64};
 use dbd_kernel::snapshot::SnapshotError;
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
@@ -62,7 +62,7 @@ fn a_restored_plant_goes_on_with_the_same_bits() {
     resumes::<Fixed, _>(JointWise(Leapfrog));
     resumes::<Fixed, _>(Rk4);
     resumes::<EulerF32, _>(Pefrl);
-    resumes::<SingleEulerF64, _>(Leapfrog);
+    resumes::<EulerF64, _>(Leapfrog);
 }
 
 #[test]

@@ -43,7 +43,7 @@
 //!
 //! | feature | brings |
 //! |---|---|
-//! | `comparison` | what is there for comparison only, compensated sums, micromath's square root and Euler angles: eight of eleven precisions, which take as much longer to compile |
+//! | `comparison` | methods that exist for comparison only, micromath's square root and Euler angles: three of six precisions in space, and as much more to compile |
 
 pub mod any;
 mod budget;

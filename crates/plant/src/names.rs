@@ -105,9 +105,7 @@ named! {
         F32 = "f32",
         /// Single precision with positions and orientations in fixed point: nearly what double has.
         Fixed = "fixed",
-        /// Single precision that keeps what sums on the state round off: twice the words.
-        F32Compensated = "f32-compensated",
-        /// Single precision with micromath's square root, sine and cosine: what fast and loose costs.
+        /// Single precision with micromath's square root: what fast and loose costs.
         F32Micromath = "f32-micromath",
     }
 }
@@ -121,8 +119,6 @@ named! {
         Quaternion = "quaternion",
         /// The paper's yaw, pitch, roll, with a second sequence near the pole.
         Euler321 = "euler-321",
-        /// Yaw, pitch, roll alone: loses precision near a pitch of ±90°.
-        Euler321Single = "euler-321-single",
     }
 }
 
@@ -130,13 +126,13 @@ impl PrecisionName {
     /// Whether what it stores of a body is one number per component, as columns of a trace show it.
     #[must_use]
     pub fn is_plain(self) -> bool {
-        !self.is_kept()
+        self != Self::Fixed
     }
 
-    /// Whether additions to a state lose nothing to rounding that counts.
+    /// Whether orientations can be stored as Euler angles, too.
     #[must_use]
-    pub fn is_kept(self) -> bool {
-        matches!(self, Self::Fixed | Self::F32Compensated)
+    pub fn has_angles(self) -> bool {
+        matches!(self, Self::F64 | Self::F32)
     }
 
     /// Whether sums on a state are rounded to single precision.

@@ -130,7 +130,7 @@ impl Numerals {
             PrecisionName::F64 => Digits::Double,
             _ => Digits::Single,
         };
-        // Two words of single precision hold more than one has digits for.
+        // Fixed point and two words of single precision hold more than one has digits for.
         let number = match precision {
             PrecisionName::F32 | PrecisionName::F32Micromath => Digits::Single,
             _ => Digits::Double,
@@ -167,9 +167,9 @@ mod tests {
         assert_eq!(known("f32", "quaternion"), Some(Numerals::of::<F32>()));
         assert_eq!(known("f64", "quaternion"), Some(Numerals::of::<F64>()));
         assert_eq!(known("f32", "euler-321"), Some(Numerals::of::<dbd_kernel::euler::EulerF32>()));
-        let compensated = Numerals::of::<dbd_kernel::CompensatedF32>();
-        assert_eq!(known("f32-compensated", "quaternion"), Some(compensated));
-        assert_eq!(compensated.reading, Digits::Single);
+        let fixed = Numerals::of::<dbd_kernel::Fixed>();
+        assert_eq!(known("fixed", "quaternion"), Some(fixed));
+        assert_eq!(fixed.reading, Digits::Single);
         assert_eq!(known("f16", "quaternion"), None);
     }
 

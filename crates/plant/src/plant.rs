@@ -7,16 +7,14 @@
 
 use std::sync::Arc;
 
-#[cfg(feature = "comparison")]
-use dbd_kernel::CompensatedF32;
 use dbd_kernel::energy::energy;
 #[cfg(feature = "comparison")]
-use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
+use dbd_kernel::euler::{EulerF32, EulerF64};
 use dbd_kernel::frequency::bound;
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::keep::Keep as _;
 #[cfg(feature = "comparison")]
-use dbd_kernel::loose::{Loose32, LooseEuler32, LooseSingleEuler32};
+use dbd_kernel::loose::Loose32;
 use dbd_kernel::plant::{self as kernel, InputError, Plant, StateError};
 use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::schedule::Signal;
@@ -51,11 +49,6 @@ macro_rules! with_precision {
                 $body
             }
             #[cfg(feature = "comparison")]
-            (PrecisionName::F32Compensated, OrientationName::Quaternion) => {
-                type $P = CompensatedF32;
-                $body
-            }
-            #[cfg(feature = "comparison")]
             (PrecisionName::F64, OrientationName::Euler321) => {
                 type $P = EulerF64;
                 $body
@@ -66,28 +59,8 @@ macro_rules! with_precision {
                 $body
             }
             #[cfg(feature = "comparison")]
-            (PrecisionName::F64, OrientationName::Euler321Single) => {
-                type $P = SingleEulerF64;
-                $body
-            }
-            #[cfg(feature = "comparison")]
-            (PrecisionName::F32, OrientationName::Euler321Single) => {
-                type $P = SingleEulerF32;
-                $body
-            }
-            #[cfg(feature = "comparison")]
             (PrecisionName::F32Micromath, OrientationName::Quaternion) => {
                 type $P = Loose32;
-                $body
-            }
-            #[cfg(feature = "comparison")]
-            (PrecisionName::F32Micromath, OrientationName::Euler321) => {
-                type $P = LooseEuler32;
-                $body
-            }
-            #[cfg(feature = "comparison")]
-            (PrecisionName::F32Micromath, OrientationName::Euler321Single) => {
-                type $P = LooseSingleEuler32;
                 $body
             }
             (_, _) => Err($method.not_built().into()),

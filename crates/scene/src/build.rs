@@ -9,7 +9,7 @@ use std::fmt::{self, Display};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use dbd_kernel::{CompensatedF32, F32, Fixed, State, frequency};
+use dbd_kernel::{F32, Fixed, State, frequency};
 
 use crate::default_step::{STEPS_PER_PERIOD, fastest_spin, longest, shortest_period};
 use crate::export::{Export, ExportPrecision, ExportScheme, SchemeError, source};
@@ -104,7 +104,7 @@ impl Build {
         self
     }
 
-    /// `f32`, `f64`, `fixed` or `f32-compensated`; called twice, both. Without it `f32`.
+    /// `f32`, `f64` or `fixed`; called twice, both. Without it `f32`.
     pub fn precision(mut self, name: &str) -> Self {
         self.precisions.push(name.to_owned());
         self
@@ -296,7 +296,6 @@ impl Build {
                     }
                     scene.check_inputs::<Fixed>()
                 }
-                ExportPrecision::F32Compensated => scene.check_inputs::<CompensatedF32>(),
             };
             let single = step as f32;
             if !(single > 0.0 && single.is_finite()) {

@@ -134,16 +134,10 @@ pub fn ways(scene: &Scene, in_space: bool) -> Vec<Way> {
         for scheme in SchemeName::ALL {
             let Ok(method) = Method::new(*scheme, None, *precision) else { continue };
             if *precision == PrecisionName::F32Micromath {
-                // One scheme shows what its functions cost; angles need its trigonometry.
+                // One scheme shows what its square root costs.
                 if *scheme == SchemeName::Leapfrog {
                     add(method);
-                    add(method.with_orientation(OrientationName::Euler321));
                 }
-                continue;
-            }
-            if *precision == PrecisionName::F32Compensated
-                && !matches!(scheme, SchemeName::Leapfrog | SchemeName::Pefrl)
-            {
                 continue;
             }
             add(method);

@@ -136,7 +136,7 @@ pub fn for_each_double(visitor: &mut impl Visitor) {
     double_wishbone::DOUBLE_WISHBONE_F64: DoubleWishboneF64 DOUBLE_WISHBONE_STEP }
 }
 
-/// Shows the pairs in fixed point and those with compensated sums.
+/// Shows the pairs in fixed point.
 pub fn for_each_fixed(visitor: &mut impl Visitor) {
     // In fixed point the paper's scheme and those that are advised; the four-bar's first two are shipped.
     macro_rules! in_fixed_point {
@@ -156,17 +156,7 @@ pub fn for_each_fixed(visitor: &mut impl Visitor) {
             )*
         };
     }
-    macro_rules! with_compensated_sums {
-        ($($module:ident $scene:literal $step:ident, $sums:ident: $model:ident;)*) => {
-            $(chart! { visitor: $scene $module::$sums: $model $step,
-                Leapfrog => Leapfrog, "";
-                SemiImplicitEuler => SemiImplicitEuler, "";
-                Pefrl => Pefrl, "";
-            })*
-        };
-    }
     fixed!(in_fixed_point);
-    compensated!(with_compensated_sums);
     joint_wise! { visitor: "double-wishbone"
     double_wishbone::DOUBLE_WISHBONE_FIXED: DoubleWishboneFixed DOUBLE_WISHBONE_STEP }
 }

@@ -45,7 +45,7 @@ pub fn run_double(systick: &mut SysTick) -> bool {
     run(systick, |costing| crate::chart::for_each_double(costing))
 }
 
-/// Prints a line for every charted pair in fixed point or with compensated sums.
+/// Prints a line for every charted pair in fixed point.
 #[cfg(feature = "cost")]
 pub fn run_fixed(systick: &mut SysTick) -> bool {
     run(systick, |costing| crate::chart::for_each_fixed(costing))

@@ -2,9 +2,8 @@
 //!
 //! The build script makes them from the scene files that it lists, and the macros
 //! [`shipped`](crate::shipped), [`shipped_f32`](crate::shipped_f32), [`charted`](crate::charted),
-//! [`fixed`](crate::fixed), [`compensated`](crate::compensated), [`solved`](crate::solved),
-//! [`solved_double`](crate::solved_double), [`solved_fixed`](crate::solved_fixed) and
-//! [`varied`](crate::varied) from the same lists.
+//! [`fixed`](crate::fixed), [`solved`](crate::solved), [`solved_double`](crate::solved_double),
+//! [`solved_fixed`](crate::solved_fixed) and [`varied`](crate::varied) from the same lists.
 //! [`for_each`] shows pairs of model and scheme to a visitor, which is generic as the step is.
 
 use dbd_kernel::model::ModelOwner;

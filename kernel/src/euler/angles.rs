@@ -41,14 +41,14 @@ pub enum Sequence {
 /// half of them gives the sign of the quaternion, too, which winding springs need.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct EulerAngles<R, const SWITCH: bool> {
+pub struct EulerAngles<R> {
     /// \[rad\] first, middle and last angle.
     pub angles: Vec3<R>,
-    /// What they turn about; 3-2-1 without `SWITCH`.
+    /// What they turn about.
     pub sequence: Sequence,
 }
 
-impl<R: Trigonometric, const SWITCH: bool> EulerAngles<R, SWITCH> {
+impl<R: Trigonometric> EulerAngles<R> {
     /// The rotation matrix: six values of sine and cosine.
     #[must_use]
     pub fn rotation(&self) -> Rotation<R> {
@@ -123,11 +123,11 @@ impl<R: Trigonometric, const SWITCH: bool> EulerAngles<R, SWITCH> {
         self.angles.y.abs() > R::PI / (R::TWO + R::ONE)
     }
 
-    /// Brings first and last angle within ±2π and, with `SWITCH`, changes the sequence near the pole.
+    /// Brings first and last angle within ±2π and changes the sequence near the pole.
     pub(super) fn settle(&mut self) {
         let Vec3 { x, y, z } = self.angles;
         self.angles = Vec3::new(wrapped(x), y, wrapped(z));
-        if SWITCH && self.is_near_pole() {
+        if self.is_near_pole() {
             let other = match self.sequence {
                 Sequence::YawPitchRoll => Sequence::YawRollPitch,
                 Sequence::YawRollPitch => Sequence::YawPitchRoll,
@@ -165,21 +165,17 @@ impl<R: Trigonometric, const SWITCH: bool> EulerAngles<R, SWITCH> {
     }
 }
 
-impl<R: Real, const SWITCH: bool> Words for EulerAngles<R, SWITCH> {
+impl<R: Real> Words for EulerAngles<R> {
     fn visit(&self, visitor: &mut impl WordVisitor) {
         self.angles.visit(visitor);
-        if SWITCH {
-            visitor.word(Word::I32(self.sequence as i32));
-        }
+        visitor.word(Word::I32(self.sequence as i32));
     }
 
     fn fill(&mut self, source: &mut impl WordSource) {
         self.angles.fill(source);
-        if SWITCH {
-            let switched = source.take(4) != Sequence::YawPitchRoll as u64;
-            let (three_two_one, other) = (Sequence::YawPitchRoll, Sequence::YawRollPitch);
-            self.sequence = if switched { other } else { three_two_one };
-        }
+        let switched = source.take(4) != Sequence::YawPitchRoll as u64;
+        let (three_two_one, other) = (Sequence::YawPitchRoll, Sequence::YawRollPitch);
+        self.sequence = if switched { other } else { three_two_one };
     }
 }
 

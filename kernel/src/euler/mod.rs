@@ -2,9 +2,9 @@
 //!
 //! `(angles, turn) => angles`, by the kinematic equation `α̇ = E(α)·ω` over each turn's constant rate
 //! (classical Runge–Kutta: schemes keep their order up to four). `E` is singular where the middle
-//! angle is ±90°. With `SWITCH` the angles change from yaw–pitch–roll (3-2-1) to yaw–roll–pitch
+//! angle is ±90°. So the angles change from yaw–pitch–roll (3-2-1) to yaw–roll–pitch
 //! (3-1-2) and back where the cosine of the middle one falls below ½: the other is then above
-//! √3/2. Without it precision is lost near the pole: for comparison.
+//! √3/2.
 //! Everything else is that of [`Float`]: The sine and cosine are libm's in pure Rust: the same bits
 //! everywhere. Unlike a quaternion the angles drift from the true turn, by O(h⁴) in all schemes.
 
@@ -18,14 +18,10 @@ use crate::geometry::Float;
 use crate::real::Real;
 use crate::vector::{Quaternion, Rotation, Vec3};
 
-/// Double precision, two sequences.
-pub type EulerF64 = Float<f64, EulerAngles<f64, true>>;
-/// Single precision, two sequences.
-pub type EulerF32 = Float<f32, EulerAngles<f32, true>>;
-/// Double precision, yaw–pitch–roll alone.
-pub type SingleEulerF64 = Float<f64, EulerAngles<f64, false>>;
-/// Single precision, yaw–pitch–roll alone.
-pub type SingleEulerF32 = Float<f32, EulerAngles<f32, false>>;
+/// Double precision.
+pub type EulerF64 = Float<f64, EulerAngles<f64>>;
+/// Single precision.
+pub type EulerF32 = Float<f32, EulerAngles<f32>>;
 
 /// The rotation vector of a quaternion.
 fn rotation_vector<R: Real>(turn: Quaternion<R>) -> Vec3<R> {
@@ -36,11 +32,11 @@ fn rotation_vector<R: Real>(turn: Quaternion<R>) -> Vec3<R> {
     turn.v * (R::TWO * atan2(length, turn.w) / length)
 }
 
-impl<R: Trigonometric, const SWITCH: bool> Attitude for EulerAngles<R, SWITCH> {
+impl<R: Trigonometric> Attitude for EulerAngles<R> {
     type Real = R;
     type Turn = Quaternion<R>;
 
-    const NAME: &'static str = if SWITCH { "euler-321" } else { "euler-321-single" };
+    const NAME: &'static str = "euler-321";
 
     fn rotation(&self) -> Rotation<R> {
         EulerAngles::rotation(self)
@@ -59,15 +55,15 @@ impl<R: Trigonometric, const SWITCH: bool> Attitude for EulerAngles<R, SWITCH> {
     }
     fn from_f64(orientation: [f64; 4]) -> Self {
         let q = Quaternion::from_f64(orientation);
-        let mut exact = EulerAngles::<f64, SWITCH>::of(q, Sequence::YawPitchRoll);
-        if SWITCH && exact.is_near_pole() {
+        let mut exact = EulerAngles::<f64>::of(q, Sequence::YawPitchRoll);
+        if exact.is_near_pole() {
             exact = EulerAngles::of(q, Sequence::YawRollPitch);
         }
         EulerAngles { angles: Vec3::from_f64(exact.angles.to_f64()), sequence: exact.sequence }
     }
     fn to_f64(&self) -> [f64; 4] {
         let angles = Vec3::from_f64(self.angles.to_f64());
-        let exact = EulerAngles::<f64, SWITCH> { angles, sequence: self.sequence };
+        let exact = EulerAngles::<f64> { angles, sequence: self.sequence };
         EulerAngles::quaternion(&exact).to_f64()
     }
 }
@@ -77,7 +73,7 @@ mod tests {
     use super::*;
     use crate::words::{Word, WordSource, WordVisitor, Words};
 
-    type Dual = EulerAngles<f64, true>;
+    type Angles = EulerAngles<f64>;
 
     fn unit(q: [f64; 4]) -> [f64; 4] {
         let n = libm::sqrt(q.iter().map(|c| c * c).sum());
@@ -102,11 +98,8 @@ mod tests {
     #[test]
     fn a_quaternion_survives_the_way_through_angles_with_its_sign() {
         for q in POSES.map(unit) {
-            let both =
-                [Dual::from_f64(q).to_f64(), EulerAngles::<f64, false>::from_f64(q).to_f64()];
-            // At the pole the pitch of a matrix is known to the root of an ulp.
-            assert!(apart(both[0], q) < 1e-15 && apart(both[1], q) < 1e-7, "{q:?} {both:?}");
-            let switched = Dual::from_f64(q);
+            let switched = Angles::from_f64(q);
+            assert!(apart(switched.to_f64(), q) < 1e-15, "{q:?} {switched:?}");
             assert!(!switched.is_near_pole(), "{q:?} {switched:?}");
             let matrix = switched.rotation();
             let expected = Quaternion::from_f64(q).rotation();
@@ -126,7 +119,7 @@ mod tests {
             let [_, x, y, z] = unit([0.0, axis[0], axis[1], axis[2]]);
             let turn = Quaternion::new(c, s * x, s * y, s * z);
             let mut q = Quaternion::from_f64(unit([0.9, 0.1, -0.2, 0.3]));
-            let mut angles = Dual::from_f64(q.to_f64());
+            let mut angles = Angles::from_f64(q.to_f64());
             let mut switches = 0;
             for _ in 0..3_000 {
                 let before = angles.sequence;
@@ -161,7 +154,7 @@ mod tests {
             }
         }
         for q in POSES.map(unit) {
-            let stored = EulerAngles::<f32, true>::from_f64(q);
+            let stored = EulerAngles::<f32>::from_f64(q);
             let mut words = Bytes(std::vec::Vec::new());
             stored.visit(&mut words);
             assert_eq!(words.0.len(), 4);

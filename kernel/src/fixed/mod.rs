@@ -5,7 +5,7 @@
 //! has 30 bits after the point, and what it loses is added to the next; a point has 27. A point's place is the exact
 //! sum of products, the way between two points their exact difference, rounded once to single precision. The centre
 //! of a star is placed beside where it rested in B at the start ([`crate::reach::AtRest`]). Forces, rates and their
-//! increments are `f32`, velocities sums of two words ([`crate::compensated`]), of gravity as well
+//! increments are `f32`, velocities sums of two words ([`FixedVelocity`]), of gravity as well
 //! ([`Geometry::FALLS`]): laws, sweeps, schemes are those of `f32`.
 //!
 //! Integers have ends, and [`LIMITS`] says where: a model is checked when a plant of it is made, a state after
@@ -16,6 +16,7 @@ mod matrix;
 mod number;
 mod place;
 mod turn;
+mod velocity;
 
 mod pose;
 mod rest;
@@ -25,8 +26,8 @@ pub(crate) use place::{PLACE, POINT};
 pub use pose::FixedPose;
 pub use rest::Rest;
 pub use turn::FixedTurn;
+pub use velocity::FixedVelocity;
 
-use crate::compensated::{CompensatedF32, Kept};
 use crate::fixed::number::{exact_product, single_power, square_of, squared, to_f32, to_f64};
 use crate::fixed::place::{difference, fixed, move_by, nearest, single, sum};
 use crate::geometry::{Geometry, Limits};
@@ -67,8 +68,8 @@ impl Geometry for Fixed {
     type Space = f32;
     type Position = FixedPlace;
     type Orientation = FixedTurn;
-    type Velocity = Kept;
-    type Spin = Kept;
+    type Velocity = FixedVelocity;
+    type Spin = FixedVelocity;
     type Local = FixedPoint;
     type Location = FixedPlace;
     type Frame = FixedPose;
@@ -186,50 +187,50 @@ impl Geometry for Fixed {
         single::<PLACE>(stored.at)
     }
     #[inline(always)]
-    fn velocity(stored: &Kept) -> Vec3<f32> {
-        CompensatedF32::velocity(stored)
+    fn velocity(stored: &FixedVelocity) -> Vec3<f32> {
+        stored.sum
     }
     #[inline(always)]
-    fn spin(stored: &Kept) -> Vec3<f32> {
-        CompensatedF32::spin(stored)
+    fn spin(stored: &FixedVelocity) -> Vec3<f32> {
+        stored.sum
     }
     #[inline(always)]
-    fn accelerate(stored: &mut Kept, increment: Vec3<f32>) {
+    fn accelerate(stored: &mut FixedVelocity, increment: Vec3<f32>) {
         stored.add_to_both(increment);
     }
     const FALLS: bool = true;
     #[inline(always)]
-    fn fall(stored: &mut Kept, increment: Vec3<f32>) {
+    fn fall(stored: &mut FixedVelocity, increment: Vec3<f32>) {
         stored.lost = stored.lost - increment;
     }
     #[inline(always)]
-    fn spin_up(stored: &mut Kept, increment: Vec3<f32>) {
+    fn spin_up(stored: &mut FixedVelocity, increment: Vec3<f32>) {
         stored.add_to_both(increment);
     }
     // A sum is the nearest as it is: nothing added changes nothing.
     #[inline(always)]
-    fn spin_up_across<const AXIS: usize>(stored: &mut Kept, increment: Vec3<f32>) {
+    fn spin_up_across<const AXIS: usize>(stored: &mut FixedVelocity, increment: Vec3<f32>) {
         stored.add_to_both_across::<AXIS>(increment);
     }
     #[inline(always)]
-    fn settle(_: &mut Kept) {}
+    fn settle(_: &mut FixedVelocity) {}
     #[inline(always)]
     fn translate(position: &mut FixedPlace, displacement: Vec3<f32>) {
         move_by(position, displacement * const { single_power(PLACE - 32) });
     }
     // The time in other units takes no product of its own.
     #[inline(always)]
-    fn fly(position: &mut FixedPlace, velocity: &Kept, time: f32) {
+    fn fly(position: &mut FixedPlace, velocity: &FixedVelocity, time: f32) {
         move_by(position, velocity.sum * (time * const { single_power(PLACE - 32) }));
     }
     #[inline(always)]
     fn turn_about<const AXIS: usize>(
         orientation: &mut FixedTurn,
-        rate: &Kept,
+        rate: &FixedVelocity,
         time: f32,
         _: (f32, f32),
     ) {
-        let Kept { sum, lost } = rate;
+        let FixedVelocity { sum, lost } = rate;
         let (sum, lost) = match AXIS {
             0 => (sum.x, lost.x),
             1 => (sum.y, lost.y),
@@ -265,17 +266,17 @@ impl Geometry for Fixed {
     fn position_to_f64(position: &FixedPlace) -> [f64; 3] {
         position.at.map(|c| to_f64(c, PLACE as u32))
     }
-    fn velocity_from_f64(velocity: [f64; 3]) -> Kept {
-        CompensatedF32::velocity_from_f64(velocity)
+    fn velocity_from_f64(velocity: [f64; 3]) -> FixedVelocity {
+        FixedVelocity::from_f64(velocity)
     }
-    fn velocity_to_f64(velocity: &Kept) -> [f64; 3] {
-        CompensatedF32::velocity_to_f64(velocity)
+    fn velocity_to_f64(velocity: &FixedVelocity) -> [f64; 3] {
+        velocity.to_f64()
     }
-    fn spin_from_f64(spin: [f64; 3]) -> Kept {
-        CompensatedF32::spin_from_f64(spin)
+    fn spin_from_f64(spin: [f64; 3]) -> FixedVelocity {
+        FixedVelocity::from_f64(spin)
     }
-    fn spin_to_f64(spin: &Kept) -> [f64; 3] {
-        CompensatedF32::spin_to_f64(spin)
+    fn spin_to_f64(spin: &FixedVelocity) -> [f64; 3] {
+        spin.to_f64()
     }
     fn local_from_f64(local: [f64; 3]) -> FixedPoint {
         FixedPoint::new(local)

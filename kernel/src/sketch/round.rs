@@ -1,14 +1,13 @@
 //! From a sketch to a model: counted, rounded once, checked.
 
 use crate::body::{Body, BodyState};
-use crate::compensated::Kept;
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::revolute::Revolute;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::elements::universal::Universal;
-use crate::fixed::{Fixed, FixedPlace, FixedPoint, FixedTurn};
+use crate::fixed::{Fixed, FixedPlace, FixedPoint, FixedTurn, FixedVelocity};
 use crate::geometry::{F32, F64};
 use crate::model::Model;
 use crate::planar::{Planar32, Planar64};
@@ -81,8 +80,8 @@ const fn turn(q: &Quaternion<f64>) -> FixedTurn {
     FixedTurn::new([q.w, q.v.x, q.v.y, q.v.z])
 }
 
-const fn kept(v: &Vec3<f64>) -> Kept {
-    Kept::from_f64([v.x, v.y, v.z])
+const fn fixed_velocity(v: &Vec3<f64>) -> FixedVelocity {
+    FixedVelocity::from_f64([v.x, v.y, v.z])
 }
 
 const fn point(v: &Vec3<f64>) -> FixedPoint {
@@ -208,7 +207,7 @@ models! {
     model_f32: F32, f32, vector_f32, vector_f32, vector_f32, quaternion_f32,
         stored vector_f32 quaternion_f32 vector_f32 vector_f32 vector_f32;
     model_fixed: Fixed, f32, vector_f32, vector_f32, vector_f32, quaternion_f32,
-        stored place turn kept kept point;
+        stored place turn fixed_velocity fixed_velocity point;
     model_planar64: Planar64, f64, flat_f64, axial_f64, about_f64, heading_f64,
         stored flat_f64 heading_f64 flat_f64 axial_f64 flat_f64;
     model_planar32: Planar32, f32, flat_f32, axial_f32, about_f32, heading_f32,

@@ -16,8 +16,8 @@ use dbd_bench::kept::{Energies, Keeper, Kept};
 use dbd_bench::stepped::as_stepped;
 use dbd_kernel::index::DamperIndex;
 use dbd_kernel::{
-    BodyIndex, CompensatedF32, F32, F64, Fixed, Geometry, Leapfrog, Pefrl, Plant, Scheme,
-    SemiImplicitEuler, State, Vec3, frequency,
+    BodyIndex, F32, F64, Fixed, Geometry, Leapfrog, Pefrl, Plant, Scheme, SemiImplicitEuler, State,
+    Vec3, frequency,
 };
 use dbd_scene::{Scene, SceneModel, widen};
 
@@ -157,7 +157,6 @@ impl Case {
     fn compare<S: Scheme + Copy>(&self, scheme: S, kept: Kept, steps: u64) -> Result<(), String> {
         self.row::<F64, S>(scheme, kept, steps)?;
         self.row::<F32, S>(scheme, kept, steps)?;
-        self.row::<CompensatedF32, S>(scheme, kept, steps)?;
         self.row::<Fixed, S>(scheme, kept, steps)
     }
 

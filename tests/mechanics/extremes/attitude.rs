@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use dbd_kernel::euler::{EulerF32, EulerF64, SingleEulerF32, SingleEulerF64};
+use dbd_kernel::euler::{EulerF32, EulerF64};
 use dbd_kernel::{BodyState, F32, F64, Geometry, Leapfrog, Pefrl, Plant, Quaternion, Scheme, Vec3};
 use dbd_tests::Bench;
 use dbd_tests::page::{block, figure, table};
@@ -202,7 +202,6 @@ fn pitch_passes_exactly_through_the_poles() {
             assert!(off.is_ok_and(|off| off < 5e-2), "{off:?}");
         }
     }
-    let rows =
-        [row::<F64, F32>(), row::<EulerF64, EulerF32>(), row::<SingleEulerF64, SingleEulerF32>()];
+    let rows = [row::<F64, F32>(), row::<EulerF64, EulerF32>()];
     block("docs/extremes.md", "pitch", &table(&["", "f64 [rad]", "f32 [rad]"], &rows));
 }

@@ -10,7 +10,7 @@ use dbd_tests::results::{Row, rows};
 
 const PAGE: &str = "docs/precision.md";
 const SCENES: [&str; 5] = ["hexagon", "four-bar", "3rrr", "3ruu", "double-wishbone"];
-const PRECISIONS: [&str; 4] = ["f64", "f32", "f32-compensated", "fixed"];
+const PRECISIONS: [&str; 3] = ["f64", "f32", "fixed"];
 const STIFFNESSES: [&str; 3] = ["1e5", "9e6", "5e8"];
 
 /// The runs of the file.

@@ -64,7 +64,7 @@ pub enum MethodError {
     /// A way of storing orientations that a precision has not.
     #[error("{precision} has no orientations as {orientation}")]
     #[diagnostic(help(
-        "it stores quaternions of its own: leave --orientation out, or --precision f64 or f32"
+        "it stores quaternions only: leave --orientation out, or --precision f64 or f32"
     ))]
     Orientation {
         /// The precision's name.

@@ -190,16 +190,14 @@ impl Method {
         self.orientation
     }
 
-    /// Whether this build holds it: compensated sums, micromath and Euler angles take the feature
-    /// `comparison`.
+    /// Whether this build holds it: micromath and Euler angles take the feature `comparison`.
     ///
     /// # Errors
     /// [`MethodError::Comparison`] where it does not, [`MethodError::Orientation`] where no build does.
     pub fn check_built(&self) -> Result<(), MethodError> {
         let quaternions = self.orientation == OrientationName::Quaternion;
-        let aside =
-            matches!(self.precision, PrecisionName::F32Compensated | PrecisionName::F32Micromath);
-        let exists = quaternions || self.precision.is_plain();
+        let aside = self.precision == PrecisionName::F32Micromath;
+        let exists = quaternions || self.precision.has_angles();
         if (quaternions && !aside) || (exists && cfg!(feature = "comparison")) {
             Ok(())
         } else {
@@ -211,11 +209,11 @@ impl Method {
     pub(crate) fn not_built(&self) -> MethodError {
         let quaternions = self.orientation == OrientationName::Quaternion;
         let what = match self.precision {
-            precision if !precision.is_plain() && !quaternions => {
+            precision if !precision.has_angles() && !quaternions => {
                 let (precision, orientation) = (self.precision.name(), self.orientation.name());
                 return MethodError::Orientation { precision, orientation };
             }
-            PrecisionName::F32Compensated | PrecisionName::F32Micromath => self.precision.name(),
+            PrecisionName::F32Micromath => self.precision.name(),
             _ => self.orientation.name(),
         };
         MethodError::Comparison { what }

@@ -30,9 +30,8 @@ fn what_is_for_comparison_is_refused_with_its_remedy_where_it_is_not_built() {
             let method = Method::new(SchemeName::Rk4, None, *precision).unwrap();
             let method = method.with_orientation(*orientation);
             let quaternions = *orientation == OrientationName::Quaternion;
-            let aside =
-                [PrecisionName::F32Compensated, PrecisionName::F32Micromath].contains(precision);
-            let exists = quaternions || precision.is_plain();
+            let aside = *precision == PrecisionName::F32Micromath;
+            let exists = quaternions || precision.has_angles();
             let held = if built { exists } else { quaternions && !aside };
             assert_eq!(method.check_built().is_ok(), held, "{method:?}");
             let refused = matches!(method.check_built(), Err(MethodError::Orientation { .. }));

@@ -128,7 +128,7 @@ fn options_that_are_not_right_are_refused_with_what_would_be() {
     let ball = || Build::scene(folder.scene());
     assert_eq!(
         refused(&ball().precision("f16")),
-        "there is no precision \"f16\" (one of f64, f32, fixed, f32-compensated)"
+        "there is no precision \"f16\" (one of f64, f32, fixed)"
     );
     assert!(refused(&ball().scheme("leapfrg")).contains("(did you mean leapfrog?"));
     assert!(refused(&ball().step("fast")).contains("for example 20us"));

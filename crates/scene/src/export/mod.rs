@@ -21,7 +21,7 @@ pub use scheme::{ExportScheme, MOST_ITERATIONS, SchemeError};
 
 use dbd_kernel::geometry::Float;
 use dbd_kernel::planar::Planar;
-use dbd_kernel::{CompensatedF32, F32, F64, Fixed, Geometry as _, Vec3};
+use dbd_kernel::{F32, F64, Fixed, Geometry as _, Vec3};
 
 use number::SourceGeometry;
 
@@ -44,13 +44,11 @@ pub enum ExportPrecision {
     F32,
     /// Fixed-point geometry with forces in single precision.
     Fixed,
-    /// Single precision with compensated sums.
-    F32Compensated,
 }
 
 impl ExportPrecision {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::F64, Self::F32, Self::Fixed, Self::F32Compensated];
+    pub const ALL: [Self; 3] = [Self::F64, Self::F32, Self::Fixed];
 
     /// `f64`, `f32` …
     #[must_use]
@@ -59,7 +57,6 @@ impl ExportPrecision {
             Self::F64 => F64::NAME,
             Self::F32 => F32::NAME,
             Self::Fixed => Fixed::NAME,
-            Self::F32Compensated => CompensatedF32::NAME,
         }
     }
 
@@ -70,7 +67,6 @@ impl ExportPrecision {
             Self::F64 => F64::SUFFIX,
             Self::F32 => F32::SUFFIX,
             Self::Fixed => Fixed::SUFFIX,
-            Self::F32Compensated => CompensatedF32::SUFFIX,
         }
     }
 
@@ -121,9 +117,6 @@ pub fn source(scene: &Scene, export: &Export) -> String {
             ExportPrecision::F32 => text += &parts_of::<f32>(scene, &export.scheme),
             ExportPrecision::Fixed => {
                 text += &parts::<Fixed>(scene, &scene.model, &export.scheme);
-            }
-            ExportPrecision::F32Compensated => {
-                text += &parts::<CompensatedF32>(scene, &scene.model, &export.scheme);
             }
         }
     }

@@ -2,13 +2,12 @@
 //!
 //! `number, vector, moment, turn => expression`; a space's are of its own types.
 
-use dbd_kernel::compensated::{Kept, KeptTurn};
-use dbd_kernel::fixed::{FixedPlace, FixedPoint, FixedTurn};
+use dbd_kernel::fixed::{FixedPlace, FixedPoint, FixedTurn, FixedVelocity};
 use dbd_kernel::geometry::{Float, Named};
 use dbd_kernel::planar::Planar;
 use dbd_kernel::plane::{Axial, Heading, Vec2};
 use dbd_kernel::space::Space;
-use dbd_kernel::{CompensatedF32, Fixed, Geometry, Quaternion, Real, Vec3};
+use dbd_kernel::{Fixed, Geometry, Quaternion, Real, Vec3};
 
 /// A number that can be written as source, and the precision made of it.
 pub trait SourceNumber: Real + Named {
@@ -123,40 +122,6 @@ impl<R: SourceNumber> SourceGeometry for Planar<R> {
 
 type Single = Float<f32>;
 
-impl SourceGeometry for CompensatedF32 {
-    const SUFFIX: &'static str = "Compensated";
-
-    fn name() -> String {
-        "dbd_kernel::CompensatedF32".into()
-    }
-    fn stored_position(position: &Kept) -> String {
-        let [sum, lost] = [position.sum, position.lost].map(|v| Single::vector(&v));
-        format!("dbd_kernel::compensated::Kept {{ sum: {sum}, lost: {lost} }}")
-    }
-    fn stored_velocity(velocity: &Kept) -> String {
-        Self::stored_position(velocity)
-    }
-    fn stored_spin(spin: &Kept) -> String {
-        Self::stored_position(spin)
-    }
-    fn vector(v: &Vec3<f32>) -> String {
-        Single::vector(v)
-    }
-    fn moment(m: &Vec3<f32>) -> String {
-        Single::vector(m)
-    }
-    fn turn(q: &Quaternion<f32>) -> String {
-        Single::turn(q)
-    }
-    fn orientation(turn: &KeptTurn) -> String {
-        let [sum, lost] = [turn.sum, turn.lost].map(|q| Single::turn(&q));
-        format!("dbd_kernel::compensated::KeptTurn {{ sum: {sum}, lost: {lost} }}")
-    }
-    fn local(point: &Vec3<f32>) -> String {
-        Single::vector(point)
-    }
-}
-
 impl SourceGeometry for Fixed {
     const SUFFIX: &'static str = "Fixed";
 
@@ -166,11 +131,12 @@ impl SourceGeometry for Fixed {
     fn stored_position(position: &FixedPlace) -> String {
         format!("dbd_kernel::fixed::FixedPlace {{ at: {:?} }}", position.at)
     }
-    fn stored_velocity(velocity: &Kept) -> String {
-        CompensatedF32::stored_velocity(velocity)
+    fn stored_velocity(velocity: &FixedVelocity) -> String {
+        let [sum, lost] = [velocity.sum, velocity.lost].map(|v| Single::vector(&v));
+        format!("dbd_kernel::fixed::FixedVelocity {{ sum: {sum}, lost: {lost} }}")
     }
-    fn stored_spin(spin: &Kept) -> String {
-        CompensatedF32::stored_spin(spin)
+    fn stored_spin(spin: &FixedVelocity) -> String {
+        Self::stored_velocity(spin)
     }
     fn vector(v: &Vec3<f32>) -> String {
         Single::vector(v)

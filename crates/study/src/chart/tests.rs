@@ -66,7 +66,7 @@ pub(crate) fn ladders() -> Vec<Point> {
 /// All schemes in all precisions and orientations.
 fn crowd() -> Vec<Point> {
     let mut points = Vec::new();
-    for orientation in ["quaternion", "euler-321", "euler-321-single"] {
+    for orientation in ["quaternion", "euler-321"] {
         for precision in ["f64", "f32"] {
             for row in 0..SCHEMES.len() - 1 {
                 points.extend(ladder(row, None, precision, orientation));

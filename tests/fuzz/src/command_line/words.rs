@@ -107,7 +107,7 @@ const OPTIONS: &[(&str, &[&str])] = &[
     ),
     ("--damping", &["sweeps", "explicit", "none"]),
     ("--precision", &["f64", "f32", "fixed", "f32-micromath", "f16", "all"]),
-    ("--orientation", &["quaternion", "euler-321", "euler-321-single", "x"]),
+    ("--orientation", &["quaternion", "euler-321", "x"]),
     (
         "--out",
         &[
