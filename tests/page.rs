@@ -54,11 +54,13 @@ fn kept(name: &str, text: &str, word: &str, command: &str) {
     }
 }
 
-/// Compares a block of a page, by its path from the root, with what it ought to hold, or writes it.
+/// Compares a block of a page, by its path from the root, with what it ought to hold, or writes it. A block that is made
+/// of measured data names their commit.
 ///
 /// # Panics
 /// Where the page has no such block, or one that holds something else.
 pub fn block(page: &str, name: &str, text: &str) {
+    let text = &format!("{}\n{}", text.trim_end(), crate::results::origin());
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(page);
     let bless = is_blessed();
     let mut file = File::options().read(true).write(bless).open(&path).unwrap();

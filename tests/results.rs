@@ -3,7 +3,17 @@
 //! `docs/costs.csv`, `docs/results/*.csv, tests/bits/hashes.csv => rows`. Lines that begin with `#`
 //! say where a file comes from.
 
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+
+/// Where measured data come from, see `xtask/src/provenance.rs`.
+const PROVENANCE: &str = "docs/results/provenance.csv";
+
+thread_local! {
+    /// What a test has read for the block that it makes.
+    static READ: RefCell<BTreeSet<String>> = const { RefCell::new(BTreeSet::new()) };
+}
 
 /// A row, its values by the names of their columns.
 #[derive(Clone, Debug)]
@@ -53,8 +63,36 @@ pub fn path(file: &str) -> PathBuf {
 /// Where it cannot be read.
 #[must_use]
 pub fn rows(file: &str) -> Vec<Row> {
-    let text = std::fs::read_to_string(path(file)).unwrap_or_else(|why| panic!("{file}: {why}"));
-    rows_of(&text)
+    rows_of(&data(file))
+}
+
+/// The text of a file of data by its path from the root. A block that is made next names its commit.
+///
+/// # Panics
+/// Where it cannot be read.
+#[must_use]
+pub fn data(file: &str) -> String {
+    READ.with_borrow_mut(|read| read.insert(file.to_owned()));
+    std::fs::read_to_string(path(file)).unwrap_or_else(|why| panic!("{file}: {why}"))
+}
+
+/// A line with commit and date of the measured data that this test has read; empty where there were none.
+///
+/// # Panics
+/// Where the table of all of them cannot be read.
+#[must_use]
+pub fn origin() -> String {
+    let read = READ.with_borrow(BTreeSet::clone);
+    let text = std::fs::read_to_string(path(PROVENANCE)).unwrap();
+    let noted = rows_of(&text).into_iter().filter(|row| read.contains(row.text("file")));
+    let name = |file: &str| file.rsplit('/').next().unwrap_or_default().to_owned();
+    let one = |row: Row| {
+        let stale = if row.text("stale").is_empty() { "" } else { ", stale" };
+        let (file, commit, date) = (name(row.text("file")), row.text("commit"), row.text("date"));
+        format!("{file} of {commit} ({date}{stale})")
+    };
+    let all: Vec<String> = noted.map(one).collect();
+    if all.is_empty() { all.concat() } else { format!("\nData: {}.\n", all.join(", ")) }
 }
 
 /// The rows of a table.

@@ -1,18 +1,13 @@
 //! `docs/speed.md` and `docs/ensembles.md`: times as `cargo xtask bench` kept them, growth as counted.
 
 use dbd_tests::page::{block, figure, grouped, table};
-use dbd_tests::results::{Row, path, rows};
+use dbd_tests::results::{Row, data, rows};
 use serde_json::Value;
 
 const SPEED: &str = "docs/speed.md";
 
-/// What stands where `cargo xtask bench` has kept nothing yet.
-const NOT_YET: &str =
-    "Not measured yet on a quiet machine: `cargo xtask bench`, then `cargo xtask tables`.";
-
-fn kept() -> Option<Value> {
-    let file = path("docs/results/bench.json");
-    file.exists().then(|| serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap())
+fn kept() -> Value {
+    serde_json::from_str(&data("docs/results/bench.json")).unwrap()
 }
 
 fn text<'v>(value: &'v Value, key: &str) -> &'v str {
@@ -30,11 +25,7 @@ fn cell(value: &Value, show: impl Fn(f64) -> String) -> String {
 
 #[test]
 fn times_of_steps_are_as_kept() {
-    let Some(kept) = kept() else {
-        block(SPEED, "times", NOT_YET);
-        block(SPEED, "parts", NOT_YET);
-        return;
-    };
+    let kept = kept();
     let line = |system: &Value| {
         let time = &system["f64_s"];
         let over =
@@ -86,7 +77,7 @@ fn goals_of_times_stand_beside_what_is() {
         let is = format!("{} ± {}", number("figure"), number("scatter"));
         vec![text(goal, "what").to_owned(), wanted, is, verdict.to_owned()]
     };
-    let Some(kept) = kept() else { return block(SPEED, "aims", NOT_YET) };
+    let kept = kept();
     let lines: Vec<_> = list(&kept["bench"], "goals").iter().map(line).collect();
     block(SPEED, "aims", &table(&["what", "goal", "is", ""], &lines));
 }
@@ -129,9 +120,6 @@ fn looking_at_a_scene_grows_as_counted() {
 /// was aimed at.
 #[test]
 fn ensembles_are_as_measured() {
-    if !path("docs/results/ensembles.csv").exists() {
-        return block("docs/ensembles.md", "ratios", NOT_YET);
-    }
     let all = rows("docs/results/ensembles.csv");
     let mut lines: Vec<Vec<String>> = Vec::new();
     let mut seen: Vec<(&str, &str)> = Vec::new();

@@ -155,6 +155,9 @@ enum Command {
         /// Paths from the root.
         #[arg(required = true)]
         files: Vec<String>,
+        /// They are not measured anew: their tables say that they are stale.
+        #[arg(long)]
+        stale: bool,
     },
     /// Holds FMUs of all scenes to their importers, and builds and tests the Python package.
     Python,
@@ -198,7 +201,8 @@ fn main() -> ExitCode {
             setup::complete().and_then(|toolchain| project::check(&toolchain, true, &[]))
         }
         Command::CompileTimes { write } => compile_times::run(write),
-        Command::Provenance { files } => provenance::note(&files),
+        Command::Provenance { files, stale: false } => provenance::note(&files),
+        Command::Provenance { files, stale: true } => provenance::keep(&files),
         Command::Python => python::check(),
         Command::Libraries => libraries::build(),
         Command::Packages => packages::check(),

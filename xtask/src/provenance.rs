@@ -3,7 +3,8 @@
 //! `data file => docs/results/provenance.csv: commit, date, its own fingerprint, that of what it stands on`. What
 //! measures notes its file here; `cargo xtask test` fails where a file was changed without a note, or where what it
 //! stands on has changed since. Counts on the target stand on the sample that every test counts anew, figures of
-//! motion on the golden bits, proofs on the sources of what they prove.
+//! motion on the golden bits, proofs on the sources of what they prove. Data that are kept although they are stale
+//! (`cargo xtask provenance --stale`) are called so below each table that shows them.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,7 +14,7 @@ use anyhow::{Context as _, Result, bail};
 use crate::command::{output, program, root};
 
 const FILE: &str = "docs/results/provenance.csv";
-const HEAD: &str = "file,commit,date,own,stands_on\n";
+const HEAD: &str = "file,commit,date,own,stands_on,stale\n";
 
 const SAMPLE: &[&str] = &["docs/costs-baseline.csv"];
 const INSTRUCTIONS: &[&str] = &["docs/instructions-baseline.csv"];
@@ -44,7 +45,7 @@ const fn data(
     Data { file, stands_on, command }
 }
 
-const DATA: [Data; 15] = [
+const DATA: [Data; 14] = [
     data("docs/costs.csv", SAMPLE, "cargo xtask cost"),
     data("docs/costs-mix.csv", SAMPLE, "cargo xtask cost"),
     data("docs/results/guards.csv", SAMPLE, "cargo xtask cost --guards"),
@@ -55,7 +56,6 @@ const DATA: [Data; 15] = [
     data("docs/results/growth.csv", &[], "cargo xtask growth"),
     data("docs/results/bits.csv", BITS, "cargo xtask bits"),
     data("docs/results/precisions.csv", BITS, "cargo xtask precisions"),
-    data("docs/results/paper.json", BITS, "see docs/architecture.md, then cargo xtask provenance"),
     data("docs/results/trade.csv", BITS, SURVEY),
     data("docs/results/timing.csv", BITS, SURVEY),
     data("docs/results/precisions-on-chip.csv", BITS, SURVEY),
@@ -71,6 +71,8 @@ struct Note {
     date: String,
     own: String,
     stands_on: String,
+    /// That for which it is kept although it is stale; empty where it is not.
+    stale: String,
 }
 
 type Notes = BTreeMap<String, Note>;
@@ -90,6 +92,21 @@ pub fn check() -> Result<()> {
     Ok(())
 }
 
+/// `cargo xtask provenance --stale FILE…`: keeps files although what they stand on has changed; their tables say so.
+///
+/// # Errors
+/// Where one has no row, or the table cannot be written.
+pub fn keep(files: &[String]) -> Result<()> {
+    let mut notes = read(&std::fs::read_to_string(root().join(FILE)).unwrap_or_default());
+    for file in files {
+        let data = DATA.iter().find(|data| data.file == file);
+        let data = data.with_context(|| format!("{file} is no file of data"))?;
+        let note = notes.get_mut(file).with_context(|| format!("{file} was never noted"))?;
+        note.stale = present(data.stands_on)?;
+    }
+    write(&notes)
+}
+
 /// `cargo xtask provenance FILE…`: notes files as measured now.
 ///
 /// # Errors
@@ -106,11 +123,17 @@ pub fn note(files: &[impl AsRef<str>]) -> Result<()> {
             date: date.to_owned(),
             own: present(&[file])?,
             stands_on: present(data.stands_on)?,
+            stale: String::new(),
         };
         notes.insert(file.to_owned(), note);
     }
+    write(&notes)
+}
+
+fn write(notes: &Notes) -> Result<()> {
     let row = |(file, note): (&String, &Note)| {
-        format!("{file},{},{},{},{}\n", note.commit, note.date, note.own, note.stands_on)
+        let Note { commit, date, own, stands_on, stale } = note;
+        format!("{file},{commit},{date},{own},{stands_on},{stale}\n")
     };
     let text = HEAD.to_owned() + &notes.iter().map(row).collect::<String>();
     std::fs::write(root().join(FILE), text).with_context(|| format!("cannot write {FILE}"))
@@ -118,11 +141,9 @@ pub fn note(files: &[impl AsRef<str>]) -> Result<()> {
 
 fn read(text: &str) -> Notes {
     let row = |line: &str| {
-        let [file, commit, date, own, stands_on] = line.split(',').collect::<Vec<_>>()[..] else {
-            return None;
-        };
-        let [commit, date, own, stands_on] = [commit, date, own, stands_on].map(str::to_owned);
-        Some((file.to_owned(), Note { commit, date, own, stands_on }))
+        let words: Vec<String> = line.split(',').map(str::to_owned).collect();
+        let [file, commit, date, own, stands_on, stale] = <[String; 6]>::try_from(words).ok()?;
+        Some((file, Note { commit, date, own, stands_on, stale }))
     };
     text.lines().skip(1).filter_map(row).collect()
 }
@@ -142,10 +163,12 @@ fn faults(
         if note.own != present(&[file])? {
             faults.push(format!("{file} was changed since it was measured ({date}): {command}"));
         }
-        if note.stands_on != present(stands_on)? {
+        let now = present(stands_on)?;
+        if note.stands_on != now && note.stale != now {
             let on = stands_on.join(", ");
             faults.push(format!(
-                "{file} is stale: measured at {commit} ({date}), and {on} changed since: {command}"
+                "{file} is stale: measured at {commit} ({date}), and {on} changed since: {command}; or \
+                 cargo xtask provenance --stale {file}"
             ));
         }
     }
@@ -193,7 +216,7 @@ mod tests {
     const ALL: [Data; 2] = [data("a.csv", &["b.csv"], "measure a"), data("c.csv", &[], "do c")];
 
     fn noted(own: &str, stands_on: &str) -> Notes {
-        read(&format!("{HEAD}a.csv,abc1234,2026-11-25,{own},{stands_on}\nc.csv,d,e,c.csv,\n"))
+        read(&format!("{HEAD}a.csv,abc1234,2026-11-25,{own},{stands_on}\nc.csv,d,e,c.csv,,\n"))
     }
 
     fn found(notes: &Notes) -> Vec<String> {
@@ -202,18 +225,20 @@ mod tests {
 
     #[test]
     fn data_that_are_as_noted_have_no_fault() {
-        assert!(found(&noted("a.csv", "b.csv")).is_empty());
+        assert!(found(&noted("a.csv", "b.csv,")).is_empty());
     }
 
     #[test]
     fn stale_changed_and_unknown_data_are_named_with_their_command() {
-        let stale = found(&noted("a.csv", "another"));
+        let stale = found(&noted("a.csv", "another,"));
         assert!(
             stale.len() == 1 && stale[0].contains("a.csv is stale: measured at abc1234"),
             "{stale:?}"
         );
-        assert!(stale[0].ends_with("b.csv changed since: measure a"), "{stale:?}");
-        let changed = found(&noted("another", "b.csv"));
+        assert!(stale[0].contains("b.csv changed since: measure a; or "), "{stale:?}");
+        assert!(found(&noted("a.csv", "another,b.csv")).is_empty(), "it is kept");
+        assert!(!found(&noted("a.csv", "another,one more")).is_empty(), "it changed again");
+        let changed = found(&noted("another", "b.csv,"));
         assert!(changed.len() == 1 && changed[0].contains("was changed since"), "{changed:?}");
         assert_eq!(found(&Notes::new()).len(), 2);
     }
