@@ -20,7 +20,8 @@ use dbd_tests::results::{path, rows};
 
 /// A scene that was made of a file of this folder.
 fn imported(file: &str, options: &Options) -> Imported {
-    import(&path("tests/import").join(file), options).unwrap_or_else(|error| panic!("{error}"))
+    import(&path("tests/command_line/import").join(file), options)
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// One that was made of a text.

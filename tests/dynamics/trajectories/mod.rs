@@ -26,7 +26,7 @@ type Owned<P, S> = Plant<Box<SceneModel<P>>, S>;
 const SEEN: [&str; 2] = ["angle", "drive"];
 
 fn golden(name: &str) -> GoldenFile {
-    GoldenFile::new(path(&format!("tests/trajectories/{name}.golden")))
+    GoldenFile::new(path(&format!("tests/dynamics/trajectories/{name}.golden")))
 }
 
 fn plant<P: Geometry, S: Scheme>(name: &str, scheme: S) -> Owned<P, S> {

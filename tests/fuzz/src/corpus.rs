@@ -20,7 +20,7 @@ pub fn failed() -> PathBuf {
 pub static SMALL: LazyLock<Vec<String>> = LazyLock::new(|| texts(&here().join("corpus/scene")));
 
 /// The scenes that ship.
-pub static SHIPPED: LazyLock<Vec<String>> = LazyLock::new(|| texts(&here().join("../scenes")));
+pub static SHIPPED: LazyLock<Vec<String>> = LazyLock::new(|| texts(&here().join("../../scenes")));
 
 /// The files of a folder by their names: the same order on every machine.
 ///

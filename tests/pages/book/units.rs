@@ -12,7 +12,8 @@ use syn::visit::{Visit, visit_field};
 use syn::{Expr, ExprLit, Field, GenericArgument, Lit, Meta, PathArguments, Type, Visibility};
 
 /// Crates whose types users meet.
-const CRATES: [&str; 5] = ["kernel", "scene", "plant", "golden", "node"];
+const CRATES: [&str; 5] =
+    ["kernel", "crates/scene", "crates/plant", "crates/golden", "crates/node"];
 /// Files whose types are numbers of any unit: vectors, constants of arithmetic, a precision.
 const ANY_UNIT: [&str; 4] =
     ["kernel/src/vector.rs", "kernel/src/plane.rs", "kernel/src/real.rs", "kernel/src/loose.rs"];

@@ -1,9 +1,9 @@
 //! Runs programs of tests, several at once, and times each test.
 //!
-//! `programs => cases`. A program runs its tests one after the other, in its package's folder; as
-//! many programs run at once as there are cores, those that took longest last time first. Only the
-//! times need an unstable option of the test program itself: its environment has RUSTC_BOOTSTRAP,
-//! no build's has.
+//! `programs => jobs => cases`. A job is a program, or a module of a program that takes long, whose tests run one after
+//! the other in one process, in the package's folder: what tests of a module share is computed once. As many jobs run at
+//! once as there are cores, those that took longest last time first. Only the times need an unstable option of the test
+//! program itself: its environment has RUSTC_BOOTSTRAP, no build's has.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::path::PathBuf;
@@ -15,9 +15,17 @@ use anyhow::{Context as _, Result, bail};
 use serde_json::Value;
 
 use crate::built::Program;
-use crate::command::{root, target_dir};
+use crate::command::{output, root, target_dir};
 
-use super::long;
+/// The program whose modules are jobs of their own.
+const SPLIT: &str = "tests::dynamics";
+
+/// Jobs that begin first where no times are known yet: they take longest.
+const FIRST: [&str; 4] =
+    ["tests::dynamics stability", "mechanics::mechanics", "tests::command_line", "tests::trade"];
+
+/// \[s\] a test that took longer last time is no part of [`Selection::Fast`].
+const LONG: f64 = 1.0;
 
 /// A test that was run.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,64 +54,111 @@ pub enum Outcome {
 pub enum Selection {
     /// All.
     All,
-    /// All but those of [`long::LONG`].
+    /// All but those that took long last time.
     Fast,
 }
 
-/// A program that ran: its name, its time \[s\] and its cases.
-type Done = (String, f64, Result<Vec<Case>>);
+/// Tests that run in one process.
+struct Job<'p> {
+    /// The program, and its module where it is not all of it.
+    name: String,
+    program: &'p Program,
+    /// By their names; all of the program where there are none.
+    tests: Vec<String>,
+    /// Those that are left out.
+    skipped: Vec<String>,
+}
 
-/// Runs the tests of all programs, prints a line per program and what failed.
+/// A job that ran.
+type Done = Result<Vec<Case>>;
+
+/// What a run came to.
+#[derive(Debug)]
+pub struct Ran {
+    /// What was run.
+    pub cases: Vec<Case>,
+    /// The tests that were left out as too long.
+    pub left_out: Vec<String>,
+}
+
+/// Runs the tests of all programs, prints a line per job and what failed.
 ///
 /// # Errors
 /// Where a test failed or a program did not end as it should; all of them have run then.
-pub fn run(programs: &[Program], selection: Selection) -> Result<Vec<Case>> {
+pub fn run(programs: &[Program], selection: Selection) -> Result<Ran> {
     let known = Times::load();
-    let mut waiting: Vec<&Program> = programs.iter().filter(|program| program.tests).collect();
+    let long: Vec<String> = match selection {
+        Selection::All => Vec::new(),
+        Selection::Fast => known.longer_than(LONG),
+    };
+    let mut waiting = Vec::new();
+    for program in programs.iter().filter(|program| program.tests) {
+        waiting.extend(jobs(program, &long)?);
+    }
     waiting.sort_by(|a, b| known.of(b).total_cmp(&known.of(a)));
     let total = waiting.len();
     let waiting = Mutex::new(VecDeque::from(waiting));
-    let done: Mutex<Vec<Done>> = Mutex::new(Vec::new());
+    let done: Mutex<Vec<(String, Done)>> = Mutex::new(Vec::new());
     std::thread::scope(|scope| {
         for _ in 0..cores().min(total) {
             scope.spawn(|| {
                 loop {
                     let next = waiting.lock().ok().and_then(|mut waiting| waiting.pop_front());
-                    let Some(program) = next else { break };
+                    let Some(job) = next else { break };
                     let start = Instant::now();
-                    let cases = run_one(program, selection);
-                    let seconds = start.elapsed().as_secs_f64();
-                    show(program, seconds, &cases);
+                    let cases = run_one(&job);
+                    show(&job.name, start.elapsed().as_secs_f64(), &cases);
                     if let Ok(mut done) = done.lock() {
-                        done.push((program.name.clone(), seconds, cases));
+                        done.push((job.name, cases));
                     }
                 }
             });
         }
     });
-    let done = done.into_inner().unwrap_or_default();
-    if selection == Selection::All {
-        known.with(&done).save()?;
-    }
     let (mut cases, mut broken) = (Vec::new(), Vec::new());
-    for (name, _, outcome) in done {
+    for (name, outcome) in done.into_inner().unwrap_or_default() {
         match outcome {
             Ok(more) => cases.extend(more),
             Err(error) => broken.push(format!("{name}: {error:#}")),
         }
     }
+    known.with(&cases).save()?;
     let count = |wanted: fn(&Outcome) -> bool| cases.iter().filter(|c| wanted(&c.outcome)).count();
     let passed = count(|outcome| *outcome == Outcome::Passed);
     let failed = count(|outcome| matches!(outcome, Outcome::Failed(_)));
     let ignored = count(|outcome| *outcome == Outcome::Ignored);
-    println!("{passed} tests passed, {failed} failed, {ignored} ignored in {total} programs");
+    println!("{passed} tests passed, {failed} failed, {ignored} ignored in {total} jobs");
     if failed > 0 || !broken.is_empty() {
-        bail!("{failed} tests failed; programs that did not end well: [{}]", broken.join("; "));
+        bail!("{failed} tests failed; jobs that did not end well: [{}]", broken.join("; "));
     }
     if passed == 0 {
         bail!("no test was run");
     }
-    Ok(cases)
+    Ok(Ran { cases, left_out: long })
+}
+
+/// The jobs of a program without the tests that are `long`, each `PROGRAM TEST`.
+fn jobs<'p>(program: &'p Program, long: &[String]) -> Result<Vec<Job<'p>>> {
+    let of_program =
+        |name: &String| name.strip_prefix(&program.name)?.strip_prefix(' ').map(str::to_owned);
+    let skipped: Vec<String> = long.iter().filter_map(of_program).collect();
+    if program.name != SPLIT {
+        let (name, tests) = (program.name.clone(), Vec::new());
+        return Ok(vec![Job { name, program, tests, skipped }]);
+    }
+    let list = output(Command::new(&program.path).args(["--list", "--format", "terse"]))?;
+    let mut modules: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    for test in list.lines().filter_map(|line| line.strip_suffix(": test")) {
+        if !skipped.iter().any(|name| name == test) {
+            let module = test.split("::").next().unwrap_or_default();
+            modules.entry(module).or_default().push(test.to_owned());
+        }
+    }
+    let job = |(module, tests)| {
+        let name = format!("{} {module}", program.name);
+        Job { name, program, tests, skipped: Vec::new() }
+    };
+    Ok(modules.into_iter().map(job).collect())
 }
 
 /// Cores that may be used.
@@ -119,20 +174,17 @@ pub fn slowest(cases: &[Case], count: usize) -> Vec<Case> {
     sorted
 }
 
-fn run_one(program: &Program, selection: Selection) -> Result<Vec<Case>> {
+fn run_one(job: &Job<'_>) -> Done {
+    let Job { program, tests, skipped, .. } = job;
     let mut command = Command::new(&program.path);
     command
         .current_dir(&program.folder)
         .stdin(Stdio::null())
         .env("RUSTC_BOOTSTRAP", "1")
         .args(["-Z", "unstable-options", "--report-time", "--format", "json"])
-        .args(["--test-threads", "1"]);
-    if selection == Selection::Fast {
-        command.arg("--exact");
-        for test in long::of(&program.name) {
-            command.args(["--skip", test]);
-        }
-    }
+        .args(["--test-threads", "1", "--exact"])
+        .args(skipped.iter().flat_map(|test| ["--skip", test]))
+        .args(tests);
     let output = command.output().context("it cannot be run")?;
     let text = String::from_utf8_lossy(&output.stdout);
     match cases(&program.name, &text) {
@@ -168,8 +220,7 @@ fn cases(program: &str, text: &str) -> Option<Vec<Case>> {
     complete.then_some(cases)
 }
 
-fn show(program: &Program, seconds: f64, cases: &Result<Vec<Case>>) {
-    let name = &program.name;
+fn show(name: &str, seconds: f64, cases: &Done) {
     match cases {
         Err(error) => println!("{seconds:>9.1} s  {name}: {error:#}"),
         Ok(cases) => {
@@ -183,7 +234,7 @@ fn show(program: &Program, seconds: f64, cases: &Result<Vec<Case>>) {
     }
 }
 
-/// \[s\] how long each program took last time.
+/// \[s\] how long each test took last time, `PROGRAM TEST`.
 #[derive(Clone, Debug, Default)]
 struct Times(BTreeMap<String, f64>);
 
@@ -196,20 +247,31 @@ impl Times {
         // Without it, the order is another.
         let text = std::fs::read_to_string(Self::file()).unwrap_or_default();
         let row = |line: &str| {
-            let (name, seconds) = line.split_once(',')?;
+            let (name, seconds) = line.rsplit_once(',')?;
             Some((name.to_owned(), seconds.parse().ok()?))
         };
         Self(text.lines().filter_map(row).collect())
     }
 
-    /// A program that is not known is judged by its long tests.
-    fn of(&self, program: &Program) -> f64 {
-        let guess = || 10.0 * long::of(&program.name).count() as f64;
-        self.0.get(&program.name).copied().unwrap_or_else(guess)
+    fn longer_than(&self, limit: f64) -> Vec<String> {
+        let long = self.0.iter().filter(|(_, seconds)| **seconds > limit);
+        long.map(|(name, _)| name.clone()).collect()
     }
 
-    fn with(mut self, done: &[Done]) -> Self {
-        self.0.extend(done.iter().map(|(name, seconds, _)| (name.clone(), *seconds)));
+    /// \[s\] a job's tests together; what is not known is behind what is known to be long.
+    fn of(&self, job: &Job<'_>) -> f64 {
+        let begins = |name: &str| {
+            let rest = name.strip_prefix(job.name.as_str());
+            rest.is_some_and(|rest| rest.starts_with("::") || rest.starts_with(' '))
+        };
+        let known: f64 = self.0.iter().filter(|(name, _)| begins(name)).map(|(_, s)| s).sum();
+        let first = FIRST.iter().position(|name| *name == job.name);
+        let unknown = first.map_or(0.0, |place| 100.0 / (1 + place) as f64);
+        if known > 0.0 { known } else { unknown }
+    }
+
+    fn with(mut self, cases: &[Case]) -> Self {
+        self.0.extend(cases.iter().map(|case| (case.name.clone(), case.seconds)));
         self
     }
 

@@ -5,7 +5,6 @@
 //! and the linter's eyes. The release profile builds what a release must prove: the golden bits.
 
 mod cases;
-mod long;
 mod times;
 
 use std::process::Command;
@@ -53,7 +52,7 @@ pub fn run(long: bool, write_times: bool) -> Result<()> {
     steps.step("packages of what is published", packages::check);
     steps.step("measured data are those of the sources", provenance::check);
     linter_and_documentation(&mut steps);
-    let programs = tests(&mut steps, Selection::All, &mut cases);
+    let programs = tests(&mut steps, Selection::All, &mut cases, &mut Vec::new());
     steps.step("work grows with the bodies alone", || growth::check(&programs));
     in_a_browser(&mut steps, &programs);
     documentation_tests(&mut steps);
@@ -80,20 +79,15 @@ pub fn run(long: bool, write_times: bool) -> Result<()> {
 /// # Errors
 /// Where a step failed.
 pub fn quick() -> Result<()> {
-    let (mut steps, mut cases) = (Steps::default(), Vec::new());
+    let (mut steps, mut cases, mut left_out) = (Steps::default(), Vec::new(), Vec::new());
     steps.step("rustfmt", || run_command(cargo().args(["fmt", "--all", "--check"])));
-    tests(&mut steps, Selection::Fast, &mut cases);
+    tests(&mut steps, Selection::Fast, &mut cases, &mut left_out);
     show(&cases::slowest(&cases, SLOWEST));
     println!("\nleft out:");
     println!("  linter, documentation and its tests, the kernel without features");
     println!("  reports in a browser, golden bits in release, everything on the target");
-    println!("  {} long tests:", long::LONG.len());
-    for (program, test) in long::LONG {
-        println!("    {program} {test}");
-    }
-    for case in long::unlisted(&cases) {
-        println!("{} took {:.1} s: it may belong to them", case.name, case.seconds);
-    }
+    println!("  {} tests that took longer than a second last time:", left_out.len());
+    left_out.iter().for_each(|test| println!("    {test}"));
     steps.finish()
 }
 
@@ -144,7 +138,12 @@ fn linter_and_documentation(steps: &mut Steps) {
     });
 }
 
-fn tests(steps: &mut Steps, selection: Selection, cases: &mut Vec<Case>) -> Vec<Program> {
+fn tests(
+    steps: &mut Steps,
+    selection: Selection,
+    cases: &mut Vec<Case>,
+    left_out: &mut Vec<String>,
+) -> Vec<Program> {
     let mut programs = Vec::new();
     steps.step("tests are built", || {
         programs = build(cargo().args(["test", "--no-run"]).args(EVERYTHING))?;
@@ -152,11 +151,9 @@ fn tests(steps: &mut Steps, selection: Selection, cases: &mut Vec<Case>) -> Vec<
     });
     if !programs.is_empty() {
         steps.step("tests", || {
-            keep(cases::run(&programs, selection), cases)?;
-            let missing = long::missing(cases);
-            if selection == Selection::All && !missing.is_empty() {
-                bail!("the list of long tests names what there is not: {}", missing.join(", "));
-            }
+            let ran = cases::run(&programs, selection)?;
+            cases.extend(ran.cases);
+            left_out.extend(ran.left_out);
             Ok(())
         });
     }
@@ -206,15 +203,11 @@ fn release(steps: &mut Steps, cases: &mut Vec<Case>) -> Option<Host> {
     steps.step("golden bits in release", || {
         let mut golden: Program = golden.context("the test `golden` was not built")?;
         golden.name += " in release";
-        keep(cases::run(&[golden], Selection::All), cases)
+        cases.extend(cases::run(&[golden], Selection::All)?.cases);
+        Ok(())
     });
     steps.step("instructions of a step on this machine", || instructions::check(&counted));
     host
-}
-
-fn keep(run: Result<Vec<Case>>, cases: &mut Vec<Case>) -> Result<()> {
-    cases.extend(run?);
-    Ok(())
 }
 
 /// The kernel and what compares trajectories compile for every target, the kernel with all features for
