@@ -42,8 +42,8 @@ const LIMITS: [(SchemeName, Option<u32>, f64); 14] = [
     (SchemeName::Rk4, None, 2.828),
 ];
 
-/// The mechanisms looked at.
-const SCENES: [&str; 5] = ["four-bar", "five-bar-b", "six-bar", "3rrr", "crank-slider"];
+/// The mechanisms looked at: one loop, two, and points on lines.
+const SCENES: [&str; 3] = ["four-bar", "six-bar", "crank-slider"];
 
 /// The largest stable `ω·h` of each of [`LIMITS`] on a mechanism, found once however many ask.
 fn limits(name: &str) -> &'static [f64] {
@@ -97,10 +97,7 @@ macro_rules! limits {
     )*};
 }
 
-limits! {
-    four_bar: "four-bar", five_bar_b: "five-bar-b", six_bar: "six-bar", three_rrr: "3rrr",
-    crank_slider: "crank-slider"
-}
+limits! { four_bar: "four-bar", six_bar: "six-bar", crank_slider: "crank-slider" }
 
 /// The scene with c = 2k/ω_dom on every TSDA and point on line, ω_dom half the highest frequency: the
 /// paper's mechanisms have dominant frequencies of 1/2.5 to 1/1.7 of it.

@@ -117,16 +117,13 @@ impl Limits {
     pub fn limit(&self, way: &Way, found: Option<f64>) -> Limit {
         let highest = self.highest();
         let linear = if highest > 0.0 { way.stability_limit() / highest } else { f64::INFINITY };
-        let bound = self.frequencies.bound;
-        // A matrix bears so much stiffness: beyond it no plant is made.
-        let most = way.method().and_then(|method| method.most_vibration()).filter(|_| bound > 0.0);
-        let borne = most.map_or(f64::INFINITY, |most| most / bound);
-        let stable = linear.min(borne).min(found.unwrap_or(f64::INFINITY));
+        let stable = linear.min(found.unwrap_or(f64::INFINITY));
         let turn = match way {
             Way::Kernel(_) => self.frequencies.longest_turn(),
             _ => f64::INFINITY,
         };
         // What the bound allows is stable without a doubt: a run says nothing of it.
+        let bound = self.frequencies.bound;
         let sure = if bound > 0.0 { way.stability_limit() / bound } else { f64::INFINITY };
         Limit { stable, advised: ((1.0 - MARGIN) * stable).min(turn).min(sure) }
     }

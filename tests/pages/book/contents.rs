@@ -163,6 +163,8 @@ fn the_readme_is_read_in_a_minute() {
     assert!(lines <= 150, "README.md has {lines} lines: move something into docs/");
     let wide =
         text.lines().filter(|line| !line.starts_with(['|', '<']) && line.chars().count() > 125);
+    // A line with the origin of a table's data is written by a test.
+    let wide = wide.filter(|line| !line.starts_with("Data: "));
     assert_eq!(wide.collect::<Vec<_>>(), [""; 0]);
 }
 

@@ -27,13 +27,13 @@ pub struct Jacobians {
     pub count: usize,
     /// \[m/s, rad/s, m/s², rad/s²\] ẋ itself.
     pub rate: Vec<f64>,
-    /// ∂ẋ/∂x, count × count.
+    /// \[units of `rate` over those of the coordinates\] ∂ẋ/∂x, count × count.
     pub a: Vec<f64>,
-    /// ∂ẋ/∂u, count × inputs.
+    /// \[units of `rate` over those of the inputs\] ∂ẋ/∂u, count × inputs.
     pub b: Vec<f64>,
-    /// ∂y/∂x, outputs × count.
+    /// \[units of the outputs over those of the coordinates\] ∂y/∂x, outputs × count.
     pub c: Vec<f64>,
-    /// ∂y/∂u, outputs × inputs.
+    /// \[units of the outputs over those of the inputs\] ∂y/∂u, outputs × inputs.
     pub d: Vec<f64>,
 }
 

@@ -17,7 +17,7 @@ pub struct Settings {
     pub scheme: Option<String>,
     /// Newton iterations, for the schemes that have them.
     pub newton: Option<u32>,
-    /// ρ∞, for the scheme that has it.
+    /// \[1\] ρ∞, for the scheme that has it.
     pub rho: Option<f64>,
     /// The damping's name, [`DampingName`].
     pub damping: Option<String>,

@@ -99,6 +99,6 @@ fn the_stewart_platform_of_points_stands() {
 /// What random texts of points begin with is a scene.
 #[test]
 fn the_seed_of_random_texts_is_taken() {
-    let scene = load("fuzz/corpus/scene/points");
+    let scene = load("tests/fuzz/corpus/scene/points");
     assert_eq!((scene.body_names.len(), scene.derived.len()), (4, 4));
 }
