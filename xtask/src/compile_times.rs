@@ -42,7 +42,10 @@ pub fn wrapped() -> Option<ExitCode> {
     let name = std::env::var("CARGO_PKG_NAME").unwrap_or_default();
     let folder = std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default();
     let own = Path::new(&folder).starts_with(root());
-    if let (Some(seconds), false) = (of_children(&stat), name.is_empty()) {
+    // Where cargo asks what the compiler is, no crate is compiled.
+    let compiles =
+        rest.iter().any(|word| word == "--emit" || word.to_string_lossy().starts_with("--emit="));
+    if let (Some(seconds), true) = (of_children(&stat), compiles) {
         let line = format!("{},{seconds}\n", if own { &name } else { REGISTRY });
         let file = std::fs::OpenOptions::new().append(true).create(true).open(log);
         // A line that is lost shows as a crate that was not measured.
