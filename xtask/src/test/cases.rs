@@ -312,4 +312,28 @@ a line of the test itself
     fn a_program_that_broke_off_has_no_cases() {
         assert_eq!(cases("kernel", EVENTS), None);
     }
+
+    #[test]
+    fn a_job_takes_as_long_as_its_tests_and_long_ones_are_known() {
+        let (path, folder) = (PathBuf::from("p"), PathBuf::from("f"));
+        let program = Program { name: "tests::dynamics".to_owned(), tests: true, path, folder };
+        let job = |name: &str| Job {
+            name: name.to_owned(),
+            program: &program,
+            tests: Vec::new(),
+            skipped: Vec::new(),
+        };
+        let cases = [("tests::dynamics a::x", 0.5), ("tests::dynamics a::y", 2.0)];
+        let case = |(name, seconds): (&str, f64)| Case {
+            name: name.to_owned(),
+            seconds,
+            outcome: Outcome::Passed,
+        };
+        let times = Times::default().with(&cases.map(case));
+        assert_eq!(times.of(&job("tests::dynamics a")), 2.5);
+        assert_eq!(times.of(&job("tests::dynamics")), 2.5);
+        assert_eq!(times.of(&job("tests::dynamics b")), 0.0);
+        assert!(times.of(&job(FIRST[0])) > times.of(&job(FIRST[1])));
+        assert_eq!(times.longer_than(LONG), ["tests::dynamics a::y"]);
+    }
 }
