@@ -2,7 +2,7 @@
 
 #[allow(dead_code, reason = "an example has a main function of its own")]
 #[path = "../../host-sim/examples/balance.rs"]
-mod balance;
+pub mod balance;
 mod examples;
 #[allow(dead_code, reason = "an example has a main function of its own")]
 #[path = "../../host-sim/examples/follow.rs"]

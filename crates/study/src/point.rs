@@ -40,7 +40,7 @@ pub struct Point {
     /// stable one, and a run takes it without a warning.
     pub advisable: bool,
     /// \[m\] root mean square over bodies and samples of the distance from the truth, see
-    /// [`Metric`](dbd_study::reference::metric::Metric).
+    /// [`Metric`](crate::reference::metric::Metric).
     pub error: Option<f64>,
     /// \[J\] root mean square of the energy's error; `None` where dampers, loads or inputs change it.
     pub energy_rms: Option<f64>,

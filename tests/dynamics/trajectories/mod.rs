@@ -5,11 +5,9 @@
 //! leapfrog in single precision; a changed one needs its reason in the commit. What is `bare` holds the
 //! files as they were when it was compiled: after blessing it passes at the next run.
 
-#[allow(dead_code, reason = "an example has a main function of its own")]
-#[path = "../../../host-sim/examples/balance.rs"]
-mod balance;
 mod bare;
 
+use crate::controllers::balance;
 use dbd_golden::{Bands, GoldenFile, Mismatch, Recording, Tolerance};
 use dbd_kernel::euler::EulerF32;
 use dbd_kernel::fingerprint::model_hash;
