@@ -35,9 +35,21 @@ pub fn cargo() -> Command {
 /// A cargo at a path.
 pub fn cargo_at(path: impl AsRef<OsStr>) -> Command {
     let mut cargo = program(path);
-    if ["CI", "DBD_ONCE"].iter().any(|name| std::env::var_os(name).is_some()) {
+    if builds_once() {
         cargo.envs(ONCE);
     }
+    cargo
+}
+
+/// Whether everything is built once, see [`ONCE`].
+pub fn builds_once() -> bool {
+    ["CI", "DBD_ONCE"].iter().any(|name| std::env::var_os(name).is_some())
+}
+
+/// A cargo that builds everything once.
+pub fn cargo_once() -> Command {
+    let mut cargo = cargo();
+    cargo.envs(ONCE);
     cargo
 }
 

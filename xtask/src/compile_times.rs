@@ -1,8 +1,9 @@
-//! CPU time that the compiler takes for each crate of the first command, held to a budget.
+//! CPU time that the compiler takes for each crate, held to a budget.
 //!
-//! `release build of host-sim, this program around each call of the compiler => seconds per crate => verdict`. Seconds
-//! are a machine's and an hour's; judged is a crate's time over that of all crates from the registry together, which
-//! change with `Cargo.lock` alone.
+//! `build, this program around each call of the compiler => seconds per crate => verdict`. Two builds have budgets: the
+//! README's first command, and the tests' programs, which every full test builds anyway. Seconds are a machine's and an
+//! hour's; judged is a crate's time over that of all crates from the registry together, which change with `Cargo.lock`
+//! alone.
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -14,7 +15,7 @@ use std::process::{Command, ExitCode};
 use anyhow::{Context as _, Result, bail};
 
 use crate::built::{Program, build};
-use crate::command::{cargo, output, program, root, target_dir};
+use crate::command::{builds_once, cargo, cargo_once, output, program, root, target_dir};
 
 /// Where each call of the compiler leaves a line; it makes this program the compiler's wrapper.
 const LOG: &str = "DBD_COMPILE_LOG";
@@ -67,23 +68,65 @@ fn of_children(stat: &str) -> Option<f64> {
 /// \[s\] per crate.
 type Times = BTreeMap<String, f64>;
 
-/// Builds by a cargo command and holds the crates to their budgets; returns the programs.
+/// A build that has budgets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Build {
+    /// The README's first command.
+    FirstCommand,
+    /// All programs of tests.
+    Tests,
+}
+
+impl Build {
+    const ALL: [Self; 2] = [Self::FirstCommand, Self::Tests];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::FirstCommand => "first-command",
+            Self::Tests => "tests",
+        }
+    }
+
+    fn arguments(self) -> &'static [&'static str] {
+        match self {
+            Self::FirstCommand => &["build", "--release", "--package", "host-sim"],
+            Self::Tests => &["test", "--no-run", "--workspace", "--all-features"],
+        }
+    }
+}
+
+/// Builds the programs of tests. Where nothing was built before and everything is built once, the crates are held to
+/// their budgets.
 ///
 /// # Errors
 /// Where it does not build, or a crate takes much longer than its budget.
-pub fn check(command: &mut Command) -> Result<Vec<Program>> {
-    let (programs, times) = measured(command, &target_dir())?;
-    let text = std::fs::read_to_string(root().join(FILE))
-        .with_context(|| format!("cannot read {FILE}"))?;
-    let budgets = read(&text);
+pub fn check() -> Result<Vec<Program>> {
+    let mut command = cargo();
+    command.args(Build::Tests.arguments());
+    if !builds_once() {
+        return build(&mut command);
+    }
+    let (programs, times) = measured(&mut command, &target_dir())?;
+    let budgets = budgets(Build::Tests)?;
     if budgets.keys().any(|name| !times.contains_key(name)) {
-        println!("parts were built before: nothing is measured");
+        println!("parts were built before: no time of the compiler is judged");
         return Ok(programs);
     }
     print!("{}", table(&times, &budgets));
-    let over = over(&times, &budgets);
+    judge(&times, &budgets)?;
+    Ok(programs)
+}
+
+fn budgets(of: Build) -> Result<Times> {
+    let text = std::fs::read_to_string(root().join(FILE))
+        .with_context(|| format!("cannot read {FILE}"))?;
+    Ok(read(&text, of.name()))
+}
+
+fn judge(times: &Times, budgets: &Times) -> Result<()> {
+    let over = over(times, budgets);
     if over.is_empty() {
-        return Ok(programs);
+        return Ok(());
     }
     bail!(
         "{} take more than {MOST} times their budget; where that is meant: \
@@ -92,37 +135,43 @@ pub fn check(command: &mut Command) -> Result<Vec<Program>> {
     )
 }
 
-/// `cargo xtask compile-times`: the same in a folder of its own, from the first crate on.
+/// `cargo xtask compile-times`: builds in a folder of their own, from the first crate on; both where none is named.
 ///
 /// # Errors
-/// Where building or writing fails, or, where nothing is written, [`check`] would fail.
-pub fn run(write: bool) -> Result<()> {
-    let folder = target_dir().join("compile-times");
-    if folder.exists() {
-        std::fs::remove_dir_all(&folder).context("cannot remove the last build")?;
-    }
-    let mut build = cargo();
-    build.args(["build", "--release", "--package", "host-sim", "--target-dir"]).arg(&folder);
-    let (_, times) = measured(&mut build, &folder)?;
-    let budgets = std::fs::read_to_string(root().join(FILE)).unwrap_or_default();
-    let budgets = read(&budgets);
-    print!("{}", table(&times, &budgets));
-    if write {
-        let commit = output(program("git").args(["log", "-1", "--format=%h, %cs"]))?;
-        std::fs::write(root().join(FILE), csv(&times, commit.trim()))
+/// Where building or writing fails, or, where nothing is written, a crate is over its budget.
+pub fn run(builds: &[Build], write: bool) -> Result<()> {
+    let builds = if builds.is_empty() { &Build::ALL } else { builds };
+    for build in builds {
+        let folder = target_dir().join("compile-times");
+        if folder.exists() {
+            std::fs::remove_dir_all(&folder).context("cannot remove the last build")?;
+        }
+        let mut command = cargo_once();
+        command.args(build.arguments()).arg("--target-dir").arg(&folder);
+        let (_, times) = measured(&mut command, &folder)?;
+        let budgets = budgets(*build)?;
+        print!("{}", table(&times, &budgets));
+        if !write {
+            judge(&times, &budgets)?;
+            continue;
+        }
+        let commit = output(program("git").args(["log", "-1", "--format=%h,%cs"]))?;
+        let text = std::fs::read_to_string(root().join(FILE)).unwrap_or_default();
+        let rows = rows(&times, build.name(), commit.trim());
+        std::fs::write(root().join(FILE), merged(&text, build.name(), &rows))
             .with_context(|| format!("cannot write {FILE}"))?;
         println!("written: {FILE}");
-        return Ok(());
     }
-    let over = over(&times, &budgets);
-    if over.is_empty() { Ok(()) } else { bail!("over budget: {}", over.join(", ")) }
+    Ok(())
 }
 
 fn measured(command: &mut Command, folder: &Path) -> Result<(Vec<Program>, Times)> {
     let log: PathBuf = folder.join("compile-times.log");
     std::fs::create_dir_all(folder)?;
     std::fs::write(&log, "").with_context(|| format!("cannot write {}", log.display()))?;
-    let own = std::env::current_exe().context("this program has no path")?;
+    // The build may write this program anew.
+    let own = folder.join("compile-times-wrapper");
+    std::fs::copy(std::env::current_exe().context("this program has no path")?, &own)?;
     let programs = build(command.env("RUSTC_WRAPPER", own).env(LOG, &log))?;
     let mut times = Times::new();
     for line in std::fs::read_to_string(&log)?.lines() {
@@ -150,24 +199,34 @@ fn over(times: &Times, budgets: &Times) -> Vec<String> {
         .collect()
 }
 
-fn read(csv: &str) -> Times {
-    let row = |line: &str| {
-        let mut fields = line.split(',');
-        Some((fields.next()?.to_owned(), fields.nth(1)?.parse().ok()?))
+const HEAD: &str = "\
+# CPU time of the compiler; share: over that of all crates from the registry, which is judged. Written by
+# `cargo xtask compile-times --write`.
+build,commit,date,crate,seconds,share
+";
+
+fn read(csv: &str, build: &str) -> Times {
+    let row = |line: &str| match line.split(',').collect::<Vec<_>>()[..] {
+        [of, _, _, name, _, share] if of == build => Some((name.to_owned(), share.parse().ok()?)),
+        _ => None,
     };
-    csv.lines().filter(|line| !line.starts_with('#')).filter_map(row).collect()
+    csv.lines().filter_map(row).collect()
 }
 
-fn csv(times: &Times, commit: &str) -> String {
-    let mut text = format!(
-        "# CPU time of the compiler for the first command; share: over that of all crates from the registry, which\n\
-         # is judged. Written by `cargo xtask compile-times --write`; {commit}.\n\
-         crate,seconds,share\n"
-    );
+fn rows(times: &Times, build: &str, commit: &str) -> String {
+    let mut text = String::new();
     for (name, share) in shares(times) {
-        let _ = writeln!(text, "{name},{:.1},{share:.4}", times[&name]);
+        let _ = writeln!(text, "{build},{commit},{name},{:.1},{share:.4}", times[&name]);
     }
     text
+}
+
+/// The file with new rows of a build.
+fn merged(csv: &str, build: &str, rows: &str) -> String {
+    let others = csv.lines().skip(HEAD.lines().count());
+    let others = others.filter(|line| line.split(',').next() != Some(build));
+    let others: String = others.map(|line| format!("{line}\n")).collect();
+    format!("{HEAD}{others}{rows}")
 }
 
 fn table(times: &Times, budgets: &Times) -> String {
@@ -199,7 +258,11 @@ mod tests {
 
     #[test]
     fn a_crate_that_grew_is_named_on_a_slower_machine_too() {
-        let budgets = read(&csv(&times(&[("a", 10.0), ("b", 1.0), (REGISTRY, 20.0)]), "now"));
+        let rows = rows(&times(&[("a", 10.0), ("b", 1.0), (REGISTRY, 20.0)]), "tests", "c,d");
+        let before = format!("{HEAD}tests,c,d,a,1,7\nfirst-command,c,d,a,1,0.25\n");
+        let file = merged(&before, "tests", &rows);
+        assert_eq!(read(&file, "first-command"), times(&[("a", 0.25)]));
+        let budgets = read(&file, "tests");
         assert_eq!(budgets, times(&[("a", 0.5), ("b", 0.05)]));
         let slow = times(&[("a", 30.0), ("b", 3.0), (REGISTRY, 60.0)]);
         assert!(over(&slow, &budgets).is_empty());

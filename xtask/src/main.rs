@@ -144,8 +144,10 @@ enum Command {
     },
     /// Writes a new firmware project, runs it in QEMU and tests it on the host.
     Project,
-    /// CPU time of the compiler for the README's first command, crate by crate, beside their budgets.
+    /// CPU time of the compiler, crate by crate, beside the budgets: of the README's first command and of the tests.
     CompileTimes {
+        /// One of the builds; both where none is named.
+        builds: Vec<compile_times::Build>,
         /// Makes what is measured the budget.
         #[arg(long)]
         write: bool,
@@ -200,7 +202,7 @@ fn main() -> ExitCode {
         Command::Project => {
             setup::complete().and_then(|toolchain| project::check(&toolchain, true, &[]))
         }
-        Command::CompileTimes { write } => compile_times::run(write),
+        Command::CompileTimes { builds, write } => compile_times::run(&builds, write),
         Command::Provenance { files, stale: false } => provenance::note(&files),
         Command::Provenance { files, stale: true } => provenance::keep(&files),
         Command::Python => python::check(),
