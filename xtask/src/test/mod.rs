@@ -147,7 +147,7 @@ fn tests(
 ) -> Vec<Program> {
     let mut programs = Vec::new();
     steps.step("tests are built", || {
-        programs = compile_times::check()?;
+        programs = compile_times::show()?;
         Ok(())
     });
     if !programs.is_empty() {
