@@ -55,7 +55,7 @@ pub fn wrapped() -> Option<ExitCode> {
     Some(ExitCode::from(status.code().and_then(|code| u8::try_from(code).ok()).unwrap_or(1)))
 }
 
-/// What stands for all crates that are not the workspace's.
+/// The name of all crates from outside the workspace together.
 const REGISTRY: &str = "registry";
 
 /// \[s\] of a process's children that have ended, user and system, of `/proc/PID/stat`.
@@ -163,7 +163,7 @@ fn measured(command: &mut Command, folder: &Path) -> Result<(Vec<Program>, Times
     let log: PathBuf = folder.join("compile-times.log");
     std::fs::create_dir_all(folder)?;
     std::fs::write(&log, "").with_context(|| format!("cannot write {}", log.display()))?;
-    // The build may write this program anew.
+    // A copy: the build may overwrite this program.
     let own = folder.join("compile-times-wrapper");
     std::fs::copy(std::env::current_exe().context("this program has no path")?, &own)?;
     let programs = build(command.env("RUSTC_WRAPPER", own).env(LOG, &log))?;
@@ -175,22 +175,18 @@ fn measured(command: &mut Command, folder: &Path) -> Result<(Vec<Program>, Times
     Ok((programs, times))
 }
 
-/// A crate's time over that of the registry's, by name.
+/// A crate's time over that of the registry's, by name; none where nothing of the registry was built.
 fn shares(times: &Times) -> Times {
-    let whole = times.get(REGISTRY).copied().unwrap_or(f64::INFINITY);
+    let Some(whole) = times.get(REGISTRY) else { return Times::new() };
     let own = times.iter().filter(|(name, _)| *name != REGISTRY);
     own.map(|(name, seconds)| (name.clone(), seconds / whole)).collect()
 }
 
-/// Crates that take more than they may, with what they take; what has no budget is of another program.
+/// Crates that take more than they may, with what they take; a crate without a budget may take nothing.
 fn over(times: &Times, budgets: &Times) -> Vec<String> {
-    let shares = shares(times);
-    let with_budget =
-        budgets.iter().filter_map(|(name, most)| Some((name, shares.get(name)?, most)));
-    with_budget
-        .filter(|(_, share, budget)| **share > MOST * **budget + LEAST)
-        .map(|(name, share, _)| format!("{name} ({share:.3} of the registry's)"))
-        .collect()
+    let most = |name: &str| MOST * budgets.get(name).copied().unwrap_or(0.0) + LEAST;
+    let all = shares(times).into_iter().filter(|(name, share)| *share > most(name));
+    all.map(|(name, share)| format!("{name} ({share:.3} of the registry's)")).collect()
 }
 
 const HEAD: &str = "\
@@ -262,7 +258,8 @@ mod tests {
         assert!(over(&slow, &budgets).is_empty());
         let grown = times(&[("a", 45.0), ("b", 3.0), (REGISTRY, 60.0)]);
         assert_eq!(over(&grown, &budgets), ["a (0.750 of the registry's)"]);
-        let other = times(&[("c", 30.0), (REGISTRY, 60.0)]);
-        assert!(over(&other, &budgets).is_empty());
+        let unknown = times(&[("c", 30.0), (REGISTRY, 60.0)]);
+        assert_eq!(over(&unknown, &budgets), ["c (0.500 of the registry's)"]);
+        assert!(shares(&times(&[("a", 1.0)])).is_empty(), "no share of nothing");
     }
 }

@@ -157,7 +157,7 @@ enum Command {
         /// Paths from the root.
         #[arg(required = true)]
         files: Vec<String>,
-        /// They are not measured anew: their tables say that they are stale.
+        /// Keeps stale data as they are; their tables call them stale.
         #[arg(long)]
         stale: bool,
     },

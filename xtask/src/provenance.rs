@@ -2,7 +2,7 @@
 //!
 //! `data file => docs/results/provenance.csv: commit, date, its own fingerprint, that of what it stands on`. What
 //! measures notes its file here; `cargo xtask test` fails where a file was changed without a note, or where what it
-//! stands on has changed since. Counts on the target stand on the sample that every test counts anew, figures of
+//! stands on has changed since. Counts on the target depend on the sample that every test counts anew, figures of
 //! motion on the golden bits, proofs on the sources of what they prove. Data that are kept although they are stale
 //! (`cargo xtask provenance --stale`) are called so below each table that shows them.
 
