@@ -29,7 +29,7 @@ impl Scheme for PositionVerlet {
         2.0
     }
 
-    fn step<P: Geometry, T: Terms>(
+    fn step<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {

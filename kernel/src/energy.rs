@@ -7,6 +7,7 @@
 use crate::elements::element::Element;
 use crate::elements::gravity;
 use crate::geometry::Geometry;
+use crate::laws::{Instant, Laws as _};
 use crate::model::{FrameOf, ModelOwner, RealOf};
 use crate::pose::{Places, each_element, place_bodies, twist_of};
 use crate::real::Real;
@@ -30,6 +31,8 @@ pub struct Energy<R> {
     pub line: R,
     /// \[J\] torsion springs, preload included.
     pub torsion: R,
+    /// \[J\] laws, see [`crate::laws`].
+    pub law: R,
     /// \[J\] `−F·x` of world-frame force loads while they act. Not part of the potential energy: it
     /// appears and vanishes with a load's window, and its zero is where the world's origin is. While a
     /// load acts, its work is minus the change of this.
@@ -39,7 +42,7 @@ pub struct Energy<R> {
 impl<R: Real> Energy<R> {
     /// The energy of gravity and springs, which is a function of the pose alone.
     pub fn potential(&self) -> R {
-        self.gravity + self.tsda + self.bushing + self.line + self.torsion
+        self.gravity + self.tsda + self.bushing + self.line + self.torsion + self.law
     }
 
     /// Kinetic and potential energy: continuous where a load begins or ends, as loads, inputs and
@@ -99,6 +102,12 @@ pub fn energy_with_extensions<M: ModelOwner>(
             sum.torsion = sum.torsion + spring.energy(twist.angle);
         }
     }
+    let at = Instant { frames: frames.as_ref(), bodies, signals: state.signals.as_ref() };
+    view.laws.look_at_all(&state.laws, &mut |_, law| {
+        if let Some(seen) = at.seen(law.bodies()) {
+            sum.law = sum.law + law.energy(&seen);
+        }
+    });
     for load in view.loads {
         let window = LoadWindow::new(load.from, load.until, step_size);
         if let (true, Some(body)) = (window.contains(state.step), bodies.get(load.body.row())) {

@@ -6,7 +6,7 @@ use crate::body::BodyState;
 use crate::elements::input::InputKind;
 use crate::geometry::{Geometry, Limits};
 use crate::index::{BodyIndex, InputIndex};
-use crate::model::{Group, ModelRef};
+use crate::model::{Group, ModelRef, Terms};
 use crate::real::Real as _;
 
 /// A part of a model that a precision cannot hold.
@@ -63,7 +63,7 @@ impl core::fmt::Display for Excess {
 
 /// The first part of a model, with steps of `step` \[s\], that the precision `P` cannot hold: bodies, then
 /// groups, then inputs. The numbers are those of the model, rounded to it or not.
-pub fn first_excess<P: Geometry, Q: Geometry, T>(
+pub fn first_excess<P: Geometry, Q: Geometry, T: Terms<Q>>(
     model: &ModelRef<'_, Q, T>,
     initial: &[BodyState<Q>],
     step: f64,

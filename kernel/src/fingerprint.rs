@@ -16,7 +16,8 @@ use crate::elements::torsion_spring::TorsionSpring;
 use crate::elements::tsda::Tsda;
 use crate::elements::universal::Universal;
 use crate::geometry::{F64, Geometry};
-use crate::model::{Group, ModelOwner, ModelRef};
+use crate::laws::Laws as _;
+use crate::model::{Group, ModelOwner, ModelRef, Terms};
 use crate::plant::Plant;
 use crate::real::Real;
 use crate::schemes::Scheme;
@@ -83,7 +84,10 @@ impl WordVisitor for Singles {
 }
 
 /// Every constant of a model in the order of its fields, counts first.
-fn visit_model<P: Geometry, T>(model: &ModelRef<'_, P, T>, visitor: &mut impl WordVisitor) {
+fn visit_model<P: Geometry, T: Terms<P>>(
+    model: &ModelRef<'_, P, T>,
+    visitor: &mut impl WordVisitor,
+) {
     // Field by field, so that a new one cannot be forgotten.
     let ModelRef {
         bodies,
@@ -102,7 +106,7 @@ fn visit_model<P: Geometry, T>(model: &ModelRef<'_, P, T>, visitor: &mut impl Wo
         revolutes,
         universals,
         sources,
-        terms: _,
+        laws,
     } = model;
     let counts = [
         bodies.len(),
@@ -189,6 +193,10 @@ fn visit_model<P: Geometry, T>(model: &ModelRef<'_, P, T>, visitor: &mut impl Wo
         axis.visit(visitor);
     }
     sources.iter().for_each(|source| visit_source(source, visitor));
+    laws.look_at_all(&laws.states(), &mut |_, law| {
+        law.name().bytes().for_each(|byte| visitor.word(Word::I32(i32::from(byte))));
+        law.visit(visitor);
+    });
 }
 
 fn visit_source<P: Geometry>(source: &Source<P>, visitor: &mut impl WordVisitor) {

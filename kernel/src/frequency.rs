@@ -21,7 +21,7 @@ pub(crate) use bound::square_of;
 use crate::body::{Body, BodyState, Increment};
 use crate::elements::input::InputKind;
 use crate::elements::load::LoadFrame;
-use crate::forces::{self, At, DampersLeft, Evaluation, Instant, Turns, Wrench};
+use crate::forces::{self, At, DampersLeft, Evaluation, Instant, Memories, Wrench};
 use crate::geometry::Geometry;
 use crate::model::{FrameOf, ModelOwner, RealOf, SpaceOf};
 use crate::real::Real;
@@ -105,7 +105,12 @@ fn torques<M: ModelOwner>(model: &M, state: &State<M>) -> Option<M::PerBody<Wren
             rests: &[],
             placed: false,
         },
-        Turns { counts: state.turns.clone().as_mut(), at: At::Stage },
+        Memories {
+            turns: state.turns.clone().as_mut(),
+            laws: &mut state.laws.clone(),
+            at: At::Stage,
+            advance: None,
+        },
         Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() },
     )
     .ok()?;
@@ -156,7 +161,12 @@ fn largest_by_magnitude<M: ModelOwner>(
                     rests: &[],
                     placed: false,
                 },
-                Turns { counts: moved.turns.as_mut(), at: At::Stage },
+                Memories {
+                    turns: moved.turns.as_mut(),
+                    laws: &mut moved.laws,
+                    at: At::Stage,
+                    advance: None,
+                },
                 Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() },
             );
             if turned.is_err() {

@@ -50,7 +50,7 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     /// A stored angular velocity, likewise.
     type Spin: Copy + Debug + Default + PartialEq + Send + Words;
     /// A point in body axes from the centre of mass; a point in the world for the ground.
-    type Local: Copy + Debug + Default + PartialEq + Send + Words;
+    type Local: Copy + Debug + Default + PartialEq + Send + Sync + Words;
     /// A point in the world.
     type Location: Copy + Default;
     /// A body's pose, prepared for placing many points.

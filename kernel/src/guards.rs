@@ -16,7 +16,7 @@ use crate::words::{Sums, Words as _, is_finite};
 /// The first body with a number in its state that is infinite or NaN or that turns by more than `most` in a
 /// step `h`, else the first turn count at its end.
 #[inline]
-pub(crate) fn first_fault<P: Geometry, T: Terms>(
+pub(crate) fn first_fault<P: Geometry, T: Terms<P>>(
     bodies: &[BodyState<P>],
     turns: &[i32],
     (h, most): (P::Real, Constant),

@@ -11,6 +11,11 @@ pub struct InputIndex(pub u16);
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TorsionIndex(pub u16);
 
+/// The index of a law's row, over all tables of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LawIndex(pub u16);
+
 /// The index of a body, or the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

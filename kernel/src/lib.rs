@@ -89,6 +89,7 @@ pub mod geometry;
 mod guards;
 pub mod index;
 pub mod keep;
+pub mod laws;
 mod lockstep;
 #[cfg(feature = "micromath")]
 pub mod loose;

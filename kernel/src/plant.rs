@@ -7,7 +7,7 @@
 use core::ops::Deref;
 
 use crate::attitude::Attitude as _;
-use crate::damping::{Damping, Held, Share, find, share, weigh};
+use crate::damping::{Damping, Held, Pose, Share, find, share, weigh};
 use crate::elements::input::{Input, InputKind};
 use crate::extents::first_excess;
 use crate::forces::{Wrench, are_in_line, find_rests};
@@ -16,7 +16,8 @@ use crate::geometry::Geometry;
 use crate::guards::{first_beyond, first_fault};
 use crate::index::{BodyIndex, InputIndex};
 use crate::keep::{Keep, Kept};
-use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, SpaceOf, Terms};
+use crate::laws::Laws as _;
+use crate::model::{FrameOf, LawShares, LawsIn, ModelOwner, ModelRef, RealOf, SpaceOf, Terms};
 use crate::pose::{Places, place_bodies};
 use crate::real::Real;
 pub use crate::refusal::{InputError, PlantError, StateError};
@@ -28,7 +29,7 @@ use crate::sources::{self, SourceStep};
 use crate::state::State;
 use crate::status::{Cause, Failure, MOST_TURN, Status};
 use crate::step::{Diagonal, Ledger, Stepper, Workspace};
-use crate::words::is_finite;
+use crate::words::{Finite, is_finite};
 
 /// A model stepped by a scheme at a fixed step. `H` points to the model: `&M`, or a pointer that
 /// owns it.
@@ -44,6 +45,7 @@ where
     diagonals: PerBody<H, Diagonal<SpaceOf<H::Target>>>,
     rests: PerTsda<H>,
     shares: <H::Target as ModelOwner>::PerDamper<Share<RealOf<H::Target>>>,
+    law_shares: LawShares<H::Target>,
     kept: Kept<S::Keeps, H::Target>,
     windows: <H::Target as ModelOwner>::PerLoad,
     knots: <H::Target as ModelOwner>::PerKnot,
@@ -117,13 +119,20 @@ where
             find_rests(&view, frames.as_ref(), rests.as_mut());
         }
         let mut shares = owner.per_damper(Share::ALONE);
+        let mut law_shares = view.laws.shares();
+        match view.laws.memory() {
+            Some((law, true)) if !S::ADVANCES => return Err(PlantError::Memory(law)),
+            Some((law, false)) if !S::SETTLES => return Err(PlantError::Memory(law)),
+            _ => {}
+        }
         if S::Keeps::MATRIX && !is_planned(owner) {
             return Err(PlantError::Plan);
         }
         let mut kept = S::Keeps::memory(owner);
         let levers = &mut kept.levers;
         let mut ledger = Ledger::default();
-        if <H::Target as ModelOwner>::Terms::DAMPERS
+        let damped = <H::Target as ModelOwner>::Terms::DAMPERS || view.laws.is_damped();
+        if damped
             && !matches!(S::DAMPING, Damping::Explicit | Damping::Implicit)
         {
             let (bodies, signals) = (state.bodies.as_ref(), state.signals.as_ref());
@@ -134,8 +143,9 @@ where
                 ledger.stops = find(&view, places, half, levers.as_mut());
             }
             let (mut held, shares) = (owner.per_body(Held::default()), shares.as_mut());
-            let others = (state.turns.as_ref(), levers.as_ref());
-            share(&view, places, bodies, others, held.as_mut(), shares);
+            let memories = (state.turns.as_ref(), &state.laws);
+            let pose = Pose { model: &view, places, bodies, memories, levers: levers.as_ref() };
+            share(&pose, held.as_mut(), (shares, &mut law_shares));
             weigh(&view, shares, half, levers.as_mut());
         }
         if S::Keeps::MATRIX {
@@ -162,6 +172,7 @@ where
             diagonals,
             rests,
             shares,
+            law_shares,
             kept,
             windows,
             knots,
@@ -278,6 +289,8 @@ where
             signals: self.state.signals.as_mut(),
             bodies: self.state.bodies.as_mut(),
             turns: self.state.turns.as_mut(),
+            law_states: &mut self.state.laws,
+            law_shares: &self.law_shares,
             step,
             frames: self.frames.as_mut(),
             wrenches: self.wrenches.as_mut(),
@@ -482,6 +495,7 @@ where
         self.state = state;
         self.ledger.fresh = false;
         self.ledger.ready = false;
+        self.ledger.moved = false;
         self.ledger.begun = false;
         self.status = Status::Running;
         self.sample();
@@ -517,7 +531,13 @@ fn is_planned<M: ModelOwner>(model: &M) -> bool {
     let view = model.view();
     let groups = view.groups.iter().map(|group| [group.a.0, group.b.0]);
     let ends = groups.chain(view.torsions.iter().map(|spring| [spring.a.0, spring.b.0]));
-    model.plan().fits(view.bodies.len(), ends)
+    let states = view.laws.states();
+    let of_laws = (0..view.laws.count()).map(|row| {
+        let mut ends = [BodyIndex::WORLD.0; 2];
+        view.laws.look(row, &states, &mut |law| ends = law.bodies().map(|end| end.0));
+        ends
+    });
+    model.plan().fits(view.bodies.len(), ends.chain(of_laws))
 }
 
 fn moves_ground<P: Geometry>(input: &Input<P>) -> bool {
@@ -545,6 +565,11 @@ fn check<M: ModelOwner>(state: &State<M>, own: &State<M>) -> Result<(), StateErr
         if !unit {
             return Err(StateError::Orientation(index));
         }
+    }
+    let mut finite = Finite(true);
+    LawsIn::<M::Precision, M::Terms>::visit(&state.laws, &mut finite);
+    if !finite.0 {
+        return Err(StateError::Law);
     }
     for (i, signal) in state.signals.as_ref().iter().enumerate() {
         if !(signal.value.is_finite() && signal.rate.is_finite()) {

@@ -73,7 +73,7 @@ impl<'s, P: Geometry> End<'s, P> {
     /// The end at a body; without `bodies` a body's points count as at rest. A moved anchor has its
     /// rate either way: the sweeps rely on it.
     #[inline(always)]
-    pub(crate) fn new<T: Terms>(
+    pub(crate) fn new<T: Terms<P>>(
         model: &ModelRef<'_, P, T>,
         places: Places<'s, P>,
         index: BodyIndex,
@@ -218,7 +218,7 @@ pub(crate) struct Placed<'m, V: Vector> {
 
 /// Element `i` of a group with its index, `None` where the model lacks it or its points.
 #[inline(always)]
-pub(crate) fn placed<'m, P: Geometry, T: Terms>(
+pub(crate) fn placed<'m, P: Geometry, T: Terms<P>>(
     model: &ModelRef<'m, P, T>,
     places: Places<'_, P>,
     (number, group): (usize, &'m Group),
@@ -234,7 +234,7 @@ pub(crate) fn placed<'m, P: Geometry, T: Terms>(
 
 /// Element `i` of a group between its two points.
 #[inline(always)]
-fn between<'m, P: Geometry, T: Terms>(
+fn between<'m, P: Geometry, T: Terms<P>>(
     model: &ModelRef<'m, P, T>,
     [end_a, end_b]: [&End<'_, P>; 2],
     [(a, mut arm_a), (b, arm_b)]: [Spot<P>; 2],
@@ -278,7 +278,7 @@ fn unit<V: Vector>(v: V) -> V {
 /// \[m\] Against which turns of the second body beside the first an element holds the axes of a joint, world,
 /// as long as its lever, and how many they are: of a universal joint one, of a revolute two.
 #[inline(always)]
-pub(crate) fn held_turns<P: Geometry, T: Terms>(
+pub(crate) fn held_turns<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     group: &Group,
@@ -311,7 +311,7 @@ pub(crate) const MOST_ARMS: usize = 3;
 pub(crate) type Spot<P> = (<P as Geometry>::Location, <P as Geometry>::Vector);
 
 /// Visits every element of the groups in order; frames are those of the pose. Each point is placed once.
-pub(crate) fn each_element<'m, P: Geometry, T: Terms>(
+pub(crate) fn each_element<'m, P: Geometry, T: Terms<P>>(
     model: &ModelRef<'m, P, T>,
     places: Places<'_, P>,
     mut visit: impl FnMut(Placed<'m, P::Vector>),

@@ -5,7 +5,7 @@
 //! turn one energy into another. Not known here: a jump of moved ground, which changes the energy at once.
 
 use crate::forces::{
-    At, Dampers, DampersLeft, Evaluation, ExplicitDampers, Instant, Turns, Wrench,
+    At, Dampers, DampersLeft, Evaluation, ExplicitDampers, Instant, Memories, Wrench,
     evaluate_out_of_line, push_loads_and_inputs, record,
 };
 use crate::geometry::Geometry;
@@ -99,7 +99,7 @@ fn forces<M: ModelOwner, D: Dampers>(
 ) -> Result<RealOf<M>, Cause> {
     let mut frames = model.per_body(FrameOf::<M>::default());
     let mut wrenches = model.per_body(Wrench::default());
-    let mut turns = state.turns.clone();
+    let (mut turns, mut laws) = (state.turns.clone(), state.laws.clone());
     evaluate_out_of_line::<M::Precision, M::Terms, D>(
         &model.view(),
         Instant {
@@ -111,7 +111,7 @@ fn forces<M: ModelOwner, D: Dampers>(
             rests: &[],
             placed: false,
         },
-        Turns { counts: turns.as_mut(), at: At::Stage },
+        Memories { turns: turns.as_mut(), laws: &mut laws, at: At::Stage, advance: None },
         Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() },
     )?;
     Ok(into_bodies(wrenches.as_ref()))

@@ -219,7 +219,7 @@ pub fn read<M: ModelOwner>(
 
 /// The tension of a group's TSDA: spring, damper and actuators; `None` of another law.
 #[inline(always)]
-fn tension<P: Geometry, T: Terms>(
+fn tension<P: Geometry, T: Terms<P>>(
     view: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     bodies: &[BodyState<P>],
@@ -250,7 +250,7 @@ fn tension<P: Geometry, T: Terms>(
 
 /// The force of a group on its second body: springs, dampers and actuators.
 #[inline(always)]
-fn force<P: Geometry, T: Terms>(
+fn force<P: Geometry, T: Terms<P>>(
     view: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     bodies: &[BodyState<P>],

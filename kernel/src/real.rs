@@ -83,6 +83,7 @@ pub trait Real:
     + Div<Output = Self>
     + Neg<Output = Self>
     + Send
+    + Sync
     + 'static
 {
     /// How many numbers it is: 1, or one per lane.

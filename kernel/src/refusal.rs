@@ -19,6 +19,9 @@ pub enum PlantError {
     Plan,
     /// The step is longer than the precision bears for joints as stiff as the model's: at most so many \[s\].
     Stiff(f64),
+    /// The scheme cannot bring on the memory of the law of this name: it steps back in time, or evaluates more than
+    /// once per step.
+    Memory(&'static str),
 }
 
 impl core::fmt::Display for PlantError {
@@ -29,6 +32,9 @@ impl core::fmt::Display for PlantError {
             }
             PlantError::Extent(excess) => excess.fmt(f),
             PlantError::Plan => f.write_str("the model has no plan of elimination for the scheme"),
+            PlantError::Memory(law) => {
+                write!(f, "the scheme cannot bring on what a law `{law}` remembers")
+            }
             PlantError::Stiff(most) => {
                 write!(
                     f,
@@ -88,6 +94,8 @@ pub enum StateError {
     OffPlane(BodyIndex),
     /// The signal of this input is infinite, not a number or beyond what the precision holds.
     Signal(InputIndex),
+    /// What a law remembers is infinite or not a number.
+    Law,
 }
 
 impl core::fmt::Display for StateError {
@@ -108,6 +116,7 @@ impl core::fmt::Display for StateError {
             StateError::OffPlane(body) => {
                 write!(f, "the state of body {} leaves the plane of the model", body.0)
             }
+            StateError::Law => f.write_str("what a law remembers is not finite"),
             StateError::Signal(input) => write!(f, "the signal of input {} is not finite", input.0),
         }
     }

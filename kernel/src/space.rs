@@ -26,6 +26,7 @@ pub trait Linear:
     + Mul<<Self as Linear>::Real, Output = Self>
     + Lanewise<<Self as Linear>::Real>
     + Send
+    + Sync
     + 'static
 {
     /// The number of its components.
@@ -95,7 +96,7 @@ pub trait Moment: Linear {
 }
 
 /// How one orientation stands to another, as half angles: what torsion springs measure.
-pub trait Turn: Copy + Debug + Default + PartialEq + Send + Words + 'static {
+pub trait Turn: Copy + Debug + Default + PartialEq + Send + Sync + Words + 'static {
     /// The number of its components.
     type Real: Real;
     /// An axis.

@@ -1,10 +1,11 @@
 //! The state: plain data, one visitor over its words, one hash.
 //!
 //! Per body position, orientation, velocity (world) and angular velocity (body axes), then the
-//! torsion springs' turn counts, then the step counter. Nothing here is a cache.
+//! torsion springs' turn counts, then the memories of laws, then the step counter. Nothing here is a cache.
 
 use crate::body::BodyState;
-use crate::model::ModelOwner;
+use crate::laws::Laws as _;
+use crate::model::{LawStates, LawsIn, ModelOwner};
 use crate::words::{Fnv1a, Word, WordSource, WordVisitor, Words};
 
 /// The state of a plant, owned in the shape of its model; `Copy` where the model's sizes are
@@ -14,6 +15,8 @@ pub struct State<M: ModelOwner> {
     pub bodies: M::PerBody<BodyState<M::Precision>>,
     /// Half windings per torsion spring, see [`crate::elements::torsion_spring`].
     pub turns: M::PerTorsion,
+    /// The memories of its laws.
+    pub laws: LawStates<M>,
     /// Steps done: time is `step·h`.
     pub step: u64,
     /// The inputs' signals; no words of the hash.
@@ -25,6 +28,7 @@ impl<M: ModelOwner> Clone for State<M> {
         Self {
             bodies: self.bodies.clone(),
             turns: self.turns.clone(),
+            laws: self.laws.clone(),
             step: self.step,
             signals: self.signals.clone(),
         }
@@ -35,6 +39,7 @@ impl<M: ModelOwner> Copy for State<M>
 where
     M::PerBody<BodyState<M::Precision>>: Copy,
     M::PerTorsion: Copy,
+    LawStates<M>: Copy,
     M::PerInput: Copy,
 {
 }
@@ -50,7 +55,8 @@ impl<M: ModelOwner> State<M> {
         for (signal, input) in signals.as_mut().iter_mut().zip(model.view().inputs) {
             signal.value = input.value;
         }
-        Self { bodies, turns: model.per_torsion(), step: 0, signals }
+        let laws = model.view().laws.states();
+        Self { bodies, turns: model.per_torsion(), laws, step: 0, signals }
     }
 
     /// FNV-1a 64 over the state's words: the same on every target for the same scene, scheme,
@@ -63,6 +69,9 @@ impl<M: ModelOwner> State<M> {
     }
 }
 
+/// The list of laws of a model.
+type ListOf<M> = LawsIn<<M as ModelOwner>::Precision, <M as ModelOwner>::Terms>;
+
 impl<M: ModelOwner> Words for State<M> {
     fn visit(&self, visitor: &mut impl WordVisitor) {
         for body in self.bodies.as_ref() {
@@ -71,6 +80,7 @@ impl<M: ModelOwner> Words for State<M> {
         for &turns in self.turns.as_ref() {
             visitor.word(Word::I32(turns));
         }
+        ListOf::<M>::visit(&self.laws, visitor);
         visitor.word(Word::U64(self.step));
     }
 
@@ -81,6 +91,7 @@ impl<M: ModelOwner> Words for State<M> {
         for turns in self.turns.as_mut() {
             *turns = source.take(4) as i32;
         }
+        ListOf::<M>::fill(&mut self.laws, source);
         self.step = source.take(8);
     }
 }

@@ -1,6 +1,6 @@
 //! What a step reports. A failure latches: no later step runs and nothing resets itself.
 
-use crate::index::{BodyIndex, TorsionIndex};
+use crate::index::{BodyIndex, LawIndex, TorsionIndex};
 
 /// The status of a plant after a step.
 #[must_use = "a failed step leaves the plant where it failed"]
@@ -38,6 +38,11 @@ pub enum Cause {
     UndefinedTwist {
         /// The first such spring.
         spring: TorsionIndex,
+    },
+    /// What this law does is undefined at the pose.
+    Undefined {
+        /// The first such row.
+        law: LawIndex,
     },
     /// This body turns by more than [`MOST_TURN`] in a step.
     Spin {
@@ -111,6 +116,7 @@ impl core::fmt::Display for Failure {
             Cause::UndefinedTwist { spring } => {
                 write!(f, "the twist of torsion spring {} is undefined", spring.0)?;
             }
+            Cause::Undefined { law } => write!(f, "law {} is undefined here", law.0)?,
             Cause::Spin { body } => {
                 write!(f, "body {} turns by more than {MOST_TURN} rad in a step", body.0)?;
             }

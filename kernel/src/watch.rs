@@ -68,7 +68,7 @@ impl<R: Real> Watch<R> {
         }
         let row = self.next;
         let square = plant.with_places(|view, places, state| {
-            square_of(view, places, state.bodies.as_ref(), state.turns.as_ref(), row)
+            square_of(view, places, state.bodies.as_ref(), (state.turns.as_ref(), &state.laws), row)
         });
         let count = plant.state().bodies.as_ref().len();
         self.next = if row + 1 < count { row + 1 } else { 0 };

@@ -37,7 +37,7 @@ impl Scheme for SweepsAlone {
         2.0
     }
 
-    fn step<P: Geometry, T: Terms>(
+    fn step<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {

@@ -30,7 +30,7 @@ impl Scheme for Verlet {
         2.0
     }
 
-    fn step<P: Geometry, T: Terms>(
+    fn step<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {
@@ -66,7 +66,7 @@ impl Scheme for Midpoint {
         0.0
     }
 
-    fn step<P: Geometry, T: Terms>(
+    fn step<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, BodyState<P>>,
     ) -> Result<(), Cause> {

@@ -32,7 +32,7 @@ impl<M, S> Alone<M, S> {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TermsAlone<T, S>(PhantomData<(T, S)>);
 
-impl<T: Terms, S: Scheme + Default + 'static> Terms for TermsAlone<T, S> {
+impl<T: Terms<P>, S: Scheme + Default + 'static> Terms for TermsAlone<T, S> {
     const GRAVITY: bool = T::GRAVITY;
     const LOADS: bool = T::LOADS;
     const TSDAS: bool = T::TSDAS;

@@ -1,6 +1,5 @@
 //! The builder as an owner of its model: memory of fixed capacity, filled as far as needed.
 
-use core::marker::PhantomData;
 
 use heapless::Vec;
 
@@ -76,7 +75,7 @@ impl<
             revolutes: &self.revolutes,
             universals: &self.universals,
             sources: &[],
-            terms: PhantomData,
+            laws: &(),
         }
     }
 

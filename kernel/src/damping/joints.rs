@@ -13,7 +13,7 @@ use crate::damping::kick::Kick;
 use crate::damping::lever::{Kind, Lever, Stop};
 use crate::damping::levers::counts;
 use crate::damping::moving::Moving;
-use crate::damping::{Sweep, sweep_group};
+use crate::damping::{LawsKnown, Sweep, sweep_group, sweep_laws};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, ModelRef, Terms};
@@ -22,10 +22,11 @@ use crate::space::{Linear as _, Moment as _, Space as _};
 
 /// One pass over all levers and dampers in the order of their `stops`, ascending, or descending with
 /// `REVERSE`; the levers are ready.
-pub(crate) fn sweep_joints<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
+pub(crate) fn sweep_joints<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     (levers, stops): (&mut [Lever<P>], u16),
+    laws: LawsKnown<'_, P, T>,
     bodies: &mut [BodyState<P>],
     sums: &mut [P::PassSum],
 ) {
@@ -33,18 +34,24 @@ pub(crate) fn sweep_joints<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: boo
         return;
     }
     let mut moving = Moving::begin(bodies, sums, &sweep.kick);
+    if REVERSE {
+        sweep_laws::<P, T, K, REVERSE>(model, sweep, laws, &mut moving);
+    }
     let stops = usize::from(stops);
     for number in 0..stops {
         let number = if REVERSE { stops - 1 - number } else { number };
         let Some(&Lever { stop, .. }) = levers.get(number) else { break };
         act::<P, T, K, REVERSE>(model, sweep, &stop, levers, &mut moving);
     }
+    if !REVERSE {
+        sweep_laws::<P, T, K, REVERSE>(model, sweep, laws, &mut moving);
+    }
     moving.end();
 }
 
 /// What acts at one stop.
 #[inline(always)]
-fn act<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
+fn act<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     stop: &Stop,
@@ -97,7 +104,7 @@ fn act<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
 
 /// A group's dampers one by one. Apart: beside it there would not be enough registers for levers.
 #[inline(never)]
-fn dampers<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
+fn dampers<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     group: &Group,
@@ -109,7 +116,7 @@ fn dampers<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
 /// The levers of a joint to the ground, all at once: they do not act on one another. In descending order
 /// they are told of the kick, and keep what it gave for the sweep that follows.
 #[inline(always)]
-fn ground<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
+fn ground<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     stop: &Stop,
@@ -172,7 +179,7 @@ pub(super) fn anew() {
 // No lever reads the last one's impulse.
 #[allow(unused_assignments)]
 #[inline(always)]
-fn joint<P: Geometry, T: Terms, const REVERSE: bool, const N: usize>(
+fn joint<P: Geometry, T: Terms<P>, const REVERSE: bool, const N: usize>(
     model: &ModelRef<'_, P, T>,
     frames: &[P::Frame],
     stop: &Stop,
@@ -240,7 +247,7 @@ fn joint<P: Geometry, T: Terms, const REVERSE: bool, const N: usize>(
 
 /// The one lever of a raw spring, along a line, or of a torsion spring.
 #[inline(always)]
-fn single<P: Geometry, T: Terms, const REVERSE: bool, const LINE: bool>(
+fn single<P: Geometry, T: Terms<P>, const REVERSE: bool, const LINE: bool>(
     model: &ModelRef<'_, P, T>,
     stop: &Stop,
     lever: &Lever<P>,

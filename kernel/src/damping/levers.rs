@@ -21,10 +21,10 @@ use crate::space::{Linear as _, Moment as _, Space as _};
 /// The body that sees a group's points at rest and the other one, `None` where none does: raw
 /// elements turn and slide, what has a clearance is not always there, moved ground moves them.
 #[inline(always)]
-pub(super) fn fixed<P: Geometry, T: Terms>(group: &Group) -> Option<[BodyIndex; 2]> {
+pub(super) fn fixed<P: Geometry, T: Terms<P>>(group: &Group) -> Option<[BodyIndex; 2]> {
     let Group { law, a, b, arms, .. } = *group;
     let moved = |end: BodyIndex| T::INPUTS && end.anchor_row().is_some();
-    if !whole::<T>(group) || moved(a) || moved(b) {
+    if !whole::<P, T>(group) || moved(a) || moved(b) {
         return None;
     }
     let [few, _, all] = counts::<P>();
@@ -46,14 +46,14 @@ pub(super) const fn counts<P: Geometry>() -> [usize; 3] {
 }
 
 /// What acts at a group's stop, and on which bodies.
-fn kind<P: Geometry, T: Terms>(group: &Group) -> (Kind, [BodyIndex; 2]) {
+fn kind<P: Geometry, T: Terms<P>>(group: &Group) -> (Kind, [BodyIndex; 2]) {
     match fixed::<P, T>(group) {
         Some(ends) if ends[1].is_world() => (Kind::Ground, ends),
         Some(ends) => (Kind::Joint, ends),
         None => {
             let ends = seen(group.a, group.b);
             let raw = T::TSDAS && group.law == Law::Tsda && group.elements() == 1;
-            let raw = raw && whole::<T>(group) && !ends[0].is_world();
+            let raw = raw && whole::<P, T>(group) && !ends[0].is_world();
             (if raw { Kind::Raw } else { Kind::Dampers }, ends)
         }
     }
@@ -61,7 +61,7 @@ fn kind<P: Geometry, T: Terms>(group: &Group) -> (Kind, [BodyIndex; 2]) {
 
 /// Whether all of a group's dampers act always.
 #[inline(always)]
-fn whole<T: Terms>(group: &Group) -> bool {
+fn whole<P: Geometry, T: Terms<P>>(group: &Group) -> bool {
     group.damper.row().is_some() && !(T::CLEARANCES && group.clearance.row().is_some())
 }
 
@@ -79,7 +79,7 @@ pub(super) fn held<'l, P: Geometry>(group: &Group, levers: &'l [Lever<P>]) -> &'
 }
 
 /// Weighs the levers of joints to the ground, whose 1/μ no pose changes.
-pub(crate) fn weigh<P: Geometry, T: Terms>(
+pub(crate) fn weigh<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     shares: &[Share<P::Real>],
     h: P::Real,
@@ -109,7 +109,7 @@ const NEAR: usize = 64;
 
 /// Finds the levers of all joints at a pose, for half a step `h` \[s\], and where a sweep stops: so
 /// many times.
-pub(crate) fn find<P: Geometry, T: Terms>(
+pub(crate) fn find<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     h: P::Real,
@@ -150,7 +150,7 @@ pub(crate) fn find<P: Geometry, T: Terms>(
 
 /// Writes the stops of all that has dampers, groups before torsion springs; how many there are. A joint
 /// whose levers are all another's has none.
-fn stops<P: Geometry, T: Terms>(model: &ModelRef<'_, P, T>, levers: &mut [Lever<P>]) -> u16 {
+fn stops<P: Geometry, T: Terms<P>>(model: &ModelRef<'_, P, T>, levers: &mut [Lever<P>]) -> u16 {
     let mut number = 0;
     for (of, group) in model.groups.iter().enumerate() {
         let Some(row) = group.damper.row() else { continue };
@@ -193,7 +193,7 @@ struct Metric<P: Geometry> {
 const SWEEPS: u32 = 40;
 
 impl<P: Geometry> Metric<P> {
-    fn new<T: Terms>(model: &ModelRef<'_, P, T>, ends: [BodyIndex; 2]) -> Self {
+    fn new<T: Terms<P>>(model: &ModelRef<'_, P, T>, ends: [BodyIndex; 2]) -> Self {
         let none = (P::Real::ZERO, P::Moment::ZERO);
         let [own, other] = ends.map(|end| {
             model

@@ -24,6 +24,7 @@
 
 mod joints;
 mod kick;
+mod laws;
 mod lever;
 mod levers;
 mod motion;
@@ -37,8 +38,12 @@ mod strength;
 pub use crate::elements::share::Share;
 pub(crate) use joints::sweep_joints;
 pub(crate) use kick::{HalfKick, KeptKick, NoKick};
+pub(crate) use laws::LawsKnown;
+use laws::sweep_laws;
 pub use lever::Lever;
+pub use pair::Direction;
 pub(crate) use levers::{find, weigh};
+pub(crate) use motion::Pose;
 pub(crate) use near::Held;
 pub(crate) use prepare::prepare;
 pub(crate) use shares::share;
@@ -47,7 +52,7 @@ pub use strength::{DampersOf, Strength, strengths, strengths_of_joints};
 use crate::body::BodyState;
 use crate::damping::kick::Kick;
 use crate::damping::moving::Moving;
-use crate::damping::pair::{Damper, Direction, Pair};
+use crate::damping::pair::{Damper, Pair};
 use crate::elements::clearance;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::geometry::Geometry;
@@ -102,7 +107,7 @@ impl<P: Geometry, K: Kick<P>> Sweep<'_, P, K> {
     /// Whether all that is kept per body is of as many: a row of one is then a row of the others, which
     /// a compiler does not look up again.
     #[inline(always)]
-    fn is_of<T: Terms>(&self, model: &ModelRef<'_, P, T>, bodies: &[BodyState<P>]) -> bool {
+    fn is_of<T: Terms<P>>(&self, model: &ModelRef<'_, P, T>, bodies: &[BodyState<P>]) -> bool {
         let count = bodies.len();
         model.bodies.len() == count
             && self.places.frames.len() == count
@@ -125,42 +130,46 @@ impl<P: Geometry, K> Sweep<'_, P, K> {
 }
 
 /// One pass over all dampers, ascending, or descending with `REVERSE`; groups come before torsion
-/// springs in ascending order.
+/// springs, and these before laws, in ascending order.
 #[inline(always)]
-pub(crate) fn sweep<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
+pub(crate) fn sweep<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
+    laws: LawsKnown<'_, P, T>,
     bodies: &mut [BodyState<P>],
     sums: &mut [P::PassSum],
 ) {
     if P::Real::LANES == 1 {
-        sweep_apart::<P, T, K, REVERSE>(model, sweep, bodies, sums);
+        sweep_apart::<P, T, K, REVERSE>(model, sweep, laws, bodies, sums);
     } else {
-        sweep_here::<P, T, K, REVERSE>(model, sweep, bodies, sums);
+        sweep_here::<P, T, K, REVERSE>(model, sweep, laws, bodies, sums);
     }
 }
 
 // One body of it for all schemes.
-fn sweep_apart<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
+fn sweep_apart<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
+    laws: LawsKnown<'_, P, T>,
     bodies: &mut [BodyState<P>],
     sums: &mut [P::PassSum],
 ) {
-    sweep_here::<P, T, K, REVERSE>(model, sweep, bodies, sums);
+    sweep_here::<P, T, K, REVERSE>(model, sweep, laws, bodies, sums);
 }
 
 // Lanes are stepped by a function that may use more instructions than its callees: it has none.
 #[inline(always)]
-fn sweep_here<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
+fn sweep_here<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
+    laws: LawsKnown<'_, P, T>,
     bodies: &mut [BodyState<P>],
     sums: &mut [P::PassSum],
 ) {
     let mut moving = Moving::begin(bodies, sums, &sweep.kick);
     let torsions = model.torsions.iter().zip(P::Real::counts(sweep.turns));
     if REVERSE {
+        sweep_laws::<P, T, K, REVERSE>(model, sweep, laws, &mut moving);
         if T::TORSIONS {
             for (spring, &turns) in torsions.rev() {
                 torsion::<P, T, K, REVERSE>(model, sweep, spring, turns, &mut moving);
@@ -178,12 +187,13 @@ fn sweep_here<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
                 torsion::<P, T, K, REVERSE>(model, sweep, spring, turns, &mut moving);
             }
         }
+        sweep_laws::<P, T, K, REVERSE>(model, sweep, laws, &mut moving);
     }
     moving.end();
 }
 
 #[inline(always)]
-fn sweep_group<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
+fn sweep_group<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     group: &Group,
@@ -219,7 +229,7 @@ fn sweep_group<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
 
 /// The pair of two ends; moved ground has its rate.
 #[inline(always)]
-fn new_pair<P: Geometry, T: Terms, K: Kick<P>>(
+fn new_pair<P: Geometry, T: Terms<P>, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     ends: [BodyIndex; 2],
@@ -234,7 +244,7 @@ fn new_pair<P: Geometry, T: Terms, K: Kick<P>>(
 
 /// The directions in which an element's damper acts, one after the other.
 #[inline(always)]
-fn each_direction<P: Geometry, T: Terms, const REVERSE: bool>(
+fn each_direction<P: Geometry, T: Terms<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     element: &Placed<'_, P::Vector>,
@@ -262,7 +272,7 @@ fn each_direction<P: Geometry, T: Terms, const REVERSE: bool>(
 
 /// The directions of the dampers that hold the axes of a joint: moments alone.
 #[inline(always)]
-fn each_turn<P: Geometry, T: Terms, const REVERSE: bool>(
+fn each_turn<P: Geometry, T: Terms<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     element: &Placed<'_, P::Vector>,
@@ -294,7 +304,7 @@ type Damped<'s, P, R> = (&'s Spot<P>, (&'s R, &'s Share<R>));
 /// The stars of a group without clearance: the two bodies' velocities are at hand until the last
 /// element.
 #[inline(always)]
-fn sweep_stars<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
+fn sweep_stars<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     group: &Group,
@@ -356,7 +366,7 @@ fn sweep_stars<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
 
 /// What acts of an element's damper beyond its clearance; without one all of it.
 #[inline(always)]
-fn engaged<P: Geometry, T: Terms>(
+fn engaged<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     element: &Placed<'_, P::Vector>,
     damping: P::Real,
@@ -372,7 +382,7 @@ fn engaged<P: Geometry, T: Terms>(
 
 /// A torsion spring's damper, along the gradient of its twist.
 #[inline(always)]
-fn torsion<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
+fn torsion<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     spring: &TorsionSpring<P::Space>,
@@ -392,7 +402,7 @@ fn torsion<P: Geometry, T: Terms, K: Kick<P>, const REVERSE: bool>(
 /// The direction of a torsion spring's damper: moments alone. An undefined twist has none; it is
 /// left to the next evaluation, which reports it.
 #[inline(always)]
-fn torsion_direction<P: Geometry, T: Terms>(
+fn torsion_direction<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     spring: &TorsionSpring<P::Space>,

@@ -11,7 +11,8 @@ use crate::damping::pair::Direction;
 use crate::damping::{each_direction, torsion_direction};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::model::{ModelRef, Terms};
+use crate::laws::{Instant, Laws as _};
+use crate::model::{ModelRef, StatesIn, Terms};
 use crate::pose::{Places, held_turns, placed};
 use crate::real::{Real, Truth as _};
 use crate::space::{Linear as _, Moment as _, Space};
@@ -28,19 +29,21 @@ pub(super) struct Motion<S: Space> {
     pub(super) known: <S::Real as Real>::Truth,
 }
 
-/// Where dampers stand: groups in order, then torsion springs.
+/// Where dampers stand: groups in order, then torsion springs, then laws.
 #[derive(Clone, Copy)]
 pub(super) enum Mount {
     Group(usize),
     Torsion(usize),
+    Law(usize),
 }
 
 impl Mount {
-    /// The one at a place.
-    fn at(place: usize, groups: usize) -> Self {
+    /// The one at a place among so many groups and torsion springs.
+    fn at(place: usize, [groups, torsions]: [usize; 2]) -> Self {
         match place.checked_sub(groups) {
             None => Self::Group(place),
-            Some(row) => Self::Torsion(row),
+            Some(row) if row < torsions => Self::Torsion(row),
+            Some(row) => Self::Law(row - torsions),
         }
     }
 }
@@ -51,24 +54,28 @@ pub(super) fn meet(a: [BodyIndex; 2], b: [BodyIndex; 2]) -> bool {
 }
 
 /// A model at a pose.
-#[derive(Clone, Copy)]
-pub(super) struct Pose<'s, 'm, P: Geometry, T> {
-    pub(super) model: &'s ModelRef<'m, P, T>,
-    pub(super) places: Places<'s, P>,
-    pub(super) bodies: &'s [BodyState<P>],
-    pub(super) turns: &'s [i32],
+pub(crate) struct Pose<'s, 'm, P: Geometry, T: Terms<P>> {
+    pub(crate) model: &'s ModelRef<'m, P, T>,
+    pub(crate) places: Places<'s, P>,
+    pub(crate) bodies: &'s [BodyState<P>],
+    /// Turn counts of torsion springs, memories of laws.
+    pub(crate) memories: (&'s [i32], &'s StatesIn<P, T>),
     /// The joints' levers, which stand for their dampers; none where dampers act one by one.
-    pub(super) levers: &'s [Lever<P>],
+    pub(crate) levers: &'s [Lever<P>],
 }
 
-impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
+impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
     pub(super) fn mounts(&self) -> impl Iterator<Item = Mount> + use<P, T> {
-        let groups = self.model.groups.len();
-        (0..self.count()).map(move |place| Mount::at(place, groups))
+        let counts = self.counts();
+        (0..self.count()).map(move |place| Mount::at(place, counts))
+    }
+
+    fn counts(&self) -> [usize; 2] {
+        [self.model.groups.len(), self.model.torsions.len()]
     }
 
     fn count(&self) -> usize {
-        self.model.groups.len() + self.model.torsions.len()
+        self.model.groups.len() + self.model.torsions.len() + self.model.laws.count()
     }
 
     /// Takes note of which body holds which mount; `held` has an empty one per body.
@@ -86,9 +93,9 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
         held: &'h [Held],
         ends: [BodyIndex; 2],
     ) -> impl Iterator<Item = (usize, Mount, [BodyIndex; 2])> + use<'_, 'h, P, T> {
-        let groups = self.model.groups.len();
+        let counts = self.counts();
         near(held, ends, self.count()).filter_map(move |place| {
-            let mount = Mount::at(place, groups);
+            let mount = Mount::at(place, counts);
             let others = self.ends(mount).filter(|others| meet(ends, *others))?;
             Some((place, mount, others))
         })
@@ -105,18 +112,25 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
                 let spring = self.model.torsions.get(row)?;
                 (spring.damper, [spring.a, spring.b])
             }
+            Mount::Law(row) => {
+                let mut ends = None;
+                self.model.laws.look(row, self.memories.1, &mut |law| {
+                    ends = (law.dampers() > 0).then_some(law.bodies());
+                });
+                return ends;
+            }
         };
         damper.row().map(|_| ends)
     }
 
-    /// Visits the dampers of a mount direction by direction: row, part of the direction in its
+    /// Visits the dampers of a mount direction by direction: row, of a law's its number there, part of the direction in its
     /// damper, coefficient, direction.
     pub(super) fn each_damper(
         &self,
         mount: Mount,
         mut visit: impl FnMut(usize, P::Real, P::Real, &Direction<P::Space>),
     ) {
-        let Self { model, places, bodies, turns, levers } = *self;
+        let Self { model, places, bodies, memories: (turns, states), levers } = *self;
         let one = P::Real::ONE;
         match mount {
             Mount::Group(group) => {
@@ -152,13 +166,20 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
                     visit(row, one, coefficient, &direction);
                 }
             }
+            Mount::Law(row) => model.laws.look(row, states, &mut |law| {
+                let at = Instant { frames: places.frames, bodies, signals: places.signals };
+                let Some(seen) = at.seen(law.bodies()) else { return };
+                law.each_damper(&seen, &mut |number, damper| {
+                    visit(number, one, damper.coefficient, &damper.direction);
+                });
+            }),
         }
     }
 }
 
 impl<S: Space> Motion<S> {
     /// `None` for a damper that moves nothing.
-    pub(super) fn new<P: Geometry<Space = S, Real = S::Real>, T: Terms>(
+    pub(super) fn new<P: Geometry<Space = S, Real = S::Real>, T: Terms<P>>(
         model: &ModelRef<'_, P, T>,
         bodies: [BodyIndex; 2],
         coefficient: S::Real,

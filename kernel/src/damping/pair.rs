@@ -45,12 +45,13 @@ impl<R: Real> Damper<R> {
     }
 }
 
-/// A damper's direction u in world axes, and the moments `r × u` of a unit force along it on the
-/// two bodies, body axes. The ground has none.
-#[derive(Clone, Copy)]
-pub(super) struct Direction<S: Space> {
-    pub(super) along: S::Vector,
-    pub(super) moments: [S::Moment; 2],
+/// A direction of freedom of two bodies: a unit force along u on the second and the opposite on the first.
+#[derive(Clone, Copy, Debug)]
+pub struct Direction<S: Space> {
+    /// u, world axes; 0 of moments alone.
+    pub along: S::Vector,
+    /// The moments `r × u` of a unit force along u on both bodies, each in its body's axes; the ground has none.
+    pub moments: [S::Moment; 2],
 }
 
 /// One of a pair's bodies while its dampers turn it.
@@ -68,7 +69,7 @@ struct Side<S: Space> {
 /// The body in a row with its inverse mass, velocity and what the kick gave to that.
 #[inline(always)]
 #[allow(clippy::type_complexity)]
-fn side<P: Geometry, T: Terms, K: Kick<P>>(
+fn side<P: Geometry, T: Terms<P>, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
     row: usize,
     moving: &Moving<'_, P>,
@@ -120,7 +121,7 @@ impl<S: Space> Pair<S> {
     #[inline(always)]
     pub(super) fn new<
         P: Geometry<Space = S, Real = S::Real, Vector = S::Vector, Moment = S::Moment>,
-        T: Terms,
+        T: Terms<P>,
         K: Kick<P>,
     >(
         model: &ModelRef<'_, P, T>,
@@ -172,6 +173,44 @@ impl<S: Space> Pair<S> {
         damper: Damper<S::Real>,
         idle: <S::Real as Real>::Truth,
     ) {
+        self.push::<P, K>(direction, idle, |inverse, rate, kick| {
+            let (x, impulse_per_rate) = damper.impulse_per_rate(inverse);
+            let rate = if K::KNOWN { rate - kick * damper.unmet(x) } else { rate };
+            impulse_per_rate * rate
+        });
+    }
+
+    /// One damper acts towards a rate, its impulse within bounds \[N·s\].
+    #[inline(always)]
+    pub(super) fn damp_within<
+        P: Geometry<Space = S, Real = S::Real, Vector = S::Vector, Moment = S::Moment>,
+        K: Kick<P>,
+    >(
+        &mut self,
+        direction: &Direction<S>,
+        damper: Damper<S::Real>,
+        (towards, [least, most]): (S::Real, [S::Real; 2]),
+    ) {
+        self.push::<P, K>(direction, S::Real::truth(false), |inverse, rate, kick| {
+            let (x, impulse_per_rate) = damper.impulse_per_rate(inverse);
+            let rate = if K::KNOWN { rate - kick * damper.unmet(x) } else { rate };
+            let impulse = impulse_per_rate * (rate - towards);
+            let impulse = S::Real::pick(most.less_than(impulse), most, impulse);
+            S::Real::pick(impulse.less_than(least), least, impulse)
+        });
+    }
+
+    /// An impulse along a direction, `(1/μ, rate, the kick's rate) => impulse`, but in lanes where it is idle.
+    #[inline(always)]
+    fn push<
+        P: Geometry<Space = S, Real = S::Real, Vector = S::Vector, Moment = S::Moment>,
+        K: Kick<P>,
+    >(
+        &mut self,
+        direction: &Direction<S>,
+        idle: <S::Real as Real>::Truth,
+        impulse: impl FnOnce(S::Real, S::Real, S::Real) -> S::Real,
+    ) {
         let Direction { along: u, moments: [moment_a, moment_b] } = *direction;
         let [a, b] = &mut self.sides;
         let mut inverse = u.dot(u) * self.inverse_mass;
@@ -199,11 +238,7 @@ impl<S: Space> Pair<S> {
         if idle.all() {
             return;
         }
-        let (x, impulse_per_rate) = damper.impulse_per_rate(inverse);
-        if K::KNOWN {
-            rate = rate - kick * damper.unmet(x);
-        }
-        let impulse = impulse_per_rate * rate;
+        let impulse = impulse(inverse, rate, kick);
         self.impulse = self.impulse + (u * impulse).unless(idle);
         if let Some(a) = a {
             a.turn((response_a * impulse).unless(idle));

@@ -20,7 +20,7 @@ use crate::space::{Linear as _, Moment as _, Space as _, Vector as _};
 
 /// Makes all levers ready: for this pose and for the kick of `sweep`. In descending order those of joints
 /// to the ground are told in the sweep itself.
-pub(crate) fn prepare<P: Geometry, T: Terms, K: Kick<P>>(
+pub(crate) fn prepare<P: Geometry, T: Terms<P>, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     bodies: &[BodyState<P>],
@@ -87,7 +87,7 @@ pub(crate) fn prepare<P: Geometry, T: Terms, K: Kick<P>>(
 
 /// Whether any damper of a group acts beyond its clearance.
 #[inline(always)]
-fn touches<P: Geometry, T: Terms, K: Kick<P>>(
+fn touches<P: Geometry, T: Terms<P>, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     group: &Group,
@@ -113,7 +113,7 @@ fn told<P: Geometry, K: Kick<P>>(sweep: &Sweep<'_, P, K>, stop: &Stop, levers: &
 
 /// The `N` levers of a joint between two bodies.
 #[inline(always)]
-fn hold<P: Geometry, T: Terms, K: Kick<P>, const N: usize>(
+fn hold<P: Geometry, T: Terms<P>, K: Kick<P>, const N: usize>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     stop: &Stop,
@@ -182,7 +182,7 @@ fn hold<P: Geometry, T: Terms, K: Kick<P>, const N: usize>(
 
 /// The lever of a raw spring, world axes.
 #[inline(never)]
-fn line<P: Geometry, T: Terms, K: Kick<P>>(
+fn line<P: Geometry, T: Terms<P>, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     stop: &Stop,
@@ -232,7 +232,7 @@ fn line<P: Geometry, T: Terms, K: Kick<P>>(
 
 /// The lever of a torsion spring: moments along the gradient of its twist.
 #[inline(always)]
-fn twist<P: Geometry, T: Terms, K: Kick<P>>(
+fn twist<P: Geometry, T: Terms<P>, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     stop: &Stop,

@@ -7,30 +7,27 @@
 //! several directions has their mean. Taken once, at the initial pose: it weighs how dampers
 //! divide a force, not how much they resist.
 
-use crate::body::BodyState;
-use crate::damping::lever::Lever;
-use crate::damping::motion::{Motion, Pose};
+use crate::damping::motion::{Motion, Mount, Pose};
 use crate::damping::near::Held;
 use crate::elements::share::Share;
 use crate::geometry::Geometry;
-use crate::model::{ModelRef, Terms};
-use crate::pose::Places;
+use crate::laws::Laws as _;
+use crate::model::{ModelRef, SharesIn, Terms};
 use crate::real::{Real, choose};
 
 /// Writes the share of every damper; `shares` is as long as the dampers, `held` has an empty one per
 /// body.
-pub(crate) fn share<P: Geometry, T: Terms>(
-    model: &ModelRef<'_, P, T>,
-    places: Places<'_, P>,
-    bodies: &[BodyState<P>],
-    (turns, levers): (&[i32], &[Lever<P>]),
+pub(crate) fn share<P: Geometry, T: Terms<P>>(
+    pose: &Pose<'_, '_, P, T>,
     held: &mut [Held],
-    shares: &mut [Share<P::Real>],
+    (shares, of_laws): (&mut [Share<P::Real>], &mut SharesIn<P, T>),
 ) {
     let zero = P::Real::ZERO;
-    let pose = Pose { model, places, bodies, turns, levers };
+    let model = pose.model;
     pose.hold(held);
-    shares.fill(Share { own: zero, later: zero });
+    let none = Share { own: zero, later: zero };
+    shares.fill(none);
+    each_of_laws(model, of_laws, |share| *share = none);
     // First the powers of all dampers and of those that come later, over the damper's own.
     for (place, mount) in pose.mounts().enumerate() {
         let Some(ends) = pose.ends(mount) else { continue };
@@ -45,7 +42,11 @@ pub(crate) fn share<P: Geometry, T: Terms>(
                         later = later + power;
                     }
                 });
-                if let Some(share) = shares.get_mut(row) {
+                let share = match mount {
+                    Mount::Law(law) => model.laws.share_mut(of_laws, law, row),
+                    _ => shares.get_mut(row),
+                };
+                if let Some(share) = share {
                     let (own, after) = (share.own + part * all, share.later + part * later);
                     share.own = P::Real::pick(motion.known, own, share.own);
                     share.later = P::Real::pick(motion.known, after, share.later);
@@ -53,7 +54,7 @@ pub(crate) fn share<P: Geometry, T: Terms>(
             });
         }
     }
-    for share in shares {
+    let finish = |share: &mut Share<P::Real>| {
         let Share { own: all, later } = *share;
         // A damper without a direction or a coefficient has no motion of its own.
         let known = zero.less_than(all) & (all * zero).equals(zero);
@@ -61,5 +62,22 @@ pub(crate) fn share<P: Geometry, T: Terms>(
         let (own, later) =
             choose!(P::Real, known, (P::Real::ONE / all, later / all), (alone.own, alone.later));
         *share = Share { own, later };
+    };
+    shares.iter_mut().for_each(finish);
+    each_of_laws(model, of_laws, finish);
+}
+
+/// Visits the shares of the laws' dampers.
+fn each_of_laws<P: Geometry, T: Terms<P>>(
+    model: &ModelRef<'_, P, T>,
+    shares: &mut SharesIn<P, T>,
+    visit: impl Fn(&mut Share<P::Real>),
+) {
+    for row in 0..model.laws.count() {
+        let mut damper = 0;
+        while let Some(share) = model.laws.share_mut(shares, row, damper) {
+            visit(share);
+            damper += 1;
+        }
     }
 }

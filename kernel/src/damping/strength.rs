@@ -19,6 +19,8 @@ pub enum DampersOf {
     Group(usize),
     /// The torsion spring in this row.
     Torsion(usize),
+    /// The law in this row.
+    Law(usize),
 }
 
 /// How strong the dampers of a group or of a torsion spring are.
@@ -71,7 +73,8 @@ fn look<M: ModelOwner>(
         find(&view, places, RealOf::<M>::ZERO, levers.as_mut());
     }
     let levers = if joint_wise { levers.as_ref() } else { &[] };
-    let pose = Pose { model: &view, places, bodies, turns: state.turns.as_ref(), levers };
+    let memories = (state.turns.as_ref(), &state.laws);
+    let pose = Pose { model: &view, places, bodies, memories, levers };
     let one = RealOf::<M>::ONE;
     let crossing = RealOf::<M>::from_f64(0.25 * CROSSING);
     let mut held = model.per_body(Held::default());
@@ -102,6 +105,7 @@ fn look<M: ModelOwner>(
         let of = match mount {
             Mount::Group(row) => DampersOf::Group(row),
             Mount::Torsion(row) => DampersOf::Torsion(row),
+            Mount::Law(row) => DampersOf::Law(row),
         };
         let [rate, crossed] = [strongest, crossed].map(Real::to_f64);
         visit(Strength { of, rate, crossed });

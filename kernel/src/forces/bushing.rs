@@ -12,7 +12,7 @@ use crate::pose::End;
 /// A group of point bushings. Two stars, a revolute's, go a straight line as TSDAs do (see
 /// [`crate::forces::stars`]).
 #[inline(always)]
-pub(super) fn bushings<P: Geometry, T: Terms, D: Dampers>(
+pub(super) fn bushings<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     end_a: &End<'_, P>,
@@ -33,7 +33,7 @@ pub(super) fn bushings<P: Geometry, T: Terms, D: Dampers>(
 
 /// Two stars.
 #[inline(always)]
-fn two<P: Geometry, T: Terms, D: Dampers>(
+fn two<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     end_a: &End<'_, P>,
@@ -45,7 +45,7 @@ fn two<P: Geometry, T: Terms, D: Dampers>(
 
 /// One star.
 #[inline(always)]
-fn star<P: Geometry, T: Terms, D: Dampers>(
+fn star<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     star: usize,

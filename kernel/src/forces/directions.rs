@@ -22,7 +22,7 @@ pub(crate) struct Springs<S: Space> {
 
 /// The springs of an element, `None` where the model has no such law.
 #[inline(always)]
-pub(crate) fn springs<P: Geometry, T: Terms>(
+pub(crate) fn springs<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     law: &Element<'_, P::Space>,
     stretch: &Stretch<P::Vector>,

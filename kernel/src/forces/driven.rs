@@ -11,7 +11,7 @@ use crate::pose::{End, Places, placed};
 use crate::space::{Linear as _, Vector as _};
 
 /// Adds the force `c·(u·ṡ)·u` of each damper to moved ground, ṡ the ground's rate; torques in world axes.
-pub(super) fn push<P: Geometry, T: Terms>(
+pub(super) fn push<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     wrenches: &mut [Wrench<P::Space>],

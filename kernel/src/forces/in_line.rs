@@ -16,7 +16,7 @@ use crate::space::Space as _;
 
 /// The kind of all groups of a model with these kinds of element, as far as they tell: its law, stars
 /// and arms.
-const fn kind<T: Terms>(planar: bool) -> Option<(Law, usize, usize)> {
+const fn kind<P: Geometry, T: Terms<P>>(planar: bool) -> Option<(Law, usize, usize)> {
     let others = T::LINES || T::UNIVERSALS || T::CLEARANCES || T::INPUTS;
     match (T::TSDAS, T::BUSHINGS, T::REVOLUTES) {
         _ if others => None,
@@ -29,13 +29,13 @@ const fn kind<T: Terms>(planar: bool) -> Option<(Law, usize, usize)> {
 }
 
 /// Whether a model of these kinds of element may be in line.
-pub(super) const fn may_be<P: Geometry, T: Terms>() -> bool {
-    kind::<T>(P::Space::PLANAR).is_some()
+pub(super) const fn may_be<P: Geometry, T: Terms<P>>() -> bool {
+    kind::<P, T>(P::Space::PLANAR).is_some()
 }
 
 /// Whether the groups of a model are in line, each to a body.
-pub(crate) fn are_in_line<P: Geometry, T: Terms>(model: &ModelRef<'_, P, T>) -> bool {
-    let Some((law, stars, arms)) = kind::<T>(P::Space::PLANAR) else { return false };
+pub(crate) fn are_in_line<P: Geometry, T: Terms<P>>(model: &ModelRef<'_, P, T>) -> bool {
+    let Some((law, stars, arms)) = kind::<P, T>(P::Space::PLANAR) else { return false };
     let is_next = |(i, group): (usize, &Group)| {
         let (point, element) = (i * (stars + arms), i * stars * arms);
         group.law == law
@@ -49,14 +49,14 @@ pub(crate) fn are_in_line<P: Geometry, T: Terms>(model: &ModelRef<'_, P, T>) -> 
 
 /// Adds the records of the groups of a model that [`are_in_line`].
 #[inline(always)]
-pub(super) fn add<P: Geometry, T: Terms, D: Dampers>(
+pub(super) fn add<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     (bodies, rests): (&[BodyState<P>], &[P::Rest]),
     wrenches: &mut [Wrench<P::Space>],
 ) {
     let at = (places, bodies);
-    match kind::<T>(P::Space::PLANAR) {
+    match kind::<P, T>(P::Space::PLANAR) {
         Some((Law::Tsda, 1, _)) => add_stars::<P, T, D, 1, 2, 3, 2>(model, rests, at, wrenches),
         Some((Law::Tsda, _, _)) => add_stars::<P, T, D, 2, 3, 5, 6>(model, rests, at, wrenches),
         Some((Law::PointBushing, _, _)) => {
@@ -76,7 +76,7 @@ type Where<'s, P> = (Places<'s, P>, &'s [BodyState<P>]);
 #[inline(always)]
 fn add_stars<
     P: Geometry,
-    T: Terms,
+    T: Terms<P>,
     D: Dampers,
     const STARS: usize,
     const ARMS: usize,
@@ -123,7 +123,7 @@ fn add_stars<
 
 /// A point of either body and one element.
 #[inline(always)]
-fn add_pairs<P: Geometry, T: Terms, D: Dampers, L: TwoPoints<P>>(
+fn add_pairs<P: Geometry, T: Terms<P>, D: Dampers, L: TwoPoints<P>>(
     model: &ModelRef<'_, P, T>,
     elements: &[L],
     at: Where<'_, P>,
@@ -155,10 +155,11 @@ mod tests {
     use crate::elements::point_bushing::PointBushing;
     use crate::elements::revolute::Revolute;
     use crate::elements::tsda::Tsda;
-    use crate::forces::record::{At, ExplicitDampers, Turns};
+    use crate::forces::record::{At, ExplicitDampers, Memories};
     use crate::forces::{Evaluation, Instant, evaluate};
     use crate::geometry::F64;
     use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
+    use crate::laws::Laws as _;
     use crate::model::{Model, ModelOwner, SpaceOf};
     use crate::planar::Planar64;
     use crate::space::Linear as _;
@@ -179,8 +180,10 @@ mod tests {
                 placed: false,
             };
             let out = Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() };
-            let turns = Turns { counts: &mut [], at: At::Stage };
-            evaluate::<_, _, ExplicitDampers>(&view, instant, turns, out).unwrap();
+            let mut laws = view.laws.states();
+            let memories =
+                Memories { turns: &mut [], laws: &mut laws, at: At::Stage, advance: None };
+            evaluate::<_, _, ExplicitDampers>(&view, instant, memories, out).unwrap();
             wrenches
         })
     }
@@ -226,6 +229,7 @@ mod tests {
                 revolutes: $revolutes,
                 universals: [],
                 sources: [],
+                laws: (),
             };
             assert!(are_in_line(&model.view()));
             let [short, long] = both_ways(&model);

@@ -15,7 +15,7 @@ use crate::space::{Linear as _, Vector as _};
 
 /// The forces and torques of inputs.
 #[inline(always)]
-pub(crate) fn push<P: Geometry, T: Terms>(
+pub(crate) fn push<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     wrenches: &mut [Wrench<P::Space>],
@@ -63,7 +63,7 @@ pub(crate) fn push<P: Geometry, T: Terms>(
 
 /// What an actuator of the tension `value` \[N\] does to the two bodies of its TSDA.
 #[inline(always)]
-fn actuator<P: Geometry, T: Terms>(
+fn actuator<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     kind: InputKind<P>,
@@ -80,7 +80,7 @@ fn actuator<P: Geometry, T: Terms>(
 
 /// A group's `force` \[N\] on its first body with that of its actuators, world axes.
 #[inline(always)]
-pub(crate) fn with_actuators<P: Geometry, T: Terms>(
+pub(crate) fn with_actuators<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     row: usize,

@@ -12,7 +12,7 @@ use crate::space::{Linear as _, Vector as _};
 /// A group of points on lines. Twice the same, as with a revolute's stars: where the lines are the ground's
 /// and the points a body's, as along a rail, none of them asks; not in models of every kind, of which few have any.
 #[inline(always)]
-pub(super) fn lines<P: Geometry, T: Terms, D: Dampers>(
+pub(super) fn lines<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     end_a: &End<'_, P>,
@@ -27,7 +27,7 @@ pub(super) fn lines<P: Geometry, T: Terms, D: Dampers>(
 /// Star by star. The force on A acts at the foot: its torque is that of the star's whole pull at the
 /// line's point and of each pull along its slide.
 #[inline(always)]
-fn walk<P: Geometry, T: Terms, D: Dampers>(
+fn walk<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     end_a: &End<'_, P>,

@@ -3,7 +3,7 @@
 //! `(model, pose, velocities, turn counts, step) => wrenches`. The order of sums, which is part
 //! of the bits: a body starts from its weight, or from nothing where a precision lets bodies fall otherwise
 //! ([`Geometry::FALLS`]), then adds its loads in ascending order, then the
-//! inputs and the records of its groups likewise, then its torsion springs'.
+//! inputs and the records of its groups likewise, then its torsion springs', then those of its laws, table by table.
 //! Within a TSDA group each distinct point is placed once; the pulls on a point are added in
 //! the order of its elements; the record's force and torque on A add star by star, the torque
 //! on B arm by arm. Where a precision keeps stars at rest, the pulls of two stars add in the axes of B, and a
@@ -29,14 +29,16 @@ pub(crate) use directions::springs;
 pub(crate) use in_line::are_in_line;
 pub(crate) use inputs::with_actuators;
 pub use record::{At, Dampers, DampersLeft, DampersOfJoints, ExplicitDampers, Record, Wrench};
-pub(crate) use record::{Turns, apply};
+pub(crate) use record::{Memories, apply};
 pub(crate) use stars::find_rests;
 
 use crate::elements::gravity;
 use crate::elements::load::LoadFrame;
 use crate::forces::two_points::two_points;
 use crate::geometry::Geometry;
-use crate::model::{FrameOf, Group, Law, ModelOwner, ModelRef, SpaceOf, Terms};
+use crate::index::LawIndex;
+use crate::laws::{self, Laws};
+use crate::model::{FrameOf, Group, Law, LawsIn, ModelOwner, ModelRef, SpaceOf, Terms};
 use crate::pose::{End, Places, place_bodies};
 use crate::schedule::{LoadWindow, Signal};
 use crate::space::Linear as _;
@@ -73,7 +75,8 @@ pub(crate) struct Evaluation<'s, P: Geometry> {
 /// \[s\] (loads act in whole steps).
 ///
 /// # Errors
-/// [`Cause::UndefinedTwist`] names the first torsion spring whose twist is undefined.
+/// [`Cause::UndefinedTwist`] names the first torsion spring whose twist is undefined, [`Cause::Undefined`] the first
+/// law that is.
 pub fn wrenches<M: ModelOwner>(
     model: &M,
     state: &State<M>,
@@ -86,7 +89,7 @@ pub fn wrenches<M: ModelOwner>(
     }
     let mut frames = model.per_body(FrameOf::<M>::default());
     let mut wrenches = model.per_body(Wrench::default());
-    let mut turns = state.turns.clone();
+    let (mut turns, mut laws) = (state.turns.clone(), state.laws.clone());
     evaluate_out_of_line::<M::Precision, M::Terms, ExplicitDampers>(
         &view,
         Instant {
@@ -98,7 +101,7 @@ pub fn wrenches<M: ModelOwner>(
             rests: &[],
             placed: false,
         },
-        Turns { counts: turns.as_mut(), at: At::Stage },
+        Memories { turns: turns.as_mut(), laws: &mut laws, at: At::Stage, advance: None },
         Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() },
     )?;
     if M::Precision::FALLS
@@ -111,21 +114,23 @@ pub fn wrenches<M: ModelOwner>(
     Ok(wrenches)
 }
 
-/// One force evaluation: `(model, instant, turn counts) => frames, wrenches, settled turn counts`. No weights
+/// One force evaluation: `(model, instant, memories) => frames, wrenches, settled memories`. No weights
 /// where [`Geometry::FALLS`].
 ///
 /// # Errors
-/// [`Cause::UndefinedTwist`] names the first torsion spring whose twist is undefined.
+/// [`Cause::UndefinedTwist`] names the first torsion spring whose twist is undefined, [`Cause::Undefined`] the first
+/// law that is.
 // One caller per scheme, which is handed the stepper alone: arguments in structs cost no stack.
 #[inline(always)]
-pub(crate) fn evaluate<P: Geometry, T: Terms, D: Dampers>(
+pub(crate) fn evaluate<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     instant: Instant<'_, P>,
-    turns: Turns<'_>,
+    memories: Memories<'_, P, T>,
     out: Evaluation<'_, P>,
 ) -> Result<(), Cause> {
     let Instant { step, windows, signals, bodies, rests, in_line, placed } = instant;
     let Evaluation { frames, wrenches } = out;
+    let Memories { turns, laws: known, at, advance } = memories;
     if !placed {
         place_bodies(bodies, frames);
     }
@@ -142,7 +147,13 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, D: Dampers>(
         }
     }
     if T::TORSIONS {
-        torsions::torsions::<P, T, D>(model, places, bodies, turns, wrenches)?;
+        torsions::torsions::<P, T, D>(model, places, bodies, (turns, at), wrenches)?;
+    }
+    if !<LawsIn<P, T> as Laws<P>>::EMPTY {
+        let here = laws::Instant { frames: &*frames, bodies, signals };
+        let act = laws::Act { settle: at == At::Boundary, advance, damped: D::ACT };
+        let done = model.laws.act(here, known, act, wrenches);
+        done.map_err(|row| Cause::Undefined { law: LawIndex(row as u16) })?;
     }
     for (wrench, frame) in wrenches.iter_mut().zip(frames.iter()) {
         wrench.torque = P::moment_to_body(frame, wrench.torque);
@@ -156,18 +167,18 @@ pub(crate) fn evaluate<P: Geometry, T: Terms, D: Dampers>(
 /// # Errors
 /// As [`evaluate`].
 #[inline(never)]
-pub(crate) fn evaluate_out_of_line<P: Geometry, T: Terms, D: Dampers>(
+pub(crate) fn evaluate_out_of_line<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     instant: Instant<'_, P>,
-    turns: Turns<'_>,
+    memories: Memories<'_, P, T>,
     out: Evaluation<'_, P>,
 ) -> Result<(), Cause> {
-    evaluate::<P, T, D>(model, instant, turns, out)
+    evaluate::<P, T, D>(model, instant, memories, out)
 }
 
 /// The record of one group, `None` where the model lacks what it names.
 #[inline(always)]
-pub(crate) fn record<P: Geometry, T: Terms, D: Dampers>(
+pub(crate) fn record<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     (bodies, rests): (&[BodyState<P>], &[P::Rest]),
@@ -195,7 +206,7 @@ pub(crate) fn record<P: Geometry, T: Terms, D: Dampers>(
 
 /// What loads and inputs push from outside, the rates of moved ground included; torques in body axes.
 #[inline(always)]
-pub(crate) fn pushed<P: Geometry, T: Terms>(
+pub(crate) fn pushed<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     windows: &[LoadWindow],
     step: u64,
@@ -212,7 +223,7 @@ pub(crate) fn pushed<P: Geometry, T: Terms>(
 }
 
 /// What loads and inputs push by themselves; torques in body axes.
-pub(crate) fn push_loads_and_inputs<P: Geometry, T: Terms>(
+pub(crate) fn push_loads_and_inputs<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     windows: &[LoadWindow],
     step: u64,
@@ -227,7 +238,7 @@ pub(crate) fn push_loads_and_inputs<P: Geometry, T: Terms>(
 
 /// Weight in a field of gravity, loads and inputs.
 #[inline(always)]
-fn start<P: Geometry, T: Terms>(
+fn start<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     field: Option<P::Vector>,
     (windows, step): (&[LoadWindow], u64),

@@ -3,6 +3,8 @@
 //!
 //! `record => wrenches of its two bodies`.
 
+use crate::geometry::Geometry;
+use crate::model::{StatesIn, Terms};
 use crate::space::{Linear as _, Space};
 
 /// The force on a body and its torque.
@@ -41,7 +43,7 @@ impl<S: Space> Record<S> {
 
     /// This and another.
     #[inline(always)]
-    pub(super) fn with(&self, other: &Self) -> Self {
+    pub(crate) fn with(&self, other: &Self) -> Self {
         Self {
             force: self.force + other.force,
             torque_a: self.torque_a + other.torque_a,
@@ -98,12 +100,16 @@ pub enum At {
     Stage,
 }
 
-/// The torsion springs' turn counts in an evaluation.
-pub(crate) struct Turns<'s> {
-    /// One per torsion spring.
-    pub(crate) counts: &'s mut [i32],
+/// What elements remember, in an evaluation.
+pub(crate) struct Memories<'s, P: Geometry, T: Terms<P>> {
+    /// The turn counts, one per torsion spring.
+    pub(crate) turns: &'s mut [i32],
+    /// Those of the laws.
+    pub(crate) laws: &'s mut StatesIn<P, T>,
     /// Whether to settle them.
     pub(crate) at: At,
+    /// \[s\] the step to bring the laws' on by before that.
+    pub(crate) advance: Option<P::Real>,
 }
 
 /// Adds a record to its two bodies; the world takes none.

@@ -19,7 +19,7 @@ use crate::space::{Linear, Space, Vector as _};
 
 /// A group of TSDA stars.
 #[inline(always)]
-pub(super) fn stars<P: Geometry, T: Terms, D: Dampers>(
+pub(super) fn stars<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     rests: &[P::Rest],
     group: &Group,
@@ -48,7 +48,7 @@ pub(super) fn stars<P: Geometry, T: Terms, D: Dampers>(
 /// balls: so [`apart`] is for models alone that have points on lines, too, whose joints are of several kinds; not for
 /// those of every kind, whose size is known at run time: on a PC it costs these 2 % in single precision.
 #[inline(always)]
-fn rare<P: Geometry, T: Terms, D: Dampers>(
+fn rare<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     end_a: &End<'_, P>,
@@ -63,7 +63,7 @@ fn rare<P: Geometry, T: Terms, D: Dampers>(
 }
 
 /// The TSDAs of a model at rest, by its bodies' frames at the start.
-pub(crate) fn find_rests<P: Geometry, T: Terms>(
+pub(crate) fn find_rests<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     frames: &[P::Frame],
     rests: &mut [P::Rest],
@@ -95,7 +95,7 @@ pub(crate) fn find_rests<P: Geometry, T: Terms>(
 /// A revolute's stars. Twice the same: where an end is known to be a body or the ground, none of its
 /// points asks. The ground is nearly always the first.
 #[inline(always)]
-fn straight<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usize>(
+fn straight<P: Geometry, T: Terms<P>, D: Dampers, const STARS: usize, const ARMS: usize>(
     model: &ModelRef<'_, P, T>,
     rests: &[P::Rest],
     group: &Group,
@@ -118,7 +118,7 @@ fn straight<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: u
 
 /// `STARS` stars that share `ARMS` points of B. `None` where the model lacks them.
 #[inline(always)]
-fn block<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usize>(
+fn block<P: Geometry, T: Terms<P>, D: Dampers, const STARS: usize, const ARMS: usize>(
     model: &ModelRef<'_, P, T>,
     rests: &[P::Rest],
     group: &Group,
@@ -141,7 +141,7 @@ type Parts<'m, P, const STARS: usize, const ARMS: usize> = (
 /// What `STARS` stars that share `ARMS` points of B pull: written out, each sum from its first term.
 /// `None` where the model lacks some of it.
 #[inline(always)]
-pub(super) fn pull<P: Geometry, T: Terms, D: Dampers, const STARS: usize, const ARMS: usize>(
+pub(super) fn pull<P: Geometry, T: Terms<P>, D: Dampers, const STARS: usize, const ARMS: usize>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     (points, springs, rests): Parts<'_, P, STARS, ARMS>,
@@ -177,7 +177,7 @@ pub(super) fn grid<V, const N: usize, const M: usize>(
 /// Any number of stars with `ARMS` points of their own each, as a fixed joint has: as [`many`], but what is
 /// known of them is not asked at each point.
 #[inline(always)]
-fn apart<P: Geometry, T: Terms, D: Dampers, const ARMS: usize>(
+fn apart<P: Geometry, T: Terms<P>, D: Dampers, const ARMS: usize>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     end_a: &End<'_, P>,
@@ -201,7 +201,7 @@ fn apart<P: Geometry, T: Terms, D: Dampers, const ARMS: usize>(
 
 /// Any number of stars, which share their points of B or have their own.
 #[inline(always)]
-fn many<P: Geometry, T: Terms, D: Dampers>(
+fn many<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     end_a: &End<'_, P>,
@@ -321,6 +321,7 @@ mod tests {
             revolutes: [],
             universals: [],
             sources: [],
+            laws: (),
         };
         let frames = states.map(|state| F64::frame(&state.position, &state.orientation));
         let view = model.view();
@@ -382,6 +383,7 @@ mod tests {
             revolutes: [],
             universals: [],
             sources: [],
+            laws: (),
         };
         let view = model.view();
         let frame = F64::frame(&Vec3::ZERO, &Default::default());

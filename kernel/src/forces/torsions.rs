@@ -4,7 +4,7 @@
 
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
-use crate::forces::record::{At, Dampers, Record, Turns, Wrench, apply};
+use crate::forces::record::{At, Dampers, Record, Wrench, apply};
 use crate::geometry::Geometry;
 use crate::index::TorsionIndex;
 use crate::model::{ModelRef, Terms};
@@ -15,15 +15,15 @@ use crate::status::Cause;
 
 /// The torsion springs.
 #[inline(always)]
-pub(super) fn torsions<P: Geometry, T: Terms, D: Dampers>(
+pub(super) fn torsions<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     bodies: &[BodyState<P>],
-    turns: Turns<'_>,
+    (turns, at): (&mut [i32], At),
     wrenches: &mut [Wrench<P::Space>],
 ) -> Result<(), Cause> {
-    let settle = turns.at == At::Boundary;
-    let counts = P::Real::counts_mut(turns.counts);
+    let settle = at == At::Boundary;
+    let counts = P::Real::counts_mut(turns);
     for (i, (spring, turns)) in model.torsions.iter().zip(counts).enumerate() {
         let (a, b) = (bodies.get(spring.a.row()), bodies.get(spring.b.row()));
         let relative =

@@ -23,7 +23,7 @@ pub(super) trait TwoPoints<P: Geometry> {
 /// The record of a group of one of the model's `elements`. Two bodies, or the ground and a body, go a
 /// straight line: none asks whose a point is.
 #[inline(always)]
-pub(super) fn two_points<P: Geometry, T: Terms, D: Dampers, L: TwoPoints<P>>(
+pub(super) fn two_points<P: Geometry, T: Terms<P>, D: Dampers, L: TwoPoints<P>>(
     model: &ModelRef<'_, P, T>,
     elements: &[L],
     group: &Group,

@@ -8,7 +8,8 @@ use crate::elements::input::InputKind;
 use crate::elements::point_law::{Turning, taut};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, Terms};
+use crate::laws::{Instant, Laws as _};
+use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, StatesIn, Terms};
 use crate::pose::{Places, held_turns, place_bodies, placed, twist_of};
 use crate::real::Real;
 use crate::space::{Linear as _, Space, Vector as _};
@@ -32,8 +33,8 @@ pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
     let mut frames = model.per_body(FrameOf::<M>::default());
     place_bodies::<M::Precision>(bodies, frames.as_mut());
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
-    let turns = state.turns.as_ref();
-    let pose = Pose { view: &view, places, bodies, turns };
+    let memories = (state.turns.as_ref(), &state.laws);
+    let pose = Pose { view: &view, places, bodies, memories };
     let mut blocks = model.per_body(BodyBlock::default());
     pose.each_mount(|mount, [a, b]| {
         for here in [Some(a), (a != b).then_some(b)].into_iter().flatten() {
@@ -53,14 +54,14 @@ pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
 }
 
 /// The square of the bound of what is mounted to one body, 0 where there is none.
-pub(crate) fn square_of<P: Geometry, T: Terms>(
+pub(crate) fn square_of<P: Geometry, T: Terms<P>>(
     view: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     bodies: &[BodyState<P>],
-    turns: &[i32],
+    memories: (&[i32], &StatesIn<P, T>),
     row: usize,
 ) -> P::Real {
-    let pose = Pose { view, places, bodies, turns };
+    let pose = Pose { view, places, bodies, memories };
     let here = BodyIndex(row as u16);
     let mut block = BodyBlock::default();
     pose.each_mount(|mount, [a, b]| {
@@ -91,17 +92,19 @@ enum Mount {
     Group(usize),
     Actuator(usize),
     Torsion(usize),
+    Law(usize),
 }
 
 /// A model at a pose.
-struct Pose<'s, 'm, P: Geometry, T> {
+struct Pose<'s, 'm, P: Geometry, T: Terms<P>> {
     view: &'s ModelRef<'m, P, T>,
     places: Places<'s, P>,
     bodies: &'s [BodyState<P>],
-    turns: &'s [i32],
+    /// Turn counts of torsion springs, memories of laws.
+    memories: (&'s [i32], &'s StatesIn<P, T>),
 }
 
-impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
+impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
     /// Visits all that has a stiffness with its two ends, in the order of each body's sums.
     #[inline(always)]
     fn each_mount(&self, mut visit: impl FnMut(Mount, [BodyIndex; 2])) {
@@ -117,6 +120,9 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
         for (row, spring) in self.view.torsions.iter().enumerate() {
             visit(Mount::Torsion(row), [spring.a, spring.b]);
         }
+        self.view.laws.look_at_all(self.memories.1, &mut |row, law| {
+            visit(Mount::Law(row), law.bodies());
+        });
     }
 
     /// Adds what a mount does to the body `here`, one of its ends.
@@ -183,7 +189,7 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
             }
             Mount::Torsion(spring) => {
                 let Some((spring, &turns)) =
-                    view.torsions.iter().zip(P::Real::counts(self.turns)).nth(spring)
+                    view.torsions.iter().zip(P::Real::counts(self.memories.0)).nth(spring)
                 else {
                     return;
                 };
@@ -195,6 +201,20 @@ impl<P: Geometry, T: Terms> Pose<'_, '_, P, T> {
                 };
                 add(block, spring.stiffness, other, P::Vector::ZERO, gradient);
                 *turning = *turning + spring.turning(twist.angle, gradient);
+            }
+            Mount::Law(row) => {
+                let at = Instant { frames: places.frames, bodies: self.bodies, signals: places.signals };
+                view.laws.look(row, self.memories.1, &mut |law| {
+                    let ends = law.bodies();
+                    let Some(seen) = at.seen(ends) else { return };
+                    let end = usize::from(ends[0] != here);
+                    let share = if ends[1 - end].is_world() { P::Real::ONE } else { P::Real::TWO };
+                    let turned = law.tangent(&seen, &mut |stiffness, direction| {
+                        let moment = direction.moments[end];
+                        add_row(block, share * stiffness, scaled(body, direction.along, moment));
+                    });
+                    *turning = *turning + turned[end];
+                });
             }
         }
     }
@@ -321,7 +341,7 @@ mod tests {
         let mut frames = MODEL.per_body(<F64 as Geometry>::Frame::default());
         place_bodies::<F64>(state.bodies.as_ref(), frames.as_mut());
         let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
-        let of = |row| square_of(&MODEL.view(), places, &state.bodies, &state.turns, row);
+        let of = |row| square_of(&MODEL.view(), places, &state.bodies, (&state.turns[..], &state.laws), row);
         let [a, b, c] = [of(0), of(1), of(2)];
         assert!(a > 0.0 && b > 0.0 && c > 0.0 && a != b && b != c, "{a} {b} {c}");
         assert_eq!(bound(&MODEL, &state), a.max(b).max(c).sqrt());

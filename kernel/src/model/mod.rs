@@ -20,8 +20,6 @@ pub use plan::Plan;
 pub use planned::Planned;
 pub use terms::{AllTerms, CountedTerms, Terms};
 
-use core::marker::PhantomData;
-
 use crate::body::Body;
 use crate::body::BodyState;
 use crate::elements::element::Element;
@@ -38,6 +36,7 @@ use crate::elements::tsda::Tsda;
 use crate::elements::universal::Universal;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
+use crate::laws::Laws;
 use crate::schedule::{KnotStep, LoadWindow, Signal};
 use crate::sources::SourceStep;
 
@@ -99,8 +98,7 @@ impl Group {
 }
 
 /// A model lent as slices.
-#[derive(Clone, Copy, Debug)]
-pub struct ModelRef<'m, P: Geometry, T> {
+pub struct ModelRef<'m, P: Geometry, T: Terms<P>> {
     /// Bodies in scene order.
     pub bodies: &'m [Body<P::Space>],
     /// \[m/s²\] the field of gravity, or nothing.
@@ -133,11 +131,26 @@ pub struct ModelRef<'m, P: Geometry, T> {
     pub universals: &'m [Universal<P::Space>],
     /// Sources that inputs follow.
     pub sources: &'m [Source<P>],
-    /// The kinds of element that occur.
-    pub terms: PhantomData<T>,
+    /// The list of laws, summed after all torsion springs.
+    pub laws: &'m LawsIn<P, T>,
 }
 
-impl<'m, P: Geometry, T: Terms> ModelRef<'m, P, T> {
+impl<P: Geometry, T: Terms<P>> Clone for ModelRef<'_, P, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<P: Geometry, T: Terms<P>> Copy for ModelRef<'_, P, T> {}
+
+/// The list of laws of a model's terms.
+pub type LawsIn<P, T> = <T as Terms<P>>::Laws;
+/// The memories of its laws.
+pub type StatesIn<P, T> = <LawsIn<P, T> as Laws<P>>::States;
+/// The shares of its laws' dampers.
+pub type SharesIn<P, T> = <LawsIn<P, T> as Laws<P>>::Shares;
+
+impl<'m, P: Geometry, T: Terms<P>> ModelRef<'m, P, T> {
     /// Element `row` of a law, `None` where the model has no such one.
     #[inline(always)]
     pub(crate) fn element(&self, law: Law, row: usize) -> Option<Element<'m, P::Space>> {
@@ -184,7 +197,7 @@ pub trait ModelOwner {
     /// The precision its constants are stored in.
     type Precision: Geometry;
     /// The kinds of element that may occur.
-    type Terms: Terms;
+    type Terms: Terms<Self::Precision>;
     /// Memory of one `T` per body.
     type PerBody<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one `T` per body of a model with dampers; a model without any may have none.
@@ -199,7 +212,7 @@ pub trait ModelOwner {
     type PerDamper<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one `T` per pair of bodies of the plan, see [`Self::plan`].
     type PerPair<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
-    /// Memory of one `T` per group and torsion spring of the plan.
+    /// Memory of one `T` per group, torsion spring and law of the plan.
     type PerHome<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one `T` per TSDA.
     type PerTsda<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
@@ -226,7 +239,7 @@ pub trait ModelOwner {
     fn per_damper<T: Copy>(&self, value: T) -> Self::PerDamper<T>;
     /// One `value` per pair of bodies of the plan.
     fn per_pair<T: Copy>(&self, value: T) -> Self::PerPair<T>;
-    /// One `value` per group and torsion spring of the plan.
+    /// One `value` per group, torsion spring and law of the plan.
     fn per_home<T: Copy>(&self, value: T) -> Self::PerHome<T>;
     /// In which order a scheme with a matrix eliminates the bodies; none where the model was built
     /// without one, see [`Planned`].
@@ -245,5 +258,9 @@ pub trait ModelOwner {
 pub type RealOf<M> = <<M as ModelOwner>::Precision as Geometry>::Real;
 /// The space of a model's precision.
 pub type SpaceOf<M> = <<M as ModelOwner>::Precision as Geometry>::Space;
+/// The memories of a model's laws.
+pub type LawStates<M> = StatesIn<<M as ModelOwner>::Precision, <M as ModelOwner>::Terms>;
+/// The shares of the dampers of a model's laws.
+pub type LawShares<M> = SharesIn<<M as ModelOwner>::Precision, <M as ModelOwner>::Terms>;
 /// The frame of a model's precision.
 pub type FrameOf<M> = <<M as ModelOwner>::Precision as Geometry>::Frame;

@@ -1,7 +1,5 @@
 //! A model whose sizes are const generics: arrays in flash, checked by the compiler.
 
-use core::marker::PhantomData;
-
 use crate::body::{Body, BodyState};
 use crate::elements::input::{Input, InputKind, Knot};
 use crate::elements::load::Load;
@@ -14,6 +12,7 @@ use crate::elements::tsda::Tsda;
 use crate::elements::universal::Universal;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, DamperIndex};
+use crate::laws::Laws;
 use crate::model::{CountedTerms, Group, Law, ModelOwner, ModelRef};
 use crate::pass_sum::PassSum;
 use crate::real::Real;
@@ -44,6 +43,7 @@ pub struct Model<
     const UNIVERSALS: usize = 0,
     const SUMS: usize = DAMPERS,
     const SOURCES: usize = 0,
+    L = (),
 > {
     /// Bodies in scene order.
     pub bodies: [Body<P::Space>; BODIES],
@@ -79,6 +79,8 @@ pub struct Model<
     pub universals: [Universal<P::Space>; UNIVERSALS],
     /// Sources that inputs follow.
     pub sources: [Source<P>; SOURCES],
+    /// The list of laws: a tuple of tables, each the rows of one law, see [`crate::laws`].
+    pub laws: L,
 }
 
 impl<
@@ -100,6 +102,7 @@ impl<
     const UNIVERSALS: usize,
     const SUMS: usize,
     const SOURCES: usize,
+    L: Laws<P>,
 >
     Model<
         P,
@@ -120,6 +123,7 @@ impl<
         UNIVERSALS,
         SUMS,
         SOURCES,
+        L,
     >
 {
     /// Checks every index of the model; in a `const` the compiler does so.
@@ -131,7 +135,7 @@ impl<
     pub const fn checked(self) -> Self {
         assert!(BODIES > 0, "a model has at least one body");
         assert!(BODIES <= BodyIndex::FIRST_ANCHOR as usize, "a model has at most 65280 bodies");
-        let sums = DAMPERS > 0 && <P::PassSum as PassSum<P::Space>>::APART;
+        let sums = (DAMPERS > 0 || L::DAMPED) && <P::PassSum as PassSum<P::Space>>::APART;
         assert!(!sums || SUMS >= BODIES, "a damped model has one sum per body: SUMS = BODIES");
         assert!(GRAVITY <= 1, "a model has at most one field of gravity");
         let mut i = 0;
@@ -256,6 +260,7 @@ impl<
     const UNIVERSALS: usize,
     const SUMS: usize,
     const SOURCES: usize,
+    L: Laws<P>,
 > ModelOwner
     for Model<
         P,
@@ -276,6 +281,7 @@ impl<
         UNIVERSALS,
         SUMS,
         SOURCES,
+        L,
     >
 {
     type Precision = P;
@@ -292,6 +298,7 @@ impl<
         REVOLUTES,
         UNIVERSALS,
         SOURCES,
+        L,
     >;
     type PerBody<T: Copy> = [T; BODIES];
     type PerDampedBody<T: Copy> = [T; SUMS];
@@ -324,7 +331,7 @@ impl<
             revolutes: &self.revolutes,
             universals: &self.universals,
             sources: &self.sources,
-            terms: PhantomData,
+            laws: &self.laws,
         }
     }
 
@@ -439,6 +446,7 @@ mod tests {
             revolutes,
             universals,
             sources: [],
+            laws: (),
         };
         let _ = short.checked();
     }

@@ -1,7 +1,18 @@
 //! Which kinds of element a model has, told to the compiler: what it lacks leaves no code.
 
+use core::marker::PhantomData;
+
+use crate::geometry::Geometry;
+use crate::laws::Laws;
+
+/// Carries a type without owning one.
+type Named<L> = PhantomData<fn() -> L>;
+
 /// Which kinds of element a model has. What is `false` leaves no code in a step.
-pub trait Terms: Copy + Default + 'static {
+pub trait Terms<P: Geometry>: 'static {
+    /// The list of laws.
+    type Laws: Laws<P>;
+
     /// Uniform gravity.
     const GRAVITY: bool;
     /// Loads.
@@ -41,10 +52,11 @@ pub trait Terms: Copy + Default + 'static {
 }
 
 /// Terms of a model whose sizes are known at run time only: any kind may occur.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct AllTerms;
+#[derive(Debug, PartialEq, Eq)]
+pub struct AllTerms<L = ()>(Named<L>);
 
-impl Terms for AllTerms {
+impl<P: Geometry, L: Laws<P>> Terms<P> for AllTerms<L> {
+    type Laws = L;
     const GRAVITY: bool = true;
     const LOADS: bool = true;
     const TSDAS: bool = true;
@@ -60,7 +72,7 @@ impl Terms for AllTerms {
 }
 
 /// Terms of a model whose counts are const generics: a kind occurs where its count is not 0.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Debug, PartialEq, Eq)]
 pub struct CountedTerms<
     const TSDAS: usize,
     const BUSHINGS: usize,
@@ -74,9 +86,11 @@ pub struct CountedTerms<
     const REVOLUTES: usize,
     const UNIVERSALS: usize,
     const SOURCES: usize,
->;
+    L = (),
+>(Named<L>);
 
 impl<
+    P: Geometry,
     const TSDAS: usize,
     const BUSHINGS: usize,
     const DAMPERS: usize,
@@ -89,7 +103,8 @@ impl<
     const REVOLUTES: usize,
     const UNIVERSALS: usize,
     const SOURCES: usize,
-> Terms
+    L: Laws<P>,
+> Terms<P>
     for CountedTerms<
         TSDAS,
         BUSHINGS,
@@ -103,8 +118,11 @@ impl<
         REVOLUTES,
         UNIVERSALS,
         SOURCES,
+        L,
     >
 {
+    type Laws = L;
+
     const GRAVITY: bool = GRAVITY > 0;
     const LOADS: bool = LOADS > 0;
     const TSDAS: bool = TSDAS > 0;

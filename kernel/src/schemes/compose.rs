@@ -14,7 +14,7 @@ use crate::step::Stepper;
 
 /// Drifts around kicks, first and last a drift; turn counts settle at the first evaluation.
 #[inline(always)]
-pub(super) fn compose<P: Geometry, T: Terms>(
+pub(super) fn compose<P: Geometry, T: Terms<P>>(
     stepper: &mut Stepper<'_, '_, P, T, ()>,
     composition: &Composition,
 ) -> Result<(), Cause> {

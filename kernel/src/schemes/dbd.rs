@@ -95,7 +95,7 @@ impl Scheme for Dbd {
     }
 
     #[inline(always)]
-    fn step<P: Geometry, T: Terms>(
+    fn step<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, DbdMemory<P>>,
     ) -> Result<(), Cause> {
@@ -114,7 +114,7 @@ impl Scheme for Dbd {
 
 /// The Newton iterations of the dbd schemes.
 #[inline(always)]
-pub(super) fn iterate<P: Geometry, T: Terms>(
+pub(super) fn iterate<P: Geometry, T: Terms<P>>(
     stepper: &mut Stepper<'_, '_, P, T, DbdMemory<P>>,
     iterations: u32,
 ) -> Result<(), Cause> {

@@ -47,7 +47,7 @@ impl Scheme for DbdP1 {
     }
 
     #[inline(always)]
-    fn step<P: Geometry, T: Terms>(
+    fn step<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, DbdMemory<P>>,
     ) -> Result<(), Cause> {

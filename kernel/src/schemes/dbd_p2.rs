@@ -44,7 +44,7 @@ impl Scheme for DbdP2 {
     }
 
     #[inline(always)]
-    fn step<P: Geometry, T: Terms>(
+    fn step<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, DbdMemory<P>>,
     ) -> Result<(), Cause> {

@@ -25,7 +25,7 @@ pub trait Kicked: Scheme {
     ///
     /// # Errors
     /// As [`Scheme::step`].
-    fn step_with<P: Geometry, T: Terms, D: Dampers>(
+    fn step_with<P: Geometry, T: Terms<P>, D: Dampers>(
         stepper: &mut Stepper<'_, '_, P, T, Self::Memory<P>>,
     ) -> Result<(), Cause>;
 }
@@ -40,6 +40,7 @@ impl<S: Kicked> Scheme for Explicit<S> {
     const ORDER: u32 = S::ORDER;
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
+    const ADVANCES: bool = S::ADVANCES;
     type Memory<P: Geometry> = S::Memory<P>;
     type Keeps = Nothing;
 
@@ -52,7 +53,7 @@ impl<S: Kicked> Scheme for Explicit<S> {
     }
 
     #[inline(always)]
-    fn step<P: Geometry, T: Terms>(
+    fn step<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, S::Memory<P>>,
     ) -> Result<(), Cause> {

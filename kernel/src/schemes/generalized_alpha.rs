@@ -190,7 +190,7 @@ impl Scheme for GeneralizedAlpha {
     }
 
     #[inline]
-    fn step<P: Geometry, T: Terms>(
+    fn step<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, Self::Memory<P>>,
     ) -> Result<(), Cause> {
@@ -255,7 +255,7 @@ const fn root(x: f64) -> f64 {
 impl GeneralizedAlpha {
     /// A step from the solution on.
     #[inline(always)]
-    fn end<P: Geometry, T: Terms>(
+    fn end<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, GeneralizedAlphaMemory<P>>,
         Pencil { mass, damping: change, stiffness: reach }: Pencil<P::Real>,
@@ -281,7 +281,7 @@ impl GeneralizedAlpha {
     }
 
     /// A first step from the solution on: the rest of the way, at one acceleration.
-    fn end_first<P: Geometry, T: Terms>(
+    fn end_first<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, GeneralizedAlphaMemory<P>>,
     ) {
@@ -313,7 +313,7 @@ impl GeneralizedAlpha {
 
     /// `F + M·s` in place of the wrenches, `F + M·(s − μ·a)` where a predicts the step, torques in world axes.
     #[inline(always)]
-    fn right_sides<P: Geometry, T: Terms>(
+    fn right_sides<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, GeneralizedAlphaMemory<P>>,
         Pencil { mass, damping: change, .. }: Pencil<P::Real>,
@@ -343,7 +343,7 @@ impl GeneralizedAlpha {
     }
 }
 
-impl<P: Geometry, T: Terms> Stepper<'_, '_, P, T, GeneralizedAlphaMemory<P>> {
+impl<P: Geometry, T: Terms<P>> Stepper<'_, '_, P, T, GeneralizedAlphaMemory<P>> {
     /// Visits every body with its solution, torques of which are in world axes.
     #[inline(always)]
     fn correct(

@@ -25,6 +25,7 @@ impl<S: Kicked> Scheme for JointWise<S> {
     const ORDER: u32 = S::ORDER;
     const ORDER_DAMPED: u32 = S::ORDER_DAMPED;
     const DAMPING: Damping = Damping::JointWise;
+    const ADVANCES: bool = S::ADVANCES;
     type Memory<P: Geometry> = S::Memory<P>;
     type Keeps = Levers;
 
@@ -37,7 +38,7 @@ impl<S: Kicked> Scheme for JointWise<S> {
     }
 
     #[inline]
-    fn step<P: Geometry, T: Terms>(
+    fn step<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, S::Memory<P>>,
     ) -> Result<(), Cause> {

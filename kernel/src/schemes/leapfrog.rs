@@ -28,6 +28,7 @@ impl Scheme for Leapfrog {
     const ORDER: u32 = 2;
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Sweeps;
+    const ADVANCES: bool = true;
     type Memory<P: Geometry> = ();
     type Keeps = Nothing;
 
@@ -40,7 +41,7 @@ impl Scheme for Leapfrog {
     }
 
     #[inline(always)]
-    fn step<P: Geometry, T: Terms>(
+    fn step<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {
@@ -52,7 +53,7 @@ impl Kicked for Leapfrog {
     const EXPLICIT_EVALUATIONS: u32 = 2;
 
     #[inline(always)]
-    fn step_with<P: Geometry, T: Terms, D: Dampers>(
+    fn step_with<P: Geometry, T: Terms<P>, D: Dampers>(
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {
         // One evaluation in the code, whichever it is: all of a step is then one function.

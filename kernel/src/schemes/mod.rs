@@ -47,6 +47,10 @@ pub trait Scheme: Copy {
     const DAMPING: Damping;
     /// Whether what it remembers of a body goes on from step to step: it is part of a snapshot then.
     const REMEMBERS: bool = false;
+    /// Whether memories of laws may be settled at its evaluations: not where it steps back in time.
+    const SETTLES: bool = true;
+    /// Whether it brings memories of laws on by its steps: it evaluates once per step, at its end.
+    const ADVANCES: bool = false;
     /// \[rad\] what a body may turn in a step.
     const MOST_TURN: Constant = Constant::new(MOST_TURN);
     /// \[rad\] the largest `ω·h` of what a model's mounts can vibrate with that its matrix bears in double
@@ -84,7 +88,7 @@ pub trait Scheme: Copy {
     ///
     /// # Errors
     /// The torsion spring whose twist is undefined; the state is then that of the stage.
-    fn step<P: Geometry, T: Terms>(
+    fn step<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, Self::Memory<P>>,
     ) -> Result<(), Cause>;

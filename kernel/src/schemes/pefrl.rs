@@ -28,6 +28,7 @@ impl Scheme for Pefrl {
     const ORDER: u32 = 4;
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Sweeps;
+    const SETTLES: bool = false;
     type Memory<P: Geometry> = ();
     type Keeps = Nothing;
 
@@ -40,7 +41,7 @@ impl Scheme for Pefrl {
     }
 
     #[inline(always)]
-    fn step<P: Geometry, T: Terms>(
+    fn step<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {

@@ -56,7 +56,7 @@ impl Scheme for Rk4 {
     }
 
     #[inline(always)]
-    fn step<P: Geometry, T: Terms>(
+    fn step<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, Rk4Memory<P>>,
     ) -> Result<(), Cause> {

@@ -40,7 +40,7 @@ impl Scheme for SemiImplicitEuler {
     }
 
     #[inline(always)]
-    fn step<P: Geometry, T: Terms>(
+    fn step<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {
@@ -52,7 +52,7 @@ impl Kicked for SemiImplicitEuler {
     const EXPLICIT_EVALUATIONS: u32 = 1;
 
     #[inline(always)]
-    fn step_with<P: Geometry, T: Terms, D: Dampers>(
+    fn step_with<P: Geometry, T: Terms<P>, D: Dampers>(
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {
         stepper.evaluate_once::<D>(At::Boundary, false)?;

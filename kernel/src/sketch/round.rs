@@ -193,6 +193,7 @@ macro_rules! models {
                             axis: $vector(&u.axis),
                         }),
                         sources: [],
+                        laws: (),
                     }
                     .checked()
                 }

@@ -5,13 +5,15 @@
 //! its directions, `w = κ·k + χ·c` of stiffness and damping. What its tension adds as it turns is left out.
 
 use crate::body::BodyState;
+use crate::damping::Direction;
 use crate::elements::element::Element;
 use crate::elements::point_law::Stretch;
 use crate::forces::springs;
 use crate::freedoms::Freedoms;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::model::{Group, ModelRef, Plan, Terms};
+use crate::laws::{Instant, Laws as _};
+use crate::model::{Group, ModelRef, Plan, StatesIn, Terms};
 use crate::pose::{End, Places, gradient_of, held_turns, placed};
 use crate::real::Real;
 use crate::solve::pencil::{Pencil, damping_of};
@@ -20,11 +22,11 @@ use crate::solve::system::System;
 use crate::space::{BlockOf, Linear as _, Space, Vector as _};
 
 /// Writes the matrix.
-pub(crate) fn assemble<P: Geometry, T: Terms>(
+pub(crate) fn assemble<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     bodies: &[BodyState<P>],
-    (pencil, seats): (Pencil<P::Real>, &[Seat<P::Space>]),
+    (pencil, seats, memories): (Pencil<P::Real>, &[Seat<P::Space>], &StatesIn<P, T>),
     system: &mut System<'_, P::Space>,
 ) {
     for block in system.pairs.iter_mut() {
@@ -52,12 +54,31 @@ pub(crate) fn assemble<P: Geometry, T: Terms>(
             mount.add(weight, P::Vector::ZERO, [gradient; 2]);
         }
     }
+    let before = model.groups.len() + model.torsions.len();
+    let at = Instant { frames: places.frames, bodies, signals: places.signals };
+    model.laws.look_at_all(memories, &mut |row, law| {
+        let ends = law.bodies();
+        let Some(seen) = at.seen(ends) else { return };
+        let mut mount = Mount::new(system, ends, before + row);
+        // Velocities and turns of the matrix are along the world's axes.
+        let mut add = |weight, direction: &Direction<P::Space>| {
+            let [a, b] = direction.moments;
+            let moments = [seen.a.moment_to_world(a), seen.b.moment_to_world(b)];
+            mount.add(weight, direction.along, moments);
+        };
+        law.tangent(&seen, &mut |stiffness, direction| {
+            add(pencil.weight(stiffness, P::Real::ZERO), direction);
+        });
+        law.each_damper(&seen, &mut |_, damper| {
+            add(pencil.weight(P::Real::ZERO, damper.coefficient), &damper.direction);
+        });
+    });
 }
 
 type Row<P> = <<P as Geometry>::Space as Space>::Row;
 
 /// Element by element.
-fn add_group<P: Geometry, T: Terms>(
+fn add_group<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     (number, group): (usize, &Group),
@@ -158,7 +179,7 @@ impl<'s, S: Space> Mount<'s, S> {
 
     /// A joint by its seat.
     #[inline(always)]
-    fn hold<P: Geometry<Space = S, Real = S::Real, Vector = S::Vector>, T: Terms>(
+    fn hold<P: Geometry<Space = S, Real = S::Real, Vector = S::Vector>, T: Terms<P>>(
         &mut self,
         model: &ModelRef<'_, P, T>,
         places: Places<'_, P>,

@@ -27,7 +27,7 @@ impl<R: Real> Pencil<R> {
 
 /// The weight of element `i` of a group, `None` where the model lacks it.
 #[inline(always)]
-pub(super) fn weight_of<P: Geometry, T: Terms>(
+pub(super) fn weight_of<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     (i, index): (usize, usize),
@@ -39,7 +39,7 @@ pub(super) fn weight_of<P: Geometry, T: Terms>(
 
 /// The damping coefficient of element `i` of a group, 0 without one.
 #[inline(always)]
-pub(super) fn damping_of<P: Geometry, T: Terms>(
+pub(super) fn damping_of<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     i: usize,

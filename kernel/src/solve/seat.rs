@@ -29,7 +29,7 @@ pub struct Seat<S: Space> {
 const ALIKE: f64 = 1e-3;
 
 /// The seats of a model's groups at its initial pose.
-pub(crate) fn find<P: Geometry, T: Terms>(
+pub(crate) fn find<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     pencil: Pencil<P::Real>,
@@ -48,7 +48,7 @@ fn arms<P: Geometry>(element: &Placed<'_, P::Vector>) -> [P::Vector; 2] {
     [element.arm_a, element.arm_b - element.stretch.displacement]
 }
 
-fn seat_of<P: Geometry, T: Terms>(
+fn seat_of<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     (number, group): (usize, &Group),

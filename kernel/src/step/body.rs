@@ -57,7 +57,7 @@ pub(crate) fn drift_to_frame<P: Geometry>(
 
 /// One body by half a kick and a drift, and its frame. Apart: what is long has the registers for itself.
 #[inline(never)]
-pub(super) fn move_apart<P: Geometry, T: Terms>(
+pub(super) fn move_apart<P: Geometry, T: Terms<P>>(
     state: &mut BodyState<P>,
     body: &Body<P::Space>,
     frame: &mut P::Frame,

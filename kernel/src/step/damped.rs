@@ -11,7 +11,7 @@ use crate::pose::{Places, place_bodies};
 use crate::real::Real;
 use crate::step::Workspace;
 
-impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
+impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     /// Brings the frames to the present pose where sweeps need them and no evaluation has.
     #[inline(always)]
     pub fn place_for_sweep(&mut self) {
@@ -49,7 +49,13 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
                 shares: self.shares,
                 kick: HalfKick { wrenches, diagonals, fall },
             };
-            damping::sweep::<P, T, _, REVERSE>(&self.model, &sweep, self.bodies, self.sums);
+            damping::sweep::<P, T, _, REVERSE>(
+                &self.model,
+                &sweep,
+                (&*self.law_states, self.law_shares),
+                self.bodies,
+                self.sums,
+            );
         }
     }
 
@@ -76,6 +82,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
             &self.model,
             &sweep,
             levers,
+            (&*self.law_states, self.law_shares),
             self.bodies,
             self.sums,
         );
@@ -131,7 +138,13 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
                 shares: self.shares,
                 kick: NoKick,
             };
-            damping::sweep::<P, T, _, REVERSE>(&self.model, &sweep, self.bodies, self.sums);
+            damping::sweep::<P, T, _, REVERSE>(
+                &self.model,
+                &sweep,
+                (&*self.law_states, self.law_shares),
+                self.bodies,
+                self.sums,
+            );
         }
     }
 }

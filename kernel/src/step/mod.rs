@@ -16,10 +16,11 @@ use core::ops::{Deref, DerefMut};
 pub use crate::body::Diagonal;
 use crate::body::{BodyState, Increment};
 use crate::damping::{Lever, Share};
-use crate::forces::{self, At, Dampers, Evaluation, Instant, Turns, Wrench};
+use crate::forces::{self, At, Dampers, Evaluation, Instant, Memories, Wrench};
 use crate::geometry::Geometry;
 use crate::lockstep;
-use crate::model::{ModelRef, Plan, Terms};
+use crate::laws::Laws;
+use crate::model::{LawsIn, ModelRef, Plan, SharesIn, StatesIn, Terms};
 use crate::real::Real;
 use crate::rotation;
 use crate::schedule::{self, KnotStep, LoadWindow, Signal, StageTime};
@@ -40,6 +41,8 @@ pub(crate) struct Ledger {
     pub(crate) fresh: bool,
     /// Whether the joints' levers are those of the present pose, with its kick in place of the wrenches.
     pub(crate) ready: bool,
+    /// Whether a drift has gone by since the laws' memories were last brought on.
+    pub(crate) moved: bool,
     /// At how many places a sweep of levers stops.
     pub(crate) stops: u16,
     /// Whether what a scheme remembers is of the present state. Unlike the others part of a snapshot.
@@ -51,14 +54,14 @@ pub(crate) struct Ledger {
 /// A scheme is written with the methods of its [`Workspace`]: [`Workspace::evaluate`],
 /// [`Workspace::kick`], [`Workspace::drift`], the sweeps, and with [`Self::each`] for what is a
 /// scheme's own.
-pub struct Stepper<'s, 'm, P: Geometry, T, S> {
+pub struct Stepper<'s, 'm, P: Geometry, T: Terms<P>, S> {
     /// What does not depend on the scheme.
     pub(crate) workspace: Workspace<'s, 'm, P, T>,
     /// The scheme's memory per body.
     pub(crate) memory: &'s mut [S],
 }
 
-impl<'s, 'm, P: Geometry, T, S> Deref for Stepper<'s, 'm, P, T, S> {
+impl<'s, 'm, P: Geometry, T: Terms<P>, S> Deref for Stepper<'s, 'm, P, T, S> {
     type Target = Workspace<'s, 'm, P, T>;
 
     #[inline(always)]
@@ -67,7 +70,7 @@ impl<'s, 'm, P: Geometry, T, S> Deref for Stepper<'s, 'm, P, T, S> {
     }
 }
 
-impl<P: Geometry, T, S> DerefMut for Stepper<'_, '_, P, T, S> {
+impl<P: Geometry, T: Terms<P>, S> DerefMut for Stepper<'_, '_, P, T, S> {
     #[inline(always)]
     fn deref_mut(&mut self) -> &mut Self::Target {
         &mut self.workspace
@@ -76,7 +79,7 @@ impl<P: Geometry, T, S> DerefMut for Stepper<'_, '_, P, T, S> {
 
 /// Model, state and scratch of one plant, lent for one step: the same for all schemes, so that what
 /// they are made of is compiled once for them all.
-pub struct Workspace<'s, 'm, P: Geometry, T> {
+pub struct Workspace<'s, 'm, P: Geometry, T: Terms<P>> {
     /// The model.
     pub(crate) model: ModelRef<'m, P, T>,
     /// \[s\] the step size, rounded to the precision.
@@ -106,6 +109,10 @@ pub struct Workspace<'s, 'm, P: Geometry, T> {
     pub(crate) bodies: &'s mut [BodyState<P>],
     /// The torsion springs' turn counts.
     pub(crate) turns: &'s mut [i32],
+    /// The laws' memories.
+    pub(crate) law_states: &'s mut StatesIn<P, T>,
+    /// The shares of the laws' dampers.
+    pub(crate) law_shares: &'s SharesIn<P, T>,
     /// The number of this step, from 0.
     pub(crate) step: u64,
     /// The bodies' frames.
@@ -120,7 +127,7 @@ pub struct Workspace<'s, 'm, P: Geometry, T> {
     pub(crate) ledger: &'s mut Ledger,
 }
 
-impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
+impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     /// \[s\] the step size, rounded to the precision.
     #[must_use]
     pub fn step_size(&self) -> P::Real {
@@ -137,7 +144,8 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
     #[inline]
     #[must_use]
     pub fn has_dampers(&self) -> bool {
-        T::DAMPERS && !self.model.dampers.is_empty()
+        (T::DAMPERS && !self.model.dampers.is_empty())
+            || (<LawsIn<P, T> as Laws<P>>::DAMPED && self.model.laws.is_damped())
     }
 
     /// Brings the tables of inputs to the time of a stage, at `part` of this step, 0 to 1. A step
@@ -165,7 +173,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
     /// its reverse. A step has at least one evaluation [`At::Boundary`].
     ///
     /// # Errors
-    /// [`Cause::UndefinedTwist`] names the torsion spring whose twist is undefined.
+    /// [`Cause::UndefinedTwist`] names the torsion spring whose twist is undefined, [`Cause::Undefined`] the law.
     #[inline(always)]
     pub fn evaluate<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
         if P::Real::LANES == 1 {
@@ -201,6 +209,9 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
         self.ledger.evaluations += 1;
         self.ledger.fresh = false;
         self.ledger.ready = false;
+        let moved = <LawsIn<P, T> as Laws<P>>::ADVANCES && at == At::Boundary && self.ledger.moved;
+        let advance = if moved { Some(self.h) } else { None };
+        self.ledger.moved &= !moved;
         forces::evaluate::<P, T, D>(
             &self.model,
             Instant {
@@ -212,7 +223,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
                 rests: self.rests,
                 placed,
             },
-            Turns { counts: self.turns, at },
+            Memories { turns: self.turns, laws: self.law_states, at, advance },
             Evaluation { frames: self.frames, wrenches: self.wrenches },
         )?;
         self.ledger.fresh = !D::ACT && at == At::Boundary;
@@ -301,6 +312,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
     pub(crate) fn drift_and_place(&mut self, time: P::Real) {
         self.ledger.fresh = false;
         self.ledger.ready = false;
+        self.ledger.moved = true;
         let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
         for ((state, body), frame) in rows {
             drift_to_frame(state, body, frame, time);
@@ -317,6 +329,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
         }
         self.ledger.fresh = false;
         self.ledger.ready = false;
+        self.ledger.moved = true;
         let fall = self.fall(scale);
         let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
         let rows = rows.zip(self.wrenches.iter().zip(self.diagonals));
@@ -348,7 +361,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
     }
 }
 
-impl<P: Geometry, T: Terms, S> Stepper<'_, '_, P, T, S> {
+impl<P: Geometry, T: Terms<P>, S> Stepper<'_, '_, P, T, S> {
     /// [`Workspace::drift`].
     #[inline(always)]
     pub fn drift(&mut self, time: P::Real) {

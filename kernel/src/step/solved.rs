@@ -11,7 +11,7 @@ use crate::solve::{Pencil, System, assemble};
 use crate::status::Cause;
 use crate::step::Workspace;
 
-impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
+impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     /// Whether anything may be pushed from outside: loads and inputs.
     #[inline(always)]
     pub(crate) fn is_pushed(&self) -> bool {
@@ -49,7 +49,7 @@ impl<P: Geometry, T: Terms> Workspace<'_, '_, P, T> {
         let plan = self.plan;
         let mut system = System { plan, diagonal: self.blocks, pairs: self.pair_blocks };
         let places = Places { frames: &*self.frames, signals: &*self.signals };
-        let known = (pencil, self.seats);
+        let known = (pencil, self.seats, &*self.law_states);
         assemble(&self.model, places, self.bodies, known, &mut system);
         system.factor().map_err(|body| Cause::Pivot { body })?;
         system.substitute(self.wrenches);

@@ -124,7 +124,7 @@ macro_rules! part_of_a_step {
                 0.0
             }
 
-            fn step<P: Geometry, T: Terms>(
+            fn step<P: Geometry, T: Terms<P>>(
                 &self,
                 $stepper: &mut Stepper<'_, '_, P, T, ()>,
             ) -> Result<(), Cause> {

@@ -55,7 +55,7 @@ impl Mechanism {
         (Self::read(&model.view()), state)
     }
 
-    fn read<T: Terms>(model: &ModelRef<'_, F64, T>) -> Self {
+    fn read<T: Terms<F64>>(model: &ModelRef<'_, F64, T>) -> Self {
         let mut elements: Vec<Box<dyn Element>> = Vec::new();
         for load in model.loads {
             elements.push(Box::new(Load {
@@ -192,7 +192,7 @@ fn end(body: BodyIndex) -> End {
 
 /// The points of element `i` of a group: a star's first body has one point, the second body's lie
 /// behind all of them, once or once per star.
-fn pair<T: Terms>(model: &ModelRef<'_, F64, T>, group: &Group, i: usize) -> Pair {
+fn pair<T: Terms<F64>>(model: &ModelRef<'_, F64, T>, group: &Group, i: usize) -> Pair {
     let (stars, arms) = (usize::from(group.stars), usize::from(group.arms));
     let first = usize::from(group.point);
     let tip = if group.shared { i % arms } else { i };
@@ -206,7 +206,7 @@ fn pair<T: Terms>(model: &ModelRef<'_, F64, T>, group: &Group, i: usize) -> Pair
     }
 }
 
-fn element<T: Terms>(model: &ModelRef<'_, F64, T>, group: &Group, i: usize) -> Box<dyn Element> {
+fn element<T: Terms<F64>>(model: &ModelRef<'_, F64, T>, group: &Group, i: usize) -> Box<dyn Element> {
     let pair = pair(model, group, i);
     let row = usize::from(group.element) + i;
     let damping = group.damper.row().map_or(0.0, |first| model.dampers[first + i]);
@@ -241,7 +241,7 @@ fn element<T: Terms>(model: &ModelRef<'_, F64, T>, group: &Group, i: usize) -> B
     }
 }
 
-fn torsion<T: Terms>(model: &ModelRef<'_, F64, T>, row: usize) -> TorsionSpring {
+fn torsion<T: Terms<F64>>(model: &ModelRef<'_, F64, T>, row: usize) -> TorsionSpring {
     let spring = &model.torsions[row];
     TorsionSpring {
         ends: [end(spring.a), end(spring.b)],
@@ -255,7 +255,7 @@ fn torsion<T: Terms>(model: &ModelRef<'_, F64, T>, row: usize) -> TorsionSpring 
 }
 
 /// What an input pushes; `None` for an anchor, which moves points instead.
-fn input_kind<T: Terms>(
+fn input_kind<T: Terms<F64>>(
     model: &ModelRef<'_, F64, T>,
     kind: &KernelInput<F64>,
 ) -> Option<InputKind> {

@@ -1,0 +1,84 @@
+//! The dampers of laws: the pass that they are handed to.
+//!
+//! `(tables, memories, pose, velocities, kick) => velocities`. A law says where its dampers act and how strong they
+//! are; how an impulse is made of that stands here, once for all laws of a model.
+
+use crate::damping::kick::Kick;
+use crate::damping::moving::Moving;
+use crate::damping::pair::Pair;
+use crate::damping::{Share, Sweep};
+use crate::geometry::Geometry;
+use crate::index::BodyIndex;
+use crate::laws::{Body, Damper, DamperPass, End, Laws, Seen};
+use crate::model::{ModelRef, SharesIn, StatesIn, Terms};
+use crate::real::Real as _;
+use crate::space::Linear as _;
+
+/// Memories of laws and shares of their dampers.
+pub(crate) type LawsKnown<'s, P, T> = (&'s StatesIn<P, T>, &'s SharesIn<P, T>);
+
+/// The dampers of all laws, ascending, or descending with `REVERSE`.
+#[inline(always)]
+pub(super) fn sweep_laws<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    known: LawsKnown<'_, P, T>,
+    moving: &mut Moving<'_, P>,
+) {
+    if T::Laws::DAMPED {
+        sweep_apart::<P, T, K, REVERSE>(model, sweep, known, moving);
+    }
+}
+
+// Beside it there would not be enough registers for what every damped model does.
+#[inline(never)]
+fn sweep_apart<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    (states, shares): LawsKnown<'_, P, T>,
+    moving: &mut Moving<'_, P>,
+) {
+    let mut pass = Pass::<_, _, _, REVERSE> { model, sweep, moving };
+    model.laws.sweep(REVERSE, states, shares, &mut pass);
+}
+
+struct Pass<'s, 'm, 'b, P: Geometry, T: Terms<P>, K, const REVERSE: bool> {
+    model: &'s ModelRef<'m, P, T>,
+    sweep: &'s Sweep<'s, P, K>,
+    moving: &'s mut Moving<'b, P>,
+}
+
+impl<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool> DamperPass<P>
+    for Pass<'_, '_, '_, P, T, K, REVERSE>
+{
+    fn seen(&self, [a, b]: [BodyIndex; 2]) -> Option<Seen<'_, P>> {
+        let places = self.sweep.places;
+        let end = |index: BodyIndex| {
+            let row = index.row();
+            let (velocity, spin) = self.moving.velocities(row)?;
+            let (frame, state) = (places.frames.get(row)?, self.moving.states.get(row)?);
+            Some(Body { frame, orientation: &state.orientation, velocity, spin })
+        };
+        let (a, b) = (End { body: end(a) }, End { body: Some(end(b)?) });
+        Some(Seen { a, b, signals: places.signals })
+    }
+
+    fn act(&mut self, bodies: [BodyIndex; 2], dampers: &[Damper<P>], shares: &[Share<P::Real>]) {
+        let (model, sweep) = (self.model, self.sweep);
+        let rows = bodies.map(BodyIndex::row);
+        let mut pair = Pair::new(model, rows, self.moving, P::Vector::ZERO, &sweep.kick);
+        let count = dampers.len();
+        for i in 0..count {
+            let i = if REVERSE { count - 1 - i } else { i };
+            let (Some(damper), Some(share)) = (dampers.get(i), shares.get(i)) else { break };
+            // An idle damper does nothing at any rate; nor does one without bounds to either side.
+            if P::Real::LANES == 1 && damper.coefficient == P::Real::ZERO {
+                continue;
+            }
+            let bounds = damper.bounds.map(|bound| bound * sweep.h);
+            let known = sweep.damper::<REVERSE>(damper.coefficient, share);
+            pair.damp_within::<P, K>(&damper.direction, known, (damper.rate, bounds));
+        }
+        pair.store::<P>(self.moving);
+    }
+}

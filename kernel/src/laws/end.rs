@@ -1,0 +1,214 @@
+//! What a law sees of its two bodies.
+//!
+//! `(frames, orientations, velocities) => places, arms, rates, turns`. Each is computed when asked for: a law that
+//! knows no velocities leaves no code for them.
+
+use crate::attitude::Attitude as _;
+use crate::body::BodyState;
+use crate::damping::Direction;
+use crate::forces::Record;
+use crate::geometry::Geometry;
+use crate::index::{BodyIndex, InputIndex};
+use crate::real::Real;
+use crate::schedule::Signal;
+use crate::space::{Linear as _, Moment as _, Space, Vector as _};
+
+/// Bodies at an instant.
+pub struct Instant<'s, P: Geometry> {
+    /// One per body, of the pose.
+    pub frames: &'s [P::Frame],
+    /// One per body.
+    pub bodies: &'s [BodyState<P>],
+    /// One per input.
+    pub signals: &'s [Signal<P::Real>],
+}
+
+impl<P: Geometry> Clone for Instant<'_, P> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<P: Geometry> Copy for Instant<'_, P> {}
+
+impl<'s, P: Geometry> Instant<'s, P> {
+    /// What a law between two bodies sees; `None` where the second is no body.
+    #[inline(always)]
+    #[must_use]
+    pub fn seen(&self, [a, b]: [BodyIndex; 2]) -> Option<Seen<'s, P>> {
+        let end = |index: BodyIndex| {
+            let (frame, state) =
+                (self.frames.get(index.row())?, self.bodies.get(index.row())?);
+            Some(Body {
+                frame,
+                orientation: &state.orientation,
+                velocity: P::velocity(&state.velocity),
+                spin: P::spin(&state.angular_velocity),
+            })
+        };
+        let (a, b) = (End { body: end(a) }, End { body: Some(end(b)?) });
+        Some(Seen { a, b, signals: self.signals })
+    }
+}
+
+/// A body as a law sees it.
+pub(crate) struct Body<'s, P: Geometry> {
+    pub(crate) frame: &'s P::Frame,
+    pub(crate) orientation: &'s P::Orientation,
+    /// \[m/s\] world axes.
+    pub(crate) velocity: P::Vector,
+    /// \[rad/s\] body axes.
+    pub(crate) spin: P::Moment,
+}
+
+/// One end of an interaction: a body, or the ground.
+pub struct End<'s, P: Geometry> {
+    pub(crate) body: Option<Body<'s, P>>,
+}
+
+impl<'s, P: Geometry> End<'s, P> {
+    /// Whether it is the ground.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_ground(&self) -> bool {
+        self.body.is_none()
+    }
+
+    /// A point's location, and its arm \[m\] from the centre of mass in world axes, 0 for the ground's.
+    #[inline(always)]
+    #[must_use]
+    pub fn place(&self, local: &P::Local) -> (P::Location, P::Vector) {
+        match &self.body {
+            Some(body) => P::place(body.frame, local),
+            None => (P::ground(local), P::Vector::ZERO),
+        }
+    }
+
+    /// The arm of a point `offset` \[m\] away from the point of `arm`; the ground has none.
+    #[inline(always)]
+    #[must_use]
+    pub fn arm_at(&self, arm: P::Vector, offset: P::Vector) -> P::Vector {
+        if self.is_ground() { arm } else { arm + offset }
+    }
+
+    /// Body axes to world axes.
+    #[inline(always)]
+    #[must_use]
+    pub fn to_world(&self, v: P::Vector) -> P::Vector {
+        self.body.as_ref().map_or(v, |body| P::to_world(body.frame, v))
+    }
+
+    /// World axes to body axes.
+    #[inline(always)]
+    #[must_use]
+    pub fn to_axes(&self, v: P::Vector) -> P::Vector {
+        self.body.as_ref().map_or(v, |body| P::to_body(body.frame, v))
+    }
+
+    /// A moment's body axes to world axes.
+    #[inline(always)]
+    #[must_use]
+    pub fn moment_to_world(&self, m: P::Moment) -> P::Moment {
+        self.body.as_ref().map_or(m, |body| P::moment_to_world(body.frame, m))
+    }
+
+    /// A moment in world axes as the body sees it; the ground sees none.
+    #[inline(always)]
+    #[must_use]
+    pub fn moment_to_axes(&self, m: P::Moment) -> P::Moment {
+        self.body.as_ref().map_or(P::Moment::ZERO, |body| P::moment_to_body(body.frame, m))
+    }
+
+    /// \[m/s\] the velocity of a point of this end at the end of an arm, world axes.
+    #[inline(always)]
+    #[must_use]
+    pub fn point_velocity(&self, arm: P::Vector) -> P::Vector {
+        self.body.as_ref().map_or(P::Vector::ZERO, |body| {
+            body.velocity + P::moment_to_world(body.frame, body.spin).cross(arm)
+        })
+    }
+
+    /// \[rad/s\] the angular velocity, world axes.
+    #[inline(always)]
+    #[must_use]
+    pub fn spin(&self) -> P::Moment {
+        let spin = |body: &Body<'s, P>| P::moment_to_world(body.frame, body.spin);
+        self.body.as_ref().map_or(P::Moment::ZERO, spin)
+    }
+
+    /// How the other end has turned in the axes of this one.
+    #[inline(always)]
+    #[must_use]
+    pub fn turn_of(&self, other: &Self) -> <P::Space as Space>::Turn {
+        let orientation = |end: &Self| end.body.as_ref().map(|body| body.orientation);
+        P::Orientation::relative(orientation(self), orientation(other))
+    }
+}
+
+/// What a law sees: its first end A, which may be the ground, and its second, a body B.
+pub struct Seen<'s, P: Geometry> {
+    /// A.
+    pub a: End<'s, P>,
+    /// B.
+    pub b: End<'s, P>,
+    pub(crate) signals: &'s [Signal<P::Real>],
+}
+
+impl<P: Geometry> Seen<'_, P> {
+    /// The value of an input; 0 where there is none.
+    #[inline(always)]
+    #[must_use]
+    pub fn input(&self, input: InputIndex) -> P::Real {
+        self.signals.get(usize::from(input.0)).map_or(P::Real::ZERO, |signal| signal.value)
+    }
+
+    /// The direction along a unit vector u (world axes) between a point of A and one of B, at the ends of their
+    /// arms: its rate is `u·(v_B − v_A)`.
+    #[inline(always)]
+    #[must_use]
+    pub fn along(&self, u: P::Vector, arms: [P::Vector; 2]) -> Direction<P::Space> {
+        let [a, b] = arms;
+        let moments =
+            [self.a.moment_to_axes(a.cross(u)), self.b.moment_to_axes(b.cross(u))];
+        Direction { along: u, moments }
+    }
+
+    /// The direction about a gradient (world axes) of an angle of B in A: its rate is `gradient·(ω_B − ω_A)`.
+    #[inline(always)]
+    #[must_use]
+    pub fn about(&self, gradient: P::Moment) -> Direction<P::Space> {
+        let moments = [&self.a, &self.b].map(|end| end.moment_to_axes(gradient));
+        Direction { along: P::Vector::ZERO, moments }
+    }
+
+    /// \[m/s, rad/s\] the rate along a direction.
+    #[inline(always)]
+    #[must_use]
+    pub fn rate(&self, direction: &Direction<P::Space>) -> P::Real {
+        let mut rate = P::Real::ZERO;
+        let Direction { along, moments: [of_a, of_b] } = direction;
+        if let Some(b) = &self.b.body {
+            rate = along.dot(b.velocity) + of_b.dot(b.spin);
+        }
+        if let Some(a) = &self.a.body {
+            rate = rate - (along.dot(a.velocity) + of_a.dot(a.spin));
+        }
+        rate
+    }
+
+    /// The record of a tension \[N, N·m\] along a direction: it pulls where it is positive, B against the direction.
+    #[inline(always)]
+    #[must_use]
+    pub fn pull(&self, direction: &Direction<P::Space>, tension: P::Real) -> Record<P::Space> {
+        let Direction { along, moments: [of_a, of_b] } = *direction;
+        let torque_a = match self.a.is_ground() {
+            true => P::Moment::ZERO,
+            false => self.a.moment_to_world(of_a * tension),
+        };
+        Record {
+            force: along * tension,
+            torque_a,
+            torque_b: self.b.moment_to_world(of_b * tension),
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! End stop: a point of B against a plane of A.
+//!
+//! Depth `x = −n·d ↦ F = k·x·(1 + a·ẋ)` along the plane's normal n where x > 0 (Hunt & Crossley, J. Appl. Mech. 42
+//! (1975) 440, with exponent 1). The spring is a force with the energy `½·k·x²`; the rest is a damper `a·k·x` whose
+//! tension never exceeds the spring's: it never pulls.
+
+use crate::damping::Direction;
+use crate::forces::Record;
+use crate::geometry::Geometry;
+use crate::laws::end::Seen;
+use crate::laws::interaction::{Damper, Interaction, Nothing, Quantity};
+use crate::real::Real;
+use crate::space::Linear as _;
+
+crate::law! {
+    /// A point of the second body that a plane of the first one stops.
+    pub struct EndStop = "end-stop" {
+        /// A point of the plane and the point that it stops.
+        points: Points,
+        /// Out of the plane, towards where the point is free.
+        normal: Normal,
+        /// Force per depth.
+        stiffness: Number("N/m"),
+        /// Hunt and Crossley's a: force grows by this part per rate of the depth.
+        dissipation: Number("s/m") = 0.0,
+    }
+}
+
+struct Contact<P: Geometry> {
+    direction: Direction<P::Space>,
+    arms: [P::Vector; 2],
+    /// \[m\] 0 where they do not touch.
+    depth: P::Real,
+}
+
+impl<P: Geometry> EndStop<P> {
+    #[inline(always)]
+    fn contact(&self, seen: &Seen<'_, P>) -> Contact<P> {
+        let ((at_a, arm_a), (at_b, arm_b)) =
+            (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
+        let (way, normal) = (P::displacement(&at_a, &at_b), seen.a.to_world(self.normal));
+        let zero = P::Real::ZERO;
+        let depth = -normal.dot(way);
+        let depth = P::Real::pick(zero.less_than(depth), depth, zero);
+        // A's point is where B's is: both forces then lie on one line.
+        let arms = [seen.a.arm_at(arm_a, way), arm_b];
+        Contact { direction: seen.along(normal, arms), arms, depth }
+    }
+}
+
+impl<P: Geometry> Interaction<P> for EndStop<P> {
+    type State = Nothing;
+    type Dampers = [(); 1];
+    const QUANTITIES: &'static [Quantity] = &[Quantity { name: "depth", unit: "m" }];
+
+    #[inline(always)]
+    fn record(&self, seen: &Seen<'_, P>, _: &Nothing) -> Option<Record<P::Space>> {
+        let Contact { direction, depth, .. } = self.contact(seen);
+        Some(seen.pull(&direction, -(self.stiffness * depth)))
+    }
+
+    fn energy(&self, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {
+        let depth = self.contact(seen).depth;
+        P::Real::HALF * (self.stiffness * (depth * depth))
+    }
+
+    /// As if it touched.
+    fn tangent(
+        &self,
+        seen: &Seen<'_, P>,
+        _: &Nothing,
+        visit: &mut dyn FnMut(P::Real, &Direction<P::Space>),
+    ) -> [P::Real; 2] {
+        let Contact { direction, arms, depth } = self.contact(seen);
+        visit(self.stiffness, &direction);
+        let force = self.stiffness * depth;
+        arms.map(|arm| force * arm.dot(arm).sqrt())
+    }
+
+    #[inline(always)]
+    fn dampers(&self, seen: &Seen<'_, P>, _: &Nothing, visit: &mut impl FnMut(Damper<P>)) {
+        let Contact { direction, depth, .. } = self.contact(seen);
+        let force = self.stiffness * depth;
+        let damper = Damper::new(self.dissipation * force, direction);
+        let least = damper.bounds[0];
+        visit(damper.within(least, force));
+    }
+
+    fn read(&self, _: usize, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {
+        self.contact(seen).depth
+    }
+}

@@ -1,0 +1,84 @@
+//! How B has turned in A about an axis: the twist of torsion springs, for laws about an axis.
+
+use crate::elements::torsion_spring::{SinceStart, TorsionSpring};
+use crate::geometry::Geometry;
+use crate::index::{BodyIndex, DamperIndex};
+use crate::laws::end::Seen;
+use crate::real::Real;
+use crate::space::Space;
+use crate::words::{Word, WordSource, WordVisitor, Words};
+
+/// \[½ turn\] how often a twist went past half a winding: memory of a law about an axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Turns(pub i32);
+
+impl Words for Turns {
+    fn visit(&self, visitor: &mut impl WordVisitor) {
+        visitor.word(Word::I32(self.0));
+    }
+    fn fill(&mut self, source: &mut impl WordSource) {
+        self.0 = source.take(4) as i32;
+    }
+}
+
+/// An axis of A about which B turns, see [`crate::elements::torsion_spring`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hinge<S: Space> {
+    /// \[1\] unit axis in A's axes.
+    pub axis: S::Moment,
+    /// \[1\] inverse of B's orientation in A at t = 0.
+    pub reference: S::Turn,
+}
+
+/// A twist at a pose.
+pub struct Twisted<S: Space> {
+    spring: TorsionSpring<S>,
+    since: SinceStart<S>,
+}
+
+impl<S: Space> Hinge<S> {
+    /// How B has turned since t = 0; `None` where its twist is undefined. Not for lanes.
+    #[inline(always)]
+    pub fn seen<P: Geometry<Space = S>>(&self, seen: &Seen<'_, P>) -> Option<Twisted<S>> {
+        let spring = TorsionSpring {
+            a: BodyIndex::WORLD,
+            b: BodyIndex::WORLD,
+            axis: self.axis,
+            reference: self.reference,
+            stiffness: S::Real::ZERO,
+            preload: S::Real::ZERO,
+            damper: DamperIndex::NONE,
+        };
+        let since = spring.since_start(seen.a.turn_of(&seen.b))?;
+        Some(Twisted { spring, since })
+    }
+}
+
+impl<S: Space> Twisted<S> {
+    /// Brings a turn count to the half winding nearest the pose.
+    #[inline(always)]
+    pub fn settle(&self, turns: &mut Turns) {
+        let counts = core::slice::from_mut(&mut turns.0);
+        if let Some(count) = S::Real::counts_mut(counts).first_mut() {
+            *count = self.since.settled(*count);
+        }
+    }
+
+    /// \[rad\] the unwrapped twist since t = 0, and \[1\] its gradient with respect to a turn of B in A's axes.
+    #[inline(always)]
+    pub fn angle(&self, turns: Turns) -> (S::Real, S::Moment) {
+        match S::Real::counts(&[turns.0]).first() {
+            Some(count) => {
+                let twist = self.spring.twist(&self.since, *count);
+                (twist.angle, twist.gradient)
+            }
+            None => (S::Real::ZERO, self.gradient()),
+        }
+    }
+
+    /// \[1\] its gradient alone.
+    #[inline(always)]
+    pub fn gradient(&self) -> S::Moment {
+        self.since.gradient(self.spring.axis)
+    }
+}

@@ -1,0 +1,191 @@
+//! What an interaction is: all that the kernel asks of a law between two bodies.
+
+use crate::damping::{Direction, Share};
+use crate::forces::Record;
+use crate::geometry::{F64, Geometry};
+use crate::index::BodyIndex;
+use crate::laws::end::Seen;
+use crate::laws::kind::{Field, FieldSink, FieldSource};
+use crate::real::Real;
+use crate::words::{WordSource, WordVisitor, Words};
+
+/// So many of something, one beside the other: `[(); 2]` has two.
+pub trait Several: 'static {
+    /// How many.
+    const COUNT: usize;
+    /// So many `T`.
+    type Of<T: Copy + Send + Sync + 'static>: Copy + AsRef<[T]> + AsMut<[T]> + Send + Sync + 'static;
+    /// Each of them.
+    fn of<T: Copy + Send + Sync + 'static>(value: T) -> Self::Of<T>;
+}
+
+impl<const N: usize> Several for [(); N] {
+    const COUNT: usize = N;
+    type Of<T: Copy + Send + Sync + 'static> = [T; N];
+    #[inline(always)]
+    fn of<T: Copy + Send + Sync + 'static>(value: T) -> [T; N] {
+        [value; N]
+    }
+}
+
+/// The memory of a law that remembers nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Nothing;
+
+impl Words for Nothing {
+    fn visit(&self, _: &mut impl WordVisitor) {}
+    fn fill(&mut self, _: &mut impl WordSource) {}
+}
+
+/// A damper along a direction: tension `c·(rate − r₀)` within bounds, as an impulse that is stable at any
+/// coefficient (see [`crate::damping`]).
+#[derive(Clone, Copy, Debug)]
+pub struct Damper<P: Geometry> {
+    /// \[N·s/m, N·m·s/rad\] coefficient c, ≥ 0.
+    pub coefficient: P::Real,
+    /// Where it acts.
+    pub direction: Direction<P::Space>,
+    /// \[m/s, rad/s\] the rate r₀ at which it does nothing.
+    pub rate: P::Real,
+    /// \[N, N·m\] the least and the largest mean tension over the time it acts.
+    pub bounds: [P::Real; 2],
+}
+
+/// Beyond any force, and its product with any step is a number in single precision.
+const MOST: f64 = 1e30;
+
+impl<P: Geometry> Damper<P> {
+    /// A damper towards rest, without bounds.
+    #[inline(always)]
+    #[must_use]
+    pub fn new(coefficient: P::Real, direction: Direction<P::Space>) -> Self {
+        let most = P::Real::from_f64(MOST);
+        Self { coefficient, direction, rate: P::Real::ZERO, bounds: [-most, most] }
+    }
+
+    /// With bounds of its tension \[N, N·m\]: `within(least, most)`.
+    #[inline(always)]
+    #[must_use]
+    pub fn within(self, least: P::Real, most: P::Real) -> Self {
+        Self { bounds: [least, most], ..self }
+    }
+
+    /// Towards a rate \[m/s, rad/s\].
+    #[inline(always)]
+    #[must_use]
+    pub fn towards(self, rate: P::Real) -> Self {
+        Self { rate, ..self }
+    }
+
+    /// \[N, N·m\] its tension at a rate along its direction.
+    #[inline(always)]
+    pub(crate) fn tension(&self, rate: P::Real) -> P::Real {
+        let tension = self.coefficient * (rate - self.rate);
+        let [least, most] = self.bounds;
+        let tension = P::Real::pick(most.less_than(tension), most, tension);
+        P::Real::pick(tension.less_than(least), least, tension)
+    }
+}
+
+/// A number that a law shows beside what it does: a depth, a slip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quantity {
+    /// Its name, as `depth`.
+    pub name: &'static str,
+    /// Its unit, as `m`; `1` where it has none.
+    pub unit: &'static str,
+}
+
+/// The constants of a law in one precision; [`law!`](crate::law) writes this.
+pub trait Constants<P: Geometry>: Copy + Send + Sync + 'static {
+    /// The law's name, in lower case with hyphens.
+    const NAME: &'static str;
+
+    /// Its bodies A and B: A may be the ground, B is a body.
+    fn bodies(&self) -> [BodyIndex; 2];
+
+    /// Visits every constant in the order of the fields: for fingerprints.
+    fn visit(&self, visitor: &mut dyn WordVisitor);
+}
+
+/// A law between two bodies. Its terms: a coordinate with a [`Direction`], a spring force along it, dampers.
+///
+/// The sign of a record: [`Seen::pull`]. All that a law says must be a function of what it sees and of its memory,
+/// in arithmetic of [`Real`]: then its bits are the same on every target.
+pub trait Interaction<P: Geometry>: Constants<P> {
+    /// What it remembers from step to step; [`Nothing`].
+    type State: Copy + Default + Words + Send + Sync + 'static;
+    /// How many dampers it has at most: `[(); 1]`.
+    type Dampers: Several;
+    /// Whether it brings its memory on by [`Self::advance`], once per step.
+    const ADVANCES: bool = false;
+    /// What [`Self::read`] shows.
+    const QUANTITIES: &'static [Quantity] = &[];
+
+    /// Brings its memory to the boundary of a step, before [`Self::record`]: a projection, twice is once. An
+    /// evaluation may be repeated without time passing.
+    #[inline(always)]
+    fn settle(&self, _seen: &Seen<'_, P>, _state: &mut Self::State) {}
+
+    /// Brings its memory on by a step of `h` \[s\], at the pose at its end, once per step: for what a law
+    /// integrates. Schemes of one evaluation per step alone do this.
+    #[inline(always)]
+    fn advance(&self, _seen: &Seen<'_, P>, _h: P::Real, _state: &mut Self::State) {}
+
+    /// What its springs do to its bodies, without its dampers; `None` where that is undefined, which fails the step.
+    fn record(&self, seen: &Seen<'_, P>, state: &Self::State) -> Option<Record<P::Space>>;
+
+    /// \[J\] the energy that [`Self::record`] is minus the gradient of, as far as it has one.
+    fn energy(&self, seen: &Seen<'_, P>, state: &Self::State) -> P::Real;
+
+    /// Visits the stiffness of [`Self::record`] as springs along directions \[N/m, N·m/rad\], each at its largest
+    /// wherever it may get to within a step; returns \[N·m\] what its force does to a turn of A and of B, in any
+    /// direction at most. The frequency bound and the matrix of implicit schemes are made of it.
+    fn tangent(
+        &self,
+        seen: &Seen<'_, P>,
+        state: &Self::State,
+        visit: &mut dyn FnMut(P::Real, &Direction<P::Space>),
+    ) -> [P::Real; 2];
+
+    /// Visits its dampers, each time as many and in the same order, idle ones with the coefficient 0.
+    #[inline(always)]
+    fn dampers(
+        &self,
+        _seen: &Seen<'_, P>,
+        _state: &Self::State,
+        _visit: &mut impl FnMut(Damper<P>),
+    ) {
+    }
+
+    /// What it shows, by its place among [`Self::QUANTITIES`].
+    #[inline]
+    fn read(&self, _quantity: usize, _seen: &Seen<'_, P>, _state: &Self::State) -> P::Real {
+        P::Real::ZERO
+    }
+}
+
+/// A law in all precisions: what scenes, exports and programs that read scenes know of it. Written by
+/// [`law!`](crate::law) for its constants in double precision.
+pub trait Law: Interaction<F64> {
+    /// It in another precision.
+    type In<P: Geometry>: Interaction<P>;
+    /// Its constants beside its bodies, in their order.
+    const FIELDS: &'static [Field];
+    /// What it is, in a line.
+    const ABOUT: &'static str;
+
+    /// Its constants rounded once.
+    fn rounded<P: Geometry>(&self) -> Self::In<P>;
+
+    /// Its constants from a source that knows them by name; `None` where the source has refused one.
+    fn read_from(bodies: [BodyIndex; 2], source: &mut dyn FieldSource) -> Option<Self>;
+
+    /// Its constants to a sink, in their order.
+    fn write_to(&self, sink: &mut dyn FieldSink);
+}
+
+/// The shares of a law's dampers.
+pub(crate) type SharesOf<P, T> = <<T as Interaction<P>>::Dampers as Several>::Of<
+    Share<<P as Geometry>::Real>,
+>;

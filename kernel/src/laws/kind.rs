@@ -1,0 +1,226 @@
+//! What kinds of constants laws have: how each is stored, rounded, hashed, read and written.
+
+use core::fmt::Debug;
+
+use crate::geometry::{F64, Geometry};
+use crate::laws::curve::Curve;
+use crate::laws::hinge::Hinge;
+use crate::real::Real as _;
+use crate::space::{Linear as _, Space, Turn as _};
+use crate::vector::{Quaternion, Vec3};
+use crate::words::{Word, WordVisitor, Words as _};
+
+/// A constant of a law: its name, its kind's name, its units, what it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Field {
+    /// The key in a scene.
+    pub name: &'static str,
+    /// [`Kind::NAME`].
+    pub kind: &'static str,
+    /// Units in the words of scenes, as `N/m`; `1` without one. A table has two.
+    pub units: &'static [&'static str],
+    /// The value of a number where a scene gives none, in the unit of the SI.
+    pub default: Option<f64>,
+    /// What it is, of its documentation.
+    pub about: &'static str,
+}
+
+/// Gives constants by name, in double precision, in the axes they are stored in. What it gives `None` for it has
+/// refused, and remembers why.
+pub trait FieldSource {
+    /// A number in the field's unit of the SI.
+    fn number(&mut self, field: &Field) -> Option<f64>;
+    /// A whole number.
+    fn count(&mut self, field: &Field) -> Option<u32>;
+    /// \[m\] a point of A and a point of B, each in the axes of its body.
+    fn points(&mut self, field: &Field) -> Option<[[f64; 3]; 2]>;
+    /// \[1\] a unit vector in the axes of A.
+    fn normal(&mut self, field: &Field) -> Option<[f64; 3]>;
+    /// \[1\] a unit axis in the axes of A, and the inverse of B's orientation in A at t = 0, scalar first.
+    fn axis(&mut self, field: &Field) -> Option<([f64; 3], [f64; 4])>;
+    /// Knots with ascending x to the front of `to`; how many.
+    fn table(&mut self, field: &Field, to: &mut [[f64; 2]]) -> Option<usize>;
+}
+
+/// Takes constants by name, in double precision.
+pub trait FieldSink {
+    /// A number.
+    fn number(&mut self, field: &Field, value: f64);
+    /// A whole number.
+    fn count(&mut self, field: &Field, value: u32);
+    /// Points of A and of B.
+    fn points(&mut self, field: &Field, points: [[f64; 3]; 2]);
+    /// A unit vector.
+    fn normal(&mut self, field: &Field, normal: [f64; 3]);
+    /// An axis and a reference.
+    fn axis(&mut self, field: &Field, axis: [f64; 3], reference: [f64; 4]);
+    /// Knots, and how many there may be.
+    fn table(&mut self, field: &Field, knots: &[[f64; 2]], capacity: usize);
+}
+
+/// A kind of constant.
+pub trait Kind {
+    /// As stored in a precision.
+    type In<P: Geometry>: Copy + Debug + PartialEq + Send + Sync + 'static;
+    /// The kind's name.
+    const NAME: &'static str;
+
+    /// Rounded once from double precision.
+    fn rounded<P: Geometry>(of: &Self::In<F64>) -> Self::In<P>;
+    /// Visits its words.
+    fn visit<P: Geometry>(of: &Self::In<P>, visitor: &mut dyn WordVisitor);
+    /// From a source.
+    fn read_from(field: &Field, source: &mut dyn FieldSource) -> Option<Self::In<F64>>;
+    /// To a sink.
+    fn write_to(of: &Self::In<F64>, field: &Field, sink: &mut dyn FieldSink);
+}
+
+/// Hands words on to a visitor known by its table of functions.
+struct Hand<'v>(&'v mut dyn WordVisitor);
+
+impl WordVisitor for Hand<'_> {
+    fn word(&mut self, word: Word) {
+        self.0.word(word);
+    }
+}
+
+/// A number: `P::Real`.
+#[derive(Clone, Copy, Debug)]
+pub struct Number;
+
+impl Kind for Number {
+    type In<P: Geometry> = P::Real;
+    const NAME: &'static str = "number";
+
+    fn rounded<P: Geometry>(of: &f64) -> P::Real {
+        P::Real::from_f64(*of)
+    }
+    fn visit<P: Geometry>(of: &P::Real, visitor: &mut dyn WordVisitor) {
+        visitor.word(of.word());
+    }
+    fn read_from(field: &Field, source: &mut dyn FieldSource) -> Option<f64> {
+        source.number(field)
+    }
+    fn write_to(of: &f64, field: &Field, sink: &mut dyn FieldSink) {
+        sink.number(field, *of);
+    }
+}
+
+/// A whole number: `u32`.
+#[derive(Clone, Copy, Debug)]
+pub struct Count;
+
+impl Kind for Count {
+    type In<P: Geometry> = u32;
+    const NAME: &'static str = "count";
+
+    fn rounded<P: Geometry>(of: &u32) -> u32 {
+        *of
+    }
+    fn visit<P: Geometry>(of: &u32, visitor: &mut dyn WordVisitor) {
+        visitor.word(Word::I32(*of as i32));
+    }
+    fn read_from(field: &Field, source: &mut dyn FieldSource) -> Option<u32> {
+        source.count(field)
+    }
+    fn write_to(of: &u32, field: &Field, sink: &mut dyn FieldSink) {
+        sink.count(field, *of);
+    }
+}
+
+/// A point of A and a point of B: `[P::Local; 2]`.
+#[derive(Clone, Copy, Debug)]
+pub struct Points;
+
+impl Kind for Points {
+    type In<P: Geometry> = [P::Local; 2];
+    const NAME: &'static str = "points";
+
+    fn rounded<P: Geometry>(of: &[Vec3<f64>; 2]) -> [P::Local; 2] {
+        of.map(|point| P::local_from_f64(F64::local_to_f64(&point)))
+    }
+    fn visit<P: Geometry>(of: &[P::Local; 2], visitor: &mut dyn WordVisitor) {
+        of.iter().for_each(|point| point.visit(&mut Hand(visitor)));
+    }
+    fn read_from(field: &Field, source: &mut dyn FieldSource) -> Option<[Vec3<f64>; 2]> {
+        Some(source.points(field)?.map(F64::local_from_f64))
+    }
+    fn write_to(of: &[Vec3<f64>; 2], field: &Field, sink: &mut dyn FieldSink) {
+        sink.points(field, of.map(|point| F64::local_to_f64(&point)));
+    }
+}
+
+/// A unit vector in the axes of A: `P::Vector`.
+#[derive(Clone, Copy, Debug)]
+pub struct Normal;
+
+impl Kind for Normal {
+    type In<P: Geometry> = P::Vector;
+    const NAME: &'static str = "normal";
+
+    fn rounded<P: Geometry>(of: &Vec3<f64>) -> P::Vector {
+        P::Vector::from_f64(of.to_f64())
+    }
+    fn visit<P: Geometry>(of: &P::Vector, visitor: &mut dyn WordVisitor) {
+        of.visit(&mut Hand(visitor));
+    }
+    fn read_from(field: &Field, source: &mut dyn FieldSource) -> Option<Vec3<f64>> {
+        Some(Vec3::from_f64(source.normal(field)?))
+    }
+    fn write_to(of: &Vec3<f64>, field: &Field, sink: &mut dyn FieldSink) {
+        sink.normal(field, of.to_f64());
+    }
+}
+
+/// An axis about which B turns in A: [`Hinge`].
+#[derive(Clone, Copy, Debug)]
+pub struct Axis;
+
+impl Kind for Axis {
+    type In<P: Geometry> = Hinge<P::Space>;
+    const NAME: &'static str = "axis";
+
+    fn rounded<P: Geometry>(of: &Hinge<f64>) -> Hinge<P::Space> {
+        Hinge {
+            axis: P::Moment::from_f64(of.axis.to_f64()),
+            reference: TurnIn::<P>::from_f64(of.reference.to_f64()),
+        }
+    }
+    fn visit<P: Geometry>(of: &Hinge<P::Space>, visitor: &mut dyn WordVisitor) {
+        of.axis.visit(&mut Hand(visitor));
+        of.reference.visit(&mut Hand(visitor));
+    }
+    fn read_from(field: &Field, source: &mut dyn FieldSource) -> Option<Hinge<f64>> {
+        let (axis, reference) = source.axis(field)?;
+        Some(Hinge { axis: Vec3::from_f64(axis), reference: Quaternion::from_f64(reference) })
+    }
+    fn write_to(of: &Hinge<f64>, field: &Field, sink: &mut dyn FieldSink) {
+        sink.axis(field, of.axis.to_f64(), of.reference.to_f64());
+    }
+}
+
+type TurnIn<P> = <<P as Geometry>::Space as Space>::Turn;
+
+/// A function by at most `N` knots, straight between them: [`Curve`].
+#[derive(Clone, Copy, Debug)]
+pub struct Table<const N: usize>;
+
+impl<const N: usize> Kind for Table<N> {
+    type In<P: Geometry> = Curve<P::Real, N>;
+    const NAME: &'static str = "table";
+
+    fn rounded<P: Geometry>(of: &Curve<f64, N>) -> Curve<P::Real, N> {
+        Curve { knots: of.knots.map(|knot| knot.map(P::Real::from_f64)), count: of.count }
+    }
+    fn visit<P: Geometry>(of: &Curve<P::Real, N>, visitor: &mut dyn WordVisitor) {
+        of.known().iter().flatten().for_each(|number| visitor.word(number.word()));
+    }
+    fn read_from(field: &Field, source: &mut dyn FieldSource) -> Option<Curve<f64, N>> {
+        let mut knots = [[0.0; 2]; N];
+        let count = source.table(field, &mut knots)?;
+        Some(Curve { knots, count: count as u16 })
+    }
+    fn write_to(of: &Curve<f64, N>, field: &Field, sink: &mut dyn FieldSink) {
+        sink.table(field, of.known(), N);
+    }
+}

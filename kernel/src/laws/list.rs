@@ -1,0 +1,311 @@
+//! The list of a model's laws: a tuple of tables, each the rows of one law.
+//!
+//! `(tables, pose) => records added to the wrenches`. What is not listed has no code, so nothing is switched off.
+
+use crate::damping::Share;
+use crate::forces::Wrench;
+use crate::geometry::Geometry;
+use crate::index::BodyIndex;
+use crate::laws::end::{Instant, Seen};
+use crate::laws::interaction::{Damper, Interaction, Quantity, Several, SharesOf};
+use crate::laws::slice;
+use crate::forces::Record;
+use crate::damping::Direction;
+use crate::words::{WordSource, WordVisitor};
+
+/// What an evaluation does with laws beside adding their records.
+#[derive(Clone, Copy, Debug)]
+pub struct Act<R> {
+    /// Whether memories are settled first.
+    pub settle: bool,
+    /// \[s\] the step by which memories are brought on before that.
+    pub advance: Option<R>,
+    /// Whether dampers act as forces.
+    pub damped: bool,
+}
+
+/// A pass over dampers, which laws hand theirs to.
+pub trait DamperPass<P: Geometry> {
+    /// What a law between two bodies sees in the pass.
+    fn seen(&self, bodies: [BodyIndex; 2]) -> Option<Seen<'_, P>>;
+    /// The dampers of a law act, each with its share.
+    fn act(&mut self, bodies: [BodyIndex; 2], dampers: &[Damper<P>], shares: &[Share<P::Real>]);
+}
+
+/// A row of a table with its memory: what those ask who look at laws outside a step.
+pub trait Row<P: Geometry> {
+    /// The law's name.
+    fn name(&self) -> &'static str;
+    /// A and B.
+    fn bodies(&self) -> [BodyIndex; 2];
+    /// How many dampers it has.
+    fn dampers(&self) -> usize;
+    /// [`Interaction::record`].
+    fn record(&self, seen: &Seen<'_, P>) -> Option<Record<P::Space>>;
+    /// [`Interaction::energy`].
+    fn energy(&self, seen: &Seen<'_, P>) -> P::Real;
+    /// [`Interaction::tangent`].
+    fn tangent(
+        &self,
+        seen: &Seen<'_, P>,
+        visit: &mut dyn FnMut(P::Real, &Direction<P::Space>),
+    ) -> [P::Real; 2];
+    /// [`Interaction::dampers`].
+    fn each_damper(&self, seen: &Seen<'_, P>, visit: &mut dyn FnMut(usize, &Damper<P>));
+    /// [`Interaction::QUANTITIES`].
+    fn quantities(&self) -> &'static [Quantity];
+    /// [`Interaction::read`].
+    fn read(&self, quantity: usize, seen: &Seen<'_, P>) -> P::Real;
+    /// The constants.
+    fn visit(&self, visitor: &mut dyn WordVisitor);
+}
+
+/// A model's laws: a table, a tuple of tables, or what a program that reads scenes keeps them in.
+pub trait Laws<P: Geometry>: Send + Sync + 'static {
+    /// Memories of the rows.
+    type States: Clone + Send + Sync + 'static;
+    /// Shares of their dampers.
+    type Shares: Clone + Send + Sync + 'static;
+    /// Whether there is none.
+    const EMPTY: bool;
+    /// Whether any may have dampers.
+    const DAMPED: bool;
+    /// Whether any may bring its memory on by steps.
+    const ADVANCES: bool;
+
+    /// How many rows there are.
+    fn count(&self) -> usize;
+    /// Whether any row has dampers.
+    fn is_damped(&self) -> bool;
+    /// Memories as at t = 0.
+    fn states(&self) -> Self::States;
+    /// A share per damper.
+    fn shares(&self) -> Self::Shares;
+    /// Adds the records in order.
+    ///
+    /// # Errors
+    /// The first row whose record is undefined.
+    fn act(
+        &self,
+        at: Instant<'_, P>,
+        states: &mut Self::States,
+        act: Act<P::Real>,
+        wrenches: &mut [Wrench<P::Space>],
+    ) -> Result<(), usize>;
+    /// Lets the dampers act row by row, in descending order with `reverse`.
+    fn sweep(
+        &self,
+        reverse: bool,
+        states: &Self::States,
+        shares: &Self::Shares,
+        pass: &mut dyn DamperPass<P>,
+    );
+    /// Looks at a row; not where there is none.
+    fn look(&self, row: usize, states: &Self::States, look: &mut dyn FnMut(&dyn Row<P>));
+    /// The share of a damper of a row.
+    fn share_mut<'s>(
+        &self,
+        shares: &'s mut Self::Shares,
+        row: usize,
+        damper: usize,
+    ) -> Option<&'s mut Share<P::Real>>;
+    /// Visits the words of the memories.
+    fn visit(states: &Self::States, visitor: &mut dyn WordVisitor);
+    /// Takes them from a source.
+    fn fill(states: &mut Self::States, source: &mut dyn WordSource);
+    /// The first law with a memory, and whether it is brought on by steps: those come first.
+    fn memory(&self) -> Option<(&'static str, bool)>;
+
+    /// Visits every row in order.
+    fn look_at_all(&self, states: &Self::States, visit: &mut dyn FnMut(usize, &dyn Row<P>)) {
+        for row in 0..self.count() {
+            self.look(row, states, &mut |law| visit(row, law));
+        }
+    }
+}
+
+impl<P: Geometry, T: Interaction<P>, const N: usize> Laws<P> for [T; N] {
+    type States = [T::State; N];
+    type Shares = [SharesOf<P, T>; N];
+    const EMPTY: bool = N == 0;
+    const DAMPED: bool = N > 0 && T::Dampers::COUNT > 0;
+    const ADVANCES: bool = N > 0 && T::ADVANCES;
+
+    #[inline(always)]
+    fn count(&self) -> usize {
+        N
+    }
+    #[inline(always)]
+    fn is_damped(&self) -> bool {
+        <Self as Laws<P>>::DAMPED
+    }
+    #[inline]
+    fn states(&self) -> Self::States {
+        [T::State::default(); N]
+    }
+    #[inline]
+    fn shares(&self) -> Self::Shares {
+        [T::Dampers::of(Share::ALONE); N]
+    }
+    #[inline(always)]
+    fn act(
+        &self,
+        at: Instant<'_, P>,
+        states: &mut Self::States,
+        act: Act<P::Real>,
+        wrenches: &mut [Wrench<P::Space>],
+    ) -> Result<(), usize> {
+        slice::act::<P, T>(self, at, states, act, wrenches)
+    }
+    #[inline(always)]
+    fn sweep(
+        &self,
+        reverse: bool,
+        states: &Self::States,
+        shares: &Self::Shares,
+        pass: &mut dyn DamperPass<P>,
+    ) {
+        slice::sweep::<P, T>(self, reverse, states, shares, pass);
+    }
+    fn look(&self, row: usize, states: &Self::States, look: &mut dyn FnMut(&dyn Row<P>)) {
+        slice::row::<P, T>(self, row, states, look);
+    }
+    fn share_mut<'s>(
+        &self,
+        shares: &'s mut Self::Shares,
+        row: usize,
+        damper: usize,
+    ) -> Option<&'s mut Share<P::Real>> {
+        shares.get_mut(row)?.as_mut().get_mut(damper)
+    }
+    fn visit(states: &Self::States, visitor: &mut dyn WordVisitor) {
+        slice::visit::<P, T>(states, visitor);
+    }
+    fn fill(states: &mut Self::States, source: &mut dyn WordSource) {
+        slice::fill::<P, T>(states, source);
+    }
+    fn memory(&self) -> Option<(&'static str, bool)> {
+        slice::memory::<P, T>(self)
+    }
+}
+
+/// The later of two of laws' memories that asks for more.
+fn stricter(
+    a: Option<(&'static str, bool)>,
+    b: Option<(&'static str, bool)>,
+) -> Option<(&'static str, bool)> {
+    match (a, b) {
+        (Some((_, false)), Some((_, true))) | (None, Some(_)) => b,
+        _ => a,
+    }
+}
+
+macro_rules! list {
+    ($($table:ident $i:tt),*) => {
+        #[allow(unused_variables, unused_mut, unused_assignments, clippy::unused_unit)]
+        impl<P: Geometry, $($table: Laws<P>),*> Laws<P> for ($($table,)*) {
+            type States = ($($table::States,)*);
+            type Shares = ($($table::Shares,)*);
+            const EMPTY: bool = true $(&& $table::EMPTY)*;
+            const DAMPED: bool = false $(|| $table::DAMPED)*;
+            const ADVANCES: bool = false $(|| $table::ADVANCES)*;
+
+            #[inline(always)]
+            fn count(&self) -> usize {
+                0 $(+ self.$i.count())*
+            }
+            #[inline(always)]
+            fn is_damped(&self) -> bool {
+                false $(|| self.$i.is_damped())*
+            }
+            #[inline]
+            fn states(&self) -> Self::States {
+                ($(self.$i.states(),)*)
+            }
+            #[inline]
+            fn shares(&self) -> Self::Shares {
+                ($(self.$i.shares(),)*)
+            }
+            #[inline(always)]
+            fn act(
+                &self,
+                at: Instant<'_, P>,
+                states: &mut Self::States,
+                act: Act<P::Real>,
+                wrenches: &mut [Wrench<P::Space>],
+            ) -> Result<(), usize> {
+                let mut before = 0;
+                $(
+                    self.$i.act(at, &mut states.$i, act, wrenches).map_err(|row| before + row)?;
+                    before += self.$i.count();
+                )*
+                Ok(())
+            }
+            #[inline(always)]
+            fn sweep(
+                &self,
+                reverse: bool,
+                states: &Self::States,
+                shares: &Self::Shares,
+                pass: &mut dyn DamperPass<P>,
+            ) {
+                let tables = 0 $(+ { let _ = $i; 1 })*;
+                for table in 0..tables {
+                    let table = if reverse { tables - 1 - table } else { table };
+                    $(
+                        if table == $i && $table::DAMPED {
+                            self.$i.sweep(reverse, &states.$i, &shares.$i, pass);
+                        }
+                    )*
+                }
+            }
+            fn look(&self, row: usize, states: &Self::States, look: &mut dyn FnMut(&dyn Row<P>)) {
+                let mut row = row;
+                $(
+                    let count = self.$i.count();
+                    if row < count {
+                        return self.$i.look(row, &states.$i, look);
+                    }
+                    row -= count;
+                )*
+            }
+            fn share_mut<'s>(
+                &self,
+                shares: &'s mut Self::Shares,
+                row: usize,
+                damper: usize,
+            ) -> Option<&'s mut Share<P::Real>> {
+                let mut row = row;
+                $(
+                    let count = self.$i.count();
+                    if row < count {
+                        return self.$i.share_mut(&mut shares.$i, row, damper);
+                    }
+                    row -= count;
+                )*
+                None
+            }
+            fn visit(states: &Self::States, visitor: &mut dyn WordVisitor) {
+                $($table::visit(&states.$i, visitor);)*
+            }
+            fn fill(states: &mut Self::States, source: &mut dyn WordSource) {
+                $($table::fill(&mut states.$i, source);)*
+            }
+            fn memory(&self) -> Option<(&'static str, bool)> {
+                let mut found = None;
+                $(found = stricter(found, self.$i.memory());)*
+                found
+            }
+        }
+    };
+}
+
+list!();
+list!(A 0);
+list!(A 0, B 1);
+list!(A 0, B 1, C 2);
+list!(A 0, B 1, C 2, D 3);
+list!(A 0, B 1, C 2, D 3, E 4);
+list!(A 0, B 1, C 2, D 3, E 4, F 5);
+list!(A 0, B 1, C 2, D 3, E 4, F 5, G 6);
+list!(A 0, B 1, C 2, D 3, E 4, F 5, G 6, H 7);

@@ -1,0 +1,41 @@
+//! Interactions: laws between two bodies, one type in one file each, in this crate or in a user's.
+//!
+//! `(law, two ends, memory) => force pair, dampers, energy, tangent`. A law is an [`Interaction`]; its
+//! constants are declared by [`law!`](crate::law), which also says how they are read from a scene, rounded to a
+//! precision, hashed and exported. A model's type lists its laws as a tuple of tables,
+//! `Model<F32, 1, …, ([EndStop<F32>; 1],)>`; what is not in the list leaves no code and no memory.
+//!
+//! The order of sums: after all groups and torsion springs, table by table as listed, row by row. Dampers act
+//! likewise, in descending order in the second half of a step.
+//!
+//! A law sees its two bodies as [`Seen`]: where points lie, how they move, how one body has turned in the other.
+//! It answers with a [`Record`] and with [`Damper`]s, each along a [`Direction`]: a unit force or a unit moment on
+//! both bodies, so action equals reaction and the power of a force along it is force times rate, exactly.
+
+mod curve;
+mod declare;
+mod end;
+mod end_stop;
+mod hinge;
+mod hinge_friction;
+mod hinge_stop;
+mod interaction;
+mod kind;
+mod list;
+mod slice;
+
+pub use curve::Curve;
+pub(crate) use end::Body;
+pub use end::{End, Instant, Seen};
+pub use end_stop::EndStop;
+pub use hinge::{Hinge, Turns, Twisted};
+pub use hinge_friction::HingeFriction;
+pub use hinge_stop::HingeStop;
+pub use interaction::{Constants, Damper, Interaction, Law, Nothing, Quantity, Several};
+pub use kind::{Axis, Count, Field, FieldSink, FieldSource, Kind, Normal, Number, Points, Table};
+pub use list::{Act, DamperPass, Laws, Row};
+#[doc(hidden)]
+pub use slice::{act, row, shares_of, states_of, sweep};
+
+pub use crate::damping::Direction;
+pub use crate::forces::Record;

@@ -1,0 +1,193 @@
+//! The rows of one law, one after the other: what every table does, wherever its rows lie.
+
+use crate::damping::{Direction, Share};
+use crate::forces::{Record, Wrench, apply};
+use crate::geometry::Geometry;
+use crate::index::BodyIndex;
+use crate::laws::end::{Instant, Seen};
+use crate::laws::interaction::{Damper, Interaction, Quantity, Several, SharesOf};
+use crate::laws::list::{Act, DamperPass, Row};
+use crate::real::Real;
+use crate::space::{Linear as _, Space};
+use crate::words::{Word, WordSource, WordVisitor, Words as _};
+
+/// The memory of a row at t = 0.
+#[must_use]
+pub fn states_of<P: Geometry, T: Interaction<P>>(_: &T) -> T::State {
+    T::State::default()
+}
+
+/// The shares of a row's dampers.
+#[must_use]
+pub fn shares_of<P: Geometry, T: Interaction<P>>(_: &T) -> SharesOf<P, T> {
+    T::Dampers::of(Share::ALONE)
+}
+
+/// Adds the records of the rows in order; the first that is undefined otherwise.
+///
+/// # Errors
+/// The row.
+#[inline(always)]
+pub fn act<P: Geometry, T: Interaction<P>>(
+    rows: &[T],
+    at: Instant<'_, P>,
+    states: &mut [T::State],
+    act: Act<P::Real>,
+    wrenches: &mut [Wrench<P::Space>],
+) -> Result<(), usize> {
+    for (row, (law, state)) in rows.iter().zip(states).enumerate() {
+        let bodies = law.bodies();
+        let Some(seen) = at.seen(bodies) else { continue };
+        if T::ADVANCES
+            && let Some(h) = act.advance
+        {
+            law.advance(&seen, h, state);
+        }
+        if act.settle {
+            law.settle(&seen, state);
+        }
+        let Some(mut record) = law.record(&seen, state) else { return Err(row) };
+        if act.damped && T::Dampers::COUNT > 0 {
+            law.dampers(&seen, state, &mut |damper| {
+                let tension = damper.tension(seen.rate(&damper.direction));
+                record = record.with(&seen.pull(&damper.direction, tension));
+            });
+        }
+        let [a, b] = bodies.map(BodyIndex::row);
+        apply(wrenches, a, b, &record);
+    }
+    Ok(())
+}
+
+/// Lets the dampers of the rows act, in descending order with `reverse`.
+#[inline(always)]
+pub fn sweep<P: Geometry, T: Interaction<P>>(
+    rows: &[T],
+    reverse: bool,
+    states: &[T::State],
+    shares: &[SharesOf<P, T>],
+    pass: &mut dyn DamperPass<P>,
+) {
+    if T::Dampers::COUNT == 0 {
+        return;
+    }
+    let idle = Direction::<P::Space> {
+        along: <P::Space as Space>::Vector::ZERO,
+        moments: [<P::Space as Space>::Moment::ZERO; 2],
+    };
+    for row in 0..rows.len() {
+        let row = if reverse { rows.len() - 1 - row } else { row };
+        let (Some(law), Some(state), Some(shares)) =
+            (rows.get(row), states.get(row), shares.get(row))
+        else {
+            break;
+        };
+        let bodies = law.bodies();
+        let mut dampers = T::Dampers::of(Damper::<P>::new(P::Real::ZERO, idle));
+        let mut count = 0;
+        {
+            let Some(seen) = pass.seen(bodies) else { continue };
+            law.dampers(&seen, state, &mut |damper| {
+                if let Some(place) = dampers.as_mut().get_mut(count) {
+                    *place = damper;
+                    count += 1;
+                }
+            });
+        }
+        let known = dampers.as_ref().get(..count).unwrap_or_default();
+        pass.act(bodies, known, shares.as_ref());
+    }
+}
+
+/// Looks at a row.
+pub fn row<P: Geometry, T: Interaction<P>>(
+    rows: &[T],
+    row: usize,
+    states: &[T::State],
+    look: &mut dyn FnMut(&dyn Row<P>),
+) {
+    if let (Some(law), Some(state)) = (rows.get(row), states.get(row)) {
+        look(&Known { law, state });
+    }
+}
+
+/// Visits the words of memories.
+pub fn visit<P: Geometry, T: Interaction<P>>(states: &[T::State], visitor: &mut dyn WordVisitor) {
+    states.iter().for_each(|state| state.visit(&mut Visitor(visitor)));
+}
+
+/// Takes memories from a source.
+pub fn fill<P: Geometry, T: Interaction<P>>(states: &mut [T::State], source: &mut dyn WordSource) {
+    states.iter_mut().for_each(|state| state.fill(&mut Source(source)));
+}
+
+/// The law's name where it has a memory, and whether steps bring it on.
+#[must_use]
+pub fn memory<P: Geometry, T: Interaction<P>>(rows: &[T]) -> Option<(&'static str, bool)> {
+    let remembers = size_of::<T::State>() > 0 && !rows.is_empty();
+    remembers.then_some((T::NAME, T::ADVANCES))
+}
+
+/// A visitor known by its table of functions.
+struct Visitor<'v>(&'v mut dyn WordVisitor);
+
+impl WordVisitor for Visitor<'_> {
+    fn word(&mut self, word: Word) {
+        self.0.word(word);
+    }
+}
+
+struct Source<'v>(&'v mut dyn WordSource);
+
+impl WordSource for Source<'_> {
+    fn take(&mut self, size: usize) -> u64 {
+        self.0.take(size)
+    }
+}
+
+/// A row with its memory.
+struct Known<'s, T, S> {
+    law: &'s T,
+    state: &'s S,
+}
+
+impl<P: Geometry, T: Interaction<P>> Row<P> for Known<'_, T, T::State> {
+    fn name(&self) -> &'static str {
+        T::NAME
+    }
+    fn bodies(&self) -> [BodyIndex; 2] {
+        self.law.bodies()
+    }
+    fn dampers(&self) -> usize {
+        T::Dampers::COUNT
+    }
+    fn record(&self, seen: &Seen<'_, P>) -> Option<Record<P::Space>> {
+        self.law.record(seen, self.state)
+    }
+    fn energy(&self, seen: &Seen<'_, P>) -> P::Real {
+        self.law.energy(seen, self.state)
+    }
+    fn tangent(
+        &self,
+        seen: &Seen<'_, P>,
+        visit: &mut dyn FnMut(P::Real, &Direction<P::Space>),
+    ) -> [P::Real; 2] {
+        self.law.tangent(seen, self.state, visit)
+    }
+    fn each_damper(&self, seen: &Seen<'_, P>, visit: &mut dyn FnMut(usize, &Damper<P>)) {
+        let mut count = 0;
+        self.law.dampers(seen, self.state, &mut |damper| {
+            visit(count, &damper);
+            count += 1;
+        });
+    }
+    fn quantities(&self) -> &'static [Quantity] {
+        T::QUANTITIES
+    }
+    fn read(&self, quantity: usize, seen: &Seen<'_, P>) -> P::Real {
+        self.law.read(quantity, seen, self.state)
+    }
+    fn visit(&self, visitor: &mut dyn WordVisitor) {
+        self.law.visit(visitor);
+    }
+}
