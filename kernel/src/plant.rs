@@ -132,9 +132,7 @@ where
         let levers = &mut kept.levers;
         let mut ledger = Ledger::default();
         let damped = <H::Target as ModelOwner>::Terms::DAMPERS || view.laws.is_damped();
-        if damped
-            && !matches!(S::DAMPING, Damping::Explicit | Damping::Implicit)
-        {
+        if damped && !matches!(S::DAMPING, Damping::Explicit | Damping::Implicit) {
             let (bodies, signals) = (state.bodies.as_ref(), state.signals.as_ref());
             place_bodies(bodies, frames.as_mut());
             let places = Places { frames: frames.as_ref(), signals };

@@ -11,7 +11,8 @@ use crate::elements::input::InputKind;
 use crate::elements::source::Sensor;
 use crate::forces::{self, ExplicitDampers, Record};
 use crate::geometry::Geometry;
-use crate::index::{BodyIndex, InputIndex};
+use crate::index::{BodyIndex, InputIndex, LawIndex};
+use crate::laws::{Instant, Laws as _};
 use crate::model::{FrameOf, Group, ModelOwner, ModelRef, RealOf, Terms};
 use crate::plant::Plant;
 use crate::pose::{End, Places, place_bodies, placed};
@@ -76,6 +77,13 @@ pub enum Readout<P: Geometry> {
         /// The input.
         input: InputIndex,
     },
+    /// What a law shows, in the unit of its [`Quantity`](crate::laws::Quantity).
+    Law {
+        /// The law's row.
+        law: LawIndex,
+        /// The place of the quantity among the law's.
+        quantity: u8,
+    },
 }
 
 impl<P: Geometry> Readout<P> {
@@ -108,6 +116,7 @@ impl<P: Geometry> Readout<P> {
             Readout::JointForce { group } => Readout::JointForce { group },
             Readout::Imu { body, point } => Readout::Imu { body, point: local(point) },
             Readout::Input { input } => Readout::Input { input },
+            Readout::Law { law, quantity } => Readout::Law { law, quantity },
         }
     }
 }
@@ -211,6 +220,17 @@ pub fn read<M: ModelOwner>(
         Readout::Input { input } => {
             let signal = state.signals.as_ref().get(input.0 as usize)?;
             Some(Reading::Scalar(signal.value))
+        }
+        Readout::Law { law, quantity } => {
+            let at = Instant { frames: frames.as_ref(), bodies, signals: state.signals.as_ref() };
+            let mut reading = None;
+            view.laws.look(law.0.into(), &state.laws, &mut |law| {
+                let known = usize::from(quantity) < law.quantities().len();
+                if let Some(seen) = at.seen(law.bodies()).filter(|_| known) {
+                    reading = Some(Reading::Scalar(law.read(quantity.into(), &seen)));
+                }
+            });
+            reading
         }
         // Sensors of motion.
         _ => None,

@@ -7,10 +7,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Deref;
 
+use dbd_kernel::laws::Laws as _;
 use dbd_kernel::model::Plan;
 use dbd_kernel::model::{Group, ModelOwner, ModelRef};
 use dbd_kernel::space::Space;
-use dbd_kernel::{BodyState, TorsionSpring};
+use dbd_kernel::{BodyIndex, BodyState, TorsionSpring};
 
 /// A plan on the heap, see [`Plan`] for the fields.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -27,7 +28,7 @@ pub struct Elimination {
 
 impl Elimination {
     /// The plan of a model of so many bodies, of which what has these ends is stiff: its groups, then its
-    /// torsion springs. Ends that are no bodies are ground. `None` where there are more pairs than an index
+    /// torsion springs, then its laws. Ends that are no bodies are ground. `None` where there are more pairs than an index
     /// counts.
     #[must_use]
     pub fn new(bodies: usize, ends: &[[u16; 2]]) -> Option<Self> {
@@ -79,15 +80,17 @@ impl Elimination {
         (plan.pairs.len() <= usize::from(Plan::GROUND)).then_some(plan)
     }
 
-    /// The plan of a model by its bodies, groups and torsion springs.
+    /// The plan of a model by its bodies, groups, torsion springs and laws.
     pub(crate) fn of<S: Space>(
         bodies: usize,
         groups: &[Group],
         torsions: &[TorsionSpring<S>],
+        laws: impl Iterator<Item = [BodyIndex; 2]>,
     ) -> Option<Self> {
         let groups = groups.iter().map(|group| [group.a.0, group.b.0]);
         let torsions = torsions.iter().map(|spring| [spring.a.0, spring.b.0]);
-        Self::new(bodies, &groups.chain(torsions).collect::<Vec<_>>())
+        let laws = laws.map(|ends| ends.map(|end| end.0));
+        Self::new(bodies, &groups.chain(torsions).chain(laws).collect::<Vec<_>>())
     }
 
     /// As the kernel follows it.
@@ -118,7 +121,10 @@ impl<H: Deref<Target: ModelOwner + Sized>> Eliminated<H> {
     #[must_use]
     pub fn new(model: H) -> Option<Self> {
         let view = model.view();
-        let plan = Elimination::of(view.bodies.len(), view.groups, view.torsions)?;
+        let mut ends = Vec::new();
+        view.laws.look_at_all(&view.laws.states(), &mut |_, law| ends.push(law.bodies()));
+        let ends = ends.into_iter();
+        let plan = Elimination::of(view.bodies.len(), view.groups, view.torsions, ends)?;
         Some(Self { model, plan })
     }
 }

@@ -40,6 +40,12 @@ impl Scene {
             Cause::Energy { body } => {
                 format!("the energy is beyond its limit, most of it in body `{}`,", name(body))
             }
+            Cause::Undefined { law } => {
+                let law = self.law_names.get(usize::from(law.0)).map_or("", String::as_str);
+                format!(
+                    "what {law} does is undefined: its bodies turned half a turn across its axis"
+                )
+            }
             Cause::UndefinedTwist { spring: row } => {
                 let spring = spring(usize::from(row.0));
                 format!(

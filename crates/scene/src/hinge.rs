@@ -1,5 +1,6 @@
 //! Hinges: the axes about which joints turn, for torques and angles.
 
+use dbd_kernel::laws::Quantity;
 use dbd_kernel::{BodyIndex, Vec3};
 
 use crate::JointInfo;
@@ -31,6 +32,8 @@ pub(crate) struct Known<'k> {
     pub(crate) elements: &'k Elements,
     /// The joints.
     pub(crate) joints: &'k [JointInfo],
+    /// What each interaction shows.
+    pub(crate) quantities: &'k [&'static [Quantity]],
 }
 
 /// Reads `target`, a joint or a torsion spring, and what it needs: `axis` for a spherical joint,

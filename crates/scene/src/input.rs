@@ -190,7 +190,7 @@ fn anchor(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, Sc
                 known.joints.get(joint).map_or(0..0, |info| info.groups.clone())
             }
             Target::Tsda(group) | Target::PointOnLine(group) => group..group + 1,
-            Target::TorsionSpring(_) => 0..0,
+            Target::TorsionSpring(_) | Target::Interaction(_) => 0..0,
         };
         let mut moved = Err(NoAnchor::NoGround);
         for group in groups {

@@ -28,6 +28,7 @@ mod hinge;
 mod inertia;
 mod input;
 mod joints;
+pub mod laws;
 mod links;
 mod lint;
 mod load;
@@ -119,6 +120,7 @@ const KEYS: &[&str] = &[
     "tsda",
     "point_on_line",
     "torsion_spring",
+    "interaction",
     "load",
     "input",
     "readout",
@@ -173,6 +175,10 @@ pub struct Scene {
     written_angles: Vec<WrittenAngle>,
     /// What messages call raw TSDAs, then points on lines.
     raw_names: Vec<String>,
+    /// What messages call the interactions, in the order of the model's laws.
+    law_names: Vec<String>,
+    /// The numbers of their tables.
+    law_tables: Vec<usize>,
 }
 
 impl Scene {
@@ -285,11 +291,22 @@ impl Scene {
         let mut raw_names = tsda::read_all(&root, &mut assembly, &mut elements)?;
         raw_names.extend(point_on_line::read_all(&root, &mut assembly, &mut elements)?);
         let mut torsion_names = torsion_spring::read_all(&root, &mut assembly, &mut elements)?;
+        let laws = laws::read_all(&root, &mut assembly, &mut elements)?;
         load::read_all(&root, &mut assembly)?;
-        let mut known = Known { assembly: &mut assembly, elements: &elements, joints: &joints };
+        let mut known = Known {
+            assembly: &mut assembly,
+            elements: &elements,
+            joints: &joints,
+            quantities: &laws.quantities,
+        };
         let inputs = input::read_all(&root, &mut known)?;
         let readouts = readout::read_all(&root, &mut known, &inputs, &mut torsion_names)?;
-        let mut known = Known { assembly: &mut assembly, elements: &elements, joints: &joints };
+        let mut known = Known {
+            assembly: &mut assembly,
+            elements: &elements,
+            joints: &joints,
+            quantities: &laws.quantities,
+        };
         input::read_over(&root, &mut known, &inputs, &readouts)?;
         let geometry = geometry::read_all(&root, &assembly)?;
         let resolved = assembly.resolved();
@@ -318,6 +335,8 @@ impl Scene {
             changes: given,
             changed,
             raw_names,
+            law_names: laws.labels,
+            law_tables: laws.tables,
         };
         if planar {
             let reduced = scene.reduced().map_err(|unplanar| unplanar.refuse(&scene, &root))?;
@@ -377,6 +396,13 @@ impl Scene {
     #[must_use]
     pub fn raw_names(&self) -> &[String] {
         &self.raw_names
+    }
+
+    /// What messages call the interactions, in the order of the model's rows of laws:
+    /// "interaction `stop` (world–bar)".
+    #[must_use]
+    pub fn law_names(&self) -> &[String] {
+        &self.law_names
     }
 
     /// Torsion springs of the scene file, without those that only count turns.

@@ -4,6 +4,7 @@
 //! rate: where no torsion spring turns about the same axis, one without stiffness is added to
 //! count the turns.
 
+use dbd_kernel::index::LawIndex;
 use dbd_kernel::readouts::Readout;
 use dbd_kernel::{F64, Geometry, Vec3};
 
@@ -50,9 +51,11 @@ enum Columns {
     Imu,
     /// A number in the unit of the input that is shown.
     Input,
+    /// A number in the unit of what an interaction shows.
+    Law,
 }
 
-static TYPES: [ReadoutType; 8] = [
+static TYPES: [ReadoutType; 9] = [
     ReadoutType {
         name: "joint_angle",
         columns: Columns::Scalar("rad"),
@@ -113,6 +116,15 @@ static TYPES: [ReadoutType; 8] = [
         keys: &["target"],
         read: |table, _, inputs| Ok(Readout::Input { input: input(table, inputs)?.index }),
     },
+    ReadoutType {
+        name: "interaction",
+        columns: Columns::Law,
+        keys: &["target", "quantity"],
+        read: |table, known, _| {
+            let (law, quantity, _) = quantity(table, known)?;
+            Ok(Readout::Law { law: LawIndex(law as u16), quantity: quantity as u8 })
+        },
+    },
 ];
 
 const KEYS: &[&str] = &["name", "type"];
@@ -155,6 +167,7 @@ pub(crate) fn read_all(
                 [forces, rates].concat()
             }
             Columns::Input => vec![("", input(&table, inputs)?.unit)],
+            Columns::Law => vec![("", quantity(&table, known)?.2)],
         };
         for (end, _) in &columns {
             let column = format!("{name}{end}");
@@ -206,6 +219,28 @@ fn point(
     Ok((body, F64::local_from_f64(point.to_f64())))
 }
 
+/// The row of an interaction, the place of what it shows and its unit.
+fn quantity(
+    table: &Table<'_>,
+    known: &Known<'_>,
+) -> Result<(usize, usize, &'static str), SceneError> {
+    let name = ElementName { elements: known.elements, kinds: Kinds::INTERACTION };
+    let (name, target) = table.required("target", name)?;
+    let row = if let Target::Interaction(row) = target { row } else { usize::MAX };
+    let quantities = known.quantities.get(row).copied().unwrap_or_default();
+    if quantities.is_empty() {
+        let help = "an interaction whose law has quantities";
+        return Err(table.refuse_value(
+            "target",
+            &format!("names `{name}`, which shows nothing"),
+            help,
+        ));
+    }
+    let names: Vec<&'static str> = quantities.iter().map(|quantity| quantity.name).collect();
+    let place = table.required("quantity", Choice(&names))?;
+    Ok((row, place, quantities[place].unit))
+}
+
 fn tsda_force(table: &Table<'_>, known: &Known<'_>) -> Result<Readout<F64>, SceneError> {
     let name = ElementName { elements: known.elements, kinds: Kinds::TSDA };
     let (name, target) = table.required("target", name)?;
@@ -233,7 +268,7 @@ fn group_of(target: Target, known: &Known<'_>) -> usize {
             known.joints.get(joint).map_or(0, |info| info.groups.end.saturating_sub(1))
         }
         Target::Tsda(group) | Target::PointOnLine(group) => group,
-        Target::TorsionSpring(_) => usize::MAX,
+        Target::TorsionSpring(_) | Target::Interaction(_) => usize::MAX,
     }
 }
 

@@ -2,24 +2,25 @@
 //!
 //! `assembly => model in any precision`. Steps through the very code and bits of a const model.
 
-use std::marker::PhantomData;
-
 use dbd_kernel::body::Body;
 use dbd_kernel::elements::input::{Input, Knot};
 use dbd_kernel::elements::source::{Source, SourceLaw};
 use dbd_kernel::index::InputIndex;
+use dbd_kernel::laws::Laws;
 use dbd_kernel::model::Plan;
-use dbd_kernel::model::{AllTerms, Group, ModelOwner, ModelRef};
+use dbd_kernel::model::{AllTerms, Group, LawsIn, ModelOwner, ModelRef};
 use dbd_kernel::schedule::LoadWindow;
 use dbd_kernel::schedule::{KnotStep, Signal};
 use dbd_kernel::sources::SourceStep;
 use dbd_kernel::space::Linear as _;
+use dbd_kernel::words::Word;
 use dbd_kernel::{
     BodyState, F64, Geometry, Load, PointBushing, PointOnLine, Real, Revolute, State,
     TorsionSpring, Tsda, Universal,
 };
 
 use crate::elimination::Elimination;
+use crate::laws::{LawList, Listed, convert_words};
 
 /// A model on the heap, see [`dbd_kernel::Model`] for the fields.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -58,6 +59,8 @@ pub struct SceneModel<P: Geometry> {
     pub universals: Vec<Universal<P::Space>>,
     /// Sources that inputs follow.
     pub sources: Vec<Source<P>>,
+    /// The list of laws, summed after all torsion springs.
+    pub laws: LawList<P>,
     /// The plan of a matrix, empty but for a scheme that has one; see [`Self::planned`].
     pub plan: Elimination,
 }
@@ -84,6 +87,7 @@ impl<P: Geometry> SceneModel<P> {
             revolutes: self.revolutes.iter().map(Revolute::convert).collect(),
             universals: self.universals.iter().map(Universal::convert).collect(),
             sources: self.sources.iter().map(Source::convert).collect(),
+            laws: self.laws.convert(),
             plan: self.plan.clone(),
         }
     }
@@ -92,7 +96,8 @@ impl<P: Geometry> SceneModel<P> {
     /// of bodies than an index counts.
     #[must_use]
     pub fn planned(self) -> Self {
-        let plan = Elimination::of(self.bodies.len(), &self.groups, &self.torsions);
+        let plan =
+            Elimination::of(self.bodies.len(), &self.groups, &self.torsions, self.laws.bodies());
         let plan = plan.unwrap_or_default();
         Self { plan, ..self }
     }
@@ -148,14 +153,22 @@ pub fn widen<M: ModelOwner>(state: &State<M>) -> State<SceneModel<F64>> {
     State {
         bodies: state.bodies.as_ref().iter().map(BodyState::convert).collect(),
         turns: state.turns.as_ref().to_vec(),
+        laws: convert_words(&words_of(state), Word::F64),
         step: state.step,
         signals: state.signals.as_ref().iter().map(Signal::convert).collect(),
     }
 }
 
+/// The words of the laws' memories in a state.
+fn words_of<M: ModelOwner>(state: &State<M>) -> Vec<Word> {
+    let mut list = Listed::default();
+    LawsIn::<M::Precision, M::Terms>::visit(&state.laws, &mut list);
+    list.0
+}
+
 impl<P: Geometry> ModelOwner for SceneModel<P> {
     type Precision = P;
-    type Terms = AllTerms;
+    type Terms = AllTerms<LawList<P>>;
     type PerBody<T: Copy> = Vec<T>;
     type PerDampedBody<T: Copy> = Vec<T>;
     type PerTorsion = Vec<i32>;
@@ -168,7 +181,7 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
     type PerKnot = Vec<KnotStep<P::Real>>;
     type PerSource = Vec<SourceStep>;
 
-    fn view(&self) -> ModelRef<'_, P, AllTerms> {
+    fn view(&self) -> ModelRef<'_, P, AllTerms<LawList<P>>> {
         ModelRef {
             bodies: &self.bodies,
             gravity: &self.gravity,
@@ -186,7 +199,7 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
             revolutes: &self.revolutes,
             universals: &self.universals,
             sources: &self.sources,
-            terms: PhantomData,
+            laws: &self.laws,
         }
     }
 
@@ -199,7 +212,8 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
     }
 
     fn per_damped_body<T: Copy>(&self, value: T) -> Vec<T> {
-        if self.dampers.is_empty() { Vec::new() } else { self.per_body(value) }
+        let none = self.dampers.is_empty() && !self.laws.is_damped();
+        if none { Vec::new() } else { self.per_body(value) }
     }
 
     fn per_torsion(&self) -> Vec<i32> {

@@ -20,6 +20,8 @@ pub(crate) enum Target {
     PointOnLine(usize),
     /// A torsion spring by its row.
     TorsionSpring(usize),
+    /// An interaction by its row.
+    Interaction(usize),
 }
 
 /// Kinds of element that will do.
@@ -41,8 +43,13 @@ impl Kinds {
         Self { suits: |target| matches!(target, Target::Tsda(_)), expected: "the name of a tsda" };
     /// What pulls at points.
     pub(crate) const PULLING: Self = Self {
-        suits: |target| !matches!(target, Target::TorsionSpring(_)),
+        suits: |target| !matches!(target, Target::TorsionSpring(_) | Target::Interaction(_)),
         expected: "the name of a joint, a tsda or a point_on_line",
+    };
+    /// An interaction.
+    pub(crate) const INTERACTION: Self = Self {
+        suits: |target| matches!(target, Target::Interaction(_)),
+        expected: "the name of an interaction",
     };
 }
 
@@ -70,6 +77,7 @@ impl Kind for ElementName<'_> {
                     Target::Tsda(_) => "tsda",
                     Target::PointOnLine(_) => "point_on_line",
                     Target::TorsionSpring(_) => "torsion_spring",
+                    Target::Interaction(_) => "interaction",
                 };
                 let problem = format!("names the {kind} \"{name}\"");
                 Err(value.refuse(&problem, &self.expected()))

@@ -3,8 +3,8 @@
 //! `() => tables with their keys`, from the very lists by which unknown keys are refused; for what helps people to
 //! write scenes.
 
-use crate::{body, defaults, drive, geometry, inertia, input, joints, links, load, orientation};
-use crate::{point_on_line, points, readout, spring, torsion_spring, tsda};
+use crate::{body, defaults, drive, geometry, inertia, input, joints, laws, links, load};
+use crate::{orientation, point_on_line, points, readout, spring, torsion_spring, tsda};
 
 /// A table of scene files and the keys that it may have.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -47,6 +47,7 @@ pub fn vocabulary() -> Vec<TableKeys> {
     }
     joints::types().for_each(|(kind, keys)| add("joint", kind, keys));
     input::types().for_each(|(kind, keys)| add("input", kind, keys));
+    laws::types().for_each(|(kind, keys)| add("interaction", kind, keys));
     readout::types().for_each(|(kind, keys)| add("readout", kind, keys));
     geometry::shapes().for_each(|(kind, keys)| add("geometry", kind, keys));
     all

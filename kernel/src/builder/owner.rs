@@ -1,6 +1,5 @@
 //! The builder as an owner of its model: memory of fixed capacity, filled as far as needed.
 
-
 use heapless::Vec;
 
 use crate::body::BodyState;

@@ -203,7 +203,8 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
                 *turning = *turning + spring.turning(twist.angle, gradient);
             }
             Mount::Law(row) => {
-                let at = Instant { frames: places.frames, bodies: self.bodies, signals: places.signals };
+                let at =
+                    Instant { frames: places.frames, bodies: self.bodies, signals: places.signals };
                 view.laws.look(row, self.memories.1, &mut |law| {
                     let ends = law.bodies();
                     let Some(seen) = at.seen(ends) else { return };
@@ -341,7 +342,9 @@ mod tests {
         let mut frames = MODEL.per_body(<F64 as Geometry>::Frame::default());
         place_bodies::<F64>(state.bodies.as_ref(), frames.as_mut());
         let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
-        let of = |row| square_of(&MODEL.view(), places, &state.bodies, (&state.turns[..], &state.laws), row);
+        let of = |row| {
+            square_of(&MODEL.view(), places, &state.bodies, (&state.turns[..], &state.laws), row)
+        };
         let [a, b, c] = [of(0), of(1), of(2)];
         assert!(a > 0.0 && b > 0.0 && c > 0.0 && a != b && b != c, "{a} {b} {c}");
         assert_eq!(bound(&MODEL, &state), a.max(b).max(c).sqrt());

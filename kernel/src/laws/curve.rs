@@ -73,11 +73,14 @@ mod tests {
 
     #[test]
     fn a_curve_is_straight_between_its_knots_and_beyond_them() {
-        let curve =
-            Curve { knots: [[-1.0, 2.0], [0.0, 0.0], [2.0, 1.0], [0.0, 0.0]], count: 3 };
-        for (x, value, slope) in
-            [(-3.0, 6.0, -2.0), (-0.5, 1.0, -2.0), (0.0, 0.0, 0.5), (1.0, 0.5, 0.5), (4.0, 2.0, 0.5)]
-        {
+        let curve = Curve { knots: [[-1.0, 2.0], [0.0, 0.0], [2.0, 1.0], [0.0, 0.0]], count: 3 };
+        for (x, value, slope) in [
+            (-3.0, 6.0, -2.0),
+            (-0.5, 1.0, -2.0),
+            (0.0, 0.0, 0.5),
+            (1.0, 0.5, 0.5),
+            (4.0, 2.0, 0.5),
+        ] {
             assert_eq!(curve.at(x), (value, slope), "{x}");
         }
         assert_eq!(curve.area(0.0), 1.0);

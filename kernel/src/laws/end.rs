@@ -37,8 +37,7 @@ impl<'s, P: Geometry> Instant<'s, P> {
     #[must_use]
     pub fn seen(&self, [a, b]: [BodyIndex; 2]) -> Option<Seen<'s, P>> {
         let end = |index: BodyIndex| {
-            let (frame, state) =
-                (self.frames.get(index.row())?, self.bodies.get(index.row())?);
+            let (frame, state) = (self.frames.get(index.row())?, self.bodies.get(index.row())?);
             Some(Body {
                 frame,
                 orientation: &state.orientation,
@@ -168,8 +167,7 @@ impl<P: Geometry> Seen<'_, P> {
     #[must_use]
     pub fn along(&self, u: P::Vector, arms: [P::Vector; 2]) -> Direction<P::Space> {
         let [a, b] = arms;
-        let moments =
-            [self.a.moment_to_axes(a.cross(u)), self.b.moment_to_axes(b.cross(u))];
+        let moments = [self.a.moment_to_axes(a.cross(u)), self.b.moment_to_axes(b.cross(u))];
         Direction { along: u, moments }
     }
 

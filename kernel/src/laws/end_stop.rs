@@ -8,7 +8,7 @@ use crate::damping::Direction;
 use crate::forces::Record;
 use crate::geometry::Geometry;
 use crate::laws::end::Seen;
-use crate::laws::interaction::{Damper, Interaction, Nothing, Quantity};
+use crate::laws::interaction::{Damper, Interaction, Nothing, Quantity, Wrong};
 use crate::real::Real;
 use crate::space::Linear as _;
 
@@ -84,6 +84,12 @@ impl<P: Geometry> Interaction<P> for EndStop<P> {
         let damper = Damper::new(self.dissipation * force, direction);
         let least = damper.bounds[0];
         visit(damper.within(least, force));
+    }
+
+    fn check(&self) -> Result<(), Wrong> {
+        let zero = P::Real::ZERO;
+        Wrong::unless(self.stiffness > zero, "stiffness", "is not positive", "a stiffness > 0")?;
+        Wrong::unless(self.dissipation >= zero, "dissipation", "is negative", "a number ≥ 0")
     }
 
     fn read(&self, _: usize, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {

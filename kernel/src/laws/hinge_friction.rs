@@ -11,7 +11,7 @@ use crate::forces::Record;
 use crate::geometry::Geometry;
 use crate::laws::end::Seen;
 use crate::laws::hinge::Turns;
-use crate::laws::interaction::{Damper, Interaction, Quantity};
+use crate::laws::interaction::{Damper, Interaction, Quantity, Wrong};
 use crate::real::Real;
 use crate::space::Linear as _;
 use crate::words::{WordSource, WordVisitor, Words};
@@ -22,17 +22,17 @@ crate::law! {
         /// The axis of the turn.
         axis: Axis,
         /// Torque while it slips.
-        coulomb: Number("N*m"),
+        coulomb: Number("N·m"),
         /// Torque that it takes to break away from rest, at least as large.
-        breakaway: Number("N*m"),
+        breakaway: Number("N·m"),
         /// Rate at which the torque has fallen half the way to the lower one.
         stribeck: Number("rad/s") = 0.05,
         /// Turn by which it gives before it breaks away.
         give: Number("rad") = 0.001,
         /// Damping of the give, within the torque of breakaway.
-        damping: Number("N*m*s/rad") = 0.0,
+        damping: Number("N·m·s/rad") = 0.0,
         /// Viscous part.
-        viscous: Number("N*m*s/rad") = 0.0,
+        viscous: Number("N·m·s/rad") = 0.0,
     }
 }
 
@@ -150,18 +150,25 @@ impl<P: Geometry> Interaction<P> for HingeFriction<P> {
     }
 
     #[inline(always)]
-    fn dampers(
-        &self,
-        seen: &Seen<'_, P>,
-        slip: &Slip<P::Real>,
-        visit: &mut impl FnMut(Damper<P>),
-    ) {
+    fn dampers(&self, seen: &Seen<'_, P>, slip: &Slip<P::Real>, visit: &mut impl FnMut(Damper<P>)) {
         let Some(Rubbing { direction, torque, limit, .. }) = self.rubbing(seen, slip) else {
             return;
         };
         // Give and its damping together stay within the limit.
         visit(Damper::new(self.damping, direction).within(-limit - torque, limit - torque));
         visit(Damper::new(self.viscous, direction));
+    }
+
+    fn check(&self) -> Result<(), Wrong> {
+        let zero = P::Real::ZERO;
+        Wrong::unless(self.coulomb >= zero, "coulomb", "is negative", "a torque ≥ 0")?;
+        let enough = self.breakaway >= self.coulomb && self.breakaway > zero;
+        let least = "a torque > 0, at least as large as `coulomb`";
+        Wrong::unless(enough, "breakaway", "is too small", least)?;
+        Wrong::unless(self.stribeck > zero, "stribeck", "is not positive", "a rate > 0")?;
+        Wrong::unless(self.give > zero, "give", "is not positive", "a turn > 0")?;
+        Wrong::unless(self.damping >= zero, "damping", "is negative", "a number ≥ 0")?;
+        Wrong::unless(self.viscous >= zero, "viscous", "is negative", "a number ≥ 0")
     }
 
     fn read(&self, _: usize, seen: &Seen<'_, P>, slip: &Slip<P::Real>) -> P::Real {

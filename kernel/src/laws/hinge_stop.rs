@@ -7,7 +7,7 @@ use crate::forces::Record;
 use crate::geometry::Geometry;
 use crate::laws::end::Seen;
 use crate::laws::hinge::Turns;
-use crate::laws::interaction::{Damper, Interaction, Quantity};
+use crate::laws::interaction::{Damper, Interaction, Quantity, Wrong};
 use crate::real::Real;
 use crate::space::Linear as _;
 
@@ -21,7 +21,7 @@ crate::law! {
         /// The largest turn.
         to: Number("rad"),
         /// Torque per turn beyond the range.
-        stiffness: Number("N*m/rad"),
+        stiffness: Number("N·m/rad"),
         /// Hunt and Crossley's a: torque grows by this part per rate of the depth.
         dissipation: Number("s/rad") = 0.0,
     }
@@ -95,10 +95,17 @@ impl<P: Geometry> Interaction<P> for HingeStop<P> {
         let [least, most] = damper.bounds;
         // Together with the spring it never pulls towards the stop.
         let upper = zero.less_than(torque);
-        visit(damper.within(
-            P::Real::pick(upper, -torque, least),
-            P::Real::pick(upper, most, -torque),
-        ));
+        visit(
+            damper
+                .within(P::Real::pick(upper, -torque, least), P::Real::pick(upper, most, -torque)),
+        );
+    }
+
+    fn check(&self) -> Result<(), Wrong> {
+        let zero = P::Real::ZERO;
+        Wrong::unless(self.to > self.from, "to", "is not above `from`", "a turn above `from`")?;
+        Wrong::unless(self.stiffness > zero, "stiffness", "is not positive", "a stiffness > 0")?;
+        Wrong::unless(self.dissipation >= zero, "dissipation", "is negative", "a number ≥ 0")
     }
 
     fn read(&self, _: usize, seen: &Seen<'_, P>, turns: &Turns) -> P::Real {

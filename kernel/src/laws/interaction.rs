@@ -96,6 +96,32 @@ pub struct Quantity {
     pub unit: &'static str,
 }
 
+/// What is wrong with a law's constants.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wrong {
+    /// The field.
+    pub field: &'static str,
+    /// What is wrong, to follow its name: `is negative`.
+    pub problem: &'static str,
+    /// What it must be: `a stiffness ≥ 0`.
+    pub expected: &'static str,
+}
+
+impl Wrong {
+    /// Refuses a field unless it `holds`.
+    ///
+    /// # Errors
+    /// Itself.
+    pub fn unless(
+        holds: bool,
+        field: &'static str,
+        problem: &'static str,
+        expected: &'static str,
+    ) -> Result<(), Self> {
+        if holds { Ok(()) } else { Err(Self { field, problem, expected }) }
+    }
+}
+
 /// The constants of a law in one precision; [`law!`](crate::law) writes this.
 pub trait Constants<P: Geometry>: Copy + Send + Sync + 'static {
     /// The law's name, in lower case with hyphens.
@@ -158,6 +184,14 @@ pub trait Interaction<P: Geometry>: Constants<P> {
     ) {
     }
 
+    /// Whether its constants go together, as a scene gives them.
+    ///
+    /// # Errors
+    /// The field that is wrong, why, and what would be right.
+    fn check(&self) -> Result<(), Wrong> {
+        Ok(())
+    }
+
     /// What it shows, by its place among [`Self::QUANTITIES`].
     #[inline]
     fn read(&self, _quantity: usize, _seen: &Seen<'_, P>, _state: &Self::State) -> P::Real {
@@ -186,6 +220,5 @@ pub trait Law: Interaction<F64> {
 }
 
 /// The shares of a law's dampers.
-pub(crate) type SharesOf<P, T> = <<T as Interaction<P>>::Dampers as Several>::Of<
-    Share<<P as Geometry>::Real>,
->;
+pub(crate) type SharesOf<P, T> =
+    <<T as Interaction<P>>::Dampers as Several>::Of<Share<<P as Geometry>::Real>>;

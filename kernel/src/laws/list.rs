@@ -2,15 +2,15 @@
 //!
 //! `(tables, pose) => records added to the wrenches`. What is not listed has no code, so nothing is switched off.
 
+use crate::damping::Direction;
 use crate::damping::Share;
+use crate::forces::Record;
 use crate::forces::Wrench;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::laws::end::{Instant, Seen};
 use crate::laws::interaction::{Damper, Interaction, Quantity, Several, SharesOf};
 use crate::laws::slice;
-use crate::forces::Record;
-use crate::damping::Direction;
 use crate::words::{WordSource, WordVisitor};
 
 /// What an evaluation does with laws beside adding their records.

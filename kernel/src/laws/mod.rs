@@ -31,11 +31,11 @@ pub use end_stop::EndStop;
 pub use hinge::{Hinge, Turns, Twisted};
 pub use hinge_friction::HingeFriction;
 pub use hinge_stop::HingeStop;
-pub use interaction::{Constants, Damper, Interaction, Law, Nothing, Quantity, Several};
+pub use interaction::{Constants, Damper, Interaction, Law, Nothing, Quantity, Several, Wrong};
 pub use kind::{Axis, Count, Field, FieldSink, FieldSource, Kind, Normal, Number, Points, Table};
 pub use list::{Act, DamperPass, Laws, Row};
 #[doc(hidden)]
-pub use slice::{act, row, shares_of, states_of, sweep};
+pub use slice::{act, memory, row, shares_of, sweep};
 
 pub use crate::damping::Direction;
 pub use crate::forces::Record;

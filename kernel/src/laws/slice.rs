@@ -11,12 +11,6 @@ use crate::real::Real;
 use crate::space::{Linear as _, Space};
 use crate::words::{Word, WordSource, WordVisitor, Words as _};
 
-/// The memory of a row at t = 0.
-#[must_use]
-pub fn states_of<P: Geometry, T: Interaction<P>>(_: &T) -> T::State {
-    T::State::default()
-}
-
 /// The shares of a row's dampers.
 #[must_use]
 pub fn shares_of<P: Geometry, T: Interaction<P>>(_: &T) -> SharesOf<P, T> {

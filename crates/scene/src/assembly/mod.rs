@@ -14,6 +14,7 @@ pub(crate) use resolved::Resolved;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use dbd_kernel::attitude::Attitude as _;
 use dbd_kernel::energy::each_extension;
@@ -25,6 +26,7 @@ use dbd_kernel::{
 };
 
 use crate::error::SceneError;
+use crate::laws::{LawList, SourceRows};
 use crate::pair::Pair;
 use crate::runtime::SceneModel;
 use crate::spring::Spring;
@@ -333,6 +335,11 @@ impl Assembly {
             damper,
         });
         Ok(())
+    }
+
+    /// Sets the laws.
+    pub(crate) fn set_laws(&mut self, sources: &[Arc<dyn SourceRows>]) {
+        self.model.laws = LawList::of(sources);
     }
 
     /// Adds a load.

@@ -5,6 +5,7 @@
 //! checks every index ([`dbd_kernel::Model::checked`]). What a program has of it: the head of
 //! [`source`]. A build script calls [`build`](mod@crate::build), a person `host-sim export`.
 
+mod laws;
 mod model;
 mod names;
 mod number;

@@ -6,11 +6,13 @@ use std::fmt::{Display, Write};
 
 use dbd_kernel::F64;
 use dbd_kernel::geometry::Float;
+use dbd_kernel::laws::Laws as _;
 use dbd_kernel::model::ModelOwner;
 use dbd_kernel::planar::Planar;
 use dbd_kernel::readouts::Readout;
 
 use super::UNUSED;
+use super::laws;
 use super::names::{constant_name, constant_names, quoted, type_name};
 use super::number::{SourceGeometry, SourceNumber};
 use super::rows::{
@@ -52,17 +54,18 @@ pub(super) fn model_in<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>
         model.clearances.len(),
         model.revolutes.len(),
         model.universals.len(),
-        if model.dampers.is_empty() { 0 } else { model.bodies.len() },
+        if model.dampers.is_empty() && !model.laws.is_damped() { 0 } else { model.bodies.len() },
         model.sources.len(),
     ];
     let counts = counts.map(|n| n.to_string()).join(", ");
+    let laws = laws::types::<P>(&model.laws);
     let mut out = String::new();
     let mut line = |text: &dyn Display| {
         // Writing to a string cannot fail.
         let _ = writeln!(out, "{text}");
     };
     line(&format_args!("/// The shape of the scene {}.", quoted(&scene.name)));
-    line(&format_args!("{UNUSED}pub type {ty} = Model<{precision}, {counts}>;"));
+    line(&format_args!("{UNUSED}pub type {ty} = Model<{precision}, {counts}, {laws}>;"));
     line(&format_args!("/// The scene {}.", quoted(&scene.name)));
     line(&format_args!("{UNUSED}pub static {name}: {ty} = Model {{"));
     line(&format_args!("    bodies: {},", list(&model.bodies, body::<P>)));
@@ -82,6 +85,7 @@ pub(super) fn model_in<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>
     line(&format_args!("    revolutes: {},", list(&model.revolutes, revolute::<P>)));
     line(&format_args!("    universals: {},", list(&model.universals, universal::<P>)));
     line(&format_args!("    sources: {},", list(&model.sources, source::<P>)));
+    line(&format_args!("    laws: {},", laws::rows::<P>(&model.laws)));
     line(&"}");
     line(&".checked();");
     let names = constant_names(scene.readouts.iter().map(|readout| readout.name.as_str()));

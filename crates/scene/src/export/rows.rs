@@ -156,6 +156,9 @@ pub(super) fn readout<P: SourceGeometry>(readout: &Readout<P>) -> String {
         Readout::JointForce { group } => format!("JointForce {{ group: {group} }}"),
         Readout::Imu { body, point } => at("Imu", *body, point),
         Readout::Input { input } => format!("Input {{ input: InputIndex({}) }}", input.0),
+        Readout::Law { law, quantity } => {
+            format!("Law {{ law: dbd_kernel::index::LawIndex({}), quantity: {quantity} }}", law.0)
+        }
     };
     format!("Readout::{kind}")
 }

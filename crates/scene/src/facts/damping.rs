@@ -10,7 +10,7 @@ use crate::{Scene, SceneModel};
 pub struct ElementDamping {
     /// What messages call it: ``joint `wrist` ``.
     pub name: String,
-    /// Its row in the order joints, raw elements, torsion springs.
+    /// Its row in the order joints, raw elements, torsion springs, interactions.
     pub row: usize,
     /// \[1/s\] c/μ of its strongest damper, at which this alone would stop its bodies.
     pub rate: f64,
@@ -19,11 +19,12 @@ pub struct ElementDamping {
     pub crossed: f64,
 }
 
-/// Joints, raw elements and torsion springs that have dampers, in scene order, as they step: in its
+/// Joints, raw elements, torsion springs and interactions that have dampers, in scene order, as they step: in its
 /// plane where the scene is planar; `joint_wise` as joint-wise damping has them.
 pub(super) fn dampings(scene: &Scene, joint_wise: bool) -> Vec<ElementDamping> {
     let raw = scene.joints.last().map_or(0, |joint| joint.groups.end);
     let springs = scene.joints.len() + scene.raw_names.len();
+    let laws = springs + scene.torsion_names.len();
     let owners = scene.joints.iter().enumerate();
     let owners = owners.flat_map(|(row, joint)| joint.groups.clone().map(move |_| row));
     let owners: Vec<usize> = owners.collect();
@@ -38,6 +39,7 @@ pub(super) fn dampings(scene: &Scene, joint_wise: bool) -> Vec<ElementDamping> {
                 (scene.joints.len() + group - raw, scene.raw_names[group - raw].clone())
             }
             DampersOf::Torsion(spring) => (springs + spring, scene.torsion_names[spring].clone()),
+            DampersOf::Law(law) => (laws + law, scene.law_names[law].clone()),
         };
         match found.last_mut().filter(|last| last.row == row) {
             Some(last) => {

@@ -24,6 +24,8 @@ pub enum Part {
     Load(usize),
     /// An input by its row.
     Input(usize),
+    /// An interaction by the row of its law.
+    Law(usize),
 }
 
 /// A part of a scene that leaves a plane.
@@ -62,6 +64,7 @@ impl Departure {
             Part::TorsionSpring(row) => scene.torsion_names.get(row).cloned().unwrap_or_default(),
             Part::Load(row) => format!("load {}", row + 1),
             Part::Input(row) => named("input", scene.inputs.get(row).map(|input| &input.name)),
+            Part::Law(row) => scene.law_names.get(row).cloned().unwrap_or_default(),
         };
         format!("{name} {}", self.problem)
     }
@@ -118,5 +121,6 @@ fn place(part: Part, scene: &Scene) -> Option<(&'static str, usize)> {
         }
         Part::Load(row) => Some(("load", row)),
         Part::Input(row) => Some(("input", row)),
+        Part::Law(row) => Some(("interaction", *scene.law_tables.get(row)?)),
     }
 }

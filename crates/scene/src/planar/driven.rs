@@ -122,7 +122,7 @@ fn normal(axis: Vec3<f64>, leaves: &mut dyn FnMut(&'static str, &str)) -> Vec3<f
 }
 
 /// \[degrees\] by how much an axis leans from the normal, where it does.
-fn lean(axis: Vec3<f64>) -> Option<f64> {
+pub(super) fn lean(axis: Vec3<f64>) -> Option<f64> {
     let beside = libm::hypot(axis.x, axis.y);
     (beside > ALIKE).then(|| libm::atan2(beside, axis.z.abs()).to_degrees())
 }

@@ -45,6 +45,7 @@ impl Planar {
             inputs: flat.inputs.iter().map(input).collect(),
             // What they read is said in the world's axes there.
             sources: whole.sources.clone(),
+            laws: whole.laws.clone(),
             ..flat.clone()
         }
     }

@@ -12,6 +12,7 @@ mod driven;
 mod elements;
 mod embedding;
 mod groups;
+mod laws;
 mod plane;
 mod reduced;
 
@@ -114,6 +115,7 @@ fn in_plane(scene: &Scene, normal: Vec3<f64>) -> Result<Planar, Unplanar> {
     bodies::read(scene, &mut plane, near, &mut model, &mut leaves);
     let at_rest = groups::read(scene, &plane, near, &mut model, &mut leaves);
     driven::read(scene, &plane, near, &mut model, &mut leaves);
+    laws::read(scene, &plane, near, &mut model, &mut leaves);
     if departures.is_empty() {
         let mut planar = Planar { model, plane, at_rest };
         let sources = scene.model.sources.iter();

@@ -206,7 +206,11 @@ fn pair<T: Terms<F64>>(model: &ModelRef<'_, F64, T>, group: &Group, i: usize) ->
     }
 }
 
-fn element<T: Terms<F64>>(model: &ModelRef<'_, F64, T>, group: &Group, i: usize) -> Box<dyn Element> {
+fn element<T: Terms<F64>>(
+    model: &ModelRef<'_, F64, T>,
+    group: &Group,
+    i: usize,
+) -> Box<dyn Element> {
     let pair = pair(model, group, i);
     let row = usize::from(group.element) + i;
     let damping = group.damper.row().map_or(0.0, |first| model.dampers[first + i]);

@@ -1,0 +1,167 @@
+//! A law's constants out of its table.
+
+use dbd_kernel::Quaternion;
+use dbd_kernel::attitude::Attitude as _;
+use dbd_kernel::laws::{Field, FieldSource};
+
+use crate::assembly::Assembly;
+use crate::error::SceneError;
+use crate::pair::Pair;
+use crate::points::{Heading, PlaceOf};
+use crate::text::{Kind, Number, Table, Value};
+
+/// A table as the source of a law's constants.
+pub(super) struct Reading<'a, 't> {
+    table: &'a Table<'t>,
+    assembly: &'a Assembly,
+    pair: &'a Pair,
+    refused: Option<SceneError>,
+}
+
+impl<'a, 't> Reading<'a, 't> {
+    pub(super) fn new(table: &'a Table<'t>, assembly: &'a Assembly, pair: &'a Pair) -> Self {
+        Self { table, assembly, pair, refused: None }
+    }
+
+    /// Why a constant was refused.
+    pub(super) fn into_refused(self) -> Option<SceneError> {
+        self.refused
+    }
+
+    fn keep<T>(&mut self, read: Result<T, SceneError>) -> Option<T> {
+        match read {
+            Ok(value) => Some(value),
+            Err(error) => {
+                self.refused.get_or_insert(error);
+                None
+            }
+        }
+    }
+
+    /// A direction in the axes of the first body, as a joint's axis is given.
+    fn heading(&mut self, field: &Field) -> Option<dbd_kernel::Vec3<f64>> {
+        let (assembly, table, a) = (self.assembly, self.table, self.pair.a);
+        let read = table.required(field.name, Heading(assembly)).map(|written| {
+            let carried = assembly.carried_direction(a, written);
+            assembly.resolve_direction(table.value(field.name), written, carried);
+            assembly.vector_in(a, carried)
+        });
+        self.keep(read)
+    }
+}
+
+fn unit(field: &Field, row: usize) -> &'static str {
+    field.units.get(row).copied().unwrap_or("")
+}
+
+impl FieldSource for Reading<'_, '_> {
+    fn number(&mut self, field: &Field) -> Option<f64> {
+        let kind = Number::any(unit(field, 0));
+        let read = match field.default {
+            Some(default) => {
+                self.table.optional(field.name, kind).map(|given| given.unwrap_or(default))
+            }
+            None => self.table.required(field.name, kind),
+        };
+        self.keep(read)
+    }
+
+    fn count(&mut self, field: &Field) -> Option<u32> {
+        let table = self.table;
+        let read = table.required(field.name, Number::not_negative("")).and_then(|number| {
+            if number.fract() == 0.0 && number <= f64::from(u32::MAX) {
+                Ok(number as u32)
+            } else {
+                let help = format!("`{}` of {} must be a whole number", field.name, table.label());
+                Err(table.refuse_value(field.name, "is no whole number", help))
+            }
+        });
+        self.keep(read)
+    }
+
+    fn points(&mut self, field: &Field) -> Option<[[f64; 3]; 2]> {
+        let (assembly, pair) = (self.assembly, self.pair);
+        let read = self.table.required(field.name, TwoPlaces { assembly, pair });
+        self.keep(read)
+    }
+
+    fn normal(&mut self, field: &Field) -> Option<[f64; 3]> {
+        self.heading(field).map(|normal| normal.to_f64())
+    }
+
+    fn axis(&mut self, field: &Field) -> Option<([f64; 3], [f64; 4])> {
+        let axis = self.heading(field)?;
+        let orientation = |body| self.assembly.state(body).map(|state| &state.orientation);
+        let [a, b] = [self.pair.a, self.pair.b].map(orientation);
+        Some((axis.to_f64(), Quaternion::relative(a, b).conjugate().to_f64()))
+    }
+
+    fn table(&mut self, field: &Field, to: &mut [[f64; 2]]) -> Option<usize> {
+        let kind = Knots { units: [unit(field, 0), unit(field, 1)], most: to.len() };
+        let read = self.table.required(field.name, kind);
+        let knots = self.keep(read)?;
+        to.iter_mut().zip(&knots).for_each(|(place, knot)| *place = *knot);
+        Some(knots.len())
+    }
+}
+
+/// A point of the first body and one of the second, each in its body's axes.
+struct TwoPlaces<'a> {
+    assembly: &'a Assembly,
+    pair: &'a Pair,
+}
+
+impl Kind for TwoPlaces<'_> {
+    type Output = [[f64; 3]; 2];
+
+    fn expected(&self) -> String {
+        "two points in m, [[x, y, z], [x, y, z]], each in the axes of its body, or names of points"
+            .into()
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<Self::Output, SceneError> {
+        let Self { assembly, pair } = *self;
+        let mut points = [[0.0; 3]; 2];
+        let entries = value.entries(2, &self.expected())?;
+        for ((point, entry), body) in points.iter_mut().zip(entries).zip([pair.a, pair.b]) {
+            *point = PlaceOf { assembly, body }.read(&entry)?.to_f64();
+        }
+        Ok(points)
+    }
+}
+
+/// Knots with ascending x.
+struct Knots {
+    units: [&'static str; 2],
+    most: usize,
+}
+
+impl Kind for Knots {
+    type Output = Vec<[f64; 2]>;
+
+    fn expected(&self) -> String {
+        let [x, y] = self.units.map(|unit| if unit.is_empty() { "1" } else { unit });
+        format!("2 to {} knots [x in {x}, y in {y}], x ascending", self.most)
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<Self::Output, SceneError> {
+        let entries = value.array(&self.expected())?;
+        if entries.len() < 2 || entries.len() > self.most {
+            let problem = format!("has {} knots", entries.len());
+            return Err(value.refuse(&problem, &self.expected()));
+        }
+        let mut knots: Vec<[f64; 2]> = Vec::new();
+        for entry in entries {
+            let [x, y] = [0, 1].map(|row| Number::any(self.units[row]));
+            let pair = entry.entries(2, &self.expected())?;
+            let knot = [x.read(&pair[0])?, y.read(&pair[1])?];
+            if knots.last().is_some_and(|last| last[0] >= knot[0]) {
+                return Err(
+                    entry.refuse("has an x that is not above the one before", &self.expected())
+                );
+            }
+            knots.push(knot);
+        }
+        Ok(knots)
+    }
+}

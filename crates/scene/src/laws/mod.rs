@@ -1,0 +1,186 @@
+//! `[[interaction]]`: laws between two bodies by their names, of this project and of a user's program.
+//!
+//! `registry; table => row of a law`. A program makes its own laws known before it reads scenes, by [`register`].
+
+mod field;
+mod list;
+
+pub use list::{LawList, convert_words};
+pub(crate) use list::{Listed, SourceRows};
+
+use std::sync::{Arc, PoisonError, RwLock};
+
+use dbd_kernel::laws::{self, Field, Law};
+
+use crate::assembly::Assembly;
+use crate::error::SceneError;
+use crate::laws::field::Reading;
+use crate::laws::list::Source;
+use crate::nearest::nearest;
+use crate::pair::Between;
+use crate::shortened::shortened;
+use crate::target::{Elements, Target};
+use crate::text::{Kind, Table, Value};
+
+pub(crate) const KEYS: &[&str] = &["name", "law", "between"];
+
+/// A law that scenes can name.
+#[derive(Clone, Debug)]
+pub struct KnownLaw {
+    /// The name in scenes.
+    pub name: &'static str,
+    /// What it is, in a line.
+    pub about: &'static str,
+    /// Its constants.
+    pub fields: &'static [Field],
+    /// What it shows.
+    pub quantities: &'static [laws::Quantity],
+    /// The path of its type in Rust, as exported source has it.
+    pub path: String,
+    table: fn(String) -> Box<dyn SourceRows>,
+}
+
+impl KnownLaw {
+    fn of<L: Law>(path: &str) -> Self {
+        Self {
+            name: <L as laws::Constants<dbd_kernel::F64>>::NAME,
+            about: L::ABOUT,
+            fields: L::FIELDS,
+            quantities: <L as laws::Interaction<dbd_kernel::F64>>::QUANTITIES,
+            path: path.to_owned(),
+            table: |path| Box::new(Source::<L>::new(path)),
+        }
+    }
+}
+
+static OWN: RwLock<Vec<KnownLaw>> = RwLock::new(Vec::new());
+
+/// Makes a law known to all scenes that this program reads from now on; `path` is that of its type in Rust,
+/// `my_laws::Drag`, by which exported source names it. A law of the same name as one before replaces that.
+pub fn register<L: Law>(path: &str) {
+    let law = KnownLaw::of::<L>(path);
+    let mut own = OWN.write().unwrap_or_else(PoisonError::into_inner);
+    own.retain(|known| known.name != law.name);
+    own.push(law);
+}
+
+/// All laws that scenes can name, those of the project first.
+#[must_use]
+pub fn known_laws() -> Vec<KnownLaw> {
+    let own = OWN.read().unwrap_or_else(PoisonError::into_inner);
+    let shipped = vec![
+        KnownLaw::of::<laws::EndStop>("dbd_kernel::laws::EndStop"),
+        KnownLaw::of::<laws::HingeStop>("dbd_kernel::laws::HingeStop"),
+        KnownLaw::of::<laws::HingeFriction>("dbd_kernel::laws::HingeFriction"),
+    ];
+    let is_new = |law: &KnownLaw| own.iter().all(|known| known.name != law.name);
+    shipped.into_iter().filter(is_new).chain(own.iter().cloned()).collect()
+}
+
+/// The name of a law.
+struct LawName<'k>(&'k [KnownLaw]);
+
+impl Kind for LawName<'_> {
+    type Output = usize;
+
+    fn expected(&self) -> String {
+        let names: Vec<_> = self.0.iter().map(|law| format!("\"{}\"", law.name)).collect();
+        format!("the name of a law: {}", names.join(", "))
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<usize, SceneError> {
+        let name = value.get().as_str().ok_or_else(|| value.wrong_type(&self.expected()))?;
+        self.0.iter().position(|law| law.name == name).ok_or_else(|| {
+            let meant = match nearest(name, self.0.iter().map(|law| law.name)) {
+                Some(meant) => format!("did you mean \"{meant}\"? "),
+                None => String::new(),
+            };
+            let help = format!(
+                "{meant}this program knows {}; a law of one's own is a type in a crate: `host-sim new laws` \
+                 writes one",
+                self.expected().trim_start_matches("the name of a law: "),
+            );
+            value.refuse_with(&format!("names no law: \"{}\"", shortened(name)), help)
+        })
+    }
+}
+
+/// What a scene's interactions are called, and what they show.
+pub(crate) struct Read {
+    /// What messages call them, in the order of the model's rows.
+    pub(crate) labels: Vec<String>,
+    /// The number of each one's table.
+    pub(crate) tables: Vec<usize>,
+    /// What each shows.
+    pub(crate) quantities: Vec<&'static [laws::Quantity]>,
+}
+
+/// Reads all interactions: those of one law stand together in the model, in the order in which the scene first names
+/// their law.
+pub(crate) fn read_all(
+    root: &Table<'_>,
+    assembly: &mut Assembly,
+    elements: &mut Elements,
+) -> Result<Read, SceneError> {
+    let known = known_laws();
+    let given = root.list("interaction")?;
+    let mut laws: Vec<(usize, Box<dyn SourceRows>, Vec<(usize, String)>)> = Vec::new();
+    for (number, table) in given.iter().enumerate() {
+        if !table.has("law") {
+            table.only(&[KEYS, &all_fields(&known)])?;
+        }
+        let law = table.required("law", LawName(&known))?;
+        let fields = known[law].fields.iter();
+        table.only(&[KEYS, &fields.map(|field| field.name).collect::<Vec<_>>()])?;
+        let pair = table.required("between", Between(assembly))?;
+        if pair.b.is_world() {
+            let help = "the ground comes first: between = [\"world\", BODY]";
+            return Err(table.refuse_value("between", "has the ground as its second body", help));
+        }
+        let place = laws.iter().position(|(of, ..)| *of == law).unwrap_or_else(|| {
+            let path = known[law].path.clone();
+            laws.push((law, (known[law].table)(path), Vec::new()));
+            laws.len() - 1
+        });
+        let (_, rows, of_law) = &mut laws[place];
+        let mut reading = Reading::new(table, assembly, &pair);
+        let done = rows.add([pair.a, pair.b], &mut reading);
+        if let Some(refused) = reading.into_refused() {
+            return Err(refused);
+        }
+        if done.is_none() {
+            return Err(table.refuse("cannot be read", "a constant of the law is missing"));
+        }
+        if let Some(wrong) = rows.wrong() {
+            let help = format!("`{}` of {} must be {}", wrong.field, table.label(), wrong.expected);
+            return Err(table.refuse_value(wrong.field, wrong.problem, help));
+        }
+        of_law.push((number, pair.label(table)));
+    }
+    let mut read = Read { labels: Vec::new(), tables: Vec::new(), quantities: Vec::new() };
+    let mut sources = Vec::new();
+    for (law, rows, of_law) in laws {
+        for (number, label) in of_law {
+            let target = Target::Interaction(read.labels.len());
+            elements.read_optional(&given[number], "interaction", target)?;
+            read.labels.push(label);
+            read.tables.push(number);
+            read.quantities.push(known[law].quantities);
+        }
+        sources.push(Arc::from(rows));
+    }
+    assembly.set_laws(&sources);
+    Ok(read)
+}
+
+/// The keys of all laws.
+fn all_fields(known: &[KnownLaw]) -> Vec<&'static str> {
+    known.iter().flat_map(|law| law.fields.iter().map(|field| field.name)).collect()
+}
+
+/// The laws, each with all its keys.
+pub(crate) fn types() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
+    known_laws().into_iter().map(|law| {
+        (law.name, KEYS.iter().copied().chain(law.fields.iter().map(|field| field.name)).collect())
+    })
+}

@@ -1,0 +1,143 @@
+//! Laws in a plane: their constants one by one.
+//!
+//! `scene, plane => laws in the plane, what leaves it`.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use dbd_kernel::attitude::Attitude as _;
+use dbd_kernel::laws::{Field, FieldSink, FieldSource};
+use dbd_kernel::{BodyIndex, F64, Quaternion, Vec3};
+
+use crate::Scene;
+use crate::laws::LawList;
+use crate::planar::Leaves;
+use crate::planar::departure::Part;
+use crate::planar::driven::lean;
+use crate::planar::plane::{ALIKE, Plane, short};
+use crate::runtime::SceneModel;
+
+/// Adds the laws.
+pub(super) fn read(
+    scene: &Scene,
+    plane: &Plane,
+    near: f64,
+    model: &mut SceneModel<F64>,
+    leaves: &mut Leaves<'_>,
+) {
+    let mut sources = Vec::new();
+    let mut first = 0;
+    for source in scene.model.laws.sources() {
+        let mut table = source.empty();
+        for (row, bodies) in source.bodies().into_iter().enumerate() {
+            let mut flat = Flat { plane, near, bodies, model, known: VecDeque::new(), off: None };
+            source.write(row, &mut flat);
+            if let Some((key, by)) = flat.off.take() {
+                leaves(Part::Law(first + row), key, &by);
+            }
+            table.add(bodies, &mut flat);
+        }
+        first += source.bodies().len();
+        sources.push(Arc::from(table));
+    }
+    model.laws = LawList::of(&sources);
+}
+
+enum Known {
+    Number(f64),
+    Count(u32),
+    Points([[f64; 3]; 2]),
+    Normal([f64; 3]),
+    Axis([f64; 3], [f64; 4]),
+    Table(Vec<[f64; 2]>),
+}
+
+/// Takes the constants of a row in space, and gives them in the plane.
+struct Flat<'s> {
+    plane: &'s Plane,
+    /// \[m\] one place.
+    near: f64,
+    bodies: [BodyIndex; 2],
+    /// That of the plane, of which the bodies are known.
+    model: &'s SceneModel<F64>,
+    known: VecDeque<Known>,
+    /// The first constant that leaves the plane, and by how much.
+    off: Option<(&'static str, String)>,
+}
+
+impl Flat<'_> {
+    fn leaves(&mut self, field: &Field, by: String) {
+        self.off.get_or_insert((field.name, by));
+    }
+}
+
+impl FieldSink for Flat<'_> {
+    fn number(&mut self, _: &Field, value: f64) {
+        self.known.push_back(Known::Number(value));
+    }
+    fn count(&mut self, _: &Field, value: u32) {
+        self.known.push_back(Known::Count(value));
+    }
+    fn points(&mut self, field: &Field, points: [[f64; 3]; 2]) {
+        let [a, b] = self.bodies.map(BodyIndex::row);
+        let inward = |row, point| self.plane.point_inward(row, Vec3::from_f64(point)).to_f64();
+        let [first, second] = [inward(a, points[0]), inward(b, points[1])];
+        for z in [first[2], second[2]] {
+            if z.abs() > self.near {
+                self.leaves(field, format!(" by {} m", short(z)));
+            }
+        }
+        let flat = [first, second].map(|[x, y, _]| [x, y, 0.0]);
+        self.known.push_back(Known::Points(flat));
+    }
+    fn normal(&mut self, field: &Field, normal: [f64; 3]) {
+        let a = self.bodies[0].row();
+        let [x, y, z] = self.plane.of_body_inward(a, Vec3::from_f64(normal)).to_f64();
+        if z.abs() > ALIKE {
+            let degrees = libm::asin(z.abs().min(1.0)).to_degrees();
+            self.leaves(field, format!(": it leans by {} degrees", short(degrees)));
+        }
+        self.known.push_back(Known::Normal([x, y, 0.0]));
+    }
+    fn axis(&mut self, field: &Field, axis: [f64; 3], _: [f64; 4]) {
+        let [a, b] = self.bodies;
+        let axis = self.plane.of_body_inward(a.row(), Vec3::from_f64(axis));
+        if let Some(lean) = lean(axis) {
+            self.leaves(field, format!(": it leans by {} degrees from the normal", short(lean)));
+        }
+        let orientation =
+            |body: BodyIndex| self.model.initial.get(body.row()).map(|state| &state.orientation);
+        let reference = Quaternion::relative(orientation(a), orientation(b)).conjugate().to_f64();
+        let axis = [0.0, 0.0, if axis.z < 0.0 { -1.0 } else { 1.0 }];
+        self.known.push_back(Known::Axis(axis, reference));
+    }
+    fn table(&mut self, _: &Field, knots: &[[f64; 2]], _: usize) {
+        self.known.push_back(Known::Table(knots.to_vec()));
+    }
+}
+
+impl FieldSource for Flat<'_> {
+    fn number(&mut self, _: &Field) -> Option<f64> {
+        if let Known::Number(value) = self.known.pop_front()? { Some(value) } else { None }
+    }
+    fn count(&mut self, _: &Field) -> Option<u32> {
+        if let Known::Count(value) = self.known.pop_front()? { Some(value) } else { None }
+    }
+    fn points(&mut self, _: &Field) -> Option<[[f64; 3]; 2]> {
+        if let Known::Points(points) = self.known.pop_front()? { Some(points) } else { None }
+    }
+    fn normal(&mut self, _: &Field) -> Option<[f64; 3]> {
+        if let Known::Normal(normal) = self.known.pop_front()? { Some(normal) } else { None }
+    }
+    fn axis(&mut self, _: &Field) -> Option<([f64; 3], [f64; 4])> {
+        match self.known.pop_front()? {
+            Known::Axis(axis, reference) => Some((axis, reference)),
+            _ => None,
+        }
+    }
+    fn table(&mut self, _: &Field, to: &mut [[f64; 2]]) -> Option<usize> {
+        let Known::Table(knots) = self.known.pop_front()? else { return None };
+        to.iter_mut().zip(&knots).for_each(|(place, knot)| *place = *knot);
+        Some(knots.len())
+    }
+}
