@@ -238,6 +238,7 @@ fn hung_from(row: u16) -> Model<F64, 1, 1, 2, 1, 0, 0, 0, 0, 0, 0, 1> {
         revolutes: [],
         universals: [],
         sources: [],
+        laws: (),
     }
 }
 

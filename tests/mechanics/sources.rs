@@ -176,6 +176,7 @@ fn a_const_model_has_the_bits_of_the_scene() {
         revolutes: [],
         universals: [],
         sources: [Source::sine(InputIndex(0), [3.0, 5.0, 0.5, 0.25])],
+        laws: (),
     }
     .checked();
     assert_eq!(model.view().sources, scene.model.sources);

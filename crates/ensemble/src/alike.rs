@@ -67,6 +67,7 @@ pub(crate) fn difference<R: Real + Named>(
             ("revolutes of bushings", model.revolutes.len()),
             ("universal joints of bushings", model.universals.len()),
             ("sources of inputs", model.sources.len()),
+            ("interactions", model.laws.bodies().count()),
         ]
     };
     for ((parts, first), (_, other)) in counts(first).into_iter().zip(counts(other)) {
@@ -83,9 +84,15 @@ pub(crate) fn difference<R: Real + Named>(
         ("load", row(&first.loads, &other.loads, |a, b| load(a) == load(b))),
         ("input", row(&first.inputs, &other.inputs, |a, b| input(a) == input(b))),
         ("knot of a table", row(&first.knots, &other.knots, |a, b| a.time == b.time)),
+        ("interaction", row(&ends(first), &ends(other), PartialEq::eq)),
         ("source of an input", row(&first.sources, &other.sources, |a, b| source(a) == source(b))),
     ];
     parts.into_iter().find_map(|(part, row)| row.map(|row| Difference::Part { part, row }))
+}
+
+/// The bodies of every interaction.
+fn ends<R: Real + Named>(model: &SceneModel<Float<R>>) -> Vec<[BodyIndex; 2]> {
+    model.laws.bodies().collect()
 }
 
 fn spring<R: Real>(spring: &TorsionSpring<R>) -> ([BodyIndex; 2], Option<usize>) {

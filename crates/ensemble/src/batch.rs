@@ -4,6 +4,7 @@
 //! does in a block is doubted where it turned too far in a step or is not finite at the end: its own
 //! plant then does the block anew, one instance by itself, and tells what failed where. A lane that
 //! never had an instance runs the twin of another; one whose instance has failed goes on without meaning.
+//! Laws are compiled for one instance alone: instances of a model with laws go one by one.
 
 use dbd_kernel::geometry::Named;
 use dbd_kernel::{Plant, Real, State};
@@ -116,6 +117,12 @@ impl<V: Register, S: InLanes> Members<V, S> {
 
     /// A block of steps; whether any member still runs.
     fn block(&mut self, steps: u64) -> bool {
+        if self.plants.iter().any(|plant| !plant.model().laws.is_empty()) {
+            return self
+                .plants
+                .iter_mut()
+                .fold(false, |any, plant| plant.advance(steps).is_running() || any);
+        }
         self.seat();
         let apart: Vec<usize> =
             (0..self.plants.len()).filter(|member| !self.seats.contains(member)).collect();

@@ -70,6 +70,8 @@ pub(crate) fn model<V: Register>(models: &[&ModelOf<V::Number>]) -> LanesModel<V
         gravity: each!(gravity, |row| vector(|i| models[i].gravity[row])),
         groups: first.groups.clone(),
         plan: first.plan.clone(),
+        // No lane has laws: their instances go one by one.
+        laws: Default::default(),
         points: each!(points, |row| vector(|i| models[i].points[row])),
         tsdas: each!(tsdas, |row| {
             let of = |i: usize| models[i].tsdas[row];
@@ -216,6 +218,7 @@ pub(crate) fn state<V: Register>(states: &[&State<ModelOf<V::Number>>]) -> State
         turns: (0..first.turns.len())
             .flat_map(|row| states.iter().map(move |state| state.turns[row]))
             .collect(),
+        laws: Vec::new(),
         step: first.step,
         signals: (0..first.signals.len())
             .map(|row| Signal {
@@ -247,6 +250,7 @@ pub(crate) fn lane<V: Register>(
             })
             .collect(),
         turns: state.turns.iter().skip(lane).step_by(V::LANES).copied().collect(),
+        laws: Vec::new(),
         step: state.step,
         signals: state
             .signals

@@ -83,8 +83,8 @@ impl Budget {
         unit: f64,
     ) -> Self {
         // Without `..`, so that a further kind of energy is not forgotten.
-        let Energy { kinetic, gravity, tsda, bushing, line, torsion, load: _ } = *energy;
-        let parts = [gravity, tsda, bushing, line, torsion];
+        let Energy { kinetic, gravity, tsda, bushing, line, torsion, law, load: _ } = *energy;
+        let parts = [gravity, tsda, bushing, line, torsion, law];
         let reaches: Vec<Reach> =
             model.groups.iter().map(|group| Reach::of(model, group)).collect();
         let distances: Vec<f64> = start.bodies.iter().map(|body| length(body.position)).collect();

@@ -23,6 +23,7 @@ use dbd_kernel::{
     BodyIndex, BodyState, Energy, F32, F64, Fixed, Geometry, Planar32, Planar64, Real as _, Scheme,
     State, Status,
 };
+use dbd_scene::laws::convert_words;
 use dbd_scene::{Misfit, Planar, Scene, SceneModel, widen};
 
 use crate::any::AnyPlant;
@@ -221,6 +222,9 @@ impl New<'_> {
         Typed<P, S>: AnyPlant + 'static,
     {
         let mut model: SceneModel<P> = self.model.convert();
+        if model.laws.is_empty() && !self.model.laws.is_empty() {
+            return Err(PlantError::Laws { precision: self.method.precision_name() });
+        }
         if S::Keeps::MATRIX {
             model = model.planned();
         }
@@ -237,6 +241,9 @@ impl New<'_> {
                     Misfit::unnamed::<P>(&excess, self.step).into()
                 }
                 kernel::PlantError::Plan => PlantError::Pairs,
+                kernel::PlantError::Memory(law) => {
+                    PlantError::Memory { law, scheme: self.method.scheme_name() }
+                }
                 kernel::PlantError::Stiff(most) => {
                     PlantError::Stiff { most, precision: self.method.precision_name() }
                 }
@@ -338,6 +345,7 @@ where
         self.plant.set_state(State {
             bodies,
             turns: state.turns.clone(),
+            laws: convert_words(&state.laws, |x| P::Real::from_f64(x).word()),
             step: state.step,
             signals: state.signals.iter().map(Signal::convert).collect(),
         })

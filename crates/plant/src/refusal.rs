@@ -49,6 +49,22 @@ pub enum PlantError {
         /// The precision's name.
         precision: &'static str,
     },
+    /// The scheme cannot bring on what a law remembers.
+    #[error("what an interaction of the law `{law}` remembers cannot be brought on by {scheme}")]
+    #[diagnostic(help("--scheme leapfrog: one evaluation per step, at its end"))]
+    Memory {
+        /// The law's name.
+        law: &'static str,
+        /// The scheme's name.
+        scheme: &'static str,
+    },
+    /// The precision exists for comparison alone and has no laws.
+    #[error("interactions do not run in {precision}, which exists for comparison alone")]
+    #[diagnostic(help("--precision f64, f32 or fixed with --orientation quaternion"))]
+    Laws {
+        /// The precision's name.
+        precision: &'static str,
+    },
     /// This build does not hold the method.
     #[error(transparent)]
     #[diagnostic(transparent)]

@@ -7,10 +7,10 @@
 
 use core::marker::PhantomData;
 
-use dbd_kernel::BodyState;
 use dbd_kernel::Scheme;
 use dbd_kernel::model::Plan;
 use dbd_kernel::model::{ModelOwner, ModelRef, Terms};
+use dbd_kernel::{BodyState, Geometry};
 
 /// The model, for this scheme only.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +32,9 @@ impl<M, S> Alone<M, S> {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TermsAlone<T, S>(PhantomData<(T, S)>);
 
-impl<T: Terms<P>, S: Scheme + Default + 'static> Terms for TermsAlone<T, S> {
+impl<P: Geometry, T: Terms<P>, S: Scheme + Default + 'static> Terms<P> for TermsAlone<T, S> {
+    type Laws = T::Laws;
+
     const GRAVITY: bool = T::GRAVITY;
     const LOADS: bool = T::LOADS;
     const TSDAS: bool = T::TSDAS;
@@ -82,7 +84,7 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
             revolutes: view.revolutes,
             universals: view.universals,
             sources: view.sources,
-            terms: PhantomData,
+            laws: view.laws,
         }
     }
 

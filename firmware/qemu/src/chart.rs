@@ -4,7 +4,8 @@
 //! paper's mechanisms and a damped one, in every precision. Each model is one [`Alone`] with its
 //! scheme. A part for each image that they fill.
 
-use dbd_kernel::model::{ModelOwner, Terms as _};
+use dbd_kernel::F32;
+use dbd_kernel::model::{ModelOwner, Terms};
 use dbd_kernel::{
     BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, JointWise, Leapfrog, Pefrl, Rk4, SemiImplicitEuler,
 };
@@ -14,6 +15,9 @@ use crate::models::{self, Shipped, Visitor};
 
 /// Most steps that a comparison of bits would take.
 const STEPS: u64 = 1_000;
+
+/// The kinds of element of a model in single precision.
+type TermsOf<M> = <M as ModelOwner>::Terms;
 
 /// Shows models and schemes, each scheme as `VALUE => TYPE, VARIANT;`.
 macro_rules! chart {
@@ -96,7 +100,7 @@ pub fn for_each_single(visitor: &mut impl Visitor) {
                     Leapfrog => Leapfrog, "";
                     SemiImplicitEuler => SemiImplicitEuler, "";
                 }
-                if <models::$module::$model32 as ModelOwner>::Terms::DAMPERS {
+                if <TermsOf<models::$module::$model32> as Terms<F32>>::DAMPERS {
                     damped! { visitor: $scene $module::$f32: $model32 $step }
                 }
             )*

@@ -143,6 +143,29 @@ impl<P: Geometry, T: Terms<P>> Clone for ModelRef<'_, P, T> {
 
 impl<P: Geometry, T: Terms<P>> Copy for ModelRef<'_, P, T> {}
 
+impl<P: Geometry, T: Terms<P>> core::fmt::Debug for ModelRef<'_, P, T> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("ModelRef")
+            .field("bodies", &self.bodies)
+            .field("gravity", &self.gravity)
+            .field("groups", &self.groups)
+            .field("points", &self.points)
+            .field("tsdas", &self.tsdas)
+            .field("bushings", &self.bushings)
+            .field("dampers", &self.dampers)
+            .field("torsions", &self.torsions)
+            .field("loads", &self.loads)
+            .field("lines", &self.lines)
+            .field("inputs", &self.inputs)
+            .field("knots", &self.knots)
+            .field("clearances", &self.clearances)
+            .field("revolutes", &self.revolutes)
+            .field("universals", &self.universals)
+            .field("sources", &self.sources)
+            .finish_non_exhaustive()
+    }
+}
+
 /// The list of laws of a model's terms.
 pub type LawsIn<P, T> = <T as Terms<P>>::Laws;
 /// The memories of its laws.
