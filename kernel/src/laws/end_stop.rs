@@ -29,6 +29,8 @@ crate::law! {
 struct Contact<P: Geometry> {
     direction: Direction<P::Space>,
     arms: [P::Vector; 2],
+    /// \[m\] from A's point to B's.
+    way: P::Vector,
     /// \[m\] 0 where they do not touch.
     depth: P::Real,
 }
@@ -42,9 +44,9 @@ impl<P: Geometry> EndStop<P> {
         let zero = P::Real::ZERO;
         let depth = -normal.dot(way);
         let depth = P::Real::pick(zero.less_than(depth), depth, zero);
-        // A's point is where B's is: both forces then lie on one line.
-        let arms = [seen.a.arm_at(arm_a, way), arm_b];
-        Contact { direction: seen.along(normal, arms), arms, depth }
+        // The force on A acts where B's point is: both then lie on one line.
+        let direction = seen.along(normal, [seen.a.arm_at(arm_a, way), arm_b]);
+        Contact { direction, arms: [arm_a, arm_b], way, depth }
     }
 }
 
@@ -71,10 +73,19 @@ impl<P: Geometry> Interaction<P> for EndStop<P> {
         _: &Nothing,
         visit: &mut dyn FnMut(P::Real, &Direction<P::Space>),
     ) -> [P::Real; 2] {
-        let Contact { direction, arms, depth } = self.contact(seen);
+        let Contact { direction, arms: [arm, other], way, depth } = self.contact(seen);
         visit(self.stiffness, &direction);
+        // The normal turns with A. Of the force F, the arm r of A's point and the way d to B's, a move ξ and a turn φ
+        // of A meet 2·F·|φ|·|ξ| + F·(3·|r| + |d|)·φ² at most, and 2·|φ|·|ξ| ≤ ξ²/l + l·φ².
         let force = self.stiffness * depth;
-        arms.map(|arm| force * arm.dot(arm).sqrt())
+        let [arm, far, other] = [arm, way, other].map(|v| v.dot(v).sqrt());
+        let length = arm + far;
+        let across = force * length.reciprocal_or_zero();
+        for axis in P::Vector::axes() {
+            visit(across, &Direction { along: axis, moments: [P::Moment::ZERO; 2] });
+        }
+        let three = P::Real::ONE + P::Real::TWO;
+        [force * (three * arm + far + length), force * other]
     }
 
     #[inline(always)]

@@ -3,8 +3,10 @@
 //! `registry; table => row of a law`. A program makes its own laws known before it reads scenes, by [`register`].
 
 mod field;
+mod kit;
 mod list;
 
+pub use kit::{Poses, hold};
 pub use list::{LawList, convert_words};
 pub(crate) use list::{Listed, SourceRows};
 

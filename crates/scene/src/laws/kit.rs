@@ -1,0 +1,406 @@
+//! What every law must keep: tests for laws of one's own.
+//!
+//! `(law, how far and how fast bodies move) => the first rule that it breaks`. Random poses in double precision from a
+//! seed, so a failure is the same on every machine.
+
+use dbd_kernel::attitude::Attitude as _;
+use dbd_kernel::laws::{Instant, Interaction, Law, Record, Seen};
+use dbd_kernel::words::Words as _;
+use dbd_kernel::{BodyState, F64, Geometry as _, Quaternion, Vec3};
+
+use crate::laws::Listed;
+
+/// The motion in which a law is looked at.
+#[derive(Clone, Copy, Debug)]
+pub struct Poses {
+    /// How many poses.
+    pub count: usize,
+    /// \[m\] how far B's point is from A's, each way: enough to meet all that the law does.
+    pub reach: f64,
+    /// \[rad\] how far B is turned in A, each way.
+    pub turn: f64,
+    /// \[m/s, rad/s\] how fast the bodies are.
+    pub speed: f64,
+}
+
+impl Default for Poses {
+    fn default() -> Self {
+        Self { count: 200, reach: 0.1, turn: 1.0, speed: 1.0 }
+    }
+}
+
+/// How far one difference quotient may be from another, beside the largest.
+const NEAR: f64 = 1e-4;
+
+/// A difference of coordinates \[m, rad\].
+const STEP: f64 = 1e-6;
+
+type State = [BodyState<F64>; 2];
+type Twelve = [f64; 12];
+
+/// Holds a law against what it promises, between two bodies: action equals reaction and angular momentum is kept,
+/// force is minus the gradient of the energy, its tangent is at least what its force changes by, dampers towards rest
+/// take power, settling twice is settling once.
+///
+/// `of` is a row of it between `BodyIndex(0)` and `BodyIndex(1)`, with points near the origins of both.
+///
+/// # Errors
+/// The first rule that is broken, with the numbers.
+pub fn hold<L: Law>(law: &L, poses: Poses) -> Result<(), String> {
+    let mut random = Random(0x2545_f491_4f6c_dd1d);
+    let mut met = false;
+    for number in 0..poses.count {
+        let state = random.state(poses);
+        let broken = at(law, &state).map_err(|why| format!("pose {number}: {why}"))?;
+        met |= broken;
+    }
+    if met { Ok(()) } else { Err("in no pose does the law do anything: another `reach`".into()) }
+}
+
+/// The rules at a pose; whether the law does anything there.
+fn at<L: Law>(law: &L, state: &State) -> Result<bool, String> {
+    let frames = frames(state);
+    let instant = Instant { frames: &frames, bodies: state, signals: &[] };
+    let Some(seen) = instant.seen(law.bodies()) else {
+        return Err("its bodies are not 0 and 1".into());
+    };
+    let mut memory = <L as Interaction<F64>>::State::default();
+    law.settle(&seen, &mut memory);
+    let words = |memory: &<L as Interaction<F64>>::State| {
+        let mut list = Listed::default();
+        memory.visit(&mut list);
+        list.0
+    };
+    let once = words(&memory);
+    law.settle(&seen, &mut memory);
+    if words(&memory) != once {
+        return Err(format!("settling twice is not settling once: {once:?}, {:?}", words(&memory)));
+    }
+    let Some(record) = law.record(&seen, &memory) else { return Ok(false) };
+    let forces = generalised(&record);
+    let size = forces.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
+    let whole = |x: Vec3<f64>, torque: Vec3<f64>| x.cross(record.force) + torque;
+    let left =
+        whole(state[0].position, record.torque_a) - whole(state[1].position, record.torque_b);
+    let lever = state.iter().fold(1.0, |most: f64, body| most.max(length(body.position)));
+    if length(left) > 1e-9 * size * lever {
+        return Err(format!("angular momentum is not kept: {left:?} N·m of {size} N"));
+    }
+    gradient(law, state, &memory, &forces, size)?;
+    tangent(law, state, &memory, &seen)?;
+    let mut dampers = 0;
+    let mut drawn = Ok(());
+    law.dampers(&seen, &memory, &mut |damper| {
+        dampers += 1;
+        let rate = seen.rate(&damper.direction);
+        let [least, most] = damper.bounds;
+        let tension = (damper.coefficient * (rate - damper.rate)).max(least).min(most);
+        let rounding = 1e-12 * (size + tension.abs()) * rate.abs();
+        if damper.rate == 0.0 && tension * rate < -rounding {
+            drawn = Err(format!("a damper gives {} W", -tension * rate));
+        }
+    });
+    drawn?;
+    if dampers > <<L as Interaction<F64>>::Dampers as dbd_kernel::laws::Several>::COUNT {
+        return Err(format!("it visits {dampers} dampers, more than it says it has"));
+    }
+    Ok(size > 0.0)
+}
+
+/// Force is minus the gradient of the energy, where that has one.
+fn gradient<L: Law>(
+    law: &L,
+    state: &State,
+    memory: &<L as Interaction<F64>>::State,
+    forces: &Twelve,
+    size: f64,
+) -> Result<(), String> {
+    let energy = |way: &Twelve, by: f64| {
+        let moved = moved(state, way, by);
+        look(law, &moved, |seen| law.energy(seen, memory))
+    };
+    for freedom in 0..12 {
+        let mut way = [0.0; 12];
+        way[freedom] = 1.0;
+        let slope = |h: f64| (energy(&way, h) - energy(&way, -h)) / (2.0 * h);
+        let (wide, narrow) = (slope(2.0 * STEP), slope(STEP));
+        let most = size.max(narrow.abs());
+        let is_smooth = (wide - narrow).abs() <= NEAR * most;
+        // Below what an energy's last digit makes of a difference.
+        let rounding = 1e-15 * energy(&way, 0.0).abs() / STEP;
+        if is_smooth && (narrow + forces[freedom]).abs() > NEAR * most + 10.0 * rounding {
+            return Err(format!(
+                "force is not minus the gradient of the energy: {} and {} along freedom {freedom}",
+                forces[freedom], -narrow
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// No move of one body changes its force by more than the tangent says.
+fn tangent<L: Law>(
+    law: &L,
+    state: &State,
+    memory: &<L as Interaction<F64>>::State,
+    seen: &Seen<'_, F64>,
+) -> Result<(), String> {
+    let forces = |way: &Twelve, by: f64| {
+        let moved = moved(state, way, by);
+        look(law, &moved, |seen| law.record(seen, memory).map(|record| generalised(&record)))
+    };
+    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    for body in 0..2 {
+        for _ in 0..4 {
+            let mut way = [0.0; 12];
+            way[6 * body..6 * body + 6].fill_with(|| random.between(1.0));
+            let slope = |h: f64| {
+                let (Some(after), Some(before)) = (forces(&way, h), forces(&way, -h)) else {
+                    return 0.0;
+                };
+                let pairs = after.iter().zip(before).zip(way);
+                pairs.fold(0.0, |sum, ((after, before), way)| {
+                    sum - (after - before) / (2.0 * h) * way
+                })
+            };
+            let found = slope(STEP);
+            if (found - slope(2.0 * STEP)).abs() > NEAR * found.abs() {
+                continue;
+            }
+            let (along, about) = (vector(&way[6 * body..]), vector(&way[6 * body + 3..]));
+            let mut most = 0.0;
+            let turned = law.tangent(seen, memory, &mut |stiffness, direction| {
+                let end = if body == 0 { &seen.a } else { &seen.b };
+                let moment = end.moment_to_world(direction.moments[body]);
+                let rate = direction.along.dot(along) + moment.dot(about);
+                most += stiffness * rate * rate;
+            });
+            most += turned[body] * about.dot(about);
+            if found > most * (1.0 + NEAR) + 1e-6 * most.abs().max(found.abs()) {
+                return Err(format!(
+                    "the tangent is too small: a move of body {body} meets {found} N/m, it says {most}"
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What a law shows at a pose.
+fn look<L: Law, A>(law: &L, state: &State, look: impl FnOnce(&Seen<'_, F64>) -> A) -> A
+where
+    A: Default,
+{
+    let frames = frames(state);
+    let instant = Instant { frames: &frames, bodies: state, signals: &[] };
+    instant.seen(law.bodies()).map_or_else(A::default, |seen| look(&seen))
+}
+
+fn frames(state: &State) -> [<F64 as dbd_kernel::Geometry>::Frame; 2] {
+    state.map(|body| F64::frame(&body.position, &body.orientation))
+}
+
+/// Forces and torques on A and on B, world axes.
+fn generalised(record: &Record<f64>) -> Twelve {
+    let parts = [record.force, record.torque_a, -record.force, -record.torque_b];
+    let mut all = [0.0; 12];
+    for (three, part) in all.chunks_mut(3).zip(parts) {
+        three.copy_from_slice(&part.to_f64());
+    }
+    all
+}
+
+/// The bodies moved along a way, turns about the world's axes.
+fn moved(state: &State, way: &Twelve, by: f64) -> State {
+    let mut moved = *state;
+    for (body, way) in moved.iter_mut().zip(way.chunks(6)) {
+        body.position = body.position + vector(way) * by;
+        body.orientation = turned(&body.orientation, vector(&way[3..]) * by);
+    }
+    moved
+}
+
+/// An orientation turned about an axis of the world by its length \[rad\].
+fn turned(q: &Quaternion<f64>, turn: Vec3<f64>) -> Quaternion<f64> {
+    let angle = length(turn);
+    let (sin, cos) = libm::sincos(angle / 2.0);
+    let v = turn * if angle > 0.0 { sin / angle } else { 0.5 };
+    let mut turned = Quaternion::new(cos, v.x, v.y, v.z).product(*q);
+    turned.renormalise();
+    turned
+}
+
+fn vector(numbers: &[f64]) -> Vec3<f64> {
+    Vec3::new(numbers[0], numbers[1], numbers[2])
+}
+
+fn length(v: Vec3<f64>) -> f64 {
+    libm::sqrt(v.dot(v))
+}
+
+/// Numbers from a seed (Marsaglia 2003, xorshift64).
+struct Random(u64);
+
+impl Random {
+    /// A number between −`most` and `most`.
+    fn between(&mut self, most: f64) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        ((self.0 >> 11) as f64 / (1u64 << 53) as f64 * 2.0 - 1.0) * most
+    }
+
+    fn vector(&mut self, most: f64) -> Vec3<f64> {
+        Vec3::new(self.between(most), self.between(most), self.between(most))
+    }
+
+    fn state(&mut self, poses: Poses) -> State {
+        let Poses { reach, turn, speed, .. } = poses;
+        let first = turned(&Quaternion::IDENTITY, self.vector(1.5));
+        let place = self.vector(1.0);
+        let away = self.vector(reach);
+        let relative = turned(&Quaternion::IDENTITY, self.vector(turn));
+        let second = first.product(relative);
+        let rotation = first.rotation();
+        let mut body = |position: Vec3<f64>, q: Quaternion<f64>| {
+            let (velocity, spin) = (self.vector(speed), self.vector(speed));
+            let q = [q.w, q.v.x, q.v.y, q.v.z];
+            BodyState::from_f64(position.to_f64(), q, velocity.to_f64(), spin.to_f64())
+        };
+        [body(place, first), body(place + rotation.to_world(away), second)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dbd_kernel::laws::{Damper, Direction, EndStop, Hinge, HingeFriction, HingeStop};
+    use dbd_kernel::space::Linear as _;
+    use dbd_kernel::{BodyIndex, Real as _};
+
+    const BODIES: [BodyIndex; 2] = [BodyIndex(0), BodyIndex(1)];
+
+    fn hinge() -> Hinge<f64> {
+        Hinge { axis: Vec3::new(0.6, 0.0, 0.8), reference: Quaternion::IDENTITY }
+    }
+
+    fn end_stop(dissipation: f64) -> EndStop {
+        EndStop {
+            bodies: BODIES,
+            points: [Vec3::new(0.02, 0.0, 0.01), Vec3::new(0.0, -0.03, 0.02)],
+            normal: Vec3::new(0.0, 0.6, 0.8),
+            stiffness: 1e5,
+            dissipation,
+        }
+    }
+
+    #[test]
+    fn the_projects_laws_keep_what_laws_promise() {
+        let poses = Poses::default();
+        hold(&end_stop(0.5), poses).unwrap();
+        let (from, to) = (-0.3, 0.2);
+        let stop =
+            HingeStop { bodies: BODIES, axis: hinge(), from, to, stiffness: 2e3, dissipation: 0.4 };
+        hold(&stop, poses).unwrap();
+        let friction = HingeFriction {
+            bodies: BODIES,
+            axis: hinge(),
+            coulomb: 4.0,
+            breakaway: 5.0,
+            stribeck: 0.05,
+            give: 1e-3,
+            damping: 0.1,
+            viscous: 0.2,
+        };
+        hold(&friction, poses).unwrap();
+    }
+
+    dbd_kernel::law! {
+        /// A spring of zero length that breaks a rule.
+        pub struct Broken = "broken" {
+            /// Where it is fixed.
+            points: Points,
+            /// Which rule.
+            rule: Count,
+        }
+    }
+
+    /// Counts how often it was settled.
+    #[derive(Clone, Copy, Debug, Default)]
+    pub struct Settled(i32);
+
+    impl dbd_kernel::words::Words for Settled {
+        fn visit(&self, visitor: &mut impl dbd_kernel::words::WordVisitor) {
+            visitor.word(dbd_kernel::words::Word::I32(self.0));
+        }
+        fn fill(&mut self, source: &mut impl dbd_kernel::words::WordSource) {
+            self.0 = source.take(4) as i32;
+        }
+    }
+
+    impl<P: dbd_kernel::Geometry> Interaction<P> for Broken<P> {
+        type State = Settled;
+        type Dampers = [(); 1];
+
+        fn settle(&self, _: &Seen<'_, P>, state: &mut Settled) {
+            state.0 += i32::from(self.rule == 1);
+        }
+        fn record(&self, seen: &Seen<'_, P>, _: &Settled) -> Option<Record<P::Space>> {
+            let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
+            let way = P::displacement(&a.0, &b.0);
+            let arms = if self.rule == 2 { [b.1, b.1] } else { [a.1, b.1] };
+            Some(seen.pull(&seen.along(way, arms), P::Real::ONE))
+        }
+        fn energy(&self, seen: &Seen<'_, P>, _: &Settled) -> P::Real {
+            let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
+            let way = P::displacement(&a.0, &b.0);
+            if self.rule == 3 { way.dot(way) } else { P::Real::HALF * way.dot(way) }
+        }
+        fn tangent(
+            &self,
+            seen: &Seen<'_, P>,
+            _: &Settled,
+            visit: &mut dyn FnMut(P::Real, &Direction<P::Space>),
+        ) -> [P::Real; 2] {
+            let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
+            let way = P::displacement(&a.0, &b.0);
+            if self.rule == 4 {
+                return [P::Real::ZERO; 2];
+            }
+            for axis in P::Vector::axes() {
+                visit(P::Real::ONE, &seen.along(axis, [a.1, b.1]));
+            }
+            [a.1, b.1].map(|arm| (way.dot(way) * arm.dot(arm)).sqrt())
+        }
+        fn dampers(&self, seen: &Seen<'_, P>, _: &Settled, visit: &mut impl FnMut(Damper<P>)) {
+            let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
+            let direction = seen.along(P::displacement(&a.0, &b.0), [a.1, b.1]);
+            let c = if self.rule == 5 { -P::Real::ONE } else { P::Real::ONE };
+            visit(Damper::new(c, direction));
+            if self.rule == 6 {
+                visit(Damper::new(c, direction));
+            }
+        }
+    }
+
+    #[test]
+    fn a_law_that_breaks_a_rule_is_told_which() {
+        let points = [Vec3::new(0.02, 0.0, 0.01), Vec3::new(0.0, -0.03, 0.02)];
+        let broken = |rule| hold(&Broken { bodies: BODIES, points, rule }, Poses::default());
+        broken(0).unwrap();
+        for (rule, says) in [
+            (1, "settling twice"),
+            (2, "angular momentum is not kept"),
+            (3, "not minus the gradient"),
+            (4, "the tangent is too small"),
+            (5, "a damper gives"),
+            (6, "more than it says"),
+        ] {
+            let why = broken(rule).unwrap_err();
+            assert!(why.contains(says), "{rule}: {why}");
+        }
+        let away = EndStop { points: [Vec3::ZERO, Vec3::new(0.0, 1.0, 1.0)], ..end_stop(0.0) };
+        let near = Poses { reach: 1e-9, turn: 1e-9, ..Poses::default() };
+        assert!(hold(&away, near).unwrap_err().contains("in no pose"));
+    }
+}
