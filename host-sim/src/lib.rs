@@ -14,6 +14,7 @@
 //! - [`commands`]: `list`, `check`, `run`, `compare`, `sweep`, `trade`, `reproduce`, `export`, `fmu`, `import`, `new`, `completions`.
 //! - [`error`]: what ends a command early.
 //! - [`cli`]: arguments in, exit code out.
+//! - [`program`]: the command line as a program of a user's own, with laws of their own.
 //!
 //! The feature `comparison` brings methods that are there for comparison only, see `dbd-plant`; `lanes` steps
 //! alike cases of a sweep in lockstep; `parquet` writes the table of a sweep as a Parquet file, too.
@@ -25,7 +26,10 @@ pub mod comparison;
 pub mod compliance;
 pub mod error;
 pub mod help;
+pub mod program;
 pub mod recorded;
 pub mod report;
 pub mod simulate;
 pub mod terminal;
+
+pub use program::Program;

@@ -9,6 +9,7 @@ use std::fmt::{self, Display};
 use std::io;
 use std::path::{Path, PathBuf};
 
+use dbd_kernel::laws::Law;
 use dbd_kernel::{F32, Fixed, State, frequency};
 
 use crate::default_step::{STEPS_PER_PERIOD, fastest_spin, longest, shortest_period};
@@ -95,6 +96,13 @@ impl Build {
             without_tables: false,
             changes: Vec::new(),
         }
+    }
+
+    /// Makes a law of one's own known; `path` is that of its type, which the crate that is built depends on, too:
+    /// `.law::<my_laws::Drag>("my_laws::Drag")`.
+    pub fn law<L: Law>(self, path: &str) -> Self {
+        crate::laws::register::<L>(path);
+        self
     }
 
     /// A value that is another than in the file, `PATH=VALUE` as of `host-sim run --set`; called twice,

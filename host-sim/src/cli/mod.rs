@@ -31,7 +31,7 @@ use crate::commands::export::{self, ExportArguments};
 use crate::commands::fmu::{FmuArguments, fmu};
 use crate::commands::import::{self, Import, ImportArguments};
 use crate::commands::list::list;
-use crate::commands::new::{FirmwareArguments, NewCommand, SceneArguments, firmware, scene};
+use crate::commands::new::{FirmwareArguments, NewCommand, SceneArguments, firmware, laws, scene};
 use crate::commands::schema;
 use crate::commands::sweep::{SweepArguments, sweep};
 use crate::error::Error;
@@ -146,6 +146,10 @@ where
         Command::New(NewCommand::Firmware(arguments)) => {
             new_firmware(&catalogue, &arguments, console)
         }
+        Command::New(NewCommand::Laws(arguments)) => laws(&arguments)
+            .map_err(Error::from)
+            .and_then(|said| console.print(&said).map_err(Error::from))
+            .map(|()| Exit::Done),
         Command::New(NewCommand::Scene(arguments)) => new_scene(&catalogue, &arguments, console),
         Command::Schema => console.print(&schema::text()).map(|()| Exit::Done).map_err(Error::from),
         Command::Completions { shell } => complete(&catalogue, shell, console),

@@ -26,6 +26,8 @@ pub const IMPORT: &str = examples!("import.txt");
 pub const LIST: &str = examples!("list.txt");
 /// Of `new firmware`.
 pub const NEW_FIRMWARE: &str = examples!("new-firmware.txt");
+/// Of `new laws`.
+pub const NEW_LAWS: &str = examples!("new-laws.txt");
 /// Of `new scene`.
 pub const NEW_SCENE: &str = examples!("new-scene.txt");
 /// Of `reproduce`.

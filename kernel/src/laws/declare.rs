@@ -100,6 +100,9 @@ macro_rules! law {
             type In<P: $crate::Geometry> = $name<P>;
 
             const ABOUT: &'static str = concat!($($about),+).trim_ascii();
+            const PATH: &'static str = concat!(module_path!(), "::", stringify!($name));
+            const PACKAGE: [&'static str; 2] =
+                [env!("CARGO_PKG_NAME"), env!("CARGO_MANIFEST_DIR")];
             const FIELDS: &'static [$crate::laws::Field] = &[$(
                 $crate::laws::Field {
                     name: stringify!($field),

@@ -208,6 +208,10 @@ pub trait Law: Interaction<F64> {
     const FIELDS: &'static [Field];
     /// What it is, in a line.
     const ABOUT: &'static str;
+    /// The path of its type in Rust, as the module has it that declares it.
+    const PATH: &'static str;
+    /// The name and the folder of the package that declares it.
+    const PACKAGE: [&'static str; 2];
 
     /// Its constants rounded once.
     fn rounded<P: Geometry>(&self) -> Self::In<P>;

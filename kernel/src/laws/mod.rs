@@ -39,3 +39,13 @@ pub use slice::{act, memory, row, shares_of, sweep};
 
 pub use crate::damping::Direction;
 pub use crate::forces::Record;
+
+/// What a file with a law of one's own needs: `use dbd_kernel::laws::prelude::*;`.
+pub mod prelude {
+    pub use super::{
+        Damper, Direction, Hinge, Interaction, Nothing, Quantity, Record, Seen, Turns, Wrong,
+    };
+    pub use crate::space::{Linear as _, Moment as _, Space, Vector as _};
+    pub use crate::words::{Word, WordSource, WordVisitor, Words};
+    pub use crate::{BodyIndex, F64, Geometry, Real};
+}

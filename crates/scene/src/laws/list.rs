@@ -67,6 +67,11 @@ impl<P: Geometry> LawList<P> {
         LawList::of(&self.sources())
     }
 
+    /// The name of each table's law, in order.
+    pub fn names(&self) -> impl Iterator<Item = &'static str> + '_ {
+        self.tables.iter().map(|table| table.source.name())
+    }
+
     pub(crate) fn sources(&self) -> Vec<Arc<dyn SourceRows>> {
         self.tables.iter().map(|table| table.source.clone()).collect()
     }

@@ -39,6 +39,8 @@ pub struct KnownLaw {
     pub quantities: &'static [laws::Quantity],
     /// The path of its type in Rust, as exported source has it.
     pub path: String,
+    /// The name and the folder of the package that declares it.
+    pub package: [&'static str; 2],
     table: fn(String) -> Box<dyn SourceRows>,
 }
 
@@ -50,6 +52,7 @@ impl KnownLaw {
             fields: L::FIELDS,
             quantities: <L as laws::Interaction<dbd_kernel::F64>>::QUANTITIES,
             path: path.to_owned(),
+            package: L::PACKAGE,
             table: |path| Box::new(Source::<L>::new(path)),
         }
     }
@@ -64,6 +67,12 @@ pub fn register<L: Law>(path: &str) {
     let mut own = OWN.write().unwrap_or_else(PoisonError::into_inner);
     own.retain(|known| known.name != law.name);
     own.push(law);
+}
+
+/// A law by its name.
+#[must_use]
+pub fn known_law(name: &str) -> Option<KnownLaw> {
+    known_laws().into_iter().find(|law| law.name == name)
 }
 
 /// All laws that scenes can name, those of the project first.

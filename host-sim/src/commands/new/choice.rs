@@ -14,6 +14,7 @@ use dbd_plant::{
     DampingName, Frequencies, Method, PlanError, PlantError, PrecisionName, SchemeName, plant,
 };
 use dbd_scene::Scene;
+use dbd_scene::laws::KnownLaw;
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -122,8 +123,9 @@ impl Choice {
 
     /// The call of a build script.
     #[must_use]
-    pub fn call(&self, file: &str) -> String {
-        let mut call = String::new();
+    pub fn call(&self, file: &str, laws: &[KnownLaw]) -> String {
+        let law = |law: &KnownLaw| format!(".law::<{0}>({0:?})", law.path);
+        let mut call: String = laws.iter().map(law).collect();
         if self.method.scheme_name() != Method::default().scheme_name() {
             call += &format!(".scheme({:?})", self.method.scheme_name());
         }

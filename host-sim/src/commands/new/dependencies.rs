@@ -9,6 +9,8 @@ pub(super) struct Dependencies {
     pub(super) kernel: String,
     /// Of `dbd-scene`.
     pub(super) scene: String,
+    /// Of `host-sim`.
+    pub(super) host_sim: String,
     /// Where they come from, for people.
     pub(super) origin: String,
 }
@@ -28,6 +30,7 @@ impl Dependencies {
             Some(root) => Self {
                 kernel: in_folder(&format!("{root}/kernel")),
                 scene: in_folder(&format!("{root}/crates/scene")),
+                host_sim: in_folder(&format!("{root}/host-sim")),
                 origin: format!("its crates are those in {root}"),
             },
             None => {
@@ -35,6 +38,7 @@ impl Dependencies {
                 let published = format!("{version:?}");
                 Self {
                     kernel: published.clone(),
+                    host_sim: published.clone(),
                     scene: published,
                     origin: format!("its crates are the published ones, version {version}"),
                 }

@@ -1,5 +1,5 @@
 //! `host-sim new firmware`: a project with a plant in firmware, which builds and runs as it is; `host-sim new scene`
-//! (`scene.rs`): a scene to begin with.
+//! (`scene.rs`): a scene to begin with; `host-sim new laws` (`laws.rs`): a crate with laws of one's own.
 //!
 //! `(name, scene) => folder`. The files are those of `templates/firmware/`, with what the scene
 //! tells in place of `{{…}}`; the golden bits are those of a run of the scene here.
@@ -7,6 +7,7 @@
 mod choice;
 mod dependencies;
 mod folder;
+mod laws;
 mod name;
 mod scene;
 
@@ -20,6 +21,7 @@ use dbd_plant::plant;
 use dbd_plant::time::rounded;
 use dbd_scene::Scene;
 use dbd_scene::export::{constant_name, type_name};
+use dbd_scene::laws::{KnownLaw, known_law};
 use dbd_study::costs::Costs;
 use dbd_study::estimate::instructions;
 use miette::Diagnostic;
@@ -30,6 +32,7 @@ use crate::terminal::Found;
 use choice::{Choice, ChoiceError, ChoiceOptions};
 use dependencies::Dependencies;
 
+pub use laws::{LawsArguments, laws};
 pub use name::NameError;
 pub use scene::{SceneArguments, scene};
 
@@ -38,6 +41,9 @@ pub const SCENE: &str = "cart-pendulum";
 
 /// Most steps of the golden run: a second or two in QEMU.
 const MOST_STEPS: u64 = 10_000;
+
+/// The package of the kernel's own laws.
+const KERNEL: &str = "dbd-kernel";
 
 /// Constants that the project's page shows of a kind.
 const SHOWN: usize = 6;
@@ -62,6 +68,9 @@ pub enum NewCommand {
     /// Writes a project with a scene as a plant in firmware: builds, runs in QEMU and on the PC
     #[command(after_help = help::NEW_FIRMWARE)]
     Firmware(FirmwareArguments),
+    /// Writes a crate with laws of one's own between bodies, tests of them, and the command line that knows them
+    #[command(after_help = help::NEW_LAWS)]
+    Laws(LawsArguments),
     /// Writes a commented scene that runs as it is, and the schema from which editors complete its keys
     #[command(after_help = help::NEW_SCENE)]
     Scene(SceneArguments),
@@ -184,7 +193,8 @@ fn project(
         ("kernel", dependencies.kernel.clone()),
         ("scene_crate", dependencies.scene.clone()),
         ("origin", dependencies.origin.clone()),
-        ("build", choice.call(&file)),
+        ("build", choice.call(&file, &own_laws(scene))),
+        ("law_crates", law_crates(scene)),
         ("scene", scene.name.clone()),
         ("stem", stem.clone()),
         ("type", type_name(&scene.name)),
@@ -216,6 +226,21 @@ fn project(
         choice.reasons.iter().map(|reason| format!("  {reason}\n")).collect::<String>(),
         if estimate.is_empty() { "nothing like it was counted" } else { &estimate },
     ))
+}
+
+/// The laws of a scene that are not the kernel's.
+fn own_laws(scene: &Scene) -> Vec<KnownLaw> {
+    let known = scene.model.laws.names().filter_map(known_law);
+    known.filter(|law| law.package[0] != KERNEL).collect()
+}
+
+/// The packages that declare them, as dependencies.
+fn law_crates(scene: &Scene) -> String {
+    let mut packages: Vec<_> = own_laws(scene).into_iter().map(|law| law.package).collect();
+    packages.sort_unstable();
+    packages.dedup();
+    let line = |[name, folder]: [&str; 2]| format!("{name} = {{ path = {folder:?} }}\n");
+    packages.into_iter().map(line).collect()
 }
 
 /// A file name that stands in source and in paths as it is.
