@@ -111,7 +111,7 @@ fn torques<M: ModelOwner>(model: &M, state: &State<M>) -> Option<M::PerBody<Wren
             at: At::Stage,
             advance: None,
         },
-        Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() },
+        Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut(), unpushed: &mut [] },
     )
     .ok()?;
     Some(wrenches)
@@ -167,7 +167,11 @@ fn largest_by_magnitude<M: ModelOwner>(
                     at: At::Stage,
                     advance: None,
                 },
-                Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() },
+                Evaluation {
+                    frames: frames.as_mut(),
+                    wrenches: wrenches.as_mut(),
+                    unpushed: &mut [],
+                },
             );
             if turned.is_err() {
                 return (0.0, 0.0);

@@ -10,7 +10,7 @@ use crate::attitude::Attitude as _;
 use crate::damping::{Damping, Held, Pose, Share, find, share, weigh};
 use crate::elements::input::{Input, InputKind};
 use crate::extents::first_excess;
-use crate::forces::{Wrench, are_in_line, find_rests};
+use crate::forces::{Unpushed, Wrench, are_in_line, find_rests};
 use crate::frequency::bound;
 use crate::geometry::Geometry;
 use crate::guards::{first_beyond, first_fault};
@@ -53,6 +53,7 @@ where
     state: State<H::Target>,
     frames: PerBody<H, FrameOf<H::Target>>,
     wrenches: PerBody<H, Wrench<SpaceOf<H::Target>>>,
+    unpushed: <H::Target as ModelOwner>::PerInput<Unpushed<SpaceOf<H::Target>>>,
     sums: <H::Target as ModelOwner>::PerDampedBody<<PrecisionOf<H> as Geometry>::PassSum>,
     memory: MemoryOf<H, S>,
     in_line: bool,
@@ -67,6 +68,9 @@ type PrecisionOf<H> = <<H as Deref>::Target as ModelOwner>::Precision;
 /// What a scheme remembers of each body of the model that `H` points to.
 pub(crate) type MemoryOf<H, S> =
     PerBody<H, <S as Scheme>::Memory<<<H as Deref>::Target as ModelOwner>::Precision>>;
+/// The signals of the inputs of the model that `H` points to.
+type SignalsOf<H> =
+    <<H as Deref>::Target as ModelOwner>::PerInput<Signal<RealOf<<H as Deref>::Target>>>;
 /// One `T` per body of the model that `H` points to.
 type PerBody<H, T> = <<H as Deref>::Target as ModelOwner>::PerBody<T>;
 
@@ -159,6 +163,7 @@ where
             solve::find(&view, places, scheme.pencil(h), kept.seats.as_mut());
         }
         let wrenches = owner.per_body(Wrench::default());
+        let unpushed = owner.per_input([Wrench::default(); 2]);
         let sums = owner.per_damped_body(Default::default());
         let memory = owner.per_body(S::Memory::default());
         let in_line = are_in_line(&view);
@@ -178,6 +183,7 @@ where
             state,
             frames,
             wrenches,
+            unpushed,
             sums,
             memory,
             in_line,
@@ -210,14 +216,22 @@ where
                 changed |= sample_over(&*self.model, &mut self.state, knots);
             }
             if changed {
-                self.ledger.fresh = false;
+                let moves = view.inputs.iter().any(moves_ground);
+                self.change(moves);
             }
         }
     }
 
+    /// Takes note of an input's new signal.
+    #[inline(always)]
+    fn change(&mut self, moves_ground: bool) {
+        self.ledger.pushed = false;
+        self.ledger.fresh &= !(moves_ground || self.model.view().laws.is_driven());
+    }
+
     /// The signals of the inputs at `part` of the coming step, 0 to 1: what its stages see. At 1 they are
     /// those before what jumps there.
-    pub fn signals_at(&self, part: RealOf<H::Target>) -> <H::Target as ModelOwner>::PerInput {
+    pub fn signals_at(&self, part: RealOf<H::Target>) -> SignalsOf<H> {
         let view = self.model.view();
         let knots = self.knots.as_ref();
         let at = StageTime { step: self.state.step, part, h: self.h };
@@ -292,6 +306,7 @@ where
             step,
             frames: self.frames.as_mut(),
             wrenches: self.wrenches.as_mut(),
+            unpushed: self.unpushed.as_mut(),
             sums: self.sums.as_mut(),
             in_line: self.in_line,
             ledger: &mut self.ledger,
@@ -423,7 +438,8 @@ where
         let now = Signal { value, rate };
         if *signal != now {
             *signal = now;
-            self.ledger.fresh = false;
+            let moves = moves_ground(known);
+            self.change(moves);
         }
         Ok(())
     }

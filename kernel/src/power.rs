@@ -112,7 +112,7 @@ fn forces<M: ModelOwner, D: Dampers>(
             placed: false,
         },
         Memories { turns: turns.as_mut(), laws: &mut laws, at: At::Stage, advance: None },
-        Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() },
+        Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut(), unpushed: &mut [] },
     )?;
     Ok(into_bodies(wrenches.as_ref()))
 }

@@ -5,7 +5,8 @@
 
 use crate::body::BodyState;
 use crate::laws::Laws as _;
-use crate::model::{LawStates, LawsIn, ModelOwner};
+use crate::model::{LawStates, LawsIn, ModelOwner, RealOf};
+use crate::schedule::Signal;
 use crate::words::{Fnv1a, Word, WordSource, WordVisitor, Words};
 
 /// The state of a plant, owned in the shape of its model; `Copy` where the model's sizes are
@@ -20,7 +21,7 @@ pub struct State<M: ModelOwner> {
     /// Steps done: time is `step·h`.
     pub step: u64,
     /// The inputs' signals; no words of the hash.
-    pub signals: M::PerInput,
+    pub signals: M::PerInput<Signal<RealOf<M>>>,
 }
 
 impl<M: ModelOwner> Clone for State<M> {
@@ -40,7 +41,7 @@ where
     M::PerBody<BodyState<M::Precision>>: Copy,
     M::PerTorsion: Copy,
     LawStates<M>: Copy,
-    M::PerInput: Copy,
+    M::PerInput<Signal<RealOf<M>>>: Copy,
 {
 }
 
@@ -51,7 +52,7 @@ impl<M: ModelOwner> State<M> {
         for (state, initial) in bodies.as_mut().iter_mut().zip(model.initial()) {
             *state = *initial;
         }
-        let mut signals = model.per_input();
+        let mut signals = model.per_input(Signal::default());
         for (signal, input) in signals.as_mut().iter_mut().zip(model.view().inputs) {
             signal.value = input.value;
         }

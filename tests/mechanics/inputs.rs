@@ -9,7 +9,8 @@ use dbd_kernel::plant::InputError;
 use dbd_kernel::real::Real as _;
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
-    Body, BodyIndex, Dbd, F32, F64, Geometry, Leapfrog, LoadFrame, Model, Plant, Scheme, Tsda, Vec3,
+    Body, BodyIndex, Dbd, F32, F64, Fixed, Geometry, JointWise, Leapfrog, LoadFrame, Model, Plant,
+    Scheme, Tsda, Vec3,
 };
 use dbd_tests::{Bench, at, free_ring, momenta};
 
@@ -162,6 +163,45 @@ fn an_input_is_set_in_the_plants_number_or_in_double_precision() {
         let refused = Err(InputError::NotFinite(free));
         assert_eq!(plant.set_signal_real(free, 0.0, f32::NAN), refused);
     });
+}
+
+/// A controller sets inputs in every step: one evaluation per step, and the bits of a plant that evaluates anew.
+#[test]
+fn an_input_set_in_every_step_costs_no_evaluation() {
+    fn is_kept<P: Geometry, S: Scheme>(scheme: S, damping: f64, more: u64) {
+        let mut model = free_ring::<P>(damping);
+        let [a, b] = [BodyIndex(0), BodyIndex(1)];
+        let axis = P::Moment::from_f64([0.0, 0.6, 0.8]);
+        let turn = InputKind::JointTorque { a, b, axes: [axis; 2] };
+        let turn = model.add_input(turn, P::Real::ZERO).unwrap();
+        let pull = InputKind::Actuator { group: 2, element: 0 };
+        let pull = model.add_input(pull, P::Real::ZERO).unwrap();
+        let (point, direction) =
+            (P::local_from_f64([0.1, 0.2, 0.0]), P::Vector::from_f64([0.0, 1.0, 0.0]));
+        let force = InputKind::Force { body: b, point, direction, frame: LoadFrame::Body };
+        let force = model.add_input(force, P::Real::ZERO).unwrap();
+        let mut plant = Plant::new(&model, scheme, 1e-4).unwrap();
+        let mut anew = Plant::new(&model, scheme, 1e-4).unwrap();
+        for i in 0..200 {
+            for plant in [&mut plant, &mut anew] {
+                plant.set_input(turn, 0.01 * f64::from(i)).unwrap();
+                plant.set_input(pull, f64::from(i % 7)).unwrap();
+                plant.set_input(force, -0.1 * f64::from(i % 5)).unwrap();
+            }
+            anew.resume(*anew.state());
+            plant.step().ok().unwrap();
+            anew.step().ok().unwrap();
+            assert_eq!(plant.hash(), anew.hash(), "{} step {i}", P::NAME);
+        }
+        assert_eq!(plant.evaluations(), 200 + more, "{}", P::NAME);
+    }
+    for damping in [0.0, 3.0] {
+        is_kept::<F64, _>(Leapfrog, damping, 1);
+        is_kept::<F32, _>(Leapfrog, damping, 1);
+        is_kept::<Fixed, _>(Leapfrog, damping, 1);
+    }
+    // Without dampers joint-wise damping is the scheme itself.
+    is_kept::<F32, _>(JointWise(Leapfrog), 0.0, 1);
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod extremes;
 mod guards;
 mod inputs;
 mod joint_torque;
+mod laws;
 mod orientation;
 mod overdamped;
 mod own_scheme;

@@ -136,7 +136,7 @@ impl<H: Deref<Target: ModelOwner + Sized>> ModelOwner for Eliminated<H> {
     type PerDampedBody<T: Copy> = <H::Target as ModelOwner>::PerDampedBody<T>;
     type PerTorsion = <H::Target as ModelOwner>::PerTorsion;
     type PerLoad = <H::Target as ModelOwner>::PerLoad;
-    type PerInput = <H::Target as ModelOwner>::PerInput;
+    type PerInput<T: Copy> = <H::Target as ModelOwner>::PerInput<T>;
     type PerDamper<T: Copy> = <H::Target as ModelOwner>::PerDamper<T>;
     type PerTsda<T: Copy> = <H::Target as ModelOwner>::PerTsda<T>;
     type PerPair<T: Copy> = Vec<T>;
@@ -168,8 +168,8 @@ impl<H: Deref<Target: ModelOwner + Sized>> ModelOwner for Eliminated<H> {
         self.model.per_load()
     }
 
-    fn per_input(&self) -> Self::PerInput {
-        self.model.per_input()
+    fn per_input<T: Copy>(&self, value: T) -> Self::PerInput<T> {
+        self.model.per_input(value)
     }
 
     fn per_damper<T: Copy>(&self, value: T) -> Self::PerDamper<T> {

@@ -173,7 +173,7 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
     type PerDampedBody<T: Copy> = Vec<T>;
     type PerTorsion = Vec<i32>;
     type PerLoad = Vec<LoadWindow>;
-    type PerInput = Vec<Signal<P::Real>>;
+    type PerInput<T: Copy> = Vec<T>;
     type PerDamper<T: Copy> = Vec<T>;
     type PerTsda<T: Copy> = Vec<T>;
     type PerPair<T: Copy> = Vec<T>;
@@ -224,8 +224,8 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
         vec![LoadWindow::default(); self.loads.len()]
     }
 
-    fn per_input(&self) -> Self::PerInput {
-        vec![Signal::default(); self.inputs.len()]
+    fn per_input<T: Copy>(&self, value: T) -> Vec<T> {
+        vec![value; self.inputs.len()]
     }
 
     fn per_damper<T: Copy>(&self, value: T) -> Vec<T> {

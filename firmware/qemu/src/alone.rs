@@ -56,7 +56,7 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
     type PerDampedBody<T: Copy> = M::PerDampedBody<T>;
     type PerTorsion = M::PerTorsion;
     type PerLoad = M::PerLoad;
-    type PerInput = M::PerInput;
+    type PerInput<T: Copy> = M::PerInput<T>;
     type PerDamper<T: Copy> = M::PerDamper<T>;
     type PerTsda<T: Copy> = M::PerTsda<T>;
     type PerPair<T: Copy> = M::PerPair<T>;
@@ -113,8 +113,8 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
     }
 
     #[inline]
-    fn per_input(&self) -> M::PerInput {
-        self.model.per_input()
+    fn per_input<T: Copy>(&self, value: T) -> M::PerInput<T> {
+        self.model.per_input(value)
     }
 
     #[inline]

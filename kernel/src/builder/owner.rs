@@ -6,7 +6,7 @@ use crate::body::BodyState;
 use crate::builder::ModelBuilder;
 use crate::geometry::Geometry;
 use crate::model::{AllTerms, ModelOwner, ModelRef};
-use crate::schedule::{KnotStep, LoadWindow, Signal};
+use crate::schedule::{KnotStep, LoadWindow};
 use crate::sources::SourceStep;
 
 impl<
@@ -48,7 +48,7 @@ impl<
     type PerDampedBody<T: Copy> = Vec<T, BODIES>;
     type PerTorsion = Vec<i32, TORSIONS>;
     type PerLoad = Vec<LoadWindow, LOADS>;
-    type PerInput = Vec<Signal<P::Real>, INPUTS>;
+    type PerInput<T: Copy> = Vec<T, INPUTS>;
     type PerDamper<T: Copy> = Vec<T, DAMPERS>;
     type PerTsda<T: Copy> = Vec<T, TSDAS>;
     type PerPair<T: Copy> = [T; 0];
@@ -98,8 +98,8 @@ impl<
         self.loads.iter().map(|_| LoadWindow::default()).collect()
     }
 
-    fn per_input(&self) -> Self::PerInput {
-        self.inputs.iter().map(|_| Signal::default()).collect()
+    fn per_input<T: Copy>(&self, value: T) -> Vec<T, INPUTS> {
+        self.inputs.iter().map(|_| value).collect()
     }
 
     fn per_damper<T: Copy>(&self, value: T) -> Vec<T, DAMPERS> {

@@ -179,7 +179,11 @@ mod tests {
                 rests: &[],
                 placed: false,
             };
-            let out = Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() };
+            let out = Evaluation {
+                frames: frames.as_mut(),
+                wrenches: wrenches.as_mut(),
+                unpushed: &mut [],
+            };
             let mut laws = view.laws.states();
             let memories =
                 Memories { turns: &mut [], laws: &mut laws, at: At::Stage, advance: None };

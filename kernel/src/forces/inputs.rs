@@ -1,17 +1,88 @@
-//! The forces and torques of inputs, added after the loads, in ascending order.
+//! The forces and torques of inputs, added after all else, in ascending order.
 //!
-//! `(inputs, signals, frames) => wrenches`. An anchor moves points instead, see [`crate::pose`].
+//! `(inputs, signals, frames) => wrenches`, torques in body axes. What is there without them is kept beside, so that an
+//! input that is set costs no evaluation of the pose. An anchor moves points instead, see [`crate::pose`].
 
 use crate::elements::input::InputKind;
 use crate::elements::load::LoadFrame;
 use crate::elements::torsion_spring::gradient_between;
-use crate::forces::record::{Record, Wrench, apply};
+use crate::forces::record::{Record, Wrench};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{ModelRef, Terms};
 use crate::pose::{End, Places, placed};
 use crate::real::Real;
 use crate::space::{Linear as _, Vector as _};
+
+/// The wrenches of the two bodies of each input without any input.
+pub(crate) type Unpushed<S> = [Wrench<S>; 2];
+
+/// The two bodies of an input.
+#[inline(always)]
+fn bodies_of<P: Geometry, T: Terms<P>>(
+    model: &ModelRef<'_, P, T>,
+    kind: &InputKind<P>,
+) -> [BodyIndex; 2] {
+    let world = BodyIndex::WORLD;
+    match *kind {
+        InputKind::Force { body, .. } | InputKind::Torque { body, .. } => [body, world],
+        InputKind::JointTorque { a, b, .. } => [a, b],
+        InputKind::Actuator { group, .. } => {
+            model.groups.get(group as usize).map_or([world; 2], |group| [group.a, group.b])
+        }
+        InputKind::Anchor { .. } => [world; 2],
+    }
+}
+
+/// Keeps the wrenches as they are before [`push`].
+#[inline(always)]
+pub(crate) fn keep<P: Geometry, T: Terms<P>>(
+    model: &ModelRef<'_, P, T>,
+    wrenches: &[Wrench<P::Space>],
+    unpushed: &mut [Unpushed<P::Space>],
+) {
+    for (input, unpushed) in model.inputs.iter().zip(unpushed) {
+        for (body, kept) in bodies_of(model, &input.kind).into_iter().zip(unpushed) {
+            if let Some(wrench) = wrenches.get(body.row()) {
+                *kept = *wrench;
+            }
+        }
+    }
+}
+
+/// Takes the wrenches back to what they were before [`push`].
+#[inline(always)]
+pub(crate) fn take_back<P: Geometry, T: Terms<P>>(
+    model: &ModelRef<'_, P, T>,
+    unpushed: &[Unpushed<P::Space>],
+    wrenches: &mut [Wrench<P::Space>],
+) {
+    for (input, unpushed) in model.inputs.iter().zip(unpushed) {
+        for (body, kept) in bodies_of(model, &input.kind).into_iter().zip(unpushed) {
+            if let Some(wrench) = wrenches.get_mut(body.row()) {
+                *wrench = *kept;
+            }
+        }
+    }
+}
+
+/// Adds a record, torques in world axes, to wrenches whose torques are in body axes.
+#[inline(always)]
+fn add<P: Geometry>(
+    places: Places<'_, P>,
+    wrenches: &mut [Wrench<P::Space>],
+    bodies: [BodyIndex; 2],
+    record: &Record<P::Space>,
+) {
+    let rows = bodies.map(BodyIndex::row);
+    let parts = [(record.force, record.torque_a), (-record.force, -record.torque_b)];
+    for (row, (force, torque)) in rows.into_iter().zip(parts) {
+        if let (Some(wrench), Some(frame)) = (wrenches.get_mut(row), places.frames.get(row)) {
+            wrench.force = wrench.force + force;
+            wrench.torque = wrench.torque + P::moment_to_body(frame, torque);
+        }
+    }
+}
 
 /// The forces and torques of inputs.
 #[inline(always)]
@@ -30,30 +101,30 @@ pub(crate) fn push<P: Geometry, T: Terms<P>>(
     };
     for (input, signal) in model.inputs.iter().zip(places.signals) {
         let value = signal.value;
+        let bodies = bodies_of(model, &input.kind);
         let zero = P::Moment::ZERO;
         match input.kind {
             InputKind::Force { body, point, direction, frame } => {
                 let force = turned(body, frame, direction) * value;
                 let (_, arm) = End::new(model, places, body, None).place(&point);
                 let record = Record { force, torque_a: arm.cross(force), torque_b: zero };
-                apply(wrenches, body.row(), BodyIndex::WORLD.row(), &record);
+                add(places, wrenches, bodies, &record);
             }
             InputKind::Torque { body, axis, frame } => {
                 let torque_a = turned_axis(body, frame, axis) * value;
                 let record = Record { force: P::Vector::ZERO, torque_a, torque_b: zero };
-                apply(wrenches, body.row(), BodyIndex::WORLD.row(), &record);
+                add(places, wrenches, bodies, &record);
             }
             InputKind::JointTorque { a, b, axes } => {
                 let axis_a = turned_axis(a, LoadFrame::Body, axes[0]);
                 let axis_b = turned_axis(b, LoadFrame::Body, axes[1]);
                 let torque = -(gradient_between(axis_a, axis_b) * value);
                 let record = Record { force: P::Vector::ZERO, torque_a: torque, torque_b: torque };
-                apply(wrenches, a.row(), b.row(), &record);
+                add(places, wrenches, bodies, &record);
             }
-            InputKind::Actuator { group, .. } => {
-                let Some(group) = model.groups.get(group as usize) else { continue };
+            InputKind::Actuator { .. } => {
                 if let Some(record) = actuator(model, places, input.kind, value) {
-                    apply(wrenches, group.a.row(), group.b.row(), &record);
+                    add(places, wrenches, bodies, &record);
                 }
             }
             InputKind::Anchor { .. } => {}

@@ -2,8 +2,7 @@
 //!
 //! `(model, pose, velocities, turn counts, step) => wrenches`. The order of sums, which is part
 //! of the bits: a body starts from its weight, or from nothing where a precision lets bodies fall otherwise
-//! ([`Geometry::FALLS`]), then adds its loads in ascending order, then the
-//! inputs and the records of its groups likewise, then its torsion springs', then those of its laws, table by table.
+//! ([`Geometry::FALLS`]), then adds its loads in ascending order, then the records of its groups likewise, then its torsion springs', then those of its laws, table by table.
 //! Within a TSDA group each distinct point is placed once; the pulls on a point are added in
 //! the order of its elements; the record's force and torque on A add star by star, the torque
 //! on B arm by arm. Where a precision keeps stars at rest, the pulls of two stars add in the axes of B, and a
@@ -27,7 +26,7 @@ mod universal;
 use crate::body::BodyState;
 pub(crate) use directions::springs;
 pub(crate) use in_line::are_in_line;
-pub(crate) use inputs::with_actuators;
+pub(crate) use inputs::{Unpushed, push, take_back, with_actuators};
 pub use record::{At, Dampers, DampersLeft, DampersOfJoints, ExplicitDampers, Record, Wrench};
 pub(crate) use record::{Memories, apply};
 pub(crate) use stars::find_rests;
@@ -69,6 +68,8 @@ pub(crate) struct Evaluation<'s, P: Geometry> {
     pub(crate) frames: &'s mut [P::Frame],
     /// The wrenches.
     pub(crate) wrenches: &'s mut [Wrench<P::Space>],
+    /// Where the wrenches without inputs are kept, one per input, or nothing.
+    pub(crate) unpushed: &'s mut [Unpushed<P::Space>],
 }
 
 /// The wrenches on all bodies in a state, dampers and loads included, for steps of `step_size`
@@ -102,7 +103,7 @@ pub fn wrenches<M: ModelOwner>(
             placed: false,
         },
         Memories { turns: turns.as_mut(), laws: &mut laws, at: At::Stage, advance: None },
-        Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut() },
+        Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut(), unpushed: &mut [] },
     )?;
     if M::Precision::FALLS
         && let Some(&gravity) = view.gravity.first()
@@ -129,7 +130,7 @@ pub(crate) fn evaluate<P: Geometry, T: Terms<P>, D: Dampers>(
     out: Evaluation<'_, P>,
 ) -> Result<(), Cause> {
     let Instant { step, windows, signals, bodies, rests, in_line, placed } = instant;
-    let Evaluation { frames, wrenches } = out;
+    let Evaluation { frames, wrenches, unpushed } = out;
     let Memories { turns, laws: known, at, advance } = memories;
     if !placed {
         place_bodies(bodies, frames);
@@ -157,6 +158,10 @@ pub(crate) fn evaluate<P: Geometry, T: Terms<P>, D: Dampers>(
     }
     for (wrench, frame) in wrenches.iter_mut().zip(frames.iter()) {
         wrench.torque = P::moment_to_body(frame, wrench.torque);
+    }
+    if T::INPUTS {
+        inputs::keep(model, wrenches, unpushed);
+        inputs::push(model, places, wrenches);
     }
     Ok(())
 }
@@ -220,6 +225,9 @@ pub(crate) fn pushed<P: Geometry, T: Terms<P>>(
     for (wrench, frame) in wrenches.iter_mut().zip(places.frames) {
         wrench.torque = P::moment_to_body(frame, wrench.torque);
     }
+    if T::INPUTS {
+        inputs::push(model, places, wrenches);
+    }
 }
 
 /// What loads and inputs push by themselves; torques in body axes.
@@ -234,9 +242,12 @@ pub(crate) fn push_loads_and_inputs<P: Geometry, T: Terms<P>>(
     for (wrench, frame) in wrenches.iter_mut().zip(places.frames) {
         wrench.torque = P::moment_to_body(frame, wrench.torque);
     }
+    if T::INPUTS {
+        inputs::push(model, places, wrenches);
+    }
 }
 
-/// Weight in a field of gravity, loads and inputs.
+/// Weight in a field of gravity and loads.
 #[inline(always)]
 fn start<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
@@ -272,8 +283,5 @@ fn start<P: Geometry, T: Terms<P>>(
                 wrench.torque = wrench.torque + torque;
             }
         }
-    }
-    if T::INPUTS {
-        inputs::push(model, places, wrenches);
     }
 }

@@ -145,6 +145,8 @@ pub trait Interaction<P: Geometry>: Constants<P> {
     type Dampers: Several;
     /// Whether it brings its memory on by [`Self::advance`], once per step.
     const ADVANCES: bool = false;
+    /// Whether what it does depends on inputs: an input that is set costs an evaluation then.
+    const DRIVEN: bool = false;
     /// What [`Self::read`] shows.
     const QUANTITIES: &'static [Quantity] = &[];
 

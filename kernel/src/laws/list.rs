@@ -77,6 +77,8 @@ pub trait Laws<P: Geometry>: Send + Sync + 'static {
     fn count(&self) -> usize;
     /// Whether any row has dampers.
     fn is_damped(&self) -> bool;
+    /// Whether what any row does depends on inputs.
+    fn is_driven(&self) -> bool;
     /// Memories as at t = 0.
     fn states(&self) -> Self::States;
     /// A share per damper.
@@ -138,6 +140,10 @@ impl<P: Geometry, T: Interaction<P>, const N: usize> Laws<P> for [T; N] {
     #[inline(always)]
     fn is_damped(&self) -> bool {
         <Self as Laws<P>>::DAMPED
+    }
+    #[inline(always)]
+    fn is_driven(&self) -> bool {
+        N > 0 && T::DRIVEN
     }
     #[inline]
     fn states(&self) -> Self::States {
@@ -217,6 +223,10 @@ macro_rules! list {
             #[inline(always)]
             fn is_damped(&self) -> bool {
                 false $(|| self.$i.is_damped())*
+            }
+            #[inline(always)]
+            fn is_driven(&self) -> bool {
+                false $(|| self.$i.is_driven())*
             }
             #[inline]
             fn states(&self) -> Self::States {

@@ -37,7 +37,7 @@ use crate::elements::universal::Universal;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
 use crate::laws::Laws;
-use crate::schedule::{KnotStep, LoadWindow, Signal};
+use crate::schedule::{KnotStep, LoadWindow};
 use crate::sources::SourceStep;
 
 /// The elements of one joint or one raw element: one record of force and torques.
@@ -229,8 +229,8 @@ pub trait ModelOwner {
     type PerTorsion: Clone + AsRef<[i32]> + AsMut<[i32]>;
     /// Memory of one window per load.
     type PerLoad: Clone + AsRef<[LoadWindow]> + AsMut<[LoadWindow]>;
-    /// Memory of one signal per input.
-    type PerInput: Clone + AsRef<[Signal<RealOf<Self>>]> + AsMut<[Signal<RealOf<Self>>]>;
+    /// Memory of one `T` per input.
+    type PerInput<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one `T` per damper.
     type PerDamper<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one `T` per pair of bodies of the plan, see [`Self::plan`].
@@ -256,8 +256,8 @@ pub trait ModelOwner {
     fn per_torsion(&self) -> Self::PerTorsion;
     /// One empty window per load.
     fn per_load(&self) -> Self::PerLoad;
-    /// One zero signal per input.
-    fn per_input(&self) -> Self::PerInput;
+    /// One `value` per input.
+    fn per_input<T: Copy>(&self, value: T) -> Self::PerInput<T>;
     /// One `value` per damper.
     fn per_damper<T: Copy>(&self, value: T) -> Self::PerDamper<T>;
     /// One `value` per pair of bodies of the plan.

@@ -16,7 +16,7 @@ use crate::laws::Laws;
 use crate::model::{CountedTerms, Group, Law, ModelOwner, ModelRef};
 use crate::pass_sum::PassSum;
 use crate::real::Real;
-use crate::schedule::{KnotStep, LoadWindow, Signal};
+use crate::schedule::{KnotStep, LoadWindow};
 use crate::sources::SourceStep;
 
 /// A model whose sizes are const generics. A kind that a scene lacks has count 0, the default.
@@ -304,7 +304,7 @@ impl<
     type PerDampedBody<T: Copy> = [T; SUMS];
     type PerTorsion = [i32; TORSIONS];
     type PerLoad = [LoadWindow; LOADS];
-    type PerInput = [Signal<P::Real>; INPUTS];
+    type PerInput<T: Copy> = [T; INPUTS];
     type PerDamper<T: Copy> = [T; DAMPERS];
     type PerTsda<T: Copy> = [T; TSDAS];
     type PerPair<T: Copy> = [T; 0];
@@ -360,8 +360,8 @@ impl<
     }
 
     #[inline]
-    fn per_input(&self) -> [Signal<P::Real>; INPUTS] {
-        [Signal { value: P::Real::ZERO, rate: P::Real::ZERO }; INPUTS]
+    fn per_input<T: Copy>(&self, value: T) -> [T; INPUTS] {
+        [value; INPUTS]
     }
 
     #[inline]

@@ -42,7 +42,7 @@ where
     type PerDampedBody<V: Copy> = <H::Target as ModelOwner>::PerDampedBody<V>;
     type PerTorsion = <H::Target as ModelOwner>::PerTorsion;
     type PerLoad = <H::Target as ModelOwner>::PerLoad;
-    type PerInput = <H::Target as ModelOwner>::PerInput;
+    type PerInput<V: Copy> = <H::Target as ModelOwner>::PerInput<V>;
     type PerDamper<V: Copy> = <H::Target as ModelOwner>::PerDamper<V>;
     type PerTsda<V: Copy> = <H::Target as ModelOwner>::PerTsda<V>;
     type PerPair<V: Copy> = [V; PAIRS];
@@ -82,8 +82,8 @@ where
     }
 
     #[inline]
-    fn per_input(&self) -> <H::Target as ModelOwner>::PerInput {
-        self.model.per_input()
+    fn per_input<V: Copy>(&self, value: V) -> <H::Target as ModelOwner>::PerInput<V> {
+        self.model.per_input(value)
     }
 
     #[inline]

@@ -57,7 +57,7 @@ impl Kicked for Leapfrog {
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {
         // One evaluation in the code, whichever it is: all of a step is then one function.
-        let mut known = !D::ACT && stepper.is_fresh();
+        let mut known = !D::ACT && stepper.refresh();
         let h = stepper.h;
         loop {
             if known {

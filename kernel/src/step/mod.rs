@@ -16,11 +16,12 @@ use core::ops::{Deref, DerefMut};
 pub use crate::body::Diagonal;
 use crate::body::{BodyState, Increment};
 use crate::damping::{Lever, Share};
-use crate::forces::{self, At, Dampers, Evaluation, Instant, Memories, Wrench};
+use crate::forces::{self, At, Dampers, Evaluation, Instant, Memories, Unpushed, Wrench};
 use crate::geometry::Geometry;
 use crate::laws::Laws;
 use crate::lockstep;
 use crate::model::{LawsIn, ModelRef, Plan, SharesIn, StatesIn, Terms};
+use crate::pose::Places;
 use crate::real::Real;
 use crate::rotation;
 use crate::schedule::{self, KnotStep, LoadWindow, Signal, StageTime};
@@ -36,9 +37,11 @@ use crate::status::Cause;
 pub(crate) struct Ledger {
     /// Force evaluations performed since t = 0.
     pub(crate) evaluations: u64,
-    /// Whether frames and wrenches are those of the present pose, without dampers and with settled
-    /// turn counts: a scheme that ends on an evaluation need not begin with one.
+    /// Whether frames and wrenches are those of the present pose but for inputs, without dampers and with
+    /// settled turn counts: a scheme that ends on an evaluation need not begin with one.
     pub(crate) fresh: bool,
+    /// Whether the inputs' forces among them are those of the present signals.
+    pub(crate) pushed: bool,
     /// Whether the joints' levers are those of the present pose, with its kick in place of the wrenches.
     pub(crate) ready: bool,
     /// Whether a drift has gone by since the laws' memories were last brought on.
@@ -119,6 +122,8 @@ pub struct Workspace<'s, 'm, P: Geometry, T: Terms<P>> {
     pub(crate) frames: &'s mut [P::Frame],
     /// The bodies' wrenches.
     pub(crate) wrenches: &'s mut [Wrench<P::Space>],
+    /// The wrenches without inputs of each input's bodies.
+    pub(crate) unpushed: &'s mut [Unpushed<P::Space>],
     /// What a damper pass has given to the bodies; may be empty without dampers.
     pub(crate) sums: &'s mut [P::PassSum],
     /// Whether the groups are in line, see [`forces::are_in_line`].
@@ -224,18 +229,46 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
                 placed,
             },
             Memories { turns: self.turns, laws: self.law_states, at, advance },
-            Evaluation { frames: self.frames, wrenches: self.wrenches },
+            Evaluation { frames: self.frames, wrenches: self.wrenches, unpushed: self.unpushed },
         )?;
         self.ledger.fresh = !D::ACT && at == At::Boundary;
+        self.ledger.pushed = true;
         Ok(())
     }
 
-    /// Whether the wrenches are those of the present pose and this step's loads, without dampers:
+    /// Whether the wrenches are those of the present pose, its inputs and this step's loads, without dampers:
     /// the last evaluation was of [`DampersLeft`](crate::forces::DampersLeft), [`At::Boundary`],
     /// and nothing has moved since, be it in the step before.
     #[inline]
     #[must_use]
     pub fn is_fresh(&self) -> bool {
+        self.is_placed() && self.ledger.pushed
+    }
+
+    /// Brings the forces of inputs among the wrenches to the present signals where that is all that
+    /// [`Self::is_fresh`] lacks: a controller that sets an input in every step costs no evaluation. Whether the
+    /// wrenches are fresh then.
+    #[inline(always)]
+    pub fn refresh(&mut self) -> bool {
+        if !self.is_placed() {
+            return false;
+        }
+        if T::INPUTS && !self.ledger.pushed {
+            // Joint by joint the kick stands in place of the wrenches.
+            if self.ledger.ready {
+                return false;
+            }
+            let places = Places { frames: &*self.frames, signals: &*self.signals };
+            forces::take_back(&self.model, self.unpushed, self.wrenches);
+            forces::push(&self.model, places, self.wrenches);
+            self.ledger.pushed = true;
+        }
+        true
+    }
+
+    /// Whether the wrenches are those of the present pose and this step's loads but for inputs.
+    #[inline(always)]
+    fn is_placed(&self) -> bool {
         let step = self.step;
         self.ledger.fresh && !(T::LOADS && self.windows.iter().any(|w| w.changes_at(step)))
     }

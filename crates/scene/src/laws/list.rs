@@ -114,6 +114,9 @@ impl<P: Geometry> Laws<P> for LawList<P> {
     fn is_damped(&self) -> bool {
         self.tables.iter().any(|table| table.rows.dampers() > 0)
     }
+    fn is_driven(&self) -> bool {
+        self.tables.iter().any(|table| table.rows.is_driven())
+    }
     fn states(&self) -> Vec<Word> {
         self.tables.iter().flat_map(|table| table.rows.initial()).collect()
     }
@@ -256,6 +259,7 @@ pub(crate) trait Rows<P: Geometry>: Send + Sync {
     fn words(&self) -> usize;
     /// Dampers of a row.
     fn dampers(&self) -> usize;
+    fn is_driven(&self) -> bool;
     fn initial(&self) -> Vec<Word>;
     fn memory(&self) -> Option<(&'static str, bool)>;
     fn act(
@@ -293,6 +297,9 @@ impl<P: Geometry, T: Interaction<P>> Rows<P> for Of<T> {
     }
     fn dampers(&self) -> usize {
         T::Dampers::COUNT
+    }
+    fn is_driven(&self) -> bool {
+        T::DRIVEN && !self.0.is_empty()
     }
     fn initial(&self) -> Vec<Word> {
         listed(&T::State::default()).repeat(self.0.len())
