@@ -22,6 +22,8 @@ mod plant;
 
 mod motion;
 
+pub use dbd_scene::laws;
+
 use numpy::{PyArray1, PyArray3, PyArrayMethods as _};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

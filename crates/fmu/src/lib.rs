@@ -40,5 +40,7 @@ pub mod token;
 pub mod units;
 pub mod xml;
 
+pub use dbd_scene::laws;
+
 pub use archive::{ArchiveError, Fmu, LIBRARY, Library, archive};
 pub use xml::Fmi;

@@ -88,6 +88,7 @@ fn at<L: Law>(law: &L, state: &State) -> Result<bool, String> {
     }
     gradient(law, state, &memory, &forces, size)?;
     tangent(law, state, &memory, &seen)?;
+    let mut acts = size > 0.0;
     let mut dampers = 0;
     let mut drawn = Ok(());
     law.dampers(&seen, &memory, &mut |damper| {
@@ -95,6 +96,7 @@ fn at<L: Law>(law: &L, state: &State) -> Result<bool, String> {
         let rate = seen.rate(&damper.direction);
         let [least, most] = damper.bounds;
         let tension = (damper.coefficient * (rate - damper.rate)).max(least).min(most);
+        acts |= tension != 0.0;
         let rounding = 1e-12 * (size + tension.abs()) * rate.abs();
         if damper.rate == 0.0 && tension * rate < -rounding {
             drawn = Err(format!("a damper gives {} W", -tension * rate));
@@ -104,7 +106,7 @@ fn at<L: Law>(law: &L, state: &State) -> Result<bool, String> {
     if dampers > <<L as Interaction<F64>>::Dampers as dbd_kernel::laws::Several>::COUNT {
         return Err(format!("it visits {dampers} dampers, more than it says it has"));
     }
-    Ok(size > 0.0)
+    Ok(acts)
 }
 
 /// Force is minus the gradient of the energy, where that has one.

@@ -1,12 +1,18 @@
 //! `[[interaction]]`: laws between two bodies by their names, of this project and of a user's program.
 //!
-//! `registry; table => row of a law`. A program makes its own laws known before it reads scenes, by [`register`].
+//! `registry; table => row of a law`. A user's crate makes its own laws known by [`laws!`](crate::laws!), a program
+//! by [`register`] before it reads scenes.
 
 mod field;
 mod kit;
+mod linked;
 mod list;
 
+#[doc(hidden)]
+pub use inventory::submit;
 pub use kit::{Poses, hold};
+#[doc(hidden)]
+pub use linked::LinkedLaw;
 pub use list::{LawList, convert_words};
 pub(crate) use list::{Listed, SourceRows};
 
@@ -17,6 +23,7 @@ use dbd_kernel::laws::{self, Field, Law};
 use crate::assembly::Assembly;
 use crate::error::SceneError;
 use crate::laws::field::Reading;
+use crate::laws::linked::linked_laws;
 use crate::laws::list::Source;
 use crate::nearest::nearest;
 use crate::pair::Between;
@@ -65,8 +72,7 @@ static OWN: RwLock<Vec<KnownLaw>> = RwLock::new(Vec::new());
 pub fn register<L: Law>(path: &str) {
     let law = KnownLaw::of::<L>(path);
     let mut own = OWN.write().unwrap_or_else(PoisonError::into_inner);
-    own.retain(|known| known.name != law.name);
-    own.push(law);
+    put(&mut own, law);
 }
 
 /// A law by its name.
@@ -75,17 +81,23 @@ pub fn known_law(name: &str) -> Option<KnownLaw> {
     known_laws().into_iter().find(|law| law.name == name)
 }
 
-/// All laws that scenes can name, those of the project first.
+/// All laws that scenes can name: those of the project, those of [`laws!`](crate::laws!), those of [`register`].
 #[must_use]
 pub fn known_laws() -> Vec<KnownLaw> {
-    let own = OWN.read().unwrap_or_else(PoisonError::into_inner);
-    let shipped = vec![
+    let mut known = vec![
         KnownLaw::of::<laws::EndStop>("dbd_kernel::laws::EndStop"),
         KnownLaw::of::<laws::HingeStop>("dbd_kernel::laws::HingeStop"),
         KnownLaw::of::<laws::HingeFriction>("dbd_kernel::laws::HingeFriction"),
     ];
-    let is_new = |law: &KnownLaw| own.iter().all(|known| known.name != law.name);
-    shipped.into_iter().filter(is_new).chain(own.iter().cloned()).collect()
+    let own = OWN.read().unwrap_or_else(PoisonError::into_inner);
+    linked_laws().into_iter().chain(own.iter().cloned()).for_each(|law| put(&mut known, law));
+    known
+}
+
+/// Adds a law; it replaces one of the same name.
+fn put(known: &mut Vec<KnownLaw>, law: KnownLaw) {
+    known.retain(|other| other.name != law.name);
+    known.push(law);
 }
 
 /// The name of a law.
@@ -194,4 +206,18 @@ pub(crate) fn types() -> impl Iterator<Item = (&'static str, Vec<&'static str>)>
     known_laws().into_iter().map(|law| {
         (law.name, KEYS.iter().copied().chain(law.fields.iter().map(|field| field.name)).collect())
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_law_replaces_one_of_its_name() {
+        let mut known = known_laws();
+        let count = known.len();
+        put(&mut known, KnownLaw::of::<laws::EndStop>("my_laws::EndStop"));
+        assert_eq!(known.len(), count);
+        assert_eq!(known.last().map(|law| law.path.as_str()), Some("my_laws::EndStop"));
+    }
 }
