@@ -41,7 +41,7 @@
 ///         &self,
 ///         seen: &Seen<'_, P>,
 ///         _: &Nothing,
-///         visit: &mut dyn FnMut(P::Real, &dbd_kernel::laws::Direction<P::Space>),
+///         visit: dbd_kernel::laws::Springs<'_, P>,
 ///     ) -> [P::Real; 2] {
 ///         use dbd_kernel::space::Linear as _;
 ///         let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));

@@ -8,7 +8,7 @@ use crate::damping::Direction;
 use crate::forces::Record;
 use crate::geometry::Geometry;
 use crate::laws::end::Seen;
-use crate::laws::interaction::{Damper, Interaction, Nothing, Quantity, Wrong};
+use crate::laws::interaction::{Damper, Interaction, Nothing, Quantity, Springs, Wrong};
 use crate::real::Real;
 use crate::space::Linear as _;
 
@@ -67,12 +67,7 @@ impl<P: Geometry> Interaction<P> for EndStop<P> {
     }
 
     /// As if it touched.
-    fn tangent(
-        &self,
-        seen: &Seen<'_, P>,
-        _: &Nothing,
-        visit: &mut dyn FnMut(P::Real, &Direction<P::Space>),
-    ) -> [P::Real; 2] {
+    fn tangent(&self, seen: &Seen<'_, P>, _: &Nothing, visit: Springs<'_, P>) -> [P::Real; 2] {
         let Contact { direction, arms: [arm, other], way, depth } = self.contact(seen);
         visit(self.stiffness, &direction);
         // The normal turns with A. Of the force F, the arm r of A's point and the way d to B's, a move ξ and a turn φ

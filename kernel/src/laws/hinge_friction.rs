@@ -11,7 +11,7 @@ use crate::forces::Record;
 use crate::geometry::Geometry;
 use crate::laws::end::Seen;
 use crate::laws::hinge::Turns;
-use crate::laws::interaction::{Damper, Interaction, Quantity, Wrong};
+use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
 use crate::real::Real;
 use crate::space::Linear as _;
 use crate::words::{WordSource, WordVisitor, Words};
@@ -140,7 +140,7 @@ impl<P: Geometry> Interaction<P> for HingeFriction<P> {
         &self,
         seen: &Seen<'_, P>,
         slip: &Slip<P::Real>,
-        visit: &mut dyn FnMut(P::Real, &Direction<P::Space>),
+        visit: Springs<'_, P>,
     ) -> [P::Real; 2] {
         let Some(Rubbing { direction, torque, square, .. }) = self.rubbing(seen, slip) else {
             return [P::Real::ZERO; 2];

@@ -7,7 +7,7 @@ use crate::forces::Record;
 use crate::geometry::Geometry;
 use crate::laws::end::Seen;
 use crate::laws::hinge::Turns;
-use crate::laws::interaction::{Damper, Interaction, Quantity, Wrong};
+use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
 use crate::real::Real;
 use crate::space::Linear as _;
 
@@ -73,12 +73,7 @@ impl<P: Geometry> Interaction<P> for HingeStop<P> {
     }
 
     /// As if it were stopped.
-    fn tangent(
-        &self,
-        seen: &Seen<'_, P>,
-        turns: &Turns,
-        visit: &mut dyn FnMut(P::Real, &Direction<P::Space>),
-    ) -> [P::Real; 2] {
+    fn tangent(&self, seen: &Seen<'_, P>, turns: &Turns, visit: Springs<'_, P>) -> [P::Real; 2] {
         let Some(Stopped { direction, beyond, square }) = self.stopped(seen, *turns) else {
             return [P::Real::ZERO; 2];
         };

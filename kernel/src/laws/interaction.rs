@@ -134,6 +134,10 @@ pub trait Constants<P: Geometry>: Copy + Send + Sync + 'static {
     fn visit(&self, visitor: &mut dyn WordVisitor);
 }
 
+/// A visitor of springs: stiffness \[N/m, N·m/rad\], direction.
+pub type Springs<'v, P> =
+    &'v mut dyn FnMut(<P as Geometry>::Real, &Direction<<P as Geometry>::Space>);
+
 /// A law between two bodies. Its terms: a coordinate with a [`Direction`], a spring force along it, dampers.
 ///
 /// The sign of a record: [`Seen::pull`]. All that a law says must be a function of what it sees and of its memory,
@@ -173,7 +177,7 @@ pub trait Interaction<P: Geometry>: Constants<P> {
         &self,
         seen: &Seen<'_, P>,
         state: &Self::State,
-        visit: &mut dyn FnMut(P::Real, &Direction<P::Space>),
+        visit: Springs<'_, P>,
     ) -> [P::Real; 2];
 
     /// Visits its dampers, each time as many and in the same order, idle ones with the coefficient 0.

@@ -2,14 +2,13 @@
 //!
 //! `(tables, pose) => records added to the wrenches`. What is not listed has no code, so nothing is switched off.
 
-use crate::damping::Direction;
 use crate::damping::Share;
 use crate::forces::Record;
 use crate::forces::Wrench;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::laws::end::{Instant, Seen};
-use crate::laws::interaction::{Damper, Interaction, Quantity, Several, SharesOf};
+use crate::laws::interaction::{Damper, Interaction, Quantity, Several, SharesOf, Springs};
 use crate::laws::slice;
 use crate::words::{WordSource, WordVisitor};
 
@@ -45,11 +44,7 @@ pub trait Row<P: Geometry> {
     /// [`Interaction::energy`].
     fn energy(&self, seen: &Seen<'_, P>) -> P::Real;
     /// [`Interaction::tangent`].
-    fn tangent(
-        &self,
-        seen: &Seen<'_, P>,
-        visit: &mut dyn FnMut(P::Real, &Direction<P::Space>),
-    ) -> [P::Real; 2];
+    fn tangent(&self, seen: &Seen<'_, P>, visit: Springs<'_, P>) -> [P::Real; 2];
     /// [`Interaction::dampers`].
     fn each_damper(&self, seen: &Seen<'_, P>, visit: &mut dyn FnMut(usize, &Damper<P>));
     /// [`Interaction::QUANTITIES`].

@@ -31,7 +31,9 @@ pub use end_stop::EndStop;
 pub use hinge::{Hinge, Turns, Twisted};
 pub use hinge_friction::HingeFriction;
 pub use hinge_stop::HingeStop;
-pub use interaction::{Constants, Damper, Interaction, Law, Nothing, Quantity, Several, Wrong};
+pub use interaction::{
+    Constants, Damper, Interaction, Law, Nothing, Quantity, Several, Springs, Wrong,
+};
 pub use kind::{Axis, Count, Field, FieldSink, FieldSource, Kind, Normal, Number, Points, Table};
 pub use list::{Act, DamperPass, Laws, Row};
 #[doc(hidden)]
@@ -43,7 +45,8 @@ pub use crate::forces::Record;
 /// What a file with a law of one's own needs: `use dbd_kernel::laws::prelude::*;`.
 pub mod prelude {
     pub use super::{
-        Damper, Direction, Hinge, Interaction, Nothing, Quantity, Record, Seen, Turns, Wrong,
+        Damper, Direction, Hinge, Interaction, Nothing, Quantity, Record, Seen, Springs, Turns,
+        Wrong,
     };
     pub use crate::space::{Linear as _, Moment as _, Space, Vector as _};
     pub use crate::words::{Word, WordSource, WordVisitor, Words};

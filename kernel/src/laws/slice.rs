@@ -5,7 +5,7 @@ use crate::forces::{Record, Wrench, apply};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::laws::end::{Instant, Seen};
-use crate::laws::interaction::{Damper, Interaction, Quantity, Several, SharesOf};
+use crate::laws::interaction::{Damper, Interaction, Quantity, Several, SharesOf, Springs};
 use crate::laws::list::{Act, DamperPass, Row};
 use crate::real::Real;
 use crate::space::{Linear as _, Space};
@@ -161,11 +161,7 @@ impl<P: Geometry, T: Interaction<P>> Row<P> for Known<'_, T, T::State> {
     fn energy(&self, seen: &Seen<'_, P>) -> P::Real {
         self.law.energy(seen, self.state)
     }
-    fn tangent(
-        &self,
-        seen: &Seen<'_, P>,
-        visit: &mut dyn FnMut(P::Real, &Direction<P::Space>),
-    ) -> [P::Real; 2] {
+    fn tangent(&self, seen: &Seen<'_, P>, visit: Springs<'_, P>) -> [P::Real; 2] {
         self.law.tangent(seen, self.state, visit)
     }
     fn each_damper(&self, seen: &Seen<'_, P>, visit: &mut dyn FnMut(usize, &Damper<P>)) {

@@ -26,7 +26,8 @@ pub(crate) fn assemble<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     bodies: &[BodyState<P>],
-    (pencil, seats, memories): (Pencil<P::Real>, &[Seat<P::Space>], &StatesIn<P, T>),
+    (pencil, seats): (Pencil<P::Real>, &[Seat<P::Space>]),
+    memories: &StatesIn<P, T>,
     system: &mut System<'_, P::Space>,
 ) {
     for block in system.pairs.iter_mut() {

@@ -49,8 +49,8 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         let plan = self.plan;
         let mut system = System { plan, diagonal: self.blocks, pairs: self.pair_blocks };
         let places = Places { frames: &*self.frames, signals: &*self.signals };
-        let known = (pencil, self.seats, &*self.law_states);
-        assemble(&self.model, places, self.bodies, known, &mut system);
+        let known = (pencil, self.seats);
+        assemble(&self.model, places, self.bodies, known, self.law_states, &mut system);
         system.factor().map_err(|body| Cause::Pivot { body })?;
         system.substitute(self.wrenches);
         Ok(())

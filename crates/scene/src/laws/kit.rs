@@ -79,13 +79,7 @@ fn at<L: Law>(law: &L, state: &State) -> Result<bool, String> {
     let Some(record) = law.record(&seen, &memory) else { return Ok(false) };
     let forces = generalised(&record);
     let size = forces.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
-    let whole = |x: Vec3<f64>, torque: Vec3<f64>| x.cross(record.force) + torque;
-    let left =
-        whole(state[0].position, record.torque_a) - whole(state[1].position, record.torque_b);
-    let lever = state.iter().fold(1.0, |most: f64, body| most.max(length(body.position)));
-    if length(left) > 1e-9 * size * lever {
-        return Err(format!("angular momentum is not kept: {left:?} N·m of {size} N"));
-    }
+    momentum(state, &record)?;
     gradient(law, state, &memory, &forces, size)?;
     tangent(law, state, &memory, &seen)?;
     let mut acts = size > 0.0;
@@ -101,12 +95,27 @@ fn at<L: Law>(law: &L, state: &State) -> Result<bool, String> {
         if damper.rate == 0.0 && tension * rate < -rounding {
             drawn = Err(format!("a damper gives {} W", -tension * rate));
         }
+        let pull = momentum(state, &seen.pull(&damper.direction, 1.0));
+        drawn = drawn.clone().and(pull.map_err(|why| format!("damper {dampers}: {why}")));
     });
     drawn?;
     if dampers > <<L as Interaction<F64>>::Dampers as dbd_kernel::laws::Several>::COUNT {
         return Err(format!("it visits {dampers} dampers, more than it says it has"));
     }
     Ok(acts)
+}
+
+/// A record keeps angular momentum.
+fn momentum(state: &State, record: &Record<f64>) -> Result<(), String> {
+    let size = generalised(record).iter().fold(0.0, |most: f64, force| most.max(force.abs()));
+    let whole =
+        |body: &BodyState<F64>, torque: Vec3<f64>| body.position.cross(record.force) + torque;
+    let left = whole(&state[0], record.torque_a) - whole(&state[1], record.torque_b);
+    let lever = state.iter().fold(1.0, |most: f64, body| most.max(length(body.position)));
+    if length(left) > 1e-9 * size * lever {
+        return Err(format!("angular momentum is not kept: {left:?} N·m of {size} N"));
+    }
+    Ok(())
 }
 
 /// Force is minus the gradient of the energy, where that has one.
@@ -276,7 +285,7 @@ impl Random {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use dbd_kernel::laws::{Damper, Direction, EndStop, Hinge, HingeFriction, HingeStop};
+    use dbd_kernel::laws::{Damper, EndStop, Hinge, HingeFriction, HingeStop, Springs};
     use dbd_kernel::space::Linear as _;
     use dbd_kernel::{BodyIndex, Real as _};
 
@@ -358,12 +367,7 @@ mod tests {
             let way = P::displacement(&a.0, &b.0);
             if self.rule == 3 { way.dot(way) } else { P::Real::HALF * way.dot(way) }
         }
-        fn tangent(
-            &self,
-            seen: &Seen<'_, P>,
-            _: &Settled,
-            visit: &mut dyn FnMut(P::Real, &Direction<P::Space>),
-        ) -> [P::Real; 2] {
+        fn tangent(&self, seen: &Seen<'_, P>, _: &Settled, visit: Springs<'_, P>) -> [P::Real; 2] {
             let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
             let way = P::displacement(&a.0, &b.0);
             if self.rule == 4 {
@@ -376,7 +380,8 @@ mod tests {
         }
         fn dampers(&self, seen: &Seen<'_, P>, _: &Settled, visit: &mut impl FnMut(Damper<P>)) {
             let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
-            let direction = seen.along(P::displacement(&a.0, &b.0), [a.1, b.1]);
+            let arms = if self.rule == 7 { [a.1, a.1] } else { [a.1, b.1] };
+            let direction = seen.along(P::displacement(&a.0, &b.0), arms);
             let c = if self.rule == 5 { -P::Real::ONE } else { P::Real::ONE };
             visit(Damper::new(c, direction));
             if self.rule == 6 {
@@ -397,6 +402,7 @@ mod tests {
             (4, "the tangent is too small"),
             (5, "a damper gives"),
             (6, "more than it says"),
+            (7, "damper 1: angular momentum"),
         ] {
             let why = broken(rule).unwrap_err();
             assert!(why.contains(says), "{rule}: {why}");

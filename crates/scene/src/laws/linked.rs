@@ -58,7 +58,7 @@ mod tests {
     mod my_laws {
         use dbd_kernel::Geometry;
         use dbd_kernel::Real as _;
-        use dbd_kernel::laws::{Damper, Direction, Interaction, Nothing, Record, Seen};
+        use dbd_kernel::laws::{Damper, Direction, Interaction, Nothing, Record, Seen, Springs};
 
         dbd_kernel::law! {
             /// A damper along the first body's normal.
@@ -91,12 +91,7 @@ mod tests {
             fn energy(&self, _: &Seen<'_, P>, _: &Nothing) -> P::Real {
                 P::Real::ZERO
             }
-            fn tangent(
-                &self,
-                _: &Seen<'_, P>,
-                _: &Nothing,
-                _: &mut dyn FnMut(P::Real, &Direction<P::Space>),
-            ) -> [P::Real; 2] {
+            fn tangent(&self, _: &Seen<'_, P>, _: &Nothing, _: Springs<'_, P>) -> [P::Real; 2] {
                 [P::Real::ZERO; 2]
             }
             fn dampers(&self, seen: &Seen<'_, P>, _: &Nothing, visit: &mut impl FnMut(Damper<P>)) {

@@ -128,6 +128,9 @@ impl Kind for LawName<'_> {
     }
 }
 
+/// A law by its place, its rows, and of each the number of its table and what messages call it.
+type OfLaw = (usize, Box<dyn SourceRows>, Vec<(usize, String)>);
+
 /// What a scene's interactions are called, and what they show.
 pub(crate) struct Read {
     /// What messages call them, in the order of the model's rows.
@@ -147,7 +150,7 @@ pub(crate) fn read_all(
 ) -> Result<Read, SceneError> {
     let known = known_laws();
     let given = root.list("interaction")?;
-    let mut laws: Vec<(usize, Box<dyn SourceRows>, Vec<(usize, String)>)> = Vec::new();
+    let mut laws: Vec<OfLaw> = Vec::new();
     for (number, table) in given.iter().enumerate() {
         if !table.has("law") {
             table.only(&[KEYS, &all_fields(&known)])?;
