@@ -3,9 +3,11 @@
 //! `registry; table => row of a law`. A program makes its own laws known before it reads scenes, by [`register`].
 
 mod field;
+mod info;
 mod kit;
 mod list;
 
+pub use info::InteractionInfo;
 pub use kit::{Poses, hold};
 pub use list::{LawList, convert_words};
 pub(crate) use list::{Listed, SourceRows};
