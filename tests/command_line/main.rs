@@ -10,6 +10,7 @@ mod fmu;
 mod gltf;
 mod golden;
 mod import;
+mod interactions;
 mod modes;
 mod new;
 mod picture;

@@ -6,6 +6,7 @@
 //! neither the start nor gravity, loads and inputs can have given it, see `budget`.
 
 use dbd_kernel::energy::{energy, energy_with_extensions};
+use dbd_kernel::laws::Laws as _;
 use dbd_kernel::model::{Group, Law};
 use dbd_kernel::readouts::each_tension;
 use dbd_kernel::status::Cause;
@@ -330,7 +331,15 @@ fn reversals(scene: &Scene, model: &SceneModel<F64>) -> Vec<Reversal> {
 /// Whether a scene's total energy is meant to stay as it is.
 #[must_use]
 pub fn conserves_energy(scene: &Scene) -> bool {
-    undriven(&scene.model) && scene.model.dampers.iter().all(|c| c.abs() == 0.0)
+    let model = &scene.model;
+    undriven(model) && model.dampers.iter().all(|c| c.abs() == 0.0) && !laws_dissipate(scene)
+}
+
+/// Whether a law of the scene has a damper, whatever its coefficient, or a memory, which may lose energy.
+#[must_use]
+pub fn laws_dissipate(scene: &Scene) -> bool {
+    let laws = &scene.model.laws;
+    laws.is_damped() || laws.memory().is_some()
 }
 
 /// Whether nothing but the initial state gives energy.

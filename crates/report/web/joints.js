@@ -1,4 +1,4 @@
-// Joints by their type, guides, torsion springs, and where the ground holds them.
+// Joints by their type, guides, torsion springs, interactions, and where the ground holds them.
 //
 // marks of the mechanism => shapes in the axes of their bodies.
 (function (dbd) {
@@ -26,6 +26,7 @@
         this.joint(joint, { what: 'joint', row, name: joint.name, kind: joint.kind }));
       machine.mechanism.guides.forEach((guide, row) => this.guide(guide, row));
       machine.mechanism.torsions.forEach((torsion, row) => this.torsion(torsion, row));
+      machine.mechanism.interactions.forEach((one, row) => this.interaction(one, row));
       for (const spring of machine.mechanism.springs) {
         spring.ends.filter((end) => end.body === null).forEach((end) => this.foot(end));
       }
@@ -135,6 +136,24 @@
       const axis = this.into(torsion.at.body, torsion.axis);
       this.parts.ring.add(this.machine.owner(torsion.at),
         at(torsion.at.point, 2.3 * this.size, turned([0, 0, 1], axis)), '--rest', label);
+    }
+
+    // Its points, a plate for a plane, a ring about an axis.
+    interaction(one, row) {
+      const label = { what: 'interaction', row, name: one.name || one.law };
+      const r = this.size;
+      for (const end of one.ends || []) {
+        this.parts.sphere.add(this.machine.owner(end), at(end.point, 0.5 * r), '--rest', label);
+      }
+      if (one.normal) {
+        const [place] = one.ends || [one.at];
+        const turn = turned(Y, this.into(place.body, one.normal));
+        this.parts.box.add(this.machine.owner(place), at(place.point, [3 * r, 0.2 * r, 3 * r], turn), '--rest', label);
+      }
+      if (one.axis) {
+        this.parts.ring.add(this.machine.owner(one.at),
+          at(one.at.point, 2.8 * r, turned([0, 0, 1], this.into(one.at.body, one.axis))), '--rest', label);
+      }
     }
 
     // A foot with hatches below a point of the ground, once where many are.

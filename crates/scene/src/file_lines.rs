@@ -10,6 +10,7 @@ pub(crate) struct FileLines {
     pub(crate) tsdas: Vec<usize>,
     pub(crate) points_on_lines: Vec<usize>,
     pub(crate) torsion_springs: Vec<usize>,
+    pub(crate) interactions: Vec<usize>,
     pub(crate) inputs: Vec<usize>,
     pub(crate) readouts: Vec<usize>,
 }
@@ -23,6 +24,7 @@ impl FileLines {
             tsdas: root.lines("tsda")?,
             points_on_lines: root.lines("point_on_line")?,
             torsion_springs: root.lines("torsion_spring")?,
+            interactions: root.lines("interaction")?,
             inputs: root.lines("input")?,
             readouts: root.lines("readout")?,
         })

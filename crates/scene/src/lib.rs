@@ -76,6 +76,7 @@ pub use geometry::GeometryInfo;
 pub use hinge::Hinge;
 pub use input::InputInfo;
 pub use joints::{Assembled, JointInfo, Moved, OpenJoint, Realisation};
+pub use laws::InteractionInfo;
 pub use lint::{OneSided, Severity, Warning};
 pub use lookup::{UnfitInput, UnknownName};
 pub use nearest::nearest;

@@ -4,6 +4,7 @@
 //! frequency, warnings, notes`. Warnings are for things that are probably not meant; they do not
 //! change the exit code.
 
+use dbd_kernel::BodyIndex;
 use dbd_plant::digits::significant;
 use dbd_plant::frequencies::advised_text;
 use dbd_plant::time::{display, rounded};
@@ -11,7 +12,9 @@ use std::f64::consts::TAU;
 
 use dbd_plant::{DampingName, Frequencies, Method, PrecisionName};
 use dbd_scene::single::slow_start;
-use dbd_scene::{InputInfo, JointFacts, JointInfo, ReadoutInfo, Realisation, Scene};
+use dbd_scene::{
+    InputInfo, InteractionInfo, JointFacts, JointInfo, ReadoutInfo, Realisation, Scene,
+};
 use dbd_study::costs::Costs;
 use dbd_study::estimate::instructions;
 use serde::Serialize;
@@ -35,6 +38,8 @@ pub struct Check {
     pub tsdas: usize,
     /// Torsion springs.
     pub torsion_springs: usize,
+    /// The interactions: label, law, bodies, dampers.
+    pub interactions: Vec<InteractionCheck>,
     /// Loads.
     pub loads: usize,
     /// The inputs: name, type, unit and whether a table drives it.
@@ -157,6 +162,31 @@ pub struct JointCheck {
     pub stretching_rate: f64,
 }
 
+/// What is known of an interaction.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InteractionCheck {
+    /// Its name, or what messages call it: ``interaction 1 (world–bar)``.
+    pub name: String,
+    /// Its law.
+    pub law: &'static str,
+    /// Its bodies.
+    pub between: [String; 2],
+    /// Its dampers; some may have a coefficient of 0.
+    pub dampers: usize,
+}
+
+impl InteractionCheck {
+    fn of(interaction: &InteractionInfo, scene: &Scene) -> Self {
+        let body = |index: BodyIndex| match index.is_world() {
+            true => "world".to_owned(),
+            false => scene.body_names[index.row()].clone(),
+        };
+        let InteractionInfo { law, bodies, dampers, .. } = *interaction;
+        let name = interaction.name().unwrap_or(&interaction.label).to_owned();
+        Self { name, law, between: bodies.map(body), dampers }
+    }
+}
+
 /// What is known of an input.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct InputCheck {
@@ -238,6 +268,11 @@ pub fn check(scene: &Scene) -> Check {
         bodies: model.bodies.len(),
         tsdas: model.tsda_count(),
         torsion_springs: scene.torsion_springs(),
+        interactions: scene
+            .interactions()
+            .iter()
+            .map(|interaction| InteractionCheck::of(interaction, scene))
+            .collect(),
         loads: model.loads.len(),
         inputs: scene.inputs.iter().map(InputCheck::of).collect(),
         readouts: scene.readouts.iter().map(ReadoutCheck::of).collect(),
@@ -307,6 +342,7 @@ impl Check {
             ("joints", self.joints.len().to_string()),
             ("TSDAs", self.tsdas.to_string()),
             ("torsion springs", self.torsion_springs.to_string()),
+            ("interactions", self.interactions.len().to_string()),
             ("loads", self.loads.to_string()),
             ("inputs", self.inputs.len().to_string()),
             ("read-outs", self.readouts.len().to_string()),
@@ -341,6 +377,10 @@ impl Check {
         if !self.joints.is_empty() {
             text.push('\n');
             text.push_str(&self.joint_lines(look));
+        }
+        if !self.interactions.is_empty() {
+            text.push('\n');
+            text.push_str(&self.interaction_lines(look));
         }
         if !self.derived.is_empty() {
             text.push('\n');
@@ -382,6 +422,15 @@ impl Check {
             ]
         };
         look.columns(Some(head), &self.joints.iter().map(line).collect::<Vec<_>>())
+    }
+
+    fn interaction_lines(&self, look: Look) -> String {
+        let line = |interaction: &InteractionCheck| {
+            let InteractionCheck { name, law, between, dampers } = interaction;
+            [name.clone(), (*law).into(), between.join("–"), dampers.to_string()]
+        };
+        let lines: Vec<_> = self.interactions.iter().map(line).collect();
+        look.columns(Some(["interaction", "law", "between", "dampers"]), &lines)
     }
 
     fn signal_lines(&self, look: Look) -> String {

@@ -105,7 +105,8 @@ pub struct Summary {
     pub settled: Option<String>,
     /// The joint that opened by the largest share of its free length; `None` where none has one.
     pub widest_joint: Option<JointOpening>,
-    /// Where the energy came from and went, of a scene with loads or inputs that came to its end.
+    /// Where the energy came from and went, of a run that came to its end: of a scene with loads, inputs, or
+    /// interactions with dampers or memories.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_balance: Option<EnergyBalance>,
     /// The watch over the energy, where there was one.
@@ -221,7 +222,7 @@ impl Summary {
         let rho = self.rho.map(|rho| format!(", rho {rho}")).unwrap_or_default();
         let rms = match self.energy_rms_error {
             Some(error) => format!("{} J", significant(error, 4)),
-            None => "– (dampers, loads or inputs change the energy)".into(),
+            None => "– (dampers, interactions, loads or inputs change the energy)".into(),
         };
         let damping = self.damping.map(|name| format!(", {name} damping")).unwrap_or_default();
         let method = format!(
@@ -307,10 +308,15 @@ impl Summary {
 
 /// What gave and took energy, and what none of it explains: `loads +1.2 J, dampers −0.3 J; 2e-9 J remain`.
 fn account(balance: &EnergyBalance) -> String {
-    let EnergyBalance { loads, inputs, anchors, dampers, remains } = *balance;
+    let EnergyBalance { loads, inputs, anchors, dampers, laws, remains } = *balance;
     let joules = |value: f64| significant(value, 4).replace('-', "−");
-    let parts =
-        [("loads", loads), ("inputs", inputs), ("moved ground", anchors), ("dampers", -dampers)];
+    let parts = [
+        ("loads", loads),
+        ("inputs", inputs),
+        ("moved ground", anchors),
+        ("dampers", -dampers),
+        ("interactions", -laws),
+    ];
     let parts = parts.into_iter().filter(|(_, value)| *value != 0.0);
     let parts = parts.map(|(name, value)| {
         format!("{name} {}{} J", if value > 0.0 { "+" } else { "" }, joules(value))

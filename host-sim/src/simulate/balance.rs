@@ -1,25 +1,28 @@
 //! Where the energy of a run came from and where it went.
 //!
-//! `(scene, method, plan; steps done) => work of loads, inputs and moved ground, what dampers took, what remains`.
+//! `(scene, method, plan; steps done) => work of loads, inputs and moved ground, what dampers and memories of laws took,
+//! what remains`.
 //!
 //! A second plant of the run goes along with it, a step at a time, so that the time of the first one's steps
 //! stays what it is. The powers at both ends of a step, each with the loads and signals of that step, make its
 //! work by the trapezoidal rule; from one jump or bend of loads and signals to the next its ends are corrected by
 //! differences (Gregory), which makes it of fourth order. Ground that jumps between two steps gives what the springs'
-//! energy jumps by. Not seen is what happens within a step: a damper that stops a body in less.
+//! energy jumps by. A law that remembers loses energy when its memory changes: the law's energy with the memory before less
+//! that with the memory after. Not seen is what happens within a step: a damper that stops a body in less.
 
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::energy::energy;
 use dbd_kernel::power::power;
 use dbd_kernel::schedule::{LoadWindow, Signal};
 use dbd_kernel::{F64, State};
-use dbd_plant::{AnyPlant, Method, Plan, PlantError, plant};
+use dbd_plant::judge::laws_dissipate;
+use dbd_plant::{AnyPlant, Method, Named as _, Plan, PlantError, SchemeName, plant};
 use dbd_scene::{Scene, SceneModel};
 use serde::Serialize;
 
 type States = State<SceneModel<F64>>;
 
-/// What a run's energy came from: `E(t) − E(0) = loads + inputs + anchors − dampers + remains`.
+/// What a run's energy came from: `E(t) − E(0) = loads + inputs + anchors − dampers − laws + remains`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct EnergyBalance {
     /// \[J\] work of the loads.
@@ -28,8 +31,10 @@ pub struct EnergyBalance {
     pub inputs: f64,
     /// \[J\] work of ground that inputs move.
     pub anchors: f64,
-    /// \[J\] what dampers took.
+    /// \[J\] what dampers took, those of interactions included.
     pub dampers: f64,
+    /// \[J\] what interactions lost when their memories changed: dry friction that slips.
+    pub laws: f64,
     /// \[J\] what of the change of the energy none of them explains: errors of the scheme, of rounding and of
     /// this account.
     pub remains: f64,
@@ -85,12 +90,13 @@ impl Piece {
 }
 
 impl Balance {
-    /// The account of a run that begins; `None` of a scene whose energy nothing changes.
+    /// The account of a run that begins; `None` of a scene without loads, inputs and dissipative interactions.
     ///
     /// # Errors
     /// Where there is no plant of the method with the plan's step.
     pub fn new(scene: &Scene, method: &Method, plan: &Plan) -> Result<Option<Self>, PlantError> {
-        if scene.model.loads.is_empty() && scene.model.inputs.is_empty() {
+        let is_driven = !(scene.model.loads.is_empty() && scene.model.inputs.is_empty());
+        if !is_driven && !laws_dissipate(scene) {
             return Ok(None);
         }
         let plant = plant(scene, method, plan.step)?;
@@ -126,6 +132,7 @@ impl Balance {
         self.piece.push(ended);
         self.work.add(std::array::from_fn(|i| 0.5 * h * (begun[i] + ended[i])));
         self.work.anchors += self.jump(&end, &next);
+        self.work.laws += self.forgotten(state, &next);
         let bends = end.signals != next.signals
             || self.windows.iter().any(|window| window.changes_at(next.step));
         if bends {
@@ -138,6 +145,27 @@ impl Balance {
     fn powers(&self, state: &States) -> Powers {
         let powers = power(&self.model, state, self.plant.step_size()).unwrap_or_default();
         [powers.loads, powers.inputs, powers.ground, powers.dampers]
+    }
+
+    /// \[J\] what laws lost in a step when their memories changed.
+    fn forgotten(&self, before: &States, after: &States) -> f64 {
+        if before.laws == after.laws {
+            return 0.0;
+        }
+        // The energy with the memory before less that with the memory after. The others settle memories at the beginning
+        // of a step. These two settle them at its end, and forces of settled memories alone act: the work of their
+        // mean over a step is the mean of both poses.
+        let at_end =
+            [SchemeName::Leapfrog, SchemeName::GeneralizedAlpha].map(|scheme| scheme.name());
+        let with = |pose: &States, laws: &States| {
+            let state = State { laws: laws.laws.clone(), ..pose.clone() };
+            energy(&self.model, &state, self.plant.step_size()).law
+        };
+        let lost = |pose| with(pose, before) - with(pose, after);
+        match at_end.contains(&self.plant.method().scheme_name()) {
+            true => 0.5 * (lost(before) + lost(after)),
+            false => lost(before),
+        }
     }
 
     /// \[J\] by what ground that jumps changes the energy.
@@ -160,9 +188,9 @@ impl Balance {
     pub fn balance(&self) -> EnergyBalance {
         let mut work = self.work;
         work.add(self.piece.correction(self.plant.step_size()));
-        let EnergyBalance { loads, inputs, anchors, dampers, .. } = work;
+        let EnergyBalance { loads, inputs, anchors, dampers, laws, .. } = work;
         let change = self.plant.energy().total() - self.initial;
-        EnergyBalance { remains: change - (loads + inputs + anchors - dampers), ..work }
+        EnergyBalance { remains: change - (loads + inputs + anchors - dampers - laws), ..work }
     }
 }
 

@@ -5,7 +5,7 @@ use crate::real::Real;
 /// Knots `[x, y]` with ascending x; before the first and after the last it goes on straight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curve<R, const N: usize> {
-    /// The knots; those beyond [`Self::count`] mean nothing.
+    /// \[units of the table\] the knots; those beyond [`Self::count`] are unused.
     pub knots: [[R; 2]; N],
     /// How many there are, at least 2.
     pub count: u16,

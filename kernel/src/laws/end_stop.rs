@@ -17,11 +17,11 @@ crate::law! {
     pub struct EndStop = "end-stop" {
         /// A point of the plane and the point that it stops.
         points: Points,
-        /// Out of the plane, towards where the point is free.
+        /// Normal of the plane, towards the free side.
         normal: Normal,
         /// Force per depth.
         stiffness: Number("N/m"),
-        /// Hunt and Crossley's a: force grows by this part per rate of the depth.
+        /// Hunt–Crossley coefficient a: the force is stiffness · depth · (1 + a · rate of the depth).
         dissipation: Number("s/m") = 0.0,
     }
 }

@@ -19,19 +19,19 @@ use crate::words::{WordSource, WordVisitor, Words};
 crate::law! {
     /// Dry friction between two bodies that turn about an axis.
     pub struct HingeFriction = "hinge-friction" {
-        /// The axis of the turn.
+        /// Axis of rotation.
         axis: Axis,
-        /// Torque while it slips.
+        /// Torque of sliding friction at high rates.
         coulomb: Number("N·m"),
-        /// Torque that it takes to break away from rest, at least as large.
+        /// Torque at which sliding begins from rest, at least as large.
         breakaway: Number("N·m"),
-        /// Rate at which the torque has fallen half the way to the lower one.
+        /// Rate at which the torque is midway between `breakaway` and `coulomb`.
         stribeck: Number("rad/s") = 0.05,
-        /// Turn by which it gives before it breaks away.
+        /// Elastic rotation at the torque of breakaway.
         give: Number("rad") = 0.001,
-        /// Damping of the give, within the torque of breakaway.
+        /// Damping of the elastic rotation; with it the torque stays within the limit.
         damping: Number("N·m·s/rad") = 0.0,
-        /// Viscous part.
+        /// Viscous friction.
         viscous: Number("N·m·s/rad") = 0.0,
     }
 }

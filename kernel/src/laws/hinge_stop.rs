@@ -12,17 +12,17 @@ use crate::real::Real;
 use crate::space::Linear as _;
 
 crate::law! {
-    /// A range of turns of the second body in the first one about an axis, with a stop at each end.
+    /// Stops at both ends of a range of rotation of the second body relative to the first about an axis.
     pub struct HingeStop = "hinge-stop" {
-        /// The axis of the turn, which is 0 at the start and counts whole turns.
+        /// Axis of rotation; the angle is 0 at t = 0 and counts whole turns.
         axis: Axis,
-        /// The least turn.
+        /// Lower end of the range.
         from: Number("rad"),
-        /// The largest turn.
+        /// Upper end of the range.
         to: Number("rad"),
-        /// Torque per turn beyond the range.
+        /// Torque per angle beyond the range.
         stiffness: Number("N·m/rad"),
-        /// Hunt and Crossley's a: torque grows by this part per rate of the depth.
+        /// Hunt–Crossley coefficient a: the torque is stiffness · depth · (1 + a · rate of the depth).
         dissipation: Number("s/rad") = 0.0,
     }
 }

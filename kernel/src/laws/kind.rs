@@ -19,7 +19,7 @@ pub struct Field {
     pub kind: &'static str,
     /// Units in the words of scenes, as `N/m`; `1` without one. A table has two.
     pub units: &'static [&'static str],
-    /// The value of a number where a scene gives none, in the unit of the SI.
+    /// \[unit of the field, SI\] the value of a number where a scene gives none.
     pub default: Option<f64>,
     /// What it is, of its documentation.
     pub about: &'static str,

@@ -27,8 +27,10 @@ pub(crate) const LINES: usize = 2000;
 
 /// Whether a mechanism has too many parts for symbols.
 pub(crate) fn crowded(mechanism: &Mechanism) -> bool {
-    let Mechanism { bodies, joints, springs, guides, torsions, forces, .. } = mechanism;
-    let elements = springs.len() + guides.len() + torsions.len() + forces.len();
+    let Mechanism { bodies, joints, springs, guides, torsions, interactions, forces, .. } =
+        mechanism;
+    let elements =
+        springs.len() + guides.len() + torsions.len() + interactions.len() + forces.len();
     bodies.len() + joints.len() + elements > SYMBOLS
 }
 
@@ -140,6 +142,12 @@ impl Drawing<'_> {
         }
         joints.iter().for_each(|joint| layer.add(|text| symbols.beneath(text, joint)));
         mechanism.torsions.iter().for_each(|t| layer.add(|text| symbols.torsion(text, t)));
+        for interaction in &mechanism.interactions {
+            let name = interaction.name.as_deref().unwrap_or_default();
+            layer.add(|text| {
+                titled(text, named, name, |text| symbols.interaction(text, interaction));
+            });
+        }
         for drawn in bodies.iter().flatten() {
             layer.add(|text| drawn.centre_of_mass(text, self.frame.symbols));
         }
@@ -266,6 +274,14 @@ impl Drawing<'_> {
             let (x, y) = at(&torsion.at);
             spots.stroke((x - 14.0, y), (x + 14.0, y));
             labels.extend(torsion.name.iter().map(|name| quiet(name, (x, y))));
+        }
+        for interaction in &mechanism.interactions {
+            let point = match &interaction.ends {
+                Some([_, end]) => at(end),
+                None => at(&interaction.at),
+            };
+            spots.mark(point);
+            labels.extend(interaction.name.iter().map(|name| quiet(name, point)));
         }
         names::write(text, &mut spots, &labels, self.frame.centre)
     }

@@ -81,9 +81,28 @@ fn entries(mechanism: &Mechanism) -> Vec<Entry> {
         });
         line(text, "ink", &spiral.collect::<Vec<_>>());
     });
+    let interactions = &mechanism.interactions;
+    let at_points = interactions.iter().filter(|one| one.ends.is_some()).count();
+    let about_axes = interactions.iter().filter(|one| one.axis.is_some()).count();
+    add(at_points, "interaction at points", "interactions at points", |text, (x, y)| {
+        line(text, "guide", &[(x - 10.0, y), (x + 12.0, y)]);
+        line(text, "ink", &[(x - 10.0, y - 9.0), (x - 10.0, y + 9.0)]);
+        path(
+            text,
+            "full",
+            &through(&[(x + 10.0, y - 2.0), (x + 14.0, y), (x + 10.0, y + 2.0)], true),
+        );
+    });
+    add(about_axes, "interaction about an axis", "interactions about axes", |text, (x, y)| {
+        let arc = (0..=12).map(|n| -0.6 + 2.5 * f64::from(n) / 12.0);
+        let arc: Vec<Point> =
+            arc.map(|a| (x + 10.0 * libm::cos(a), y - 10.0 * libm::sin(a))).collect();
+        line(text, "ink", &arc);
+    });
     let on_ground = |place: &crate::picture::mechanism::Place| place.body.is_none();
     let stands = mechanism.joints.iter().flat_map(|joint| &joint.places).any(on_ground)
-        || mechanism.springs.iter().flat_map(|spring| &spring.ends).any(on_ground);
+        || mechanism.springs.iter().flat_map(|spring| &spring.ends).any(on_ground)
+        || interactions.iter().flat_map(|one| &one.ends).any(|ends| on_ground(&ends[0]));
     if stands {
         entries.push(Entry {
             words: "ground".into(),

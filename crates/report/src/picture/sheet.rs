@@ -228,11 +228,12 @@ impl Sheet<'_> {
                 shown(springs.len(), "TSDAs as lines"),
             ];
             let parts = parts.concat();
-            let other = guides.len() + self.mechanism.torsions.len() + self.mechanism.forces.len();
+            let Mechanism { torsions, interactions, forces, .. } = self.mechanism;
+            let other = guides.len() + torsions.len() + interactions.len() + forces.len();
             let left = match other {
                 0 => "Left out: names, symbols.".into(),
                 n => format!(
-                    "Left out: names, symbols, {n} points on lines, torsion springs, loads, inputs."
+                    "Left out: names, symbols, {n} points on lines, torsion springs, interactions, loads, inputs."
                 ),
             };
             format!("Drawn:{}. {left}", parts.trim_end_matches(','))

@@ -8,7 +8,7 @@ use dbd_kernel::Vec3;
 
 use crate::picture::ink::{Point, circle, line, path, through};
 use crate::picture::mechanism::{ForceKind, ForceMark, GuideMark, JointKind, JointMark, Mechanism};
-use crate::picture::mechanism::{SpringMark, TorsionMark};
+use crate::picture::mechanism::{InteractionMark, SpringMark, TorsionMark};
 use crate::picture::paths::{directions, ground, head, offset, zigzag};
 use crate::picture::view::Frame;
 
@@ -134,6 +134,31 @@ impl Symbols<'_> {
         let s = self.size();
         let points = self.around(centre, axis, 0.6, 2.1 * TAU, &|share| (7.0 + 5.0 * share) * s);
         line(text, "ink", &points);
+    }
+
+    /// An interaction: a dashed line between its points, with a bar for a plane, or an arc about its axis.
+    pub(crate) fn interaction(&self, text: &mut String, interaction: &InteractionMark) {
+        let s = self.size();
+        if let Some(ends) = &interaction.ends {
+            let [from, to] = ends.map(|end| self.frame.at(self.mechanism.place(&end)));
+            line(text, "guide", &[from, to]);
+            circle(text, "full", to, 2.4 * s);
+            match interaction.normal.map(|normal| self.shown(self.mechanism.along(&normal))) {
+                // The hatching lies behind the plane.
+                Some(Some((x, y))) => {
+                    let lines = ground(from, (-y, x), 16.0 * s, s);
+                    let shown = if ends[0].body.is_none() { lines.len() } else { 1 };
+                    hatched(text, lines.get(..shown).unwrap_or_default());
+                }
+                Some(None) => circle(text, "ink", from, 7.0 * s),
+                None => circle(text, "full", from, 2.4 * s),
+            }
+        }
+        if let Some(axis) = &interaction.axis {
+            let centre = self.frame.at(self.mechanism.place(&interaction.at));
+            let axis = self.mechanism.along(axis);
+            line(text, "ink", &self.around(centre, axis, -0.6, 0.6 * TAU, &|_| 15.0 * s));
+        }
     }
 
     /// Points about an axis, by their angle's end and their radius \[pixels\] along the way.

@@ -181,7 +181,9 @@ pub(crate) fn reach(mechanism: &Mechanism) -> Vec<Vec3<f64>> {
     let joints = mechanism.joints.iter().flat_map(|joint| joint.places);
     let lines = mechanism.guides.iter().map(|guide| guide.line);
     let torsions = mechanism.torsions.iter().map(|torsion| torsion.at);
-    let symbols = forces.chain(joints).chain(lines).chain(torsions);
+    let interactions = mechanism.interactions.iter();
+    let interactions = interactions.flat_map(|one| one.ends.into_iter().flatten().chain([one.at]));
+    let symbols = forces.chain(joints).chain(lines).chain(torsions).chain(interactions);
     let symbols = symbols.map(|place| mechanism.place(&place));
     points(mechanism).chain(corners).chain(ground).chain(symbols).collect()
 }

@@ -1,18 +1,18 @@
 //! Which bodies hang together.
 //!
-//! `scene => islands`, sets of bodies joined by elements; the world joins nothing by itself.
+//! `scene => islands`, sets of bodies joined by elements or interactions; the world joins nothing by itself.
 
 use crate::Scene;
 use crate::parts::Parts;
 
-/// Bodies joined by elements.
+/// Bodies joined by elements or interactions.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Island {
     /// Rows of its bodies, ascending.
     pub bodies: Vec<usize>,
-    /// Whether an element joins it to the world.
+    /// Whether an element or an interaction joins it to the world.
     pub grounded: bool,
-    /// Groups and torsion springs that act on its bodies.
+    /// Groups, torsion springs and interactions that act on its bodies.
     pub elements: usize,
 }
 
@@ -21,6 +21,8 @@ pub(super) fn islands(scene: &Scene) -> Vec<Island> {
     let model = &scene.model;
     let groups = model.groups.iter().map(|group| (group.a, group.b));
     let pairs = groups.chain(model.torsions.iter().map(|spring| (spring.a, spring.b)));
+    let laws: Vec<_> = model.laws.bodies().collect();
+    let pairs = pairs.chain(laws.iter().map(|[a, b]| (*a, *b)));
     let mut parts = Parts::apart(model.bodies.len());
     for (a, b) in pairs.clone().filter(|(a, b)| !a.is_world() && !b.is_world()) {
         parts.join(a.row(), b.row());

@@ -118,11 +118,21 @@ impl Scene {
         self.file_lines.joints.get(row).copied()
     }
 
+    /// The line of the scene file, from 1, on which an interaction begins, by its row in the model.
+    #[must_use]
+    pub fn line_of_interaction(&self, row: usize) -> Option<usize> {
+        self.file_lines.interactions.get(*self.law_tables.get(row)?).copied()
+    }
+
     /// The line of the scene file, from 1, on which an element begins: rows of
-    /// [`ElementFrequency`]. Springs that only count turns have none.
+    /// [`ElementFrequency`] and [`ElementDamping`]. Springs that only count turns have none.
     #[must_use]
     pub fn line_of_element(&self, row: usize) -> Option<usize> {
         let lines = &self.file_lines;
+        let first = self.joints.len() + self.raw_names.len() + self.torsion_names.len();
+        if let Some(law) = row.checked_sub(first) {
+            return self.line_of_interaction(law);
+        }
         let kinds = [&lines.joints, &lines.tsdas, &lines.points_on_lines, &lines.torsion_springs];
         kinds.into_iter().flatten().nth(row).copied()
     }
@@ -176,7 +186,7 @@ pub(crate) fn groups(scene: &Scene) -> Vec<GroupFacts> {
 }
 
 /// The bodies' frames at the initial pose.
-fn frames(scene: &Scene) -> Vec<<F64 as Geometry>::Frame> {
+pub(crate) fn frames(scene: &Scene) -> Vec<<F64 as Geometry>::Frame> {
     let states = scene.model.initial.iter();
     states.map(|state| F64::frame(&state.position, &state.orientation)).collect()
 }

@@ -76,6 +76,11 @@ impl<P: Geometry> LawList<P> {
         self.tables.iter().map(|table| table.source.clone()).collect()
     }
 
+    /// The laws with the number of dampers of each row.
+    pub(crate) fn tables_with_dampers(&self) -> impl Iterator<Item = (&dyn SourceRows, usize)> {
+        self.tables.iter().map(|table| (&*table.source, table.rows.dampers()))
+    }
+
     /// Whether there is none.
     #[must_use]
     pub fn is_empty(&self) -> bool {

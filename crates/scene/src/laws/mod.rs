@@ -4,10 +4,12 @@
 //! by [`register`] before it reads scenes.
 
 mod field;
+mod info;
 mod kit;
 mod linked;
 mod list;
 
+pub use info::InteractionInfo;
 #[doc(hidden)]
 pub use inventory::submit;
 pub use kit::{Poses, hold};

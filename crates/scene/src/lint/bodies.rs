@@ -3,7 +3,7 @@
 use dbd_kernel::Vec3;
 
 use crate::lint::{Severity, Warning, short};
-use crate::{Facts, Scene};
+use crate::{Facts, InteractionInfo, Scene};
 
 /// Points may lie this many radii of gyration from the centre of mass. A rod's ends lie 1.7 away;
 /// at 30 the body is a grain on a long bar without mass, or its inertia has the wrong unit.
@@ -21,6 +21,8 @@ const MASS_RATIO: f64 = 1e6;
 
 pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     let farthest = farthest_points(scene);
+    let interactions = scene.interactions();
+    let acts_on = |info: &&InteractionInfo, row: usize| info.bodies.iter().any(|b| b.row() == row);
     for (row, farthest) in farthest.iter().enumerate() {
         plausibility(scene, row, *farthest, warnings);
     }
@@ -48,7 +50,17 @@ pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
         }
         if island.elements > 0 {
             for &row in island.bodies.iter().filter(|row| farthest[**row].is_none()) {
-                let text = "only torsion springs hold it, and they hold no place";
+                let own: Vec<_> = interactions.iter().filter(|info| acts_on(info, row)).collect();
+                let turns = |info: &&InteractionInfo| info.points.is_none() && info.axis.is_some();
+                if !own.iter().all(turns) {
+                    continue;
+                }
+                let text = match own.is_empty() {
+                    true => "only torsion springs hold it, and they hold no place",
+                    false => {
+                        "only torsion springs or interactions about an axis hold it, and they hold no place"
+                    }
+                };
                 warnings.push(of_body(scene, row, Severity::Warning, text));
             }
         }
@@ -75,6 +87,17 @@ fn farthest_points(scene: &Scene) -> Vec<Option<f64>> {
                 let distance = libm::sqrt(point.dot(*point));
                 *farthest = Some(farthest.unwrap_or(0.0_f64).max(distance));
             }
+        }
+    }
+    for info in scene.interactions() {
+        // A plane has no end: its point is anywhere on it.
+        let first = usize::from(info.normal.is_some());
+        for (body, [x, y, z]) in
+            info.bodies.iter().zip(info.points.into_iter().flatten()).skip(first)
+        {
+            let Some(farthest) = farthest.get_mut(body.row()) else { continue };
+            let distance = libm::sqrt(x * x + y * y + z * z);
+            *farthest = Some(farthest.unwrap_or(0.0_f64).max(distance));
         }
     }
     farthest

@@ -1,5 +1,7 @@
 //! Tables and sines of inputs of which the run reaches little or which its step does not resolve, and drives of bodies that more joints may have to guide.
 
+use std::collections::BTreeSet;
+
 use crate::lint::{Severity, Warning, short};
 use crate::{Facts, Scene};
 use dbd_kernel::elements::input::InputKind;
@@ -85,8 +87,14 @@ fn undriven(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
         return;
     };
     let [driven, springs] = [scene.inputs.len(), scene.raw_names.len() + scene.torsion_springs()];
-    let Some(freedoms) = facts.freedoms.filter(|freedoms| *freedoms > driven + springs) else {
-        return;
+    // Friction or stops act on a freedom as a spring does; several at one joint act on one.
+    let laws = scene.model.laws.bodies().map(|ends| ends.map(|end| end.0));
+    let laws = laws.collect::<BTreeSet<[u16; 2]>>().len();
+    let acted_on = driven + springs + laws;
+    let Some(freedoms) = facts.freedoms.filter(|freedoms| *freedoms > acted_on) else { return };
+    let with_laws = match laws {
+        0 => String::new(),
+        laws => format!(", {laws} with interactions"),
     };
     let are = |count: usize| if count == 1 { "is" } else { "are" };
     warnings.push(Warning {
@@ -94,7 +102,7 @@ fn undriven(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
         name: format!("input `{}`", scene.inputs[first].name),
         line: scene.file_lines.inputs.get(first).copied(),
         text: format!(
-            "joints leave {freedoms} freedoms, of which {driven} {} driven and {springs} {} sprung: is a joint missing?",
+            "joints leave {freedoms} freedoms, of which {driven} {} driven and {springs} {} sprung{with_laws}: is a joint missing?",
             are(driven),
             are(springs)
         ),

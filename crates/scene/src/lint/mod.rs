@@ -1,6 +1,6 @@
 //! What is probably not meant in a scene that is nevertheless right.
 //!
-//! `scene => warnings`, in the order parameters, angles, bodies, joints and raw elements, torsion springs, frequencies, inputs,
+//! `scene => warnings`, in the order parameters, angles, bodies, joints and raw elements, torsion springs, interactions, frequencies, inputs,
 //! read-outs. They stop nothing: what cannot be run is refused when the scene is read. Every threshold is a constant
 //! beside its reason.
 
@@ -9,6 +9,7 @@ mod bodies;
 mod elements;
 mod frequencies;
 mod inputs;
+mod interactions;
 mod locked;
 mod parameters;
 mod reach;
@@ -72,6 +73,7 @@ impl Scene {
         springs::judge(self, facts, &mut warnings);
         reach::judge(self, &mut warnings);
         torsion_springs::judge(self, &mut warnings);
+        interactions::judge(self, &mut warnings);
         frequencies::judge(self, facts, &mut warnings);
         inputs::judge(self, facts, &mut warnings);
         readouts::judge(self, &mut warnings);

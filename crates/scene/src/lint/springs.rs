@@ -51,7 +51,7 @@ pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     for (name, line) in torsion_springs.zip(&scene.file_lines.torsion_springs) {
         if let Some((word, _)) = one_sided(name) {
             let text = format!(
-                "acts in both directions, which no {word} does: a `point_on_line` with `clearance` stops"
+                "acts in both directions, which no {word} does: the law `hinge-stop` of an interaction acts beyond its range only"
             );
             let (severity, name, line) = (Severity::Note, name.clone(), Some(*line));
             warnings.push(Warning { severity, name, line, text });

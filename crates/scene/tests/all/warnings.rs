@@ -123,7 +123,7 @@ const CASES: &[Case] = &[
     ("stiffness = 10\nfree_length = 0.4", "stiffness = 2e6\nfree_length = 0.45",
         &[(WARNING, "tsda 1 (world–hand) (line 36): stores 3588.24 J at t = 0, enough to throw the 1.5 kg of its bodies at 69.17 m/s: are its points, its free length and its stiffness right, is a `clearance` missing?")]),
     ("[[torsion_spring]]\n", "[[torsion_spring]]\nname = \"stop\"\n",
-        &[(NOTE, "torsion_spring `stop` (world–arm) (line 42): acts in both directions, which no stop does: a `point_on_line` with `clearance` stops")]),
+        &[(NOTE, "torsion_spring `stop` (world–arm) (line 42): acts in both directions, which no stop does: the law `hinge-stop` of an interaction acts beyond its range only")]),
     // Joints between two bodies.
     ("[[tsda]]\n", "[[joint]]\nname = \"second\"\ntype = \"revolute\"\nbetween = [\"arm\", \"world\"]\nat = [0.3, 0, 0]\naxis = [0, 1, 0]\nstiffness = 1e5\nspan = 0.1\n\n[[tsda]]\n",
         &[(WARNING, "joint `second` (line 36): and joint `shoulder` leave `arm` and `world` no motion: hinges between two bodies share one axis; is another body meant, or a `fixed` joint?")]),
@@ -135,6 +135,14 @@ const CASES: &[Case] = &[
         &[(WARNING, "torsion_spring 1 (world–arm) (line 42): its axis is 5.71 degrees off that of the revolute joint `shoulder` between the same bodies, about which they turn")]),
     ("between = [\"world\", \"arm\"]\naxis = [0, 1, 0]\nstiffness = 5\n", "between = [\"arm\", \"hand\"]\naxis = [0, 1, 0]\nstiffness = 5\n",
         &[(NOTE, "torsion_spring 1 (arm–hand) (line 42): no revolute joint guides its two bodies: its twist is undefined where they have turned by half a turn about another axis")]),
+    // Interactions: a body that a stop catches is no loose one, friction holds no place, a stop is engaged at t = 0.
+    ("[[joint]]\nname = \"shoulder\"", "[[body]]\nname = \"ball\"\nmass = 1\ninertia = [1, 1, 1]\nposition = [9, 0, 1]\n\n[[interaction]]\nlaw = \"end-stop\"\nbetween = [\"world\", \"ball\"]\npoints = [[900, 0, 0], [0, 0, -0.5]]\nnormal = [0, 0, 1]\nstiffness = 1e4\n\n[[joint]]\nname = \"shoulder\"", &[]),
+    ("[[joint]]\nname = \"shoulder\"", "[[body]]\nname = \"ball\"\nmass = 1\ninertia = [1, 1, 1]\nposition = [9, 0, 0.4]\n\n[[interaction]]\nname = \"floor\"\nlaw = \"end-stop\"\nbetween = [\"world\", \"ball\"]\npoints = [[9, 0, 0], [0, 0, -0.5]]\nnormal = [0, 0, 1]\nstiffness = 1e4\n\n[[joint]]\nname = \"shoulder\"",
+        &[(WARNING, "interaction `floor` (world–ball) (line 23): is engaged at t = 0: a depth of 0.1 m, 1000 N; check its geometry, or start in equilibrium with `settle = true`")]),
+    ("[[joint]]\nname = \"shoulder\"", "[[body]]\nname = \"rotor\"\nmass = 1\ninertia = [1, 1, 1]\nposition = [9, 0, 0]\n\n[[interaction]]\nlaw = \"hinge-friction\"\nbetween = [\"world\", \"rotor\"]\naxis = [0, 0, 1]\ncoulomb = 1\nbreakaway = 1\n\n[[joint]]\nname = \"shoulder\"",
+        &[(WARNING, "body `rotor` (line 17): only torsion springs or interactions about an axis hold it, and they hold no place")]),
+    ("[[tsda]]\n", "[[interaction]]\nname = \"stop\"\nlaw = \"hinge-stop\"\nbetween = [\"world\", \"arm\"]\naxis = [0, 1, 0]\nfrom = \"5 deg\"\nto = 1\nstiffness = 100\n\n[[tsda]]\n",
+        &[(WARNING, "interaction `stop` (world–arm) (line 36): is engaged at t = 0: a depth of 0.0873 rad, 8.73 N·m; check its geometry, or start in equilibrium with `settle = true`")]),
     // Inputs and read-outs.
     ("[[torsion_spring]]", "[[input]]\nname = \"wind\"\ntype = \"force\"\nbody = \"hand\"\naxis = [0, 1, 0]\ntable = [[0, 0], [200, 0], [300, -4]]\ninterpolate = \"linear\"\n\n[[torsion_spring]]",
         &[(WARNING, "input `wind` (line 42): 2 of the 3 times of its table are after the end of the run at 1 s, the last at 300 s: are they in s, is the `duration` long enough?")]),

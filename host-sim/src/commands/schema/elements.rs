@@ -36,7 +36,7 @@ pub(super) fn of_spring(key: &str, tables: &[TableKeys]) -> Option<Key> {
     })
 }
 
-fn between() -> Key {
+pub(super) fn between() -> Key {
     Key(
         array(name(), 2),
         "[first, second]: the names of two different bodies; one may be \"world\"",
@@ -211,9 +211,14 @@ pub(super) fn of_readout(key: &str, tables: &[TableKeys]) -> Option<Key> {
         "point" => {
             Key(place(), "Where: [x, y, z] m in the body's axes, or a point", "the centre of mass")
         }
-        "target" => Key(name(), "The joint, tsda, torsion spring or input that it looks at", ""),
+        "target" => Key(
+            name(),
+            "The joint, tsda, torsion spring, interaction or input that it looks at",
+            "",
+        ),
         "axis" => Key(numbers(3, Any), "[x, y, z]: of a spherical joint, world at t = 0", ""),
         "about" => Key(choice(&["first", "second"]), "Which axis of a universal joint", ""),
+        "quantity" => Key(name(), "What it shows of an interaction: a quantity of its law", ""),
         "offset" => Key(number(Any), "rad: what it shows at a turn of 0", "0"),
         _ => return None,
     })

@@ -10,6 +10,7 @@ use super::elements::{
 };
 use super::elements::{of_torsion, of_tsda};
 use super::inner::{self, orientation, within};
+use super::interactions;
 use super::values::Range::{Any, Positive};
 use super::values::{Key, any, array, name, number, numbers, place};
 
@@ -23,6 +24,7 @@ pub(super) fn schema(table: &str, key: &str, tables: &[TableKeys]) -> Option<Val
         "tsda" => of_tsda(key).or_else(|| of_spring(key, tables)),
         "point_on_line" => of_line(key).or_else(|| of_spring(key, tables)),
         "torsion_spring" => of_torsion(key).or_else(|| of_spring(key, tables)),
+        "interaction" => return interactions::schema(key),
         "load" => of_load(key),
         "input" => of_input(key, tables),
         "readout" => of_readout(key, tables),

@@ -6,6 +6,7 @@
 
 mod elements;
 mod inner;
+mod interactions;
 mod keys;
 mod values;
 
@@ -31,12 +32,16 @@ pub fn text() -> String {
 }
 
 /// Tables of which there are many, and what one of them is.
-const MANY: [(&str, &str); 9] = [
+const MANY: [(&str, &str); 10] = [
     ("body", "A rigid body: mass, inertia, pose and velocity at t = 0"),
     ("joint", "A joint, made of springs and dampers"),
     ("tsda", "A spring and damper between two points"),
     ("point_on_line", "A point of one body held to a line of another"),
     ("torsion_spring", "A spring and damper about an axis"),
+    (
+        "interaction",
+        "What two bodies do to each other by a law: a stop, friction, or one of a program's own",
+    ),
     ("load", "A constant force or torque over a window of time"),
     ("input", "What a controller or a table drives at run time"),
     ("readout", "What a sensor sees"),
@@ -52,6 +57,7 @@ fn required(table: &str) -> &'static [&'static str] {
             &["between", "line_point", "line_direction", "point", "free_length", "stiffness"]
         }
         "torsion_spring" => &["between", "axis", "stiffness"],
+        "interaction" => &["law", "between"],
         "load" => &["body"],
         "input" | "readout" => &["type"],
         "geometry" => &["body", "shape"],
@@ -60,8 +66,8 @@ fn required(table: &str) -> &'static [&'static str] {
 }
 
 /// What must be there of a table of a type besides.
-fn required_of(table: &str, kind: &str) -> &'static [&'static str] {
-    match (table, kind) {
+fn required_of(table: &str, kind: &str) -> Vec<&'static str> {
+    let keys: &[&str] = match (table, kind) {
         ("joint", "spherical") => &["at", "arm"],
         ("joint", "revolute") => &["at", "axis", "span"],
         ("joint", "universal") => &["at", "axes", "spider", "span"],
@@ -71,6 +77,8 @@ fn required_of(table: &str, kind: &str) -> &'static [&'static str] {
         ("input", "force" | "torque") => &["body", "axis"],
         ("input", "anchor") => &["target", "axis"],
         ("input", _) => &["target"],
+        ("interaction", law) => return interactions::required(law),
+        ("readout", "interaction") => &["target", "quantity"],
         ("readout", "point" | "point_velocity" | "imu") => &["body"],
         ("readout", _) => &["target"],
         ("geometry", "box") => &["size"],
@@ -84,12 +92,17 @@ fn required_of(table: &str, kind: &str) -> &'static [&'static str] {
         ("shape", "plate") => &["width", "length"],
         ("shape", _) => &["length"],
         _ => &[],
-    }
+    };
+    keys.into()
 }
 
 /// The key that says of which kind a table is.
 fn kind_key(table: &str) -> &'static str {
-    if matches!(table, "link" | "geometry") { "shape" } else { "type" }
+    match table {
+        "link" | "geometry" => "shape",
+        "interaction" => "law",
+        _ => "type",
+    }
 }
 
 fn schema() -> Value {
@@ -147,6 +160,10 @@ fn one(table: &'static str, meaning: &str, tables: &[TableKeys]) -> Value {
     let properties = keys.iter().filter_map(|key| Some((*key, keys::schema(table, key, tables)?)));
     let mut schema = object(properties, named);
     schema["description"] = json!(format!("{meaning}."));
+    if table == "interaction" {
+        // The keys of a law that only another program knows.
+        schema["additionalProperties"] = json!(true);
+    }
     let rules = own_keys(table, tables);
     if !rules.is_empty() {
         schema["allOf"] = json!(rules);

@@ -1,11 +1,11 @@
-//! Raw elements: springs between points, points on lines, torsion springs.
+//! Raw elements: springs between points, points on lines, torsion springs, interactions.
 
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::model::{Group, Law};
-use dbd_scene::Scene;
+use dbd_scene::{InteractionInfo, Scene};
 
 use super::attached::{Pivots, centres, row, tips};
-use super::parts::{Along, GuideMark, Mechanism, Place, SpringMark, TorsionMark};
+use super::parts::{Along, GuideMark, InteractionMark, Mechanism, Place, SpringMark, TorsionMark};
 
 /// Springs and guides of a scene, in the order of their groups.
 pub(super) fn raw(scene: &Scene, mechanism: &Mechanism) -> (Vec<SpringMark>, Vec<GuideMark>) {
@@ -88,6 +88,29 @@ pub(super) fn torsions(scene: &Scene, mechanism: &Mechanism, pivots: &Pivots) ->
             TorsionMark { name: named(label), at, axis }
         })
         .collect()
+}
+
+/// The interactions whose law has points or an axis.
+pub(super) fn interactions(scene: &Scene, pivots: &Pivots) -> Vec<InteractionMark> {
+    let infos = scene.interactions().into_iter();
+    let has_place = |info: &InteractionInfo| info.points.is_some() || info.axis.is_some();
+    let mark = |info: InteractionInfo| {
+        let [a, b] = info.bodies.map(row);
+        let along = |vector| Along { body: a, vector };
+        let centre = Place { body: b, point: [0.0; 3] };
+        let ends = |[first, second]: [[f64; 3]; 2]| {
+            [Place { body: a, point: first }, Place { body: b, point: second }]
+        };
+        InteractionMark {
+            name: info.name().map(str::to_owned),
+            law: info.law,
+            ends: info.points.map(ends),
+            normal: info.normal.map(along),
+            axis: info.axis.map(along),
+            at: pivots.between(a, b).unwrap_or(centre),
+        }
+    };
+    infos.filter(has_place).map(mark).collect()
 }
 
 #[cfg(test)]

@@ -17,8 +17,8 @@ use dbd_scene::Scene;
 
 pub(crate) use parts::Bounds;
 pub use parts::{
-    Along, BodyShape, ForceKind, ForceMark, GuideMark, JointKind, JointMark, JointSpring,
-    Mechanism, Outline, Place, SpringMark, TorsionMark,
+    Along, BodyShape, ForceKind, ForceMark, GuideMark, InteractionMark, JointKind, JointMark,
+    JointSpring, Mechanism, Outline, Place, SpringMark, TorsionMark,
 };
 pub use solid::Solid;
 pub(crate) use solid::{block, rims};
@@ -48,6 +48,7 @@ impl Mechanism {
             springs: Vec::new(),
             guides: Vec::new(),
             torsions: Vec::new(),
+            interactions: Vec::new(),
             forces: Vec::new(),
             gravity: model.gravity.first().map(|gravity| gravity.to_f64()),
         };
@@ -55,6 +56,7 @@ impl Mechanism {
         mechanism.joints = joints;
         (mechanism.springs, mechanism.guides) = elements::raw(scene, &mechanism);
         mechanism.torsions = elements::torsions(scene, &mechanism, &pivots);
+        mechanism.interactions = elements::interactions(scene, &pivots);
         mechanism.forces = forces::forces(scene, &pivots);
         let outlines = outline::outlines(scene, &mechanism, &spiders);
         for (body, outline) in mechanism.bodies.iter_mut().zip(outlines) {

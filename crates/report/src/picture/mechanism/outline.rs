@@ -103,6 +103,9 @@ fn held(mechanism: &Mechanism) -> Vec<Vec<Vec3<f64>>> {
         hold(&guide.line);
         hold(&guide.point);
     }
+    for ends in mechanism.interactions.iter().filter_map(|one| one.ends.as_ref()) {
+        hold(&ends[1]);
+    }
     held
 }
 

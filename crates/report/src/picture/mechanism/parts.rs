@@ -26,6 +26,8 @@ pub struct Mechanism {
     pub guides: Vec<GuideMark>,
     /// Torsion springs.
     pub torsions: Vec<TorsionMark>,
+    /// Interactions whose law has points or an axis.
+    pub interactions: Vec<InteractionMark>,
     /// Loads and inputs.
     pub forces: Vec<ForceMark>,
     /// \[m/s²\] the field of gravity, world; `None` without one.
@@ -167,6 +169,23 @@ pub struct TorsionMark {
     pub at: Place,
     /// Its axis.
     pub axis: Along,
+}
+
+/// An interaction between two bodies.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InteractionMark {
+    /// Its name, where it has one.
+    pub name: Option<String>,
+    /// The name of its law.
+    pub law: &'static str,
+    /// Its points on the first and on the second body, where its law has points.
+    pub ends: Option<[Place; 2]>,
+    /// The normal of the plane through the first point, where its law has one.
+    pub normal: Option<Along>,
+    /// Its axis, where its law has one.
+    pub axis: Option<Along>,
+    /// Where its axis is drawn: at the joint of its two bodies, else at the centre of the second.
+    pub at: Place,
 }
 
 /// What a force does.

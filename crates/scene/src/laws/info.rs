@@ -1,0 +1,116 @@
+//! What is known of a scene's interactions: their laws, bodies, geometry, and what they do at t = 0.
+//!
+//! `scene => interactions`. The geometry is what a law writes to a [`FieldSink`].
+
+use dbd_kernel::laws::{Field, FieldSink, Instant, Laws as _, Row};
+use dbd_kernel::{BodyIndex, F64};
+
+use crate::Scene;
+use crate::facts;
+
+/// An interaction of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InteractionInfo {
+    /// What messages call it: "interaction `stop` (world–bar)".
+    pub label: String,
+    /// The name of its law.
+    pub law: &'static str,
+    /// A, which may be the ground, and B.
+    pub bodies: [BodyIndex; 2],
+    /// The number of its dampers; some may have a coefficient of 0.
+    pub dampers: usize,
+    /// \[m\] a point of A and a point of B, each in the axes of its body from its centre of mass; of the ground in
+    /// the world.
+    pub points: Option<[[f64; 3]; 2]>,
+    /// \[1\] unit normal of a plane through the first point, in the axes of A.
+    pub normal: Option<[f64; 3]>,
+    /// \[1\] unit axis, in the axes of A.
+    pub axis: Option<[f64; 3]>,
+}
+
+impl InteractionInfo {
+    /// Its name in the scene; `None` where it has none.
+    #[must_use]
+    pub fn name(&self) -> Option<&str> {
+        let (_, rest) = self.label.split_once(" `")?;
+        rest.rsplit_once("` (").map(|(name, _)| name)
+    }
+}
+
+/// What an interaction does at t = 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct AtStart {
+    /// Its quantity `depth` with its unit, where it has one.
+    pub(crate) depth: Option<(f64, &'static str)>,
+    /// \[N\] magnitude of its force.
+    pub(crate) force: f64,
+    /// \[N·m\] magnitude of its torque on B.
+    pub(crate) torque: f64,
+}
+
+impl Scene {
+    /// The interactions in the order of the model's rows of laws.
+    #[must_use]
+    pub fn interactions(&self) -> Vec<InteractionInfo> {
+        let mut found = Vec::new();
+        for (source, dampers) in self.model.laws.tables_with_dampers() {
+            for (row, bodies) in source.bodies().into_iter().enumerate() {
+                let label = self.law_names.get(found.len()).cloned().unwrap_or_default();
+                let mut shape = Shape::default();
+                source.write(row, &mut shape);
+                let Shape { points, normal, axis } = shape;
+                let law = source.name();
+                found.push(InteractionInfo { label, law, bodies, dampers, points, normal, axis });
+            }
+        }
+        found
+    }
+
+    /// What each interaction does at t = 0.
+    pub(crate) fn interactions_at_start(&self) -> Vec<AtStart> {
+        let (frames, bodies) = (facts::frames(self), &self.model.initial);
+        let instant = Instant { frames: &frames, bodies, signals: &[] };
+        let laws = &self.model.laws;
+        let mut found = Vec::new();
+        laws.look_at_all(&laws.states(), &mut |_, law| found.push(at_start(law, instant)));
+        found
+    }
+}
+
+fn at_start(law: &dyn Row<F64>, instant: Instant<'_, F64>) -> AtStart {
+    let mut start = AtStart { depth: None, force: 0.0, torque: 0.0 };
+    let Some(seen) = instant.seen(law.bodies()) else { return start };
+    let quantities = law.quantities().iter().enumerate();
+    start.depth = quantities
+        .filter(|(_, quantity)| quantity.name == "depth")
+        .map(|(place, quantity)| (law.read(place, &seen), quantity.unit))
+        .next();
+    if let Some(record) = law.record(&seen) {
+        let length = |v: dbd_kernel::Vec3<f64>| libm::sqrt(v.dot(v));
+        (start.force, start.torque) = (length(record.force), length(record.torque_b));
+    }
+    start
+}
+
+/// Takes the geometry of a row.
+#[derive(Default)]
+struct Shape {
+    points: Option<[[f64; 3]; 2]>,
+    normal: Option<[f64; 3]>,
+    axis: Option<[f64; 3]>,
+}
+
+impl FieldSink for Shape {
+    fn number(&mut self, _: &Field, _: f64) {}
+    fn count(&mut self, _: &Field, _: u32) {}
+    fn points(&mut self, _: &Field, points: [[f64; 3]; 2]) {
+        self.points.get_or_insert(points);
+    }
+    fn normal(&mut self, _: &Field, normal: [f64; 3]) {
+        self.normal.get_or_insert(normal);
+    }
+    fn axis(&mut self, _: &Field, axis: [f64; 3], _: [f64; 4]) {
+        self.axis.get_or_insert(axis);
+    }
+    fn table(&mut self, _: &Field, _: &[[f64; 2]], _: usize) {}
+}

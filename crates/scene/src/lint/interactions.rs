@@ -1,0 +1,27 @@
+//! Stops that are engaged at t = 0.
+
+use crate::Scene;
+use crate::lint::{Severity, Warning, short};
+
+pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
+    // A scene in equilibrium may rest on its stops.
+    if scene.settled.is_some() {
+        return;
+    }
+    for (row, start) in scene.interactions_at_start().iter().enumerate() {
+        let Some((depth, unit)) = start.depth.filter(|(depth, _)| *depth > 0.0) else { continue };
+        let (load, load_unit) =
+            if start.force > 0.0 { (start.force, "N") } else { (start.torque, "N·m") };
+        warnings.push(Warning {
+            severity: Severity::Warning,
+            name: scene.law_names.get(row).cloned().unwrap_or_default(),
+            line: scene.line_of_interaction(row),
+            text: format!(
+                "is engaged at t = 0: a depth of {} {unit}, {} {load_unit}; check its geometry, or start in \
+                 equilibrium with `settle = true`",
+                short(depth),
+                short(load)
+            ),
+        });
+    }
+}

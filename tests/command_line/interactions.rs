@@ -1,0 +1,141 @@
+//! Interactions at the command line: what `check`, pictures and summaries state of them, and the tables of their laws.
+
+use dbd_scene::laws::known_laws;
+use dbd_tests::page::{block, table};
+use dbd_tests::results::path;
+use host_sim::terminal::Exit;
+use serde_json::Value;
+
+use crate::{Folder, call};
+
+fn scene() -> String {
+    std::fs::read_to_string(path("tests/fuzz/corpus/scene/interactions.toml")).unwrap()
+}
+
+#[test]
+fn the_page_has_a_table_of_each_law() {
+    for law in known_laws() {
+        let row = |field: &dbd_kernel::laws::Field| {
+            let value = match field.kind {
+                "points" => "[[x, y, z], [x, y, z]] m or points".into(),
+                "normal" | "axis" => "[x, y, z] or two points".into(),
+                "count" => "a whole number".into(),
+                "table" => format!("[[{}], …], the first ascending", field.units.join(", ")),
+                _ => field.units.join(", "),
+            };
+            let default = field.default.map(|value| value.to_string()).unwrap_or_default();
+            let required = if field.default.is_none() { " **·**" } else { "" };
+            vec![format!("`{}`{required}", field.name), value, default, field.about.to_owned()]
+        };
+        let rows: Vec<_> = law.fields.iter().map(row).collect();
+        let shows = law.quantities.iter();
+        let shows: Vec<_> =
+            shows.map(|shown| format!("`{}` ({})", shown.name, shown.unit)).collect();
+        let text = format!(
+            "{}\n\n{}\nQuantities: {}.",
+            law.about,
+            table(&["key", "value", "default", "meaning"], &rows),
+            shows.join(", "),
+        );
+        block("docs/scene-reference.md", law.name, &text);
+    }
+}
+
+#[test]
+fn check_lists_them() {
+    let folder = Folder::new();
+    let file = folder.scene(&scene());
+    let done = call(&["check", &file]);
+    assert_eq!((done.exit, done.err.as_str()), (Exit::Done, ""));
+    let count = done.out.lines().find(|line| line.starts_with("interactions "));
+    assert!(count.is_some_and(|line| line.trim_end().ends_with(" 3")), "{}", done.out);
+    let words = |line: &str| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+    let rows: Vec<_> = done.out.lines().map(words).collect();
+    for row in [
+        &["interaction", "law", "between", "dampers"][..],
+        &["rub", "hinge-friction", "world–bar", "2"],
+        &["stop", "end-stop", "world–bar", "1"],
+        &["interaction", "3", "(world–bar)", "hinge-stop", "world–bar", "1"],
+    ] {
+        assert!(rows.iter().any(|found| found == row), "{row:?}: {}", done.out);
+    }
+    let json: Value = serde_json::from_str(&call(&["check", &file, "--json"]).out).unwrap();
+    let stop = serde_json::json!({
+        "name": "stop", "law": "end-stop", "between": ["world", "bar"], "dampers": 1
+    });
+    assert_eq!(json["interactions"][1], stop);
+    assert_eq!(json["warnings"], serde_json::json!([]));
+}
+
+#[test]
+fn pictures_show_them() {
+    let folder = Folder::new();
+    let file = folder.scene(&scene());
+    let picture = call(&["check", &file, "--svg", "-"]).out;
+    for part in [">rub<", ">stop<", "interaction at points", "2 interactions about axes"] {
+        assert!(picture.contains(part), "{part}");
+    }
+    folder.run(&file, &["--duration", "1ms"]);
+    let page = std::fs::read_to_string(folder.path("out/scene/report.html")).unwrap();
+    assert!(page.contains("interaction at points"));
+}
+
+/// A flywheel about the axis of its friction: it loses what friction takes, and nothing else.
+const FLYWHEEL: &str = r#"
+name = "flywheel"
+duration = 0.5
+[[body]]
+name = "wheel"
+mass = 1
+inertia = [0.1, 0.1, 0.1]
+position = [0, 0, 0]
+angular_velocity = [0, 0, 10]
+[[interaction]]
+law = "hinge-friction"
+between = ["world", "wheel"]
+axis = [0, 0, 1]
+coulomb = 1
+breakaway = 1
+give = "1 mrad"
+"#;
+
+#[test]
+fn the_balance_states_what_friction_takes() {
+    for precision in ["f64", "f32"] {
+        let folder = Folder::new();
+        let file = folder.scene(FLYWHEEL);
+        let summary = folder.summary(&file, &["--step", "50us", "--precision", precision]);
+        assert_eq!(summary["status"], "ok");
+        assert_eq!(summary["energy_rms_error"], Value::Null);
+        let number = |value: &Value| value.as_f64().unwrap_or_else(|| panic!("{summary}"));
+        let balance = &summary["energy_balance"];
+        let [laws, dampers, remains] =
+            ["laws", "dampers", "remains"].map(|key| number(&balance[key]));
+        // 1 N·m over 10·0.5 − ½·10·0.25 rad of the turn, less what the spring of its give holds.
+        let turned = 10.0 * 0.5 - 0.5 * 10.0 * 0.25;
+        assert!((laws - turned).abs() < 2e-3 * turned, "{precision}: {balance}");
+        assert!(remains.abs() < 1e-3 * laws, "{precision}: {balance}");
+        let change = number(&summary["energy_final"]) - number(&summary["energy_initial"]);
+        assert!((change + laws + dampers - remains).abs() < 1e-9, "{balance}");
+    }
+    let folder = Folder::new();
+    let done = folder.run(&folder.scene(FLYWHEEL), &["--step", "50us"]);
+    let row = done.out.lines().find(|line| line.contains("energy, balance")).unwrap();
+    assert!(row.contains("interactions −3.7"), "{row}");
+    assert!(done.out.contains("– (dampers, interactions, loads or inputs change the energy)"));
+}
+
+/// A law of another program is no error of the scene's text; a wrong key of a law that is known is one.
+#[test]
+fn the_schema_takes_laws_of_other_programs() {
+    let schema: Value = serde_json::from_str(&call(&["schema"]).out).unwrap();
+    let validator = jsonschema::draft7::new(&schema).unwrap();
+    let is_valid = |text: &str| validator.is_valid(&toml::from_str::<Value>(text).unwrap());
+    let text = scene();
+    assert!(is_valid(&text));
+    let own = "\n[[interaction]]\nlaw = \"drag\"\nbetween = [\"world\", \"bar\"]\narea = 0.1\n";
+    assert!(is_valid(&(text.clone() + own)));
+    assert!(!is_valid(&(text.clone() + &own.replace("\"drag\"", "\"end-stop\""))));
+    assert!(!is_valid(&text.replace("normal = [-1, 0, 0]\n", "")));
+    assert!(!is_valid(&text.replace("law = \"end-stop\"\n", "")));
+}
