@@ -173,13 +173,13 @@ fn an_input_set_in_every_step_costs_no_evaluation() {
         let [a, b] = [BodyIndex(0), BodyIndex(1)];
         let axis = P::Moment::from_f64([0.0, 0.6, 0.8]);
         let turn = InputKind::JointTorque { a, b, axes: [axis; 2] };
-        let turn = model.add_input(turn, P::Real::ZERO).unwrap();
+        let turn = model.add_input(turn, 0.0).unwrap();
         let pull = InputKind::Actuator { group: 2, element: 0 };
-        let pull = model.add_input(pull, P::Real::ZERO).unwrap();
+        let pull = model.add_input(pull, 0.0).unwrap();
         let (point, direction) =
             (P::local_from_f64([0.1, 0.2, 0.0]), P::Vector::from_f64([0.0, 1.0, 0.0]));
         let force = InputKind::Force { body: b, point, direction, frame: LoadFrame::Body };
-        let force = model.add_input(force, P::Real::ZERO).unwrap();
+        let force = model.add_input(force, 0.0).unwrap();
         let mut plant = Plant::new(&model, scheme, 1e-4).unwrap();
         let mut anew = Plant::new(&model, scheme, 1e-4).unwrap();
         for i in 0..200 {

@@ -129,7 +129,7 @@ fn every_scheme_and_precision_has_stops() {
     near("pefrl", rebound::<F64, _>(Pefrl));
     near("blanes-moan", rebound::<F64, _>(BlanesMoanS6));
     near("rk4", rebound::<F64, _>(Rk4));
-    near("dbd", rebound::<F64, _>(Dbd::new(1)));
+    near("dbd", rebound::<F64, _>(Dbd::default()));
     near("generalized-alpha", rebound::<F64, _>(GeneralizedAlpha::default()));
     // Of first order.
     let euler = rebound::<F64, _>(SemiImplicitEuler);
@@ -252,7 +252,7 @@ fn a_memory_is_refused_where_a_scheme_cannot_bring_it_on() {
         let refused = Plant::new(&model.planned(), scheme, 5e-5).map(|_| ());
         refused == Err(PlantError::Memory("hinge-friction"))
     }
-    assert!(refused(Pefrl) && refused(BlanesMoanS6) && refused(Rk4) && refused(Dbd::new(0)));
+    assert!(refused(Pefrl) && refused(BlanesMoanS6) && refused(Rk4) && refused(Dbd::default()));
     assert!(!refused(Leapfrog) && !refused(JointWise(Leapfrog)) && !refused(Explicit(Leapfrog)));
 }
 
