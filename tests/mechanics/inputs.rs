@@ -188,7 +188,7 @@ fn an_input_set_in_every_step_costs_no_evaluation() {
                 plant.set_input(pull, f64::from(i % 7)).unwrap();
                 plant.set_input(force, -0.1 * f64::from(i % 5)).unwrap();
             }
-            anew.resume(*anew.state());
+            anew.resume(anew.state().clone());
             plant.step().ok().unwrap();
             anew.step().ok().unwrap();
             assert_eq!(plant.hash(), anew.hash(), "{} step {i}", P::NAME);
