@@ -205,7 +205,7 @@ fn an_input_set_in_every_step_costs_no_evaluation() {
 }
 
 #[test]
-fn setting_the_same_value_again_costs_no_evaluation() {
+fn setting_a_value_costs_no_evaluation() {
     let mut model = free_ring::<F64>(0.0);
     let kind = InputKind::Actuator { group: 2, element: 0 };
     let pull = model.add_input(kind, 1.0).unwrap();
@@ -217,7 +217,7 @@ fn setting_the_same_value_again_costs_no_evaluation() {
     assert_eq!(plant.evaluations(), 11);
     plant.set_input(pull, 2.0).unwrap();
     plant.step().ok().unwrap();
-    assert_eq!(plant.evaluations(), 13);
+    assert_eq!(plant.evaluations(), 12);
 }
 
 #[test]
