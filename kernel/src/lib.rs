@@ -15,6 +15,7 @@
 //! - [`body`], [`rotation`], `lockstep`: one rigid body, and how it turns, alone or in lanes.
 //! - [`status`], [`elements`], [`schedule`], [`sources`]: what can fail; the laws, one per file; what happens
 //!   when; sines and tables that inputs follow.
+//! - `record`, [`laws`]: what acts on two bodies; laws of one's own, each a type that a model lists.
 //! - [`mod@model`], [`sketch`], [`state`]: read-only constants of bodies and elements, and how a person
 //!   writes them; plain data and its hash.
 //! - `pose`, `sensors`, [`forces`], [`damping`]: where points lie; what sensors of motion read; one
@@ -103,6 +104,7 @@ pub mod power;
 pub mod reach;
 pub mod readouts;
 pub mod real;
+mod record;
 mod refusal;
 pub mod rotation;
 pub mod schedule;

@@ -6,7 +6,8 @@
 use crate::damping::kick::Kick;
 use crate::damping::moving::Moving;
 use crate::damping::pair::Pair;
-use crate::damping::{Share, Sweep};
+use crate::damping::pass::Sweep;
+use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::laws::{Body, Damper, DamperPass, End, Laws, Seen};

@@ -2,12 +2,12 @@
 //!
 //! `(share, time, 1/μ, kick's rate) => impulse per rate, impulse less`.
 
-use crate::damping::pair::Direction;
 use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::pose::Places;
 use crate::real::Real;
+use crate::record::Direction;
 use crate::space::Linear as _;
 
 /// One lever of a joint, and what it does in half a step at a pose.

@@ -31,11 +31,13 @@ mod motion;
 mod moving;
 mod near;
 mod pair;
+mod pass;
 mod prepare;
 mod shares;
 mod strength;
 
 pub use crate::elements::share::Share;
+pub use crate::record::Direction;
 pub(crate) use joints::sweep_joints;
 pub(crate) use kick::{HalfKick, KeptKick, NoKick};
 pub(crate) use laws::LawsKnown;
@@ -44,7 +46,7 @@ pub use lever::Lever;
 pub(crate) use levers::{find, weigh};
 pub(crate) use motion::Pose;
 pub(crate) use near::Held;
-pub use pair::Direction;
+pub(crate) use pass::Sweep;
 pub(crate) use prepare::prepare;
 pub(crate) use shares::share;
 pub use strength::{DampersOf, Strength, strengths, strengths_of_joints};
@@ -52,7 +54,7 @@ pub use strength::{DampersOf, Strength, strengths, strengths_of_joints};
 use crate::body::BodyState;
 use crate::damping::kick::Kick;
 use crate::damping::moving::Moving;
-use crate::damping::pair::{Damper, Pair};
+use crate::damping::pair::Pair;
 use crate::elements::clearance;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::geometry::Geometry;
@@ -86,46 +88,6 @@ impl Damping {
             Damping::Explicit => "explicit",
             Damping::Implicit => "implicit",
         }
-    }
-}
-
-/// One pass over all dampers.
-pub(crate) struct Sweep<'s, P: Geometry, K> {
-    /// \[s\] for how long they act.
-    pub(crate) h: P::Real,
-    /// The present pose.
-    pub(crate) places: Places<'s, P>,
-    /// The torsion springs' turn counts.
-    pub(crate) turns: &'s [i32],
-    /// What each bears of what it bears together with others.
-    pub(crate) shares: &'s [Share<P::Real>],
-    /// The kick just before.
-    pub(crate) kick: K,
-}
-
-impl<P: Geometry, K: Kick<P>> Sweep<'_, P, K> {
-    /// Whether all that is kept per body is of as many: a row of one is then a row of the others, which
-    /// a compiler does not look up again.
-    #[inline(always)]
-    fn is_of<T: Terms<P>>(&self, model: &ModelRef<'_, P, T>, bodies: &[BodyState<P>]) -> bool {
-        let count = bodies.len();
-        model.bodies.len() == count
-            && self.places.frames.len() == count
-            && self.kick.count().is_none_or(|kicks| kicks == count)
-    }
-}
-
-impl<P: Geometry, K> Sweep<'_, P, K> {
-    /// A damper of this coefficient, with its share; in descending order those before it follow.
-    #[inline(always)]
-    fn damper<const REVERSE: bool>(
-        &self,
-        coefficient: P::Real,
-        share: &Share<P::Real>,
-    ) -> Damper<P::Real> {
-        let Share { own, later } = *share;
-        let later = if REVERSE { P::Real::ONE - (own + later) } else { later };
-        Damper { coefficient, own, later, h: self.h }
     }
 }
 

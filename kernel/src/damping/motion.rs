@@ -7,7 +7,6 @@ use crate::body::{BodyState, Increment};
 use crate::damping::lever::Lever;
 use crate::damping::levers::{fixed, held};
 use crate::damping::near::{Held, hold, near};
-use crate::damping::pair::Direction;
 use crate::damping::{each_direction, torsion_direction};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
@@ -15,6 +14,7 @@ use crate::laws::{Instant, Laws as _};
 use crate::model::{ModelRef, StatesIn, Terms};
 use crate::pose::{Places, held_turns, placed};
 use crate::real::{Real, Truth as _};
+use crate::record::Direction;
 use crate::space::{Linear as _, Moment as _, Space};
 
 /// What an impulse of 1 along a damper does to its two bodies.

@@ -7,6 +7,7 @@ use crate::damping::moving::Moving;
 use crate::geometry::Geometry;
 use crate::model::{ModelRef, Terms};
 use crate::real::{Real, Truth as _};
+use crate::record::Direction;
 use crate::space::{Linear as _, Moment as _, Space};
 
 /// What a damper knows of itself besides its levers.
@@ -43,15 +44,6 @@ impl<R: Real> Damper<R> {
     fn unmet(&self, x: R) -> R {
         self.later + self.own / (R::TWO + x)
     }
-}
-
-/// A direction of freedom of two bodies: a unit force along u on the second and the opposite on the first.
-#[derive(Clone, Copy, Debug)]
-pub struct Direction<S: Space> {
-    /// u, world axes; 0 of moments alone.
-    pub along: S::Vector,
-    /// The moments `r × u` of a unit force along u on both bodies, each in its body's axes; the ground has none.
-    pub moments: [S::Moment; 2],
 }
 
 /// One of a pair's bodies while its dampers turn it.

@@ -1,56 +1,10 @@
-//! What the laws' files and the evaluation share: records, wrenches, and how dampers and turn counts
-//! are taken.
-//!
-//! `record => wrenches of its two bodies`.
+//! What the laws' files and the evaluation share: how dampers and memories are taken.
 
 use crate::geometry::Geometry;
 use crate::model::{StatesIn, Terms};
-use crate::space::{Linear as _, Space};
 
-/// The force on a body and its torque.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Wrench<S: Space> {
-    /// \[N\] force, world axes.
-    pub force: S::Vector,
-    /// \[N·m\] torque about the centre of mass, body axes once the evaluation is complete.
-    pub torque: S::Moment,
-    filler: S::Filler,
-}
-
-impl<S: Space> Wrench<S> {
-    /// A force \[N\], world axes, and a torque \[N·m\].
-    #[inline(always)]
-    pub fn new(force: S::Vector, torque: S::Moment) -> Self {
-        Self { force, torque, filler: Default::default() }
-    }
-}
-
-/// What a group does to its two bodies, world axes: force and torque of A, and of B the opposite of its
-/// own torque; its force is the opposite of A's.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Record<S: Space> {
-    /// \[N\] force on A.
-    pub force: S::Vector,
-    /// \[N·m\] torque on A about its centre of mass.
-    pub torque_a: S::Moment,
-    /// \[N·m\] the opposite of the torque on B about its centre of mass.
-    pub torque_b: S::Moment,
-}
-
-impl<S: Space> Record<S> {
-    pub(crate) const ZERO: Self =
-        Self { force: S::Vector::ZERO, torque_a: S::Moment::ZERO, torque_b: S::Moment::ZERO };
-
-    /// This and another.
-    #[inline(always)]
-    pub(crate) fn with(&self, other: &Self) -> Self {
-        Self {
-            force: self.force + other.force,
-            torque_a: self.torque_a + other.torque_a,
-            torque_b: self.torque_b + other.torque_b,
-        }
-    }
-}
+pub(crate) use crate::record::apply;
+pub use crate::record::{Record, Wrench};
 
 /// Whether the dampers' forces are part of an evaluation.
 pub trait Dampers {
@@ -110,17 +64,4 @@ pub(crate) struct Memories<'s, P: Geometry, T: Terms<P>> {
     pub(crate) at: At,
     /// \[s\] the step to bring the laws' on by before that.
     pub(crate) advance: Option<P::Real>,
-}
-
-/// Adds a record to its two bodies; the world takes none.
-#[inline(always)]
-pub(crate) fn apply<S: Space>(wrenches: &mut [Wrench<S>], a: usize, b: usize, record: &Record<S>) {
-    if let Some(wrench) = wrenches.get_mut(a) {
-        wrench.force = wrench.force + record.force;
-        wrench.torque = wrench.torque + record.torque_a;
-    }
-    if let Some(wrench) = wrenches.get_mut(b) {
-        wrench.force = wrench.force - record.force;
-        wrench.torque = wrench.torque - record.torque_b;
-    }
 }

@@ -108,7 +108,7 @@ macro_rules! law {
                     name: stringify!($field),
                     kind: <$crate::laws::$kind $(<$size>)? as $crate::laws::Kind>::NAME,
                     units: &[$($($unit),+)?],
-                    default: $crate::law!(@ $($default)?),
+                    default: $crate::laws::first(&[$($default)?]),
                     about: concat!($($doc),+).trim_ascii(),
                 },
             )*];
@@ -154,6 +154,4 @@ macro_rules! law {
             }
         }
     };
-    (@) => { None };
-    (@ $default:literal) => { Some($default) };
 }

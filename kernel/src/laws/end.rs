@@ -5,11 +5,11 @@
 
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
-use crate::damping::Direction;
-use crate::forces::Record;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, InputIndex};
 use crate::real::Real;
+use crate::record::Direction;
+use crate::record::Record;
 use crate::schedule::Signal;
 use crate::space::{Linear as _, Moment as _, Space, Vector as _};
 

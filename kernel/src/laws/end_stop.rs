@@ -4,15 +4,15 @@
 //! (1975) 440, with exponent 1). The spring is a force with the energy `½·k·x²`; the rest is a damper `a·k·x` whose
 //! tension never exceeds the spring's: it never pulls.
 
-use crate::damping::Direction;
-use crate::forces::Record;
 use crate::geometry::Geometry;
 use crate::laws::end::Seen;
 use crate::laws::interaction::{Damper, Interaction, Nothing, Quantity, Springs, Wrong};
 use crate::real::Real;
+use crate::record::Direction;
+use crate::record::Record;
 use crate::space::Linear as _;
 
-crate::law! {
+law! {
     /// A point of the second body that a plane of the first one stops.
     pub struct EndStop = "end-stop" {
         /// A point of the plane and the point that it stops.

@@ -6,17 +6,17 @@
 //! `F(v) = coulomb + (breakaway − coulomb)/(1 + (v/stribeck)²)` (Hess & Soom, J. Tribology 112 (1990) 147) at the mean
 //! rate of the step before.
 
-use crate::damping::Direction;
-use crate::forces::Record;
 use crate::geometry::Geometry;
 use crate::laws::end::Seen;
 use crate::laws::hinge::Turns;
 use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
 use crate::real::Real;
+use crate::record::Direction;
+use crate::record::Record;
 use crate::space::Linear as _;
 use crate::words::{WordSource, WordVisitor, Words};
 
-crate::law! {
+law! {
     /// Dry friction between two bodies that turn about an axis.
     pub struct HingeFriction = "hinge-friction" {
         /// Axis of rotation.

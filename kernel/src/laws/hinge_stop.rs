@@ -2,16 +2,16 @@
 //!
 //! Twist `θ ↦ x = θ − to` or `from − θ`, torque `k·x·(1 + a·ẋ)` back into the range, along the twist's gradient.
 
-use crate::damping::Direction;
-use crate::forces::Record;
 use crate::geometry::Geometry;
 use crate::laws::end::Seen;
 use crate::laws::hinge::Turns;
 use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
 use crate::real::Real;
+use crate::record::Direction;
+use crate::record::Record;
 use crate::space::Linear as _;
 
-crate::law! {
+law! {
     /// Stops at both ends of a range of rotation of the second body relative to the first about an axis.
     pub struct HingeStop = "hinge-stop" {
         /// Axis of rotation; the angle is 0 at t = 0 and counts whole turns.

@@ -1,12 +1,13 @@
 //! What an interaction is: all that the kernel asks of a law between two bodies.
 
-use crate::damping::{Direction, Share};
-use crate::forces::Record;
+use crate::elements::share::Share;
 use crate::geometry::{F64, Geometry};
 use crate::index::BodyIndex;
 use crate::laws::end::Seen;
 use crate::laws::kind::{Field, FieldSink, FieldSource};
 use crate::real::Real;
+use crate::record::Direction;
+use crate::record::Record;
 use crate::words::{WordSource, WordVisitor, Words};
 
 /// So many of something, one beside the other: `[(); 2]` has two.
@@ -38,7 +39,7 @@ impl Words for Nothing {
 }
 
 /// A damper along a direction: tension `c·(rate − r₀)` within bounds, as an impulse that is stable at any
-/// coefficient (see [`crate::damping`]).
+/// coefficient (compare Shardlow 2003).
 #[derive(Clone, Copy, Debug)]
 pub struct Damper<P: Geometry> {
     /// \[N·s/m, N·m·s/rad\] coefficient c, ≥ 0.

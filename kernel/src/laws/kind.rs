@@ -224,3 +224,13 @@ impl<const N: usize> Kind for Table<N> {
         sink.table(field, of.known(), N);
     }
 }
+
+/// The first of some numbers: the default of a field, where there is one.
+#[doc(hidden)]
+#[must_use]
+pub const fn first(numbers: &[f64]) -> Option<f64> {
+    match numbers {
+        [first, ..] => Some(*first),
+        [] => None,
+    }
+}

@@ -2,58 +2,14 @@
 //!
 //! `(tables, pose) => records added to the wrenches`. What is not listed has no code, so nothing is switched off.
 
-use crate::damping::Share;
-use crate::forces::Record;
-use crate::forces::Wrench;
+use crate::elements::share::Share;
 use crate::geometry::Geometry;
-use crate::index::BodyIndex;
-use crate::laws::end::{Instant, Seen};
-use crate::laws::interaction::{Damper, Interaction, Quantity, Several, SharesOf, Springs};
+use crate::laws::end::Instant;
+use crate::laws::interaction::{Interaction, Several, SharesOf};
+use crate::laws::row::{Act, DamperPass, Row};
 use crate::laws::slice;
+use crate::record::Wrench;
 use crate::words::{WordSource, WordVisitor};
-
-/// What an evaluation does with laws beside adding their records.
-#[derive(Clone, Copy, Debug)]
-pub struct Act<R> {
-    /// Whether memories are settled first.
-    pub settle: bool,
-    /// \[s\] the step by which memories are brought on before that.
-    pub advance: Option<R>,
-    /// Whether dampers act as forces.
-    pub damped: bool,
-}
-
-/// A pass over dampers, which laws hand theirs to.
-pub trait DamperPass<P: Geometry> {
-    /// What a law between two bodies sees in the pass.
-    fn seen(&self, bodies: [BodyIndex; 2]) -> Option<Seen<'_, P>>;
-    /// The dampers of a law act, each with its share.
-    fn act(&mut self, bodies: [BodyIndex; 2], dampers: &[Damper<P>], shares: &[Share<P::Real>]);
-}
-
-/// A row of a table with its memory: what those ask who look at laws outside a step.
-pub trait Row<P: Geometry> {
-    /// The law's name.
-    fn name(&self) -> &'static str;
-    /// A and B.
-    fn bodies(&self) -> [BodyIndex; 2];
-    /// How many dampers it has.
-    fn dampers(&self) -> usize;
-    /// [`Interaction::record`].
-    fn record(&self, seen: &Seen<'_, P>) -> Option<Record<P::Space>>;
-    /// [`Interaction::energy`].
-    fn energy(&self, seen: &Seen<'_, P>) -> P::Real;
-    /// [`Interaction::tangent`].
-    fn tangent(&self, seen: &Seen<'_, P>, visit: Springs<'_, P>) -> [P::Real; 2];
-    /// [`Interaction::dampers`].
-    fn each_damper(&self, seen: &Seen<'_, P>, visit: &mut dyn FnMut(usize, &Damper<P>));
-    /// [`Interaction::QUANTITIES`].
-    fn quantities(&self) -> &'static [Quantity];
-    /// [`Interaction::read`].
-    fn read(&self, quantity: usize, seen: &Seen<'_, P>) -> P::Real;
-    /// The constants.
-    fn visit(&self, visitor: &mut dyn WordVisitor);
-}
 
 /// A model's laws: a table, a tuple of tables, or what a program that reads scenes keeps them in.
 pub trait Laws<P: Geometry>: Send + Sync + 'static {
@@ -169,7 +125,7 @@ impl<P: Geometry, T: Interaction<P>, const N: usize> Laws<P> for [T; N] {
         slice::sweep::<P, T>(self, reverse, states, shares, pass);
     }
     fn look(&self, row: usize, states: &Self::States, look: &mut dyn FnMut(&dyn Row<P>)) {
-        slice::row::<P, T>(self, row, states, look);
+        slice::look::<P, T>(self, row, states, look);
     }
     fn share_mut<'s>(
         &self,

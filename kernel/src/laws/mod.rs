@@ -12,8 +12,10 @@
 //! It answers with a [`Record`] and with [`Damper`]s, each along a [`Direction`]: a unit force or a unit moment on
 //! both bodies, so action equals reaction and the power of a force along it is force times rate, exactly.
 
-mod curve;
+#[macro_use]
 mod declare;
+
+mod curve;
 mod end;
 mod end_stop;
 mod hinge;
@@ -22,6 +24,7 @@ mod hinge_stop;
 mod interaction;
 mod kind;
 mod list;
+mod row;
 mod slice;
 
 pub use curve::Curve;
@@ -34,13 +37,16 @@ pub use hinge_stop::HingeStop;
 pub use interaction::{
     Constants, Damper, Interaction, Law, Nothing, Quantity, Several, Springs, Wrong,
 };
-pub use kind::{Axis, Count, Field, FieldSink, FieldSource, Kind, Normal, Number, Points, Table};
-pub use list::{Act, DamperPass, Laws, Row};
 #[doc(hidden)]
-pub use slice::{act, memory, row, shares_of, sweep};
+pub use kind::first;
+pub use kind::{Axis, Count, Field, FieldSink, FieldSource, Kind, Normal, Number, Points, Table};
+pub use list::Laws;
+pub use row::{Act, DamperPass, Row};
+#[doc(hidden)]
+pub use slice::{act, look, memory, shares_of, sweep};
 
-pub use crate::damping::Direction;
-pub use crate::forces::Record;
+pub use crate::record::Direction;
+pub use crate::record::Record;
 
 /// What a file with a law of one's own needs: `use dbd_kernel::laws::prelude::*;`.
 pub mod prelude {

@@ -1,13 +1,14 @@
 //! The rows of one law, one after the other: what every table does, wherever its rows lie.
 
-use crate::damping::{Direction, Share};
-use crate::forces::{Record, Wrench, apply};
+use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::laws::end::{Instant, Seen};
 use crate::laws::interaction::{Damper, Interaction, Quantity, Several, SharesOf, Springs};
-use crate::laws::list::{Act, DamperPass, Row};
+use crate::laws::row::{Act, DamperPass, Row};
 use crate::real::Real;
+use crate::record::Direction;
+use crate::record::{Record, Wrench, apply};
 use crate::space::{Linear as _, Space};
 use crate::words::{Word, WordSource, WordVisitor, Words as _};
 
@@ -94,7 +95,7 @@ pub fn sweep<P: Geometry, T: Interaction<P>>(
 }
 
 /// Looks at a row.
-pub fn row<P: Geometry, T: Interaction<P>>(
+pub fn look<P: Geometry, T: Interaction<P>>(
     rows: &[T],
     row: usize,
     states: &[T::State],

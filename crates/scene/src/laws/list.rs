@@ -356,7 +356,7 @@ impl<P: Geometry, T: Interaction<P>> Rows<P> for Of<T> {
         if let (Some(law), Some(words)) = (self.0.get(row), words.get(row * each..(row + 1) * each))
         {
             let states = [state::<P, T>(words)];
-            laws::row::<P, T>(std::slice::from_ref(law), 0, &states, look);
+            laws::look::<P, T>(std::slice::from_ref(law), 0, &states, look);
         }
     }
 }

@@ -1,0 +1,52 @@
+//! A row of a table as others see it, and what is done with rows.
+
+use crate::elements::share::Share;
+use crate::geometry::Geometry;
+use crate::index::BodyIndex;
+use crate::laws::end::Seen;
+use crate::laws::interaction::{Damper, Quantity, Springs};
+use crate::record::Record;
+use crate::words::WordVisitor;
+
+/// What an evaluation does with laws beside adding their records.
+#[derive(Clone, Copy, Debug)]
+pub struct Act<R> {
+    /// Whether memories are settled first.
+    pub settle: bool,
+    /// \[s\] the step by which memories are brought on before that.
+    pub advance: Option<R>,
+    /// Whether dampers act as forces.
+    pub damped: bool,
+}
+
+/// A pass over dampers, which laws hand theirs to.
+pub trait DamperPass<P: Geometry> {
+    /// What a law between two bodies sees in the pass.
+    fn seen(&self, bodies: [BodyIndex; 2]) -> Option<Seen<'_, P>>;
+    /// The dampers of a law act, each with its share.
+    fn act(&mut self, bodies: [BodyIndex; 2], dampers: &[Damper<P>], shares: &[Share<P::Real>]);
+}
+
+/// A row of a table with its memory: what those ask who look at laws outside a step.
+pub trait Row<P: Geometry> {
+    /// The law's name.
+    fn name(&self) -> &'static str;
+    /// A and B.
+    fn bodies(&self) -> [BodyIndex; 2];
+    /// How many dampers it has.
+    fn dampers(&self) -> usize;
+    /// [`Interaction::record`](crate::laws::Interaction::record).
+    fn record(&self, seen: &Seen<'_, P>) -> Option<Record<P::Space>>;
+    /// [`Interaction::energy`](crate::laws::Interaction::energy).
+    fn energy(&self, seen: &Seen<'_, P>) -> P::Real;
+    /// [`Interaction::tangent`](crate::laws::Interaction::tangent).
+    fn tangent(&self, seen: &Seen<'_, P>, visit: Springs<'_, P>) -> [P::Real; 2];
+    /// [`Interaction::dampers`](crate::laws::Interaction::dampers).
+    fn each_damper(&self, seen: &Seen<'_, P>, visit: &mut dyn FnMut(usize, &Damper<P>));
+    /// [`Interaction::QUANTITIES`](crate::laws::Interaction::QUANTITIES).
+    fn quantities(&self) -> &'static [Quantity];
+    /// [`Interaction::read`](crate::laws::Interaction::read).
+    fn read(&self, quantity: usize, seen: &Seen<'_, P>) -> P::Real;
+    /// The constants.
+    fn visit(&self, visitor: &mut dyn WordVisitor);
+}

@@ -1,0 +1,72 @@
+//! What acts on two bodies: wrenches, records, directions.
+//!
+//! `record => wrenches of its two bodies`.
+
+use crate::space::{Linear as _, Space};
+
+/// The force on a body and its torque.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Wrench<S: Space> {
+    /// \[N\] force, world axes.
+    pub force: S::Vector,
+    /// \[N·m\] torque about the centre of mass, body axes once the evaluation is complete.
+    pub torque: S::Moment,
+    filler: S::Filler,
+}
+
+impl<S: Space> Wrench<S> {
+    /// A force \[N\], world axes, and a torque \[N·m\].
+    #[inline(always)]
+    pub fn new(force: S::Vector, torque: S::Moment) -> Self {
+        Self { force, torque, filler: Default::default() }
+    }
+}
+
+/// What a group does to its two bodies, world axes: force and torque of A, and of B the opposite of its
+/// own torque; its force is the opposite of A's.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Record<S: Space> {
+    /// \[N\] force on A.
+    pub force: S::Vector,
+    /// \[N·m\] torque on A about its centre of mass.
+    pub torque_a: S::Moment,
+    /// \[N·m\] the opposite of the torque on B about its centre of mass.
+    pub torque_b: S::Moment,
+}
+
+impl<S: Space> Record<S> {
+    pub(crate) const ZERO: Self =
+        Self { force: S::Vector::ZERO, torque_a: S::Moment::ZERO, torque_b: S::Moment::ZERO };
+
+    /// This and another.
+    #[inline(always)]
+    pub(crate) fn with(&self, other: &Self) -> Self {
+        Self {
+            force: self.force + other.force,
+            torque_a: self.torque_a + other.torque_a,
+            torque_b: self.torque_b + other.torque_b,
+        }
+    }
+}
+
+/// A direction of freedom of two bodies: a unit force along u on the second and the opposite on the first.
+#[derive(Clone, Copy, Debug)]
+pub struct Direction<S: Space> {
+    /// u, world axes; 0 of moments alone.
+    pub along: S::Vector,
+    /// The moments `r × u` of a unit force along u on both bodies, each in its body's axes; the ground has none.
+    pub moments: [S::Moment; 2],
+}
+
+/// Adds a record to its two bodies; the world takes none.
+#[inline(always)]
+pub(crate) fn apply<S: Space>(wrenches: &mut [Wrench<S>], a: usize, b: usize, record: &Record<S>) {
+    if let Some(wrench) = wrenches.get_mut(a) {
+        wrench.force = wrench.force + record.force;
+        wrench.torque = wrench.torque + record.torque_a;
+    }
+    if let Some(wrench) = wrenches.get_mut(b) {
+        wrench.force = wrench.force - record.force;
+        wrench.torque = wrench.torque - record.torque_b;
+    }
+}
