@@ -8,6 +8,8 @@ mod info;
 mod kit;
 mod linked;
 mod list;
+mod rows;
+mod source;
 
 pub use info::InteractionInfo;
 #[doc(hidden)]
@@ -15,8 +17,10 @@ pub use inventory::submit;
 pub use kit::{Poses, hold};
 #[doc(hidden)]
 pub use linked::LinkedLaw;
-pub use list::{LawList, convert_words};
-pub(crate) use list::{Listed, SourceRows};
+pub use list::LawList;
+pub(crate) use rows::Listed;
+pub use rows::convert_words;
+pub(crate) use source::SourceRows;
 
 use std::sync::{Arc, PoisonError, RwLock};
 
@@ -26,7 +30,7 @@ use crate::assembly::Assembly;
 use crate::error::SceneError;
 use crate::laws::field::Reading;
 use crate::laws::linked::linked_laws;
-use crate::laws::list::Source;
+use crate::laws::source::Source;
 use crate::nearest::nearest;
 use crate::pair::Between;
 use crate::shortened::shortened;

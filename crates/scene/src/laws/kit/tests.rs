@@ -1,0 +1,127 @@
+use super::*;
+use dbd_kernel::laws::{Damper, EndStop, Hinge, HingeFriction, HingeStop, Springs};
+use dbd_kernel::space::Linear as _;
+use dbd_kernel::{BodyIndex, Real as _};
+
+const BODIES: [BodyIndex; 2] = [BodyIndex(0), BodyIndex(1)];
+
+fn hinge() -> Hinge<f64> {
+    Hinge { axis: Vec3::new(0.6, 0.0, 0.8), reference: Quaternion::IDENTITY }
+}
+
+fn end_stop(dissipation: f64) -> EndStop {
+    EndStop {
+        bodies: BODIES,
+        points: [Vec3::new(0.02, 0.0, 0.01), Vec3::new(0.0, -0.03, 0.02)],
+        normal: Vec3::new(0.0, 0.6, 0.8),
+        stiffness: 1e5,
+        dissipation,
+    }
+}
+
+#[test]
+fn the_projects_laws_keep_what_laws_promise() {
+    let poses = Poses::default();
+    hold(&end_stop(0.5), poses).unwrap();
+    let (from, to) = (-0.3, 0.2);
+    let stop =
+        HingeStop { bodies: BODIES, axis: hinge(), from, to, stiffness: 2e3, dissipation: 0.4 };
+    hold(&stop, poses).unwrap();
+    let friction = HingeFriction {
+        bodies: BODIES,
+        axis: hinge(),
+        coulomb: 4.0,
+        breakaway: 5.0,
+        stribeck: 0.05,
+        give: 1e-3,
+        damping: 0.1,
+        viscous: 0.2,
+    };
+    hold(&friction, poses).unwrap();
+}
+
+dbd_kernel::law! {
+    /// A spring of zero length that breaks a rule.
+    pub struct Broken = "broken" {
+        /// Where it is fixed.
+        points: Points,
+        /// Which rule.
+        rule: Count,
+    }
+}
+
+/// Counts how often it was settled.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Settled(i32);
+
+impl dbd_kernel::words::Words for Settled {
+    fn visit(&self, visitor: &mut impl dbd_kernel::words::WordVisitor) {
+        visitor.word(dbd_kernel::words::Word::I32(self.0));
+    }
+    fn fill(&mut self, source: &mut impl dbd_kernel::words::WordSource) {
+        self.0 = source.take(4) as i32;
+    }
+}
+
+impl<P: dbd_kernel::Geometry> Interaction<P> for Broken<P> {
+    type State = Settled;
+    type Dampers = [(); 1];
+
+    fn settle(&self, _: &Seen<'_, P>, state: &mut Settled) {
+        state.0 += i32::from(self.rule == 1);
+    }
+    fn record(&self, seen: &Seen<'_, P>, _: &Settled) -> Option<Record<P::Space>> {
+        let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
+        let way = P::displacement(&a.0, &b.0);
+        let arms = if self.rule == 2 { [b.1, b.1] } else { [a.1, b.1] };
+        Some(seen.pull(&seen.along(way, arms), P::Real::ONE))
+    }
+    fn energy(&self, seen: &Seen<'_, P>, _: &Settled) -> P::Real {
+        let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
+        let way = P::displacement(&a.0, &b.0);
+        if self.rule == 3 { way.dot(way) } else { P::Real::HALF * way.dot(way) }
+    }
+    fn tangent(&self, seen: &Seen<'_, P>, _: &Settled, visit: Springs<'_, P>) -> [P::Real; 2] {
+        let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
+        let way = P::displacement(&a.0, &b.0);
+        if self.rule == 4 {
+            return [P::Real::ZERO; 2];
+        }
+        for axis in P::Vector::axes() {
+            visit(P::Real::ONE, &seen.along(axis, [a.1, b.1]));
+        }
+        [a.1, b.1].map(|arm| (way.dot(way) * arm.dot(arm)).sqrt())
+    }
+    fn dampers(&self, seen: &Seen<'_, P>, _: &Settled, visit: &mut impl FnMut(Damper<P>)) {
+        let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
+        let arms = if self.rule == 7 { [a.1, a.1] } else { [a.1, b.1] };
+        let direction = seen.along(P::displacement(&a.0, &b.0), arms);
+        let c = if self.rule == 5 { -P::Real::ONE } else { P::Real::ONE };
+        visit(Damper::new(c, direction));
+        if self.rule == 6 {
+            visit(Damper::new(c, direction));
+        }
+    }
+}
+
+#[test]
+fn a_law_that_breaks_a_rule_is_told_which() {
+    let points = [Vec3::new(0.02, 0.0, 0.01), Vec3::new(0.0, -0.03, 0.02)];
+    let broken = |rule| hold(&Broken { bodies: BODIES, points, rule }, Poses::default());
+    broken(0).unwrap();
+    for (rule, says) in [
+        (1, "settling twice"),
+        (2, "angular momentum is not kept"),
+        (3, "not minus the gradient"),
+        (4, "the tangent is too small"),
+        (5, "a damper gives"),
+        (6, "more than it says"),
+        (7, "damper 1: angular momentum"),
+    ] {
+        let why = broken(rule).unwrap_err();
+        assert!(why.contains(says), "{rule}: {why}");
+    }
+    let away = EndStop { points: [Vec3::ZERO, Vec3::new(0.0, 1.0, 1.0)], ..end_stop(0.0) };
+    let near = Poses { reach: 1e-9, turn: 1e-9, ..Poses::default() };
+    assert!(hold(&away, near).unwrap_err().contains("in no pose"));
+}
