@@ -118,10 +118,11 @@ impl<V: Register, S: InLanes> Members<V, S> {
     /// A block of steps; whether any member still runs.
     fn block(&mut self, steps: u64) -> bool {
         if self.plants.iter().any(|plant| !plant.model().laws.is_empty()) {
-            return self
-                .plants
-                .iter_mut()
-                .fold(false, |any, plant| plant.advance(steps).is_running() || any);
+            let mut running = false;
+            for plant in &mut self.plants {
+                running |= plant.advance(steps).is_running();
+            }
+            return running;
         }
         self.seat();
         let apart: Vec<usize> =
