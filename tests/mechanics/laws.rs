@@ -195,7 +195,9 @@ fn friction_stops_a_disc_and_holds_it() {
         let [angle, rate] = stop;
         // ω²·J/(2·M) = 0.16 rad, and what it gives.
         assert!((angle - 0.16).abs() < 2e-3, "{name}: {angle}");
-        assert!(rate.abs() < 1e-5, "{name}: {rate:e}");
+        // In single precision the last digit of an angle of 0.16 rad pulls at its give.
+        let digits = if name == "f64" { 1e-6 } else { 5e-4 };
+        assert!(rate.abs() < digits, "{name}: {rate:e}");
     }
 }
 
@@ -217,14 +219,21 @@ fn what_sticks_does_not_creep_and_goes_on_from_a_snapshot() {
     let model: SceneModel<F32> = scene.model.convert();
     let mut plant = Plant::new(&model, Leapfrog, 5e-5).unwrap();
     let drive = scene.inputs[0].index;
-    plant.set_input(drive, 0.4).unwrap();
-    plant.advance(100_000).ok().unwrap();
     let turn = |plant: &Plant<&SceneModel<F32>, Leapfrog>| {
         let q = plant.state().bodies[0].orientation;
         2.0 * f64::from(q.v.z).atan2(f64::from(q.w))
     };
+    // A torque that comes at once would overshoot its limit.
+    for part in 1..=4_000 {
+        plant.set_input(drive, 1e-4 * f64::from(part)).unwrap();
+        plant.step().ok().unwrap();
+    }
+    plant.advance(20_000).ok().unwrap();
+    let early = turn(&plant);
+    plant.advance(100_000).ok().unwrap();
     let before = turn(&plant);
     assert!((before - 0.4e-3).abs() < 2e-5, "{before:e}");
+    assert!((before - early).abs() < 1e-6, "{before:e} {early:e}");
     let mut bytes = vec![0; plant.snapshot_size()];
     let size = plant.snapshot(&mut bytes).unwrap();
     let mut other = Plant::new(&model, Leapfrog, 5e-5).unwrap();
