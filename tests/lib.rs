@@ -33,6 +33,7 @@ pages! {
     golden "docs/golden.md"
     import "docs/import.md"
     joints "docs/joints.md"
+    laws "docs/laws.md"
     measured "docs/measured.md"
     method "docs/method.md"
     near_rigid "docs/near-rigid.md"

@@ -43,7 +43,12 @@ impl Target for SnapshotTarget {
         let mut bytes = Unstructured::new(input);
         let scene = &SCENES[below(&mut bytes, SCENES.len())];
         let method = method(&mut bytes);
-        let mut plant = plant(scene, &method, STEP).map_err(|e| Finding::new("a plant", e))?;
+        let mut plant = match plant(scene, &method, STEP) {
+            Ok(plant) => plant,
+            // What a law remembers is not for every scheme, and no law for comparison.
+            Err(PlantError::Memory { .. } | PlantError::Laws { .. }) => return Ok(Reach::Refused),
+            Err(error) => return Err(Finding::new("a plant", error)),
+        };
         let _ = plant.advance(u64::from(byte(&mut bytes) % 4));
         let Ok(valid) = plant.snapshot() else { return Ok(Reach::Refused) };
         let wanted = wanted(&mut bytes, &valid);
