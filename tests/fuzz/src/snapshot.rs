@@ -8,7 +8,7 @@
 use std::sync::LazyLock;
 
 use arbitrary::Unstructured;
-use dbd_plant::{AnyPlant, Method, PrecisionName, SchemeName, plant};
+use dbd_plant::{AnyPlant, Method, PlantError, PrecisionName, SchemeName, plant};
 use dbd_scene::Scene;
 use fastrand::Rng;
 
