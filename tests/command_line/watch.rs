@@ -79,14 +79,26 @@ fn dampers_may_take_and_not_give() {
     assert!(totals[totals.len() - 1] - least > 1e-3);
 }
 
+/// What loads and inputs give is no error, however much; what the balance does not explain is one.
 #[test]
-fn the_work_of_loads_counts() {
+fn the_work_of_loads_is_no_error() {
     let folder = Folder::new();
-    let pushed = format!("{PENDULUM}[[load]]\nbody = \"bob\"\ntorque = [0, 0, 1]\n");
-    let (exit, summary, said, totals) = watched(&folder, &pushed, &["--watch-energy", "0.5"]);
-    assert_eq!((exit, &summary["watch_energy"]["watched"]), (Exit::Failed, &"change".into()));
-    assert!(said.contains("off that at t = 0") && said.contains("higher limit"), "{said}");
-    assert!((totals[totals.len() - 1] - totals[0]).abs() > 0.5);
+    let load = "[[load]]\nbody = \"bob\"\ntorque = [0, 0, 1]\nfrom = 0.2\n";
+    let input = "[[input]]\nname = \"t\"\ntype = \"torque\"\nbody = \"bob\"\naxis = [0, 0, 1]\nvalue = 2\n";
+    for driven in [load, input] {
+        let pushed = format!("{PENDULUM}{driven}");
+        let (exit, summary, said, totals) = watched(&folder, &pushed, &["--watch-energy", "1e-3"]);
+        assert_eq!((exit, said.as_str()), (Exit::Done, ""));
+        assert_eq!(summary["watch_energy"]["watched"], "balance");
+        assert!((totals[totals.len() - 1] - totals[0]).abs() > 0.3, "{totals:?}");
+        let remains = summary["energy_balance"]["remains"].as_f64().unwrap().abs();
+        let largest = summary["watch_energy"]["largest"].as_f64().unwrap();
+        assert!(remains <= largest && largest < 1e-3, "{summary}");
+        let limit = format!("{}", 0.5 * largest);
+        let (exit, _, said, seen) = watched(&folder, &pushed, &["--watch-energy", &limit]);
+        assert!(seen.len() < totals.len() && exit == Exit::Failed);
+        assert!(said.contains("unexplained at the sample") && said.contains("shorter step"), "{said}");
+    }
 }
 
 #[test]

@@ -165,7 +165,7 @@ fn an_input_is_set_in_the_plants_number_or_in_double_precision() {
     });
 }
 
-/// A controller sets inputs in every step: one evaluation per step, and the bits of a plant that evaluates anew.
+/// A controller sets inputs in every step: one evaluation per step, with the bits of a plant that evaluates twice.
 #[test]
 fn an_input_set_in_every_step_costs_no_evaluation() {
     fn is_kept<P: Geometry, S: Scheme>(scheme: S, damping: f64, more: u64) {
@@ -181,17 +181,17 @@ fn an_input_set_in_every_step_costs_no_evaluation() {
         let force = InputKind::Force { body: b, point, direction, frame: LoadFrame::Body };
         let force = model.add_input(force, 0.0).unwrap();
         let mut plant = Plant::new(&model, scheme, 1e-4).unwrap();
-        let mut anew = Plant::new(&model, scheme, 1e-4).unwrap();
+        let mut twice = Plant::new(&model, scheme, 1e-4).unwrap();
         for i in 0..200 {
-            for plant in [&mut plant, &mut anew] {
+            for plant in [&mut plant, &mut twice] {
                 plant.set_input(turn, 0.01 * f64::from(i)).unwrap();
                 plant.set_input(pull, f64::from(i % 7)).unwrap();
                 plant.set_input(force, -0.1 * f64::from(i % 5)).unwrap();
             }
-            anew.resume(anew.state().clone());
+            twice.resume(twice.state().clone());
             plant.step().ok().unwrap();
-            anew.step().ok().unwrap();
-            assert_eq!(plant.hash(), anew.hash(), "{} step {i}", P::NAME);
+            twice.step().ok().unwrap();
+            assert_eq!(plant.hash(), twice.hash(), "{} step {i}", P::NAME);
         }
         assert_eq!(plant.evaluations(), 200 + more, "{}", P::NAME);
     }

@@ -292,6 +292,24 @@ fn a_stop_of_turns_holds_in_space_and_in_the_plane() {
     );
 }
 
+/// A memory that only counts turns goes with schemes that step back in time, too.
+#[test]
+fn a_stop_of_turns_goes_with_every_scheme() {
+    fn turned<S: Scheme>(scheme: S) -> f64 {
+        let stop = "name = \"stop\"\nduration = 1\n[[body]]\nname = \"disc\"\nmass = 1\n\
+                    inertia = [0.01, 0.01, 0.01]\nposition = [0, 0, 0]\nangular_velocity = [0, 0, 3]\n\
+                    [[interaction]]\nlaw = \"hinge-stop\"\nbetween = [\"world\", \"disc\"]\n\
+                    axis = [0, 0, 1]\nfrom = -1\nto = 0.1\nstiffness = 100\n";
+        let model = scene(stop).model.planned();
+        let mut plant = Plant::new(&model, scheme, 1e-4).unwrap();
+        plant.advance(1_000).ok().unwrap();
+        plant.state().bodies[0].angular_velocity.z
+    }
+    for rate in [turned(Pefrl), turned(BlanesMoanS6), turned(Rk4), turned(Leapfrog)] {
+        assert!((rate + 3.0).abs() < 2e-2, "{rate}");
+    }
+}
+
 /// Ten turns on, a stop is where it was.
 #[test]
 fn a_stop_counts_whole_turns() {

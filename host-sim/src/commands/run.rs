@@ -318,7 +318,8 @@ impl Observer for Recorder<'_, '_> {
             balance.advance(sample.state.step);
         }
         if let Some(watch) = &mut self.watch {
-            watch.look(sample.time, sample.energy.total());
+            let remains = self.balance.as_ref().map(|balance| balance.balance().remains);
+            watch.look(sample.time, sample.energy.total(), remains);
         }
         if let Some(golden) = &mut self.golden {
             golden.sample(sample).map_err(io::Error::other)?;

@@ -283,6 +283,7 @@ impl Summary {
             let of = match watch.watched {
                 Watched::Change => "change from the start",
                 Watched::Rise => "rise above the least before",
+                Watched::Balance => "left by the balance",
             };
             rows.push(("energy, watched", format!("{of} ≤ {largest} J, {limit} J allowed")));
         }

@@ -2,8 +2,8 @@
 //!
 //! `(limit, scene, energies of samples) => the first sample beyond`. Where nothing gives or takes energy
 //! its change from the start is watched, either way. Dampers take some: then it is the rise above
-//! the least so far, which no damper makes. Loads and inputs give and take: then it is the change
-//! again, and what they do counts.
+//! the least so far, which no damper makes. Loads and inputs give and take: then it is what the
+//! energy balance leaves unexplained, either way.
 
 use std::fmt;
 use std::str::FromStr;
@@ -52,6 +52,8 @@ pub enum Watched {
     Change,
     /// E less the least of the samples before.
     Rise,
+    /// The magnitude of what the energy balance leaves unexplained.
+    Balance,
 }
 
 /// A watch and what it saw.
@@ -76,13 +78,17 @@ impl EnergyWatch {
     pub fn new(scene: &Scene, limit: EnergyLimit) -> Self {
         let model = &scene.model;
         let driven = !(model.loads.is_empty() && model.inputs.is_empty());
-        let watched =
-            if driven || conserves_energy(scene) { Watched::Change } else { Watched::Rise };
+        let watched = match driven {
+            true => Watched::Balance,
+            false if conserves_energy(scene) => Watched::Change,
+            false => Watched::Rise,
+        };
         Self { limit: limit.joules(), watched, largest: 0.0, stopped_at: None, reference: None }
     }
 
-    /// Looks at the total energy \[J\] of the sample at `time` \[s\].
-    pub fn look(&mut self, time: f64, energy: f64) {
+    /// Looks at the sample at `time` \[s\]: its total energy \[J\], and what its balance, if it has one, leaves
+    /// unexplained \[J\].
+    pub fn look(&mut self, time: f64, energy: f64, remains: Option<f64>) {
         let reference = *self.reference.get_or_insert(energy);
         let figure = match self.watched {
             Watched::Change => (energy - reference).abs(),
@@ -90,6 +96,7 @@ impl EnergyWatch {
                 self.reference = Some(reference.min(energy));
                 energy - reference
             }
+            Watched::Balance => remains.unwrap_or(energy - reference).abs(),
         };
         self.largest = self.largest.max(figure);
         if figure > self.limit {
@@ -123,9 +130,10 @@ impl EnergyStop {
     #[must_use]
     pub fn advice(&self) -> &'static str {
         match self.watched {
-            Watched::Change => {
-                "a shorter step or another scheme keeps the energy closer; what loads, inputs and \
-                 dampers give and take needs a higher limit"
+            Watched::Change => "a shorter step or another scheme keeps the energy closer",
+            Watched::Balance => {
+                "a shorter step, another scheme or explicit dampers keep the energy closer to what \
+                 loads, inputs and dampers give and take"
             }
             Watched::Rise => "a shorter step or another scheme; no damper raises the energy",
         }
@@ -147,6 +155,13 @@ impl fmt::Display for EnergyStop {
                 write!(
                     f,
                     "the total energy of the sample at t = {time} is {figure} J above the least before"
+                )?;
+            }
+            Watched::Balance => {
+                write!(
+                    f,
+                    "the work of loads, inputs and dampers leaves {figure} J of the total energy \
+                     unexplained at the sample at t = {time}"
                 )?;
             }
         }
@@ -185,7 +200,7 @@ mod tests {
                 reference: None,
             };
             for (i, energy) in energies.iter().enumerate() {
-                watch.look(i as f64, *energy);
+                watch.look(i as f64, *energy, None);
             }
             (watch.largest, watch.stopped_at)
         };

@@ -72,11 +72,11 @@ impl<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool> DamperPass<P>
         for i in 0..count {
             let i = if REVERSE { count - 1 - i } else { i };
             let (Some(damper), Some(share)) = (dampers.get(i), shares.get(i)) else { break };
-            // An idle damper does nothing at any rate; nor does one without bounds to either side.
+            // Its impulse would be 0.
             if P::Real::LANES == 1 && damper.coefficient == P::Real::ZERO {
                 continue;
             }
-            let bounds = damper.bounds.map(|bound| bound * sweep.h);
+            let bounds = damper.bounds().map(|bound| bound * sweep.h);
             let known = sweep.damper::<REVERSE>(damper.coefficient, share);
             pair.damp_within::<P, K>(&damper.direction, known, (damper.rate, bounds));
         }

@@ -2,7 +2,8 @@
 //!
 //! `(model, pose, velocities, turn counts, step) => wrenches`. The order of sums, which is part
 //! of the bits: a body starts from its weight, or from nothing where a precision lets bodies fall otherwise
-//! ([`Geometry::FALLS`]), then adds its loads in ascending order, then the records of its groups likewise, then its torsion springs', then those of its laws, table by table.
+//! ([`Geometry::FALLS`]), then adds its loads in ascending order, then the records of its groups likewise, then its torsion
+//! springs', then those of its laws, table by table, and last, its torque in body axes, its inputs in ascending order.
 //! Within a TSDA group each distinct point is placed once; the pulls on a point are added in
 //! the order of its elements; the record's force and torque on A add star by star, the torque
 //! on B arm by arm. Where a precision keeps stars at rest, the pulls of two stars add in the axes of B, and a

@@ -154,7 +154,7 @@ pub struct Seen<'s, P: Geometry> {
 }
 
 impl<P: Geometry> Seen<'_, P> {
-    /// The value of an input; 0 where there is none.
+    /// \[N, N·m, m\] The value of an input; 0 where the model has no such input.
     #[inline(always)]
     #[must_use]
     pub fn input(&self, input: InputIndex) -> P::Real {

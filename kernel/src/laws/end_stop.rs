@@ -88,7 +88,7 @@ impl<P: Geometry> Interaction<P> for EndStop<P> {
         let Contact { direction, depth, .. } = self.contact(seen);
         let force = self.stiffness * depth;
         let damper = Damper::new(self.dissipation * force, direction);
-        let least = damper.bounds[0];
+        let least = damper.bounds()[0];
         visit(damper.within(least, force));
     }
 

@@ -87,7 +87,7 @@ impl<P: Geometry> Interaction<P> for HingeStop<P> {
         let Some(Stopped { direction, beyond, .. }) = self.stopped(seen, *turns) else { return };
         let (torque, zero) = (self.stiffness * beyond, P::Real::ZERO);
         let damper = Damper::new(self.dissipation * torque.abs(), direction);
-        let [least, most] = damper.bounds;
+        let [least, most] = damper.bounds();
         // Together with the spring it never pulls towards the stop.
         let upper = zero.less_than(torque);
         visit(

@@ -48,8 +48,8 @@ pub struct Damper<P: Geometry> {
     pub direction: Direction<P::Space>,
     /// \[m/s, rad/s\] the rate r₀ at which it does nothing.
     pub rate: P::Real,
-    /// \[N, N·m\] the least and the largest mean tension over the time it acts.
-    pub bounds: [P::Real; 2],
+    /// \[N, N·m\] the least mean tension over the time it acts, at most 0, and the largest, at least 0.
+    bounds: [P::Real; 2],
 }
 
 /// Beyond any force, and its product with any step is a number in single precision.
@@ -64,11 +64,21 @@ impl<P: Geometry> Damper<P> {
         Self { coefficient, direction, rate: P::Real::ZERO, bounds: [-most, most] }
     }
 
-    /// With bounds of its tension \[N, N·m\]: `within(least, most)`.
+    /// With bounds of its tension \[N, N·m\]: `within(least, most)`. Both contain 0: a bound never pushes.
     #[inline(always)]
     #[must_use]
     pub fn within(self, least: P::Real, most: P::Real) -> Self {
+        let zero = P::Real::ZERO;
+        let least = P::Real::pick(zero.less_than(least), zero, least);
+        let most = P::Real::pick(most.less_than(zero), zero, most);
         Self { bounds: [least, most], ..self }
+    }
+
+    /// The bounds \[N, N·m\], the least tension and the largest.
+    #[inline(always)]
+    #[must_use]
+    pub fn bounds(&self) -> [P::Real; 2] {
+        self.bounds
     }
 
     /// Towards a rate \[m/s, rad/s\].
@@ -78,9 +88,10 @@ impl<P: Geometry> Damper<P> {
         Self { rate, ..self }
     }
 
-    /// \[N, N·m\] its tension at a rate along its direction.
+    /// \[N, N·m\] its tension at a rate \[m/s, rad/s\] along its direction.
     #[inline(always)]
-    pub(crate) fn tension(&self, rate: P::Real) -> P::Real {
+    #[must_use]
+    pub fn tension(&self, rate: P::Real) -> P::Real {
         let tension = self.coefficient * (rate - self.rate);
         let [least, most] = self.bounds;
         let tension = P::Real::pick(most.less_than(tension), most, tension);
@@ -150,6 +161,9 @@ pub trait Interaction<P: Geometry>: Constants<P> {
     type Dampers: Several;
     /// Whether it brings its memory on by [`Self::advance`], once per step.
     const ADVANCES: bool = false;
+    /// Whether its energy falls as its memory is settled, as that of friction does: schemes with steps back in time
+    /// refuse it then. A memory that only counts turns loses nothing.
+    const SLIPS: bool = Self::ADVANCES;
     /// Whether what it does depends on inputs: an input that is set costs an evaluation then.
     const DRIVEN: bool = false;
     /// What [`Self::read`] shows.

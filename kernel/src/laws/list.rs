@@ -17,7 +17,7 @@ pub trait Laws<P: Geometry>: Send + Sync + 'static {
     type States: Clone + Send + Sync + 'static;
     /// Shares of their dampers.
     type Shares: Clone + Send + Sync + 'static;
-    /// Whether there is none.
+    /// Whether the list has no table.
     const EMPTY: bool;
     /// Whether any may have dampers.
     const DAMPED: bool;
@@ -53,7 +53,7 @@ pub trait Laws<P: Geometry>: Send + Sync + 'static {
         shares: &Self::Shares,
         pass: &mut dyn DamperPass<P>,
     );
-    /// Looks at a row; not where there is none.
+    /// Hands a row to `look`; does nothing where the list has no such row.
     fn look(&self, row: usize, states: &Self::States, look: &mut dyn FnMut(&dyn Row<P>));
     /// The share of a damper of a row.
     fn share_mut<'s>(
@@ -66,7 +66,7 @@ pub trait Laws<P: Geometry>: Send + Sync + 'static {
     fn visit(states: &Self::States, visitor: &mut dyn WordVisitor);
     /// Takes them from a source.
     fn fill(states: &mut Self::States, source: &mut dyn WordSource);
-    /// The first law with a memory, and whether it is brought on by steps: those come first.
+    /// The first law whose memory may lose energy, and whether steps bring it on: those come first.
     fn memory(&self) -> Option<(&'static str, bool)>;
 
     /// Visits every row in order.

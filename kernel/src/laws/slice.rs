@@ -116,11 +116,11 @@ pub fn fill<P: Geometry, T: Interaction<P>>(states: &mut [T::State], source: &mu
     states.iter_mut().for_each(|state| state.fill(&mut Source(source)));
 }
 
-/// The law's name where it has a memory, and whether steps bring it on.
+/// The law's name where its memory may lose energy, and whether steps bring it on.
 #[must_use]
 pub fn memory<P: Geometry, T: Interaction<P>>(rows: &[T]) -> Option<(&'static str, bool)> {
-    let remembers = size_of::<T::State>() > 0 && !rows.is_empty();
-    remembers.then_some((T::NAME, T::ADVANCES))
+    let slips = (T::SLIPS || T::ADVANCES) && !rows.is_empty();
+    slips.then_some((T::NAME, T::ADVANCES))
 }
 
 /// A visitor known by its table of functions.

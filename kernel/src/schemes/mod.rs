@@ -47,7 +47,7 @@ pub trait Scheme: Copy {
     const DAMPING: Damping;
     /// Whether what it remembers of a body goes on from step to step: it is part of a snapshot then.
     const REMEMBERS: bool = false;
-    /// Whether memories of laws may be settled at its evaluations: not where it steps back in time.
+    /// Whether memories that lose energy may be settled at its evaluations: not where it steps back in time.
     const SETTLES: bool = true;
     /// Whether it brings memories of laws on by its steps: it evaluates once per step, at its end.
     const ADVANCES: bool = false;

@@ -417,3 +417,26 @@ fn the_scenes_have_what_lanes_decide_by() {
     assert!(any(|model| model.dampers.is_empty()));
     assert!(any(|model| model.dampers.len() > 30));
 }
+
+/// Instances with interactions have the bits of plants of their own.
+#[test]
+fn instances_with_interactions_go_one_by_one() {
+    let of = |speed: f64| {
+        let text = format!(
+            "name = \"b\"\nduration = 1\n[[body]]\nname = \"ball\"\nmass = 1\ninertia = [1, 1, 1]\n\
+             position = [0, 0.001, 0]\nvelocity = [0, -{speed}, 0]\n[[interaction]]\n\
+             law = \"end-stop\"\nbetween = [\"world\", \"ball\"]\npoints = [[0, 0, 0], [0, 0, 0]]\n\
+             normal = [0, 1, 0]\nstiffness = 1e5\ndissipation = 0.6\n"
+        );
+        Scene::parse(&text, "b.toml").unwrap().model
+    };
+    let models: Vec<_> = [1.0, 0.5, 2.0, 0.1, 3.0].map(of).to_vec();
+    let mut ensemble = crate::Ensemble::new(models.clone(), Leapfrog, 1e-4).unwrap();
+    ensemble.advance(300);
+    for (i, model) in models.iter().enumerate() {
+        let mut plant = Plant::new(model, Leapfrog, 1e-4).unwrap();
+        plant.advance(300).ok().unwrap();
+        assert_eq!(ensemble.plant(i).hash(), plant.hash(), "{i}");
+        assert!(plant.state().bodies[0].velocity.y > 0.0, "{i} has met its stop");
+    }
+}

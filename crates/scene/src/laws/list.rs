@@ -83,7 +83,7 @@ impl<P: Geometry> LawList<P> {
         self.tables.iter().map(|table| (&*table.source, table.rows.dampers()))
     }
 
-    /// Whether there is none.
+    /// Whether the list has no table.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.tables.is_empty()

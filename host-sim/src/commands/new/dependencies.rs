@@ -11,6 +11,8 @@ pub(super) struct Dependencies {
     pub(super) scene: String,
     /// Of `host-sim`.
     pub(super) host_sim: String,
+    /// Of `dbd-fmu`.
+    pub(super) fmu: String,
     /// Where they come from, for people.
     pub(super) origin: String,
 }
@@ -31,6 +33,7 @@ impl Dependencies {
                 kernel: in_folder(&format!("{root}/kernel")),
                 scene: in_folder(&format!("{root}/crates/scene")),
                 host_sim: in_folder(&format!("{root}/host-sim")),
+                fmu: in_folder(&format!("{root}/crates/fmu")),
                 origin: format!("its crates are those in {root}"),
             },
             None => {
@@ -39,6 +42,7 @@ impl Dependencies {
                 Self {
                     kernel: published.clone(),
                     host_sim: published.clone(),
+                    fmu: published.clone(),
                     scene: published,
                     origin: format!("its crates are the published ones, version {version}"),
                 }

@@ -2,13 +2,12 @@
 //!
 //! `name => folder`. The files are those of `templates/laws/`.
 
-use std::io;
 use std::path::PathBuf;
 
 use clap::Args;
 
 use super::dependencies::Dependencies;
-use super::{NewError, Place, filled, folder};
+use super::{NewError, Place};
 
 /// Files of a project and what they are made from.
 const TEMPLATES: &[(&str, &str)] = &[
@@ -21,6 +20,8 @@ const TEMPLATES: &[(&str, &str)] = &[
     ("tests/laws.rs", include_str!("../../../templates/laws/tests.rs.in")),
     ("program/Cargo.toml", include_str!("../../../templates/laws/program.toml.in")),
     ("program/src/main.rs", include_str!("../../../templates/laws/main.rs.in")),
+    ("fmu/Cargo.toml", include_str!("../../../templates/laws/fmu.toml.in")),
+    ("fmu/src/lib.rs", include_str!("../../../templates/laws/fmu.rs.in")),
     ("scenes/drop.toml", include_str!("../../../templates/laws/drop.toml.in")),
 ];
 
@@ -48,16 +49,10 @@ pub fn laws(arguments: &LawsArguments) -> Result<String, NewError> {
         ("kernel", dependencies.kernel.clone()),
         ("scene_crate", dependencies.scene.clone()),
         ("host_sim", dependencies.host_sim.clone()),
+        ("fmu", dependencies.fmu.clone()),
         ("origin", capital(&dependencies.origin)),
     ];
-    let files: Vec<(PathBuf, String)> = TEMPLATES
-        .iter()
-        .map(|(path, template)| (PathBuf::from(path), filled(template, values)))
-        .collect();
-    folder::write(place.folder, &files).map_err(|reason| match reason.kind() {
-        io::ErrorKind::AlreadyExists => NewError::Taken { path: place.folder.to_owned() },
-        _ => NewError::Write { path: place.folder.to_owned(), reason },
-    })?;
+    place.write(TEMPLATES, values, Vec::new())?;
     Ok(format!(
         "{0}: two laws of one's own, `drag` and `cam`; {1}\n\n  cd {0}\n  cargo test    the laws keep what laws \
          promise\n  cargo run --release -p {2}-sim -- run scenes/drop.toml    host-sim that knows them\n",
@@ -88,5 +83,7 @@ mod tests {
         }
         let main = std::fs::read_to_string(folder.join("program/src/main.rs")).unwrap();
         assert!(main.contains("my_laws::Drag"), "{main}");
+        let library = std::fs::read_to_string(folder.join("fmu/src/lib.rs")).unwrap();
+        assert!(library.contains("{ my_laws::Drag, my_laws::Cam }"), "{library}");
     }
 }

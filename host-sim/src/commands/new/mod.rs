@@ -154,6 +154,22 @@ impl<'p> Place<'p> {
         let name = name.or(folder.to_str()).unwrap_or_default();
         name::check(name).map(|()| Self { name, folder })
     }
+
+    /// Writes the files of templates with their values, and others.
+    fn write(
+        &self,
+        templates: &[(&str, &str)],
+        values: &[(&str, String)],
+        others: Vec<(PathBuf, String)>,
+    ) -> Result<(), NewError> {
+        let made = templates.iter().map(|(path, text)| (PathBuf::from(path), filled(text, values)));
+        let files: Vec<(PathBuf, String)> = made.chain(others).collect();
+        let path = self.folder.to_owned();
+        folder::write(self.folder, &files).map_err(|reason| match reason.kind() {
+            io::ErrorKind::AlreadyExists => NewError::Taken { path },
+            _ => NewError::Write { path, reason },
+        })
+    }
 }
 
 /// Writes a project of a scene and says what to type next.
@@ -204,22 +220,14 @@ fn project(
         ("hints", hints(scene, &suffix)),
         ("constants", constants(scene, &suffix)),
     ];
-    let mut files: Vec<(PathBuf, String)> = TEMPLATES
-        .iter()
-        .map(|(path, template)| (PathBuf::from(path), filled(template, values)))
-        .collect();
-    files.push((PathBuf::from(&file), found.text.clone()));
-    files.push((PathBuf::from("tests/golden.txt"), golden));
-    let folder = place.folder;
-    folder::write(folder, &files).map_err(|reason| match reason.kind() {
-        io::ErrorKind::AlreadyExists => NewError::Taken { path: folder.to_owned() },
-        _ => NewError::Write { path: folder.to_owned(), reason },
-    })?;
+    let scene_file = (PathBuf::from(&file), found.text.clone());
+    let golden_file = (PathBuf::from("tests/golden.txt"), golden);
+    place.write(TEMPLATES, values, vec![scene_file, golden_file])?;
     Ok(format!(
         "{0}: the scene {1} as a plant in firmware: {3}; {2}\n{4}\n  cd {0}\n  cargo test    golden bits on the \
          PC\n  cargo qemu    the same bits on a Cortex-M4F in QEMU; README.md says what to install\n  cargo \
          cost    instructions of a step there: {5}\n",
-        folder.display(),
+        place.folder.display(),
         scene.name,
         dependencies.origin,
         choice.words(),

@@ -69,6 +69,7 @@ impl<P: dbd_kernel::Geometry> Interaction<P> for Broken<P> {
 
     fn settle(&self, _: &Seen<'_, P>, state: &mut Settled) {
         state.0 += i32::from(self.rule == 1);
+        state.0 |= i32::from(self.rule == 8);
     }
     fn record(&self, seen: &Seen<'_, P>, _: &Settled) -> Option<Record<P::Space>> {
         let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
@@ -76,10 +77,11 @@ impl<P: dbd_kernel::Geometry> Interaction<P> for Broken<P> {
         let arms = if self.rule == 2 { [b.1, b.1] } else { [a.1, b.1] };
         Some(seen.pull(&seen.along(way, arms), P::Real::ONE))
     }
-    fn energy(&self, seen: &Seen<'_, P>, _: &Settled) -> P::Real {
+    fn energy(&self, seen: &Seen<'_, P>, state: &Settled) -> P::Real {
         let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
         let way = P::displacement(&a.0, &b.0);
-        if self.rule == 3 { way.dot(way) } else { P::Real::HALF * way.dot(way) }
+        let held = if self.rule == 8 && state.0 == 0 { P::Real::ONE } else { P::Real::ZERO };
+        if self.rule == 3 { way.dot(way) } else { P::Real::HALF * way.dot(way) + held }
     }
     fn tangent(&self, seen: &Seen<'_, P>, _: &Settled, visit: Springs<'_, P>) -> [P::Real; 2] {
         let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
@@ -117,6 +119,7 @@ fn a_law_that_breaks_a_rule_is_told_which() {
         (5, "a damper gives"),
         (6, "more than it says"),
         (7, "damper 1: angular momentum"),
+        (8, "such a law has SLIPS"),
     ] {
         let why = broken(rule).unwrap_err();
         assert!(why.contains(says), "{rule}: {why}");
