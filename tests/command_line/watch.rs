@@ -84,7 +84,8 @@ fn dampers_may_take_and_not_give() {
 fn the_work_of_loads_is_no_error() {
     let folder = Folder::new();
     let load = "[[load]]\nbody = \"bob\"\ntorque = [0, 0, 1]\nfrom = 0.2\n";
-    let input = "[[input]]\nname = \"t\"\ntype = \"torque\"\nbody = \"bob\"\naxis = [0, 0, 1]\nvalue = 2\n";
+    let input =
+        "[[input]]\nname = \"t\"\ntype = \"torque\"\nbody = \"bob\"\naxis = [0, 0, 1]\nvalue = 2\n";
     for driven in [load, input] {
         let pushed = format!("{PENDULUM}{driven}");
         let (exit, summary, said, totals) = watched(&folder, &pushed, &["--watch-energy", "1e-3"]);
@@ -97,7 +98,10 @@ fn the_work_of_loads_is_no_error() {
         let limit = format!("{}", 0.5 * largest);
         let (exit, _, said, seen) = watched(&folder, &pushed, &["--watch-energy", &limit]);
         assert!(seen.len() < totals.len() && exit == Exit::Failed);
-        assert!(said.contains("unexplained at the sample") && said.contains("shorter step"), "{said}");
+        assert!(
+            said.contains("unexplained at the sample") && said.contains("shorter step"),
+            "{said}"
+        );
     }
 }
 

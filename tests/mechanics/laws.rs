@@ -148,6 +148,8 @@ fn a_const_model_has_the_bits_of_the_scene() {
             bodies: world,
             points: [zero; 2],
             normal: dbd_kernel::space::Linear::from_f64([0.0, 1.0, 0.0]),
+            from: P::Real::ZERO,
+            to: P::Real::from_f64(1e30),
             stiffness: P::Real::from_f64(1e5),
             dissipation: P::Real::from_f64(0.6),
         };
@@ -307,6 +309,87 @@ fn a_stop_of_turns_goes_with_every_scheme() {
     }
     for rate in [turned(Pefrl), turned(BlanesMoanS6), turned(Rk4), turned(Leapfrog)] {
         assert!((rate + 3.0).abs() < 2e-2, "{rate}");
+    }
+}
+
+/// A rope that becomes taut, spheres that touch and a slide at the upper end of its travel throw a ball back as a plane does.
+#[test]
+fn ropes_spheres_and_slides_rebound_as_planes_do() {
+    fn rebound<P: Geometry>(position: f64, speed: f64, law: &str) -> f64 {
+        let text = format!(
+            "name = \"stop\"\nduration = 1\n[[body]]\nname = \"ball\"\nmass = 1\ninertia = [1, 1, 1]\n\
+             position = [0, {position}, 0]\nvelocity = [0, {speed}, 0]\n[[interaction]]\nstiffness = 1e5\n\
+             dissipation = 0.6\nbetween = [\"world\", \"ball\"]\npoints = [[0, 0, 0], [0, 0, 0]]\n{law}"
+        );
+        let model: SceneModel<P> = scene(&text).model.convert();
+        let mut plant = Plant::new(&model, Leapfrog, 1e-5).unwrap();
+        plant.advance(3_000).ok().unwrap();
+        widen(plant.state()).bodies[0].velocity.y / -speed
+    }
+    let rope = "law = \"distance-stop\"\nto = 1.2\n";
+    let spheres = "law = \"distance-stop\"\nfrom = 0.3\n";
+    let slide = "law = \"end-stop\"\nnormal = [0, 1, 0]\nfrom = -1\nto = 0.4\n";
+    for (position, speed, law) in
+        [(1.199, 1.0, rope), (0.301, -1.0, spheres), (0.399, 1.0, slide), (-0.999, -1.0, slide)]
+    {
+        for found in [
+            rebound::<F64>(position, speed, law),
+            rebound::<F32>(position, speed, law),
+            rebound::<Fixed>(position, speed, law),
+        ] {
+            assert!((found - 0.711_950_18).abs() < 2e-3, "{law}: {found}");
+        }
+    }
+    // Within its length a rope does nothing, and points that may not meet do not meet.
+    assert_eq!(rebound::<F64>(0.5, 1e-3, rope), -1.0);
+    let stuck = "name = \"s\"\nduration = 1\n[[body]]\nname = \"ball\"\nmass = 1\ninertia = [1, 1, 1]\n\
+                 position = [0, 0, 0]\n[[interaction]]\nlaw = \"distance-stop\"\nfrom = 0.1\nstiffness = 1\n\
+                 between = [\"world\", \"ball\"]\npoints = [[0, 0, 0], [0, 0, 0]]\n";
+    let model = scene(stuck).model;
+    let mut plant = Plant::new(&model, Leapfrog, 1e-3).unwrap();
+    assert!(plant.step().ok().is_err());
+}
+
+/// A mass on a spring that rubs on its slide: each half swing is shorter by 2·F/k, and the eighth does not begin.
+#[test]
+fn friction_of_a_slide_ends_a_swing_and_holds() {
+    fn swing<P: Geometry>() -> [f64; 2] {
+        let text = r#"
+        name = "slide"
+        duration = 2
+        [[body]]
+        name = "block"
+        mass = 1
+        inertia = [1, 1, 1]
+        position = [-0.145, 0, 0]
+        [[tsda]]
+        between = ["world", "block"]
+        points = [[-1, 0, 0], [0, 0, 0]]
+        stiffness = 1000
+        free_length = 1
+        [[interaction]]
+        law = "slide-friction"
+        between = ["world", "block"]
+        points = [[0, 0, 0], [0, 0, 0]]
+        axis = [1, 0, 0]
+        coulomb = 10
+        breakaway = 10
+        give = 1e-4
+        damping = 100
+        "#;
+        let model: SceneModel<P> = scene(text).model.convert();
+        let mut plant = Plant::new(&model, Leapfrog, 1e-4).unwrap();
+        plant.advance(20_000).ok().unwrap();
+        let state = widen(plant.state());
+        [state.bodies[0].position.x, state.bodies[0].velocity.x]
+    }
+    for (name, [x, rate]) in
+        [("f64", swing::<F64>()), ("f32", swing::<F32>()), ("fixed", swing::<Fixed>())]
+    {
+        // Within 3·F over the stiffness of its give.
+        assert!((x - 0.005).abs() < 3e-4, "{name}: {x}");
+        let digits = if name == "f64" { 1e-9 } else { 1e-4 };
+        assert!(rate.abs() < digits, "{name}: {rate:e}");
     }
 }
 

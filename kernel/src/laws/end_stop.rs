@@ -1,24 +1,27 @@
-//! End stop: a point of B against a plane of A.
+//! End stops of a travel: a plane of A that stops a point of B, or two of them.
 //!
-//! Depth `x = −n·d ↦ F = k·x·(1 + a·ẋ)` along the plane's normal n where x > 0 (Hunt & Crossley, J. Appl. Mech. 42
-//! (1975) 440, with exponent 1). The spring is a force with the energy `½·k·x²`; the rest is a damper `a·k·x` whose
-//! tension never exceeds the spring's: it never pulls.
+//! Travel `n·d ↦ F = k·x·(1 + a·ẋ)` along the normal n, x beyond the range (Hunt & Crossley, J. Appl. Mech. 42 (1975)
+//! 440, with exponent 1). The spring is a force with the energy `½·k·x²`; the rest is a damper `a·k·x` whose tension
+//! never exceeds the spring's: it never pulls.
 
 use crate::geometry::Geometry;
+use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
 use crate::laws::interaction::{Damper, Interaction, Nothing, Quantity, Springs, Wrong};
-use crate::real::Real;
-use crate::record::Direction;
+use crate::laws::stop::{Stopped, check};
 use crate::record::Record;
-use crate::space::Linear as _;
 
 law! {
-    /// A point of the second body that a plane of the first one stops.
+    /// A point of the second body that planes of the first one stop.
     pub struct EndStop = "end-stop" {
-        /// A point of the plane and the point that it stops.
+        /// A point of the first body and the point that is stopped: their travel along the normal is what has a range.
         points: Points,
-        /// Normal of the plane, towards the free side.
+        /// Normal of the planes; without a range the point is free on its side of the first body's point.
         normal: Normal,
+        /// Lower end of the range.
+        from: Number("m") = 0.0,
+        /// Upper end of the range; 1e30 is none.
+        to: Number("m") = 1e30,
         /// Force per depth.
         stiffness: Number("N/m"),
         /// Hunt–Crossley coefficient a: the force is stiffness · depth · (1 + a · rate of the depth).
@@ -26,27 +29,11 @@ law! {
     }
 }
 
-struct Contact<P: Geometry> {
-    direction: Direction<P::Space>,
-    arms: [P::Vector; 2],
-    /// \[m\] from A's point to B's.
-    way: P::Vector,
-    /// \[m\] 0 where they do not touch.
-    depth: P::Real,
-}
-
 impl<P: Geometry> EndStop<P> {
     #[inline(always)]
-    fn contact(&self, seen: &Seen<'_, P>) -> Contact<P> {
-        let ((at_a, arm_a), (at_b, arm_b)) =
-            (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
-        let (way, normal) = (P::displacement(&at_a, &at_b), seen.a.to_world(self.normal));
-        let zero = P::Real::ZERO;
-        let depth = -normal.dot(way);
-        let depth = P::Real::pick(zero.less_than(depth), depth, zero);
-        // The force on A acts where B's point is: both then lie on one line.
-        let direction = seen.along(normal, [seen.a.arm_at(arm_a, way), arm_b]);
-        Contact { direction, arms: [arm_a, arm_b], way, depth }
+    fn stopped(&self, seen: &Seen<'_, P>) -> Stopped<P> {
+        let travel = Coordinate::travel(seen, &self.points, self.normal);
+        Stopped::within(travel, [self.from, self.to], self.stiffness)
     }
 }
 
@@ -57,48 +44,27 @@ impl<P: Geometry> Interaction<P> for EndStop<P> {
 
     #[inline(always)]
     fn record(&self, seen: &Seen<'_, P>, _: &Nothing) -> Option<Record<P::Space>> {
-        let Contact { direction, depth, .. } = self.contact(seen);
-        Some(seen.pull(&direction, -(self.stiffness * depth)))
+        Some(self.stopped(seen).record(seen))
     }
 
     fn energy(&self, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {
-        let depth = self.contact(seen).depth;
-        P::Real::HALF * (self.stiffness * (depth * depth))
+        self.stopped(seen).energy()
     }
 
-    /// As if it touched.
     fn tangent(&self, seen: &Seen<'_, P>, _: &Nothing, visit: Springs<'_, P>) -> [P::Real; 2] {
-        let Contact { direction, arms: [arm, other], way, depth } = self.contact(seen);
-        visit(self.stiffness, &direction);
-        // The normal turns with A. Of the force F, the arm r of A's point and the way d to B's, a move ξ and a turn φ
-        // of A meet 2·F·|φ|·|ξ| + F·(3·|r| + |d|)·φ² at most, and 2·|φ|·|ξ| ≤ ξ²/l + l·φ².
-        let force = self.stiffness * depth;
-        let [arm, far, other] = [arm, way, other].map(|v| v.dot(v).sqrt());
-        let length = arm + far;
-        let across = force * length.reciprocal_or_zero();
-        for axis in P::Vector::axes() {
-            visit(across, &Direction { along: axis, moments: [P::Moment::ZERO; 2] });
-        }
-        let three = P::Real::ONE + P::Real::TWO;
-        [force * (three * arm + far + length), force * other]
+        self.stopped(seen).tangent(seen, visit)
     }
 
     #[inline(always)]
     fn dampers(&self, seen: &Seen<'_, P>, _: &Nothing, visit: &mut impl FnMut(Damper<P>)) {
-        let Contact { direction, depth, .. } = self.contact(seen);
-        let force = self.stiffness * depth;
-        let damper = Damper::new(self.dissipation * force, direction);
-        let least = damper.bounds()[0];
-        visit(damper.within(least, force));
+        visit(self.stopped(seen).damper(self.dissipation));
     }
 
     fn check(&self) -> Result<(), Wrong> {
-        let zero = P::Real::ZERO;
-        Wrong::unless(self.stiffness > zero, "stiffness", "is not positive", "a stiffness > 0")?;
-        Wrong::unless(self.dissipation >= zero, "dissipation", "is negative", "a number ≥ 0")
+        check([self.from, self.to], self.stiffness, self.dissipation)
     }
 
     fn read(&self, _: usize, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {
-        self.contact(seen).depth
+        self.stopped(seen).depth()
     }
 }

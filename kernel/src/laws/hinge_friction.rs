@@ -1,19 +1,13 @@
-//! Dry friction of a turn about an axis, which sticks.
-//!
-//! `z = θ − s ↦ torque −k·z` along the twist's gradient, `k = F/give`; where `|k·z|` exceeds the limit F(v), s follows
-//! θ (Prandtl 1928; Dupont, Hayward, Armstrong, Altpeter, IEEE TAC 47 (2002) 787). What a boundary returns to the
-//! limit is lost: it takes energy at any step, holds still at rest, and remembers s. The limit is
-//! `F(v) = coulomb + (breakaway − coulomb)/(1 + (v/stribeck)²)` (Hess & Soom, J. Tribology 112 (1990) 147) at the mean
-//! rate of the step before.
+//! Dry friction of a turn about an axis, which sticks: [`super::Slip`] of its twist.
 
 use crate::geometry::Geometry;
+use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
 use crate::laws::hinge::Turns;
 use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
+use crate::laws::slip::{Friction, Rubbing, Slip};
 use crate::real::Real;
-use crate::record::Direction;
 use crate::record::Record;
-use crate::space::Linear as _;
 use crate::words::{WordSource, WordVisitor, Words};
 
 law! {
@@ -36,142 +30,105 @@ law! {
     }
 }
 
-/// What friction remembers.
+/// What it remembers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slip<R> {
+pub struct TurnSlip<R> {
     /// Half windings of the twist.
     pub turns: Turns,
-    /// \[rad\] the twist at which its give is 0.
-    pub rest: R,
-    /// \[rad\] the twist at the end of the step before.
-    pub last: R,
-    /// \[1\] the part of the difference of breakaway and Coulomb torque that is in the limit.
-    pub more: R,
+    /// Of the twist.
+    pub slip: Slip<R>,
 }
 
-impl<R: Real> Default for Slip<R> {
+impl<R: Real> Default for TurnSlip<R> {
     fn default() -> Self {
-        Self { turns: Turns(0), rest: R::ZERO, last: R::ZERO, more: R::ONE }
+        Self { turns: Turns(0), slip: Slip::default() }
     }
 }
 
-impl<R: Real> Words for Slip<R> {
+impl<R: Real> Words for TurnSlip<R> {
     fn visit(&self, visitor: &mut impl WordVisitor) {
         self.turns.visit(visitor);
-        [self.rest, self.last, self.more].iter().for_each(|number| visitor.word(number.word()));
+        self.slip.visit(visitor);
     }
     fn fill(&mut self, source: &mut impl WordSource) {
         self.turns.fill(source);
-        for number in [&mut self.rest, &mut self.last, &mut self.more] {
-            *number = R::from_words(source);
-        }
+        self.slip.fill(source);
     }
-}
-
-struct Rubbing<P: Geometry> {
-    direction: Direction<P::Space>,
-    angle: P::Real,
-    /// \[N·m\] of its give.
-    torque: P::Real,
-    /// \[N·m\]
-    limit: P::Real,
-    square: P::Real,
 }
 
 impl<P: Geometry> HingeFriction<P> {
     #[inline(always)]
-    fn stiffness(&self) -> P::Real {
-        self.breakaway / self.give
+    fn friction(&self) -> Friction<P::Real> {
+        let Self { coulomb, breakaway, stribeck, give, damping, viscous, .. } = *self;
+        Friction { coulomb, breakaway, stribeck, give, damping, viscous }
     }
 
     #[inline(always)]
-    fn rubbing(&self, seen: &Seen<'_, P>, slip: &Slip<P::Real>) -> Option<Rubbing<P>> {
-        let (angle, gradient) = self.axis.seen(seen)?.angle(slip.turns);
-        let gradient = seen.a.moment_to_world(gradient);
-        Some(Rubbing {
-            direction: seen.about(gradient),
-            angle,
-            torque: self.stiffness() * (angle - slip.rest),
-            limit: self.coulomb + (self.breakaway - self.coulomb) * slip.more,
-            square: gradient.dot(gradient),
-        })
+    fn rubbing(&self, seen: &Seen<'_, P>, memory: &TurnSlip<P::Real>) -> Option<Rubbing<P>> {
+        let turn = Coordinate::turn(seen, &self.axis, memory.turns)?;
+        Some(Rubbing::new(turn, self.friction(), &memory.slip))
     }
 }
 
 impl<P: Geometry> Interaction<P> for HingeFriction<P> {
-    type State = Slip<P::Real>;
+    type State = TurnSlip<P::Real>;
     type Dampers = [(); 2];
     const ADVANCES: bool = true;
     const QUANTITIES: &'static [Quantity] = &[Quantity { name: "slip", unit: "rad" }];
 
     #[inline(always)]
-    fn advance(&self, seen: &Seen<'_, P>, h: P::Real, slip: &mut Slip<P::Real>) {
-        self.settle(seen, slip);
-        let Some(Rubbing { angle, .. }) = self.rubbing(seen, slip) else { return };
-        let ratio = (angle - slip.last) / (h * self.stribeck);
-        slip.last = angle;
-        slip.more = P::Real::ONE / (P::Real::ONE + ratio * ratio);
+    fn advance(&self, seen: &Seen<'_, P>, h: P::Real, memory: &mut TurnSlip<P::Real>) {
+        self.settle(seen, memory);
+        if let Some(rubbing) = self.rubbing(seen, memory) {
+            rubbing.advance(h, &mut memory.slip);
+        }
     }
 
     #[inline(always)]
-    fn settle(&self, seen: &Seen<'_, P>, slip: &mut Slip<P::Real>) {
+    fn settle(&self, seen: &Seen<'_, P>, memory: &mut TurnSlip<P::Real>) {
         let Some(twist) = self.axis.seen(seen) else { return };
-        twist.settle(&mut slip.turns);
-        let Some(Rubbing { angle, torque, limit, .. }) = self.rubbing(seen, slip) else { return };
-        let give = limit / self.stiffness();
-        slip.rest = P::Real::pick(limit.less_than(torque), angle - give, slip.rest);
-        slip.rest = P::Real::pick(torque.less_than(-limit), angle + give, slip.rest);
+        twist.settle(&mut memory.turns);
+        if let Some(rubbing) = self.rubbing(seen, memory) {
+            rubbing.settle(&mut memory.slip);
+        }
     }
 
     #[inline(always)]
-    fn record(&self, seen: &Seen<'_, P>, slip: &Slip<P::Real>) -> Option<Record<P::Space>> {
-        let Rubbing { direction, torque, .. } = self.rubbing(seen, slip)?;
-        Some(seen.pull(&direction, torque))
+    fn record(&self, seen: &Seen<'_, P>, memory: &TurnSlip<P::Real>) -> Option<Record<P::Space>> {
+        Some(self.rubbing(seen, memory)?.record(seen))
     }
 
-    fn energy(&self, seen: &Seen<'_, P>, slip: &Slip<P::Real>) -> P::Real {
-        let Some(Rubbing { angle, torque, .. }) = self.rubbing(seen, slip) else {
-            return P::Real::ZERO;
-        };
-        P::Real::HALF * (torque * (angle - slip.rest))
+    fn energy(&self, seen: &Seen<'_, P>, memory: &TurnSlip<P::Real>) -> P::Real {
+        self.rubbing(seen, memory).map_or(P::Real::ZERO, |rubbing| rubbing.energy(&memory.slip))
     }
 
     fn tangent(
         &self,
         seen: &Seen<'_, P>,
-        slip: &Slip<P::Real>,
+        memory: &TurnSlip<P::Real>,
         visit: Springs<'_, P>,
     ) -> [P::Real; 2] {
-        let Some(Rubbing { direction, torque, square, .. }) = self.rubbing(seen, slip) else {
-            return [P::Real::ZERO; 2];
-        };
-        visit(self.stiffness(), &direction);
-        [P::Real::HALF * torque.abs() * square; 2]
+        let rubbing = self.rubbing(seen, memory);
+        rubbing.map_or([P::Real::ZERO; 2], |rubbing| rubbing.tangent(seen, visit))
     }
 
     #[inline(always)]
-    fn dampers(&self, seen: &Seen<'_, P>, slip: &Slip<P::Real>, visit: &mut impl FnMut(Damper<P>)) {
-        let Some(Rubbing { direction, torque, limit, .. }) = self.rubbing(seen, slip) else {
-            return;
-        };
-        // Give and its damping together stay within the limit.
-        visit(Damper::new(self.damping, direction).within(-limit - torque, limit - torque));
-        visit(Damper::new(self.viscous, direction));
+    fn dampers(
+        &self,
+        seen: &Seen<'_, P>,
+        memory: &TurnSlip<P::Real>,
+        visit: &mut impl FnMut(Damper<P>),
+    ) {
+        if let Some(rubbing) = self.rubbing(seen, memory) {
+            rubbing.dampers(visit);
+        }
     }
 
     fn check(&self) -> Result<(), Wrong> {
-        let zero = P::Real::ZERO;
-        Wrong::unless(self.coulomb >= zero, "coulomb", "is negative", "a torque ≥ 0")?;
-        let enough = self.breakaway >= self.coulomb && self.breakaway > zero;
-        let least = "a torque > 0, at least as large as `coulomb`";
-        Wrong::unless(enough, "breakaway", "is too small", least)?;
-        Wrong::unless(self.stribeck > zero, "stribeck", "is not positive", "a rate > 0")?;
-        Wrong::unless(self.give > zero, "give", "is not positive", "a turn > 0")?;
-        Wrong::unless(self.damping >= zero, "damping", "is negative", "a number ≥ 0")?;
-        Wrong::unless(self.viscous >= zero, "viscous", "is negative", "a number ≥ 0")
+        self.friction().check()
     }
 
-    fn read(&self, _: usize, seen: &Seen<'_, P>, slip: &Slip<P::Real>) -> P::Real {
-        self.rubbing(seen, slip).map_or(P::Real::ZERO, |rubbing| rubbing.angle - slip.rest)
+    fn read(&self, _: usize, seen: &Seen<'_, P>, memory: &TurnSlip<P::Real>) -> P::Real {
+        self.rubbing(seen, memory).map_or(P::Real::ZERO, |rubbing| rubbing.give(&memory.slip))
     }
 }

@@ -15,7 +15,9 @@
 #[macro_use]
 mod declare;
 
+mod coordinate;
 mod curve;
+mod distance_stop;
 mod end;
 mod end_stop;
 mod hinge;
@@ -26,13 +28,17 @@ mod kind;
 mod list;
 mod row;
 mod slice;
+mod slide_friction;
+mod slip;
+mod stop;
 
 pub use curve::Curve;
+pub use distance_stop::DistanceStop;
 pub(crate) use end::Body;
 pub use end::{End, Instant, Seen};
 pub use end_stop::EndStop;
 pub use hinge::{Hinge, Turns, Twisted};
-pub use hinge_friction::HingeFriction;
+pub use hinge_friction::{HingeFriction, TurnSlip};
 pub use hinge_stop::HingeStop;
 pub use interaction::{
     Constants, Damper, Interaction, Law, Nothing, Quantity, Several, Springs, Wrong,
@@ -44,6 +50,8 @@ pub use list::Laws;
 pub use row::{Act, DamperPass, Row};
 #[doc(hidden)]
 pub use slice::{act, look, memory, shares_of, sweep};
+pub use slide_friction::SlideFriction;
+pub use slip::Slip;
 
 pub use crate::record::Direction;
 pub use crate::record::Record;

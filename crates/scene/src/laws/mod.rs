@@ -93,7 +93,9 @@ pub fn known_laws() -> Vec<KnownLaw> {
     let mut known = vec![
         KnownLaw::of::<laws::EndStop>("dbd_kernel::laws::EndStop"),
         KnownLaw::of::<laws::HingeStop>("dbd_kernel::laws::HingeStop"),
+        KnownLaw::of::<laws::DistanceStop>("dbd_kernel::laws::DistanceStop"),
         KnownLaw::of::<laws::HingeFriction>("dbd_kernel::laws::HingeFriction"),
+        KnownLaw::of::<laws::SlideFriction>("dbd_kernel::laws::SlideFriction"),
     ];
     let own = OWN.read().unwrap_or_else(PoisonError::into_inner);
     linked_laws().into_iter().chain(own.iter().cloned()).for_each(|law| put(&mut known, law));

@@ -1,5 +1,7 @@
 use super::*;
-use dbd_kernel::laws::{Damper, EndStop, Hinge, HingeFriction, HingeStop, Springs};
+use dbd_kernel::laws::{
+    Damper, DistanceStop, EndStop, Hinge, HingeFriction, HingeStop, SlideFriction, Springs,
+};
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{BodyIndex, Real as _};
 
@@ -14,6 +16,8 @@ fn end_stop(dissipation: f64) -> EndStop {
         bodies: BODIES,
         points: [Vec3::new(0.02, 0.0, 0.01), Vec3::new(0.0, -0.03, 0.02)],
         normal: Vec3::new(0.0, 0.6, 0.8),
+        from: 0.0,
+        to: 1e30,
         stiffness: 1e5,
         dissipation,
     }
@@ -22,7 +26,27 @@ fn end_stop(dissipation: f64) -> EndStop {
 #[test]
 fn the_projects_laws_keep_what_laws_promise() {
     let poses = Poses::default();
-    hold(&end_stop(0.5), poses).unwrap();
+    let plane = end_stop(0.5);
+    hold(&plane, poses).unwrap();
+    hold(&EndStop { from: -0.01, to: 0.01, ..plane }, poses).unwrap();
+    let points = plane.points;
+    for (from, to) in [(0.0, 0.03), (0.06, 1e30), (0.03, 0.05)] {
+        let stop =
+            DistanceStop { bodies: BODIES, points, from, to, stiffness: 1e5, dissipation: 0.5 };
+        hold(&stop, poses).unwrap();
+    }
+    let friction = SlideFriction {
+        bodies: BODIES,
+        points,
+        axis: plane.normal,
+        coulomb: 4.0,
+        breakaway: 5.0,
+        stribeck: 0.01,
+        give: 1e-4,
+        damping: 0.1,
+        viscous: 0.2,
+    };
+    hold(&friction, poses).unwrap();
     let (from, to) = (-0.3, 0.2);
     let stop =
         HingeStop { bodies: BODIES, axis: hinge(), from, to, stiffness: 2e3, dissipation: 0.4 };

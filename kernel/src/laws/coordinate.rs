@@ -1,0 +1,95 @@
+//! Coordinates of a law between two bodies: a turn about an axis, a travel along one, a distance.
+//!
+//! `(what a law sees) => value, direction; force => what it does to a turn of the bodies`. The direction is the
+//! gradient of the value: its rate is the rate of the value.
+
+use crate::geometry::Geometry;
+use crate::laws::end::Seen;
+use crate::laws::hinge::{Hinge, Turns};
+use crate::laws::interaction::Springs;
+use crate::real::Real;
+use crate::record::Direction;
+use crate::space::Linear as _;
+
+/// A coordinate at a pose.
+pub(super) struct Coordinate<P: Geometry> {
+    /// \[m, rad\]
+    pub(super) value: P::Real,
+    /// Its gradient.
+    pub(super) direction: Direction<P::Space>,
+    bend: Bend<P>,
+}
+
+/// How its gradient changes with the pose.
+enum Bend<P: Geometry> {
+    /// \[1\] the square of the gradient of a turn.
+    Turn(P::Real),
+    /// \[m\] the arm of A's point, the way from it to B's and the arm of B's point, of a travel along an axis of A.
+    Travel([P::Vector; 3]),
+    /// \[m\] the length and both arms.
+    Distance(P::Real, [P::Vector; 2]),
+}
+
+impl<P: Geometry> Coordinate<P> {
+    /// How far B has turned in A about an axis since t = 0; `None` where that is undefined.
+    #[inline(always)]
+    pub(super) fn turn(seen: &Seen<'_, P>, axis: &Hinge<P::Space>, turns: Turns) -> Option<Self> {
+        let (value, gradient) = axis.seen(seen)?.angle(turns);
+        let gradient = seen.a.moment_to_world(gradient);
+        let bend = Bend::Turn(gradient.dot(gradient));
+        Some(Self { value, direction: seen.about(gradient), bend })
+    }
+
+    /// How far B's point is from A's along an axis of A.
+    #[inline(always)]
+    pub(super) fn travel(seen: &Seen<'_, P>, points: &[P::Local; 2], axis: P::Vector) -> Self {
+        let ((at_a, arm), (at_b, other)) = (seen.a.place(&points[0]), seen.b.place(&points[1]));
+        let (way, axis) = (P::displacement(&at_a, &at_b), seen.a.to_world(axis));
+        // The force on A acts where B's point is: both then lie on one line.
+        let direction = seen.along(axis, [seen.a.arm_at(arm, way), other]);
+        Self { value: axis.dot(way), direction, bend: Bend::Travel([arm, way, other]) }
+    }
+
+    /// How far two points are apart; without a direction where they coincide.
+    #[inline(always)]
+    pub(super) fn distance(seen: &Seen<'_, P>, points: &[P::Local; 2]) -> Self {
+        let ((at_a, arm), (at_b, other)) = (seen.a.place(&points[0]), seen.b.place(&points[1]));
+        let way = P::displacement(&at_a, &at_b);
+        let value = way.dot(way).sqrt();
+        let direction = seen.along(way * value.reciprocal_or_zero(), [arm, other]);
+        Self { value, direction, bend: Bend::Distance(value, [arm, other]) }
+    }
+
+    /// \[N·m\] what a force along it does to a turn of A and of B at most; what it does to moves, it visits as
+    /// springs: for [`crate::laws::Interaction::tangent`].
+    pub(super) fn bent(
+        &self,
+        seen: &Seen<'_, P>,
+        force: P::Real,
+        visit: Springs<'_, P>,
+    ) -> [P::Real; 2] {
+        let length = |v: P::Vector| v.dot(v).sqrt();
+        match &self.bend {
+            Bend::Turn(square) => [P::Real::HALF * force * *square; 2],
+            // The axis turns with A. Of the force F, the arm r of A's point and the way d to B's, a move ξ and a turn φ
+            // of A meet 2·F·|φ|·|ξ| + F·(3·|r| + |d|)·φ² at most, and 2·|φ|·|ξ| ≤ ξ²/l + l·φ².
+            Bend::Travel(ways) => {
+                let [arm, far, other] = ways.map(length);
+                let reach = arm + far;
+                let across = force * reach.reciprocal_or_zero();
+                for axis in P::Vector::axes() {
+                    visit(across, &Direction { along: axis, moments: [P::Moment::ZERO; 2] });
+                }
+                let three = P::Real::ONE + P::Real::TWO;
+                [force * (three * arm + far + reach), force * other]
+            }
+            Bend::Distance(apart, arms) => {
+                let across = force * apart.reciprocal_or_zero();
+                for axis in P::Vector::axes() {
+                    visit(across, &seen.along(axis, *arms));
+                }
+                arms.map(|arm| force * length(arm))
+            }
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! Stops of a distance: a rope that slackens, spheres that touch, the ends of a shock absorber.
+//!
+//! Distance `|d| ↦ x = |d| − to` or `from − |d|`, force `k·x·(1 + a·ẋ)` back into the range, along the line of the two
+//! points: the law of [`super::EndStop`].
+
+use crate::geometry::Geometry;
+use crate::laws::coordinate::Coordinate;
+use crate::laws::end::Seen;
+use crate::laws::interaction::{Damper, Interaction, Nothing, Quantity, Springs, Wrong};
+use crate::laws::stop::{Stopped, check};
+use crate::real::Real;
+use crate::record::Record;
+
+law! {
+    /// Two points whose distance has a range: a rope (`to`), two spheres (`from`, the sum of their radii), both.
+    pub struct DistanceStop = "distance-stop" {
+        /// A point of the first body and one of the second.
+        points: Points,
+        /// Least distance; 0 is none.
+        from: Number("m") = 0.0,
+        /// Largest distance; 1e30 is none.
+        to: Number("m") = 1e30,
+        /// Force per depth.
+        stiffness: Number("N/m"),
+        /// Hunt–Crossley coefficient a: the force is stiffness · depth · (1 + a · rate of the depth).
+        dissipation: Number("s/m") = 0.0,
+    }
+}
+
+impl<P: Geometry> DistanceStop<P> {
+    #[inline(always)]
+    fn stopped(&self, seen: &Seen<'_, P>) -> Stopped<P> {
+        let distance = Coordinate::distance(seen, &self.points);
+        Stopped::within(distance, [self.from, self.to], self.stiffness)
+    }
+}
+
+impl<P: Geometry> Interaction<P> for DistanceStop<P> {
+    type State = Nothing;
+    type Dampers = [(); 1];
+    const QUANTITIES: &'static [Quantity] = &[Quantity { name: "depth", unit: "m" }];
+
+    #[inline(always)]
+    fn record(&self, seen: &Seen<'_, P>, _: &Nothing) -> Option<Record<P::Space>> {
+        let stopped = self.stopped(seen);
+        // Points that coincide have no line along which they could be pushed apart.
+        let lost = stopped.coordinate.value == P::Real::ZERO && stopped.beyond != P::Real::ZERO;
+        (!lost).then(|| stopped.record(seen))
+    }
+
+    fn energy(&self, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {
+        self.stopped(seen).energy()
+    }
+
+    fn tangent(&self, seen: &Seen<'_, P>, _: &Nothing, visit: Springs<'_, P>) -> [P::Real; 2] {
+        self.stopped(seen).tangent(seen, visit)
+    }
+
+    #[inline(always)]
+    fn dampers(&self, seen: &Seen<'_, P>, _: &Nothing, visit: &mut impl FnMut(Damper<P>)) {
+        visit(self.stopped(seen).damper(self.dissipation));
+    }
+
+    fn check(&self) -> Result<(), Wrong> {
+        Wrong::unless(self.from >= P::Real::ZERO, "from", "is negative", "a distance ≥ 0")?;
+        check([self.from, self.to], self.stiffness, self.dissipation)
+    }
+
+    fn read(&self, _: usize, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {
+        self.stopped(seen).depth()
+    }
+}

@@ -1,0 +1,92 @@
+//! Dry friction of a travel along an axis, which sticks: [`super::Slip`] of the travel.
+
+use crate::geometry::Geometry;
+use crate::laws::coordinate::Coordinate;
+use crate::laws::end::Seen;
+use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
+use crate::laws::slip::{Friction, Rubbing, Slip};
+use crate::record::Record;
+
+law! {
+    /// Dry friction between two bodies that slide along an axis.
+    pub struct SlideFriction = "slide-friction" {
+        /// A point of the first body and the point of the second one that slides past it.
+        points: Points,
+        /// Axis of the travel.
+        axis: Normal,
+        /// Force of sliding friction at high rates.
+        coulomb: Number("N"),
+        /// Force at which sliding begins from rest, at least as large.
+        breakaway: Number("N"),
+        /// Rate at which the force is midway between `breakaway` and `coulomb`.
+        stribeck: Number("m/s") = 0.01,
+        /// Elastic displacement at the force of breakaway.
+        give: Number("m") = 1e-4,
+        /// Damping of the elastic displacement; with it the force stays within the limit.
+        damping: Number("N·s/m") = 0.0,
+        /// Viscous friction.
+        viscous: Number("N·s/m") = 0.0,
+    }
+}
+
+impl<P: Geometry> SlideFriction<P> {
+    #[inline(always)]
+    fn friction(&self) -> Friction<P::Real> {
+        let Self { coulomb, breakaway, stribeck, give, damping, viscous, .. } = *self;
+        Friction { coulomb, breakaway, stribeck, give, damping, viscous }
+    }
+
+    #[inline(always)]
+    fn rubbing(&self, seen: &Seen<'_, P>, slip: &Slip<P::Real>) -> Rubbing<P> {
+        let travel = Coordinate::travel(seen, &self.points, self.axis);
+        Rubbing::new(travel, self.friction(), slip)
+    }
+}
+
+impl<P: Geometry> Interaction<P> for SlideFriction<P> {
+    type State = Slip<P::Real>;
+    type Dampers = [(); 2];
+    const ADVANCES: bool = true;
+    const QUANTITIES: &'static [Quantity] = &[Quantity { name: "slip", unit: "m" }];
+
+    #[inline(always)]
+    fn advance(&self, seen: &Seen<'_, P>, h: P::Real, slip: &mut Slip<P::Real>) {
+        self.rubbing(seen, slip).advance(h, slip);
+    }
+
+    #[inline(always)]
+    fn settle(&self, seen: &Seen<'_, P>, slip: &mut Slip<P::Real>) {
+        self.rubbing(seen, slip).settle(slip);
+    }
+
+    #[inline(always)]
+    fn record(&self, seen: &Seen<'_, P>, slip: &Slip<P::Real>) -> Option<Record<P::Space>> {
+        Some(self.rubbing(seen, slip).record(seen))
+    }
+
+    fn energy(&self, seen: &Seen<'_, P>, slip: &Slip<P::Real>) -> P::Real {
+        self.rubbing(seen, slip).energy(slip)
+    }
+
+    fn tangent(
+        &self,
+        seen: &Seen<'_, P>,
+        slip: &Slip<P::Real>,
+        visit: Springs<'_, P>,
+    ) -> [P::Real; 2] {
+        self.rubbing(seen, slip).tangent(seen, visit)
+    }
+
+    #[inline(always)]
+    fn dampers(&self, seen: &Seen<'_, P>, slip: &Slip<P::Real>, visit: &mut impl FnMut(Damper<P>)) {
+        self.rubbing(seen, slip).dampers(visit);
+    }
+
+    fn check(&self) -> Result<(), Wrong> {
+        self.friction().check()
+    }
+
+    fn read(&self, _: usize, seen: &Seen<'_, P>, slip: &Slip<P::Real>) -> P::Real {
+        self.rubbing(seen, slip).give(slip)
+    }
+}

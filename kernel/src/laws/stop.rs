@@ -1,0 +1,78 @@
+//! What stops a coordinate: a spring with damping of Hunt and Crossley beyond an end of its range.
+//!
+//! `(coordinate, x beyond its range, stiffness k, coefficient a) => tension k·x·(1 + a·|ẋ|), which never pulls towards
+//! the end` (Hunt & Crossley, J. Appl. Mech. 42 (1975) 440).
+
+use crate::geometry::Geometry;
+use crate::laws::coordinate::Coordinate;
+use crate::laws::end::Seen;
+use crate::laws::interaction::{Damper, Springs, Wrong};
+use crate::real::Real;
+use crate::record::Record;
+
+/// A coordinate at its stop.
+pub(super) struct Stopped<P: Geometry> {
+    pub(super) coordinate: Coordinate<P>,
+    /// \[m, rad\] beyond the range: above 0 at its upper end, below 0 at its lower one, 0 within.
+    pub(super) beyond: P::Real,
+    stiffness: P::Real,
+}
+
+impl<P: Geometry> Stopped<P> {
+    /// At both ends of a range.
+    #[inline(always)]
+    pub(super) fn within(
+        coordinate: Coordinate<P>,
+        [from, to]: [P::Real; 2],
+        stiffness: P::Real,
+    ) -> Self {
+        let (above, below) = (coordinate.value - to, coordinate.value - from);
+        let zero = P::Real::ZERO;
+        let beyond = P::Real::pick(below.less_than(zero), below, zero);
+        let beyond = P::Real::pick(zero.less_than(above), above, beyond);
+        Self { coordinate, beyond, stiffness }
+    }
+
+    /// What its spring does.
+    #[inline(always)]
+    pub(super) fn record(&self, seen: &Seen<'_, P>) -> Record<P::Space> {
+        seen.pull(&self.coordinate.direction, self.stiffness * self.beyond)
+    }
+
+    /// \[J\]
+    pub(super) fn energy(&self) -> P::Real {
+        P::Real::HALF * (self.stiffness * (self.beyond * self.beyond))
+    }
+
+    /// As if it were stopped.
+    pub(super) fn tangent(&self, seen: &Seen<'_, P>, visit: Springs<'_, P>) -> [P::Real; 2] {
+        visit(self.stiffness, &self.coordinate.direction);
+        self.coordinate.bent(seen, (self.stiffness * self.beyond).abs(), visit)
+    }
+
+    /// Its damper with the coefficient a \[s/m, s/rad\]: together with the spring it never pulls towards the end.
+    #[inline(always)]
+    pub(super) fn damper(&self, dissipation: P::Real) -> Damper<P> {
+        let (tension, zero) = (self.stiffness * self.beyond, P::Real::ZERO);
+        let damper = Damper::new(dissipation * tension.abs(), self.coordinate.direction);
+        let [least, most] = damper.bounds();
+        let upper = zero.less_than(tension);
+        damper.within(P::Real::pick(upper, -tension, least), P::Real::pick(upper, most, -tension))
+    }
+
+    /// \[m, rad\] how deep it is beyond the range.
+    pub(super) fn depth(&self) -> P::Real {
+        self.beyond.abs()
+    }
+}
+
+/// Refuses constants that make no stop.
+pub(super) fn check<R: Real>(
+    [from, to]: [R; 2],
+    stiffness: R,
+    dissipation: R,
+) -> Result<(), Wrong> {
+    Wrong::unless(to > from, "to", "is not above `from`", "a number above `from`")?;
+    Wrong::unless(stiffness > R::ZERO, "stiffness", "is not positive", "a stiffness > 0")?;
+    Wrong::unless(dissipation >= R::ZERO, "dissipation", "is negative", "a number ≥ 0")
+}
