@@ -75,6 +75,10 @@ pub(crate) struct Joint {
     pub(crate) damping: f64,
     /// \[rad, m\] the ends of its coordinate, whether it is held to them or not.
     pub(crate) range: Option<[f64; 2]>,
+    /// Whether it is held to them.
+    pub(crate) limited: bool,
+    /// \[N·m, N\] dry friction.
+    pub(crate) friction: f64,
     /// \[kg·m², kg\] inertia that an actuator's rotor adds.
     pub(crate) armature: f64,
     /// Whether it is left out: its coordinate then stays that of the file's pose.
@@ -127,6 +131,9 @@ pub(crate) fn joint(given: &Attributes<'_>, settings: &Settings) -> Result<Joint
         stiffness: off("spring", linear("stiffness")?),
         damping: off("damper", linear("damping")?),
         range: given.numbers("range", 2, 2)?.map(|range| [scaled(range[0]), scaled(range[1])]),
+        limited: given.limited("limited", "range", settings.automatic_limits)?
+            && !settings.is_off("limit"),
+        friction: off("frictionloss", given.magnitude("frictionloss", 0.0)?),
         armature: given.magnitude("armature", 0.0)?,
         locked: false,
     })
@@ -145,6 +152,8 @@ pub(crate) fn free_joint(name: Option<&str>, place: Place) -> Joint {
         stiffness: 0.0,
         damping: 0.0,
         range: None,
+        limited: false,
+        friction: 0.0,
         armature: 0.0,
         locked: false,
     }

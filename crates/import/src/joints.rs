@@ -8,9 +8,11 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use crate::body::{Freedom, Joint};
 use crate::chain::{Stage, Way, centre};
 use crate::coordinate::{Coordinate, Law};
-use crate::mechanism::{Link, Load, Mechanism, Signal, Torsion, Type};
-use crate::notation::{text, vector};
+use crate::lacks;
+use crate::mechanism::{Link, Load, Mechanism, Signal, Torsion, Type, rounded};
+use crate::notation::{number, text, vector};
 use crate::omission::{Kind, Omissions};
+use crate::options::Options;
 use crate::settings::Settings;
 use crate::tree::Tree;
 
@@ -46,6 +48,7 @@ fn welded(mechanism: &mut Mechanism<'_>, lead: usize, part: usize) {
         between,
         at: [at; 2],
         span: mechanism.span(between),
+        keys: Vec::new(),
         source: (format!("<body name=\"{}\"> without a joint", body.name), body.place),
     };
     mechanism.links.push(link);
@@ -81,6 +84,7 @@ fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissi
     };
     let at = mechanism.point(stage.body, anchor);
     let mut name = String::new();
+    let mut unknown: Vec<&Joint> = Vec::new();
     if let Some(kind) = kind {
         let body = &tree.bodies[last_of(tree, stage)];
         let names: Vec<&str> = joints.iter().filter_map(|joint| joint.name.as_deref()).collect();
@@ -94,7 +98,23 @@ fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissi
         // Far out on a line its pull turns the body that has the line: rather a whole body than a carrier.
         let slides = matches!(kind, Type::Translational(_)) && tree.carries(stage.base);
         let between = if slides { [between[1], between[0]] } else { between };
-        mechanism.links.push(Link { name: name.clone(), kind, between, at: [at; 2], span, source });
+        let mut link =
+            Link { name: name.clone(), kind, between, at: [at; 2], span, keys: Vec::new(), source };
+        for (joint, number) in joints.iter().zip(&stage.joints) {
+            let q = mechanism.pose.coordinates[*number];
+            let known = keys(joint, &link, (q, slides), mechanism.options);
+            match known {
+                Some(keys) => link.keys.extend(keys),
+                None => unknown.push(*joint),
+            }
+        }
+        mechanism.links.push(link);
+    } else {
+        unknown.clone_from(&joints);
+    }
+    for joint in unknown {
+        let body = &tree.bodies[last_of(tree, stage)].name;
+        lacks::of_coordinate(joint, joint.name.as_ref().unwrap_or(body), omissions);
     }
     for (number, joint) in joints.iter().enumerate() {
         let body = stage.joints[number];
@@ -140,6 +160,51 @@ fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissi
         }
         mechanism.coordinates.insert(body, coordinate);
     }
+}
+
+/// What an impact at [`LIMIT_SPEED`] at a limit returns of it: MuJoCo's own return next to nothing.
+pub(crate) const RESTITUTION: f64 = 0.1;
+
+/// \[rad/s, m/s\]
+pub(crate) const LIMIT_SPEED: f64 = 1.0;
+
+/// Limits and friction of a joint as keys of a link; `None` where the link has none of that coordinate. `q` is the
+/// joint's coordinate where the scene begins, and whether the link's bodies are exchanged.
+fn keys(
+    joint: &Joint,
+    link: &Link,
+    (q, reversed): (f64, bool),
+    options: &Options,
+) -> Option<Vec<String>> {
+    let stiffness = options.stiffness;
+    let (prefix, stiffness) = match (link.kind, joint.freedom) {
+        (Type::Revolute(_), Freedom::Hinge) => ("", stiffness * link.span * link.span / 4.0),
+        (Type::Translational(_), Freedom::Slide) => ("", stiffness),
+        (Type::Cylindrical(_), Freedom::Hinge) => {
+            ("turn_", stiffness * link.span * link.span / 4.0)
+        }
+        (Type::Cylindrical(_), Freedom::Slide) => ("slide_", stiffness),
+        _ => return (joint.friction == 0.0 && !joint.limited).then(Vec::new),
+    };
+    let mut keys = Vec::new();
+    let range = joint.range.filter(|_| joint.limited);
+    if let Some([from, to]) = range {
+        // A link whose bodies are exchanged goes the other way.
+        let (from, to, q) = if reversed { (-to, -from, -q) } else { (from, to, q) };
+        let offset = if q == 0.0 { String::new() } else { format!("offset = {}, ", number(q)) };
+        keys.push(format!(
+            "{prefix}limits = {{ from = {}, to = {}, {offset}stiffness = {}, restitution = {}, speed = {} }}",
+            number(from),
+            number(to),
+            number(rounded(stiffness)),
+            number(RESTITUTION),
+            number(LIMIT_SPEED),
+        ));
+    }
+    if joint.friction > 0.0 {
+        keys.push(format!("{prefix}friction = {{ coulomb = {} }}", number(joint.friction)));
+    }
+    Some(keys)
 }
 
 /// The body of the file that a stage belongs to.

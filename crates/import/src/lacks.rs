@@ -18,30 +18,32 @@ pub(crate) fn of_joint(
 ) -> Result<(), Fault> {
     let place = given.element.place;
     let word = joint.freedom.word();
-    let [coordinate, force, _] = joint.freedom.units();
-    if given.limited("limited", "range", settings.automatic_limits)?
-        && !settings.is_off("limit")
-        && let Some([from, to]) = joint.range
-    {
-        let degrees = match joint.freedom {
-            Freedom::Slide => String::new(),
-            _ => format!(", {:.4}° to {:.4}°", from.to_degrees(), to.to_degrees()),
-        };
-        let what = format!("{word} `{name}`: {from:.6} to {to:.6} {coordinate}{degrees}");
-        omissions.add(Kind::Limit, place, what);
-    }
+    let [_, force, _] = joint.freedom.units();
     if given.limited("actuatorfrclimited", "actuatorfrcrange", settings.automatic_limits)?
         && let Some(range) = given.numbers("actuatorfrcrange", 2, 2)?
     {
         let what = format!("{word} `{name}`: actuators {} to {} {force}", range[0], range[1]);
         omissions.add(Kind::Limit, place, what);
     }
-    let friction = given.magnitude("frictionloss", 0.0)?;
-    if friction > 0.0 && !settings.is_off("frictionloss") {
-        let what = format!("{word} `{name}`: dry friction {friction} {force}");
-        omissions.add(Kind::FrictionLoss, place, what);
-    }
     springs(given, joint, name, omissions)
+}
+
+/// Lists limits and friction of a coordinate that no joint of the scene has as its own.
+pub(crate) fn of_coordinate(joint: &Joint, name: &str, omissions: &mut Omissions) {
+    let word = joint.freedom.word();
+    let [coordinate, force, _] = joint.freedom.units();
+    if let (true, Some([from, to])) = (joint.limited, joint.range) {
+        let degrees = match joint.freedom {
+            Freedom::Slide => String::new(),
+            _ => format!(", {:.4}° to {:.4}°", from.to_degrees(), to.to_degrees()),
+        };
+        let what = format!("{word} `{name}`: {from:.6} to {to:.6} {coordinate}{degrees}");
+        omissions.add(Kind::Limit, joint.place, what);
+    }
+    if joint.friction > 0.0 {
+        let what = format!("{word} `{name}`: dry friction {} {force}", joint.friction);
+        omissions.add(Kind::FrictionLoss, joint.place, what);
+    }
 }
 
 /// Springs and dampers that are no torsion spring about an axis and no line.

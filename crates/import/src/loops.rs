@@ -103,6 +103,7 @@ fn joint(
         between,
         at: [mechanism.point(a, held.points[0]), mechanism.point(b, held.points[1])],
         span: mechanism.span(between),
+        keys: Vec::new(),
         source: (format!("<{}> of `{}` and `{}`", element.name, names[0], names[1]), element.place),
     };
     mechanism.links.push(link);

@@ -47,6 +47,8 @@ pub(crate) struct Link {
     pub(crate) at: [Vector3<f64>; 2],
     /// \[m\]
     pub(crate) span: f64,
+    /// Limits and friction, each `key = value`.
+    pub(crate) keys: Vec<String>,
     /// Where it comes from.
     pub(crate) source: Source,
 }

@@ -40,7 +40,7 @@ kinds! {
     Limit = "limit",
     /// inertia that an actuator adds to a joint
     Armature = "armature",
-    /// dry friction of joints
+    /// dry friction of tendons, and of joints that a scene has not one by one
     FrictionLoss = "frictionloss",
     /// joints of a body that no joints of a scene say exactly
     Joints = "joints",

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 
 use nalgebra::Vector3;
 
+use crate::joints::{LIMIT_SPEED, RESTITUTION};
 use crate::mass::Solid;
 use crate::mechanism::{Mechanism, Signal, Type, rounded};
 use crate::notation::{fitting, line, number, snapped, text, vector};
@@ -65,6 +66,13 @@ fn top(
     let k = number(options.stiffness);
     let c = number(options.damping);
     let _ = writeln!(out, "# Joints, stated: stiffness {k} N/m, damping {c} N·s/m, {stated}.");
+    if mechanism.links.iter().any(|link| link.keys.iter().any(|key| key.contains("limits"))) {
+        let _ = writeln!(
+            out,
+            "# Limits, stated: as stiff as their joints, an impact at {LIMIT_SPEED} rad/s or m/s returns {} of it.",
+            RESTITUTION
+        );
+    }
     if options.weld == Weld::Merge {
         out.push_str("# Bodies without joints are one with their parents.\n");
     }
@@ -195,6 +203,9 @@ fn joints(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
         if options.damping > 0.0 {
             let _ = writeln!(out, "damping = {}", number(options.damping));
         }
+        link.keys.iter().for_each(|key| {
+            let _ = writeln!(out, "{key}");
+        });
     }
 }
 

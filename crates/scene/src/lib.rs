@@ -179,7 +179,7 @@ pub struct Scene {
     /// What messages call the interactions, in the order of the model's laws.
     law_names: Vec<String>,
     /// The numbers of their tables.
-    law_tables: Vec<usize>,
+    law_places: Vec<laws::LawPlace>,
 }
 
 impl Scene {
@@ -288,11 +288,11 @@ impl Scene {
         let derived = body::read_all(&root, &mut assembly)?;
         let assembled = joints::assemble(&root, &mut assembly)?;
         let mut elements = Elements::default();
-        let joints = joints::read_all(&root, &mut assembly, &mut elements)?;
+        let (joints, places) = joints::read_all(&root, &mut assembly, &mut elements)?;
         let mut raw_names = tsda::read_all(&root, &mut assembly, &mut elements)?;
         raw_names.extend(point_on_line::read_all(&root, &mut assembly, &mut elements)?);
         let mut torsion_names = torsion_spring::read_all(&root, &mut assembly, &mut elements)?;
-        let laws = laws::read_all(&root, &mut assembly, &mut elements)?;
+        let laws = laws::read_all(&root, &places, &mut assembly, &mut elements)?;
         load::read_all(&root, &mut assembly)?;
         let mut known = Known {
             assembly: &mut assembly,
@@ -337,7 +337,7 @@ impl Scene {
             changed,
             raw_names,
             law_names: laws.labels,
-            law_tables: laws.tables,
+            law_places: laws.places,
         };
         if planar {
             let reduced = scene.reduced().map_err(|unplanar| unplanar.refuse(&scene, &root))?;

@@ -31,6 +31,18 @@ impl<T> Names<T> {
         thing: T,
     ) -> Result<String, SceneError> {
         let name = table.required("name", Text::Name)?;
+        self.add(table, name.clone(), kind, thing)?;
+        Ok(name)
+    }
+
+    /// Adds a name that a table has by what it belongs to.
+    pub(crate) fn add(
+        &mut self,
+        table: &Table<'_>,
+        name: String,
+        kind: &'static str,
+        thing: T,
+    ) -> Result<(), SceneError> {
         let entry = Entry { kind, start: table.start(), thing };
         if let Some(first) = self.entries.insert(name.clone(), entry) {
             let line = table.line_of(first.start);
@@ -40,9 +52,12 @@ impl<T> Names<T> {
             } else {
                 "joints and other elements have names that differ from each other".into()
             };
-            return Err(table.refuse_value("name", &problem, help));
+            return Err(match table.has("name") {
+                true => table.refuse_value("name", &problem, help),
+                false => table.refuse(&format!("has a name that {problem}"), help),
+            });
         }
-        Ok(name)
+        Ok(())
     }
 
     /// Reads a name that may be absent.

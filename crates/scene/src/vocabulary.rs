@@ -11,7 +11,7 @@ use crate::{orientation, point_on_line, points, readout, spring, torsion_spring,
 pub struct TableKeys {
     /// What it is called: `scene`, `body`, `joint`; of tables within others `link`, `shape`, `spider`, `orientation`,
     /// `point` (in `[points]`), `halves` (`{ first, second }`), `rate` (of a joint in `assemble.rates`), `stiffness`,
-    /// `sine`.
+    /// `sine`, `limits` and `friction` of joints.
     pub table: &'static str,
     /// The type or shape that has these keys, where there are several: `revolute`.
     pub kind: Option<&'static str>,
@@ -35,6 +35,8 @@ pub fn vocabulary() -> Vec<TableKeys> {
         one("torsion_spring", &[torsion_spring::KEYS, spring::KEYS]),
         one("load", &[load::KEYS]),
         one("sine", &[drive::SINE]),
+        one("limits", &[laws::LIMITS]),
+        one("friction", &[laws::FRICTION]),
     ];
     all.extend(joints::WITHIN.map(|(table, keys)| one(table, &[keys])));
     let mut add = |table, kind, keys| all.push(TableKeys { table, kind: Some(kind), keys });

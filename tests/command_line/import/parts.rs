@@ -139,7 +139,7 @@ fn weight_that_is_taken_off_is_a_load() {
     let light = body("a", "<freejoint/>", "").replace("<body name", "<body gravcomp='0.5' name");
     let made = of(&mujoco(&light, ""), &Options::default());
     assert!(made.scene.contains("force = [0.0, 0.0, 9.81]"), "{}", made.scene);
-    let limited = body("a", "<joint range='-1 1' armature='0.01'/>", "");
+    let limited = body("a", "<joint actuatorfrcrange='-1 1' armature='0.01'/>", "");
     let ignored = vec![Kind::Limit, Kind::Armature];
     let made = of(&mujoco(&limited, ""), &Options { ignored, ..Options::default() });
     assert_eq!(made.omitted.len(), 2);
@@ -154,11 +154,54 @@ fn blank_values_colours_and_empty_ranges_refuse_nothing() {
         let options = Options { ignored: vec![Kind::Contact], ..Options::default() };
         assert_eq!(loaded(&of(&text, &options)).model.initial.len(), 1, "{geom}");
     }
-    for (range, omitted) in [("0 0", 0), ("1 0", 0), ("", 0), ("-1 1", 1)] {
+    for (range, limits) in [("0 0", 0), ("1 0", 0), ("", 0), ("-1 1", 1)] {
         let text = mujoco(&body("a", &format!("<joint range='{range}'/>"), ""), "");
-        let options = Options { ignored: vec![Kind::Limit], ..Options::default() };
-        assert_eq!(of(&text, &options).omitted.len(), omitted, "{range}");
+        let scene = loaded(&of(&text, &Options::default()));
+        assert_eq!(scene.interactions().len(), limits, "{range}");
     }
+}
+
+/// A range stops a joint where the file says, also of one that begins elsewhere; friction holds it.
+#[test]
+fn ranges_and_friction_of_joints_are_theirs() {
+    let turn = |joint: &str| {
+        let text = mujoco(&body("a", joint, ""), "");
+        let made = of(&text, &Options::default());
+        (loaded(&made), made)
+    };
+    let (scene, made) = turn("<joint name='h' axis='0 0 1' range='-10 30'/>");
+    assert!(made.omitted.is_empty() && made.scene.contains("# Limits, stated"), "{}", made.scene);
+    let found = scene.interactions();
+    assert_eq!((found.len(), found[0].law, found[0].name()), (1, "hinge-stop", Some("h.limits")));
+    assert!(made.scene.contains("from = -0.174532925199433"), "{}", made.scene);
+    let text = mujoco(
+        &body("a", "<joint name='h' axis='0 0 1' range='-10 30'/>", ""),
+        "<keyframe><key name='up' qpos='0.2'/></keyframe>",
+    );
+    let options = Options { keyframe: Some("up".into()), ..Options::default() };
+    assert!(of(&text, &options).scene.contains("offset = 0.2,"));
+    for (joint, laws) in [
+        ("<joint type='slide' range='-1 2' frictionloss='3'/>", vec!["end-stop", "slide-friction"]),
+        ("<joint range='-1 2' frictionloss='3'/>", vec!["hinge-stop", "hinge-friction"]),
+        ("<joint range='-1 2' limited='false' frictionloss='3'/>", vec!["hinge-friction"]),
+        (
+            "<joint name='s' type='slide' axis='0 0 1' range='-1 1'/><joint name='t' axis='0 0 1' range='-9 9' \
+             frictionloss='1'/>",
+            vec!["end-stop", "hinge-stop", "hinge-friction"],
+        ),
+    ] {
+        let (scene, made) = turn(joint);
+        let mut found: Vec<_> = scene.interactions().iter().map(|found| found.law).collect();
+        found.sort_unstable();
+        let mut laws = laws;
+        laws.sort_unstable();
+        assert_eq!((found, made.omitted.len()), (laws, 0), "{joint}");
+    }
+    // A ball has no angle that a joint of a scene could stop.
+    let text = mujoco(&body("a", "<joint type='ball' range='0 40' frictionloss='2'/>", ""), "");
+    let options = Options { ignored: Kind::ALL.to_vec(), ..Options::default() };
+    let kinds: Vec<_> = of(&text, &options).omitted.iter().map(|omitted| omitted.kind).collect();
+    assert_eq!(kinds, [Kind::Limit, Kind::FrictionLoss]);
 }
 
 /// Weight taken off bodies that are rigid with each other acts at their common centre of mass where its

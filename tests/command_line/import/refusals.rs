@@ -128,8 +128,6 @@ fn what_has_no_counterpart_is_listed_by_line_with_its_size() {
              meshes: <compiler saveinertial=\"true\"/>, then `mj_saveLastXML`",
         ),
         (8, Kind::Contact, "geom, mesh: may touch 1 other"),
-        (9, Kind::Limit, "hinge `k`: -0.785398 to 0.785398 rad, -45.0000° to 45.0000°"),
-        (9, Kind::FrictionLoss, "hinge `k`: dry friction 0.2 N·m"),
         (9, Kind::Spring, "hinge `k`: stiffness [1.0, 0.5], which is not linear"),
         (
             9,
@@ -162,7 +160,7 @@ fn what_has_no_counterpart_is_listed_by_line_with_its_size() {
     // All of them together can be left out.
     let ignored = Kind::ALL.to_vec();
     let all = Options { ignored, ..Options::default() };
-    assert_eq!(import_text(&text, "test.xml", Path::new(""), &all).unwrap().omitted.len(), 18);
+    assert_eq!(import_text(&text, "test.xml", Path::new(""), &all).unwrap().omitted.len(), 16);
 }
 
 /// What is turned off in the file is not missed.
@@ -175,6 +173,7 @@ fn what_the_file_turns_off_is_not_listed() {
     );
     let made = import_text(&text, "test.xml", Path::new(""), &Options::default()).unwrap();
     assert!(made.omitted.is_empty() && !made.scene.contains("torsion_spring"));
+    assert!(!made.scene.contains("limits") && !made.scene.contains("friction"), "{}", made.scene);
 }
 
 /// Files include each other once, from the folder of the first.
@@ -183,7 +182,10 @@ fn files_that_are_included_keep_their_places() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     file("round.xml", "<mujocoinclude><include file='round.xml'/></mujocoinclude>");
-    file("limit.xml", "<mujocoinclude>\n\n<joint name='k' range='-1 1'/></mujocoinclude>");
+    file(
+        "limit.xml",
+        "<mujocoinclude>\n\n<joint name='k' actuatorfrcrange='-1 1'/></mujocoinclude>",
+    );
     let made = |text: &str| import_text(text, "test.xml", folder.path(), &Options::default());
     let Err(ImportError::Refused(refusal)) = made("<mujoco><include file='round.xml'/></mujoco>")
     else {

@@ -121,7 +121,10 @@ impl Scene {
     /// The line of the scene file, from 1, on which an interaction begins, by its row in the model.
     #[must_use]
     pub fn line_of_interaction(&self, row: usize) -> Option<usize> {
-        self.file_lines.interactions.get(*self.law_tables.get(row)?).copied()
+        let (table, number) = *self.law_places.get(row)?;
+        let lines = &self.file_lines;
+        let lines = if table == "joint" { &lines.joints } else { &lines.interactions };
+        lines.get(number).copied()
     }
 
     /// The line of the scene file, from 1, on which an element begins: rows of

@@ -17,7 +17,16 @@ pub(super) const TYPE: JointType = JointType {
     name: "cylindrical",
     holds: 4,
     brings: 0,
-    keys: &["axis", "reference", "span", "offset"],
+    keys: &[
+        "axis",
+        "reference",
+        "span",
+        "offset",
+        "turn_limits",
+        "turn_friction",
+        "slide_limits",
+        "slide_friction",
+    ],
     asks: (Place::Line, Turn::Axis),
     expand,
 };

@@ -72,6 +72,28 @@ impl Joint {
     }
 }
 
+/// Where a joint is, for laws about and along its axis.
+pub(crate) struct JointPlace {
+    /// Its type.
+    pub(crate) kind: &'static str,
+    pub(crate) name: String,
+    /// The first body, which is not the ground alone, and the second one, which is a body.
+    pub(crate) pair: Pair,
+    /// \[m\] world.
+    pub(crate) at_w: Vec3<f64>,
+    /// World; a turn or travel of the second body along it counts as that of the joint does.
+    pub(crate) axis_w: Vec3<f64>,
+}
+
+impl JointPlace {
+    fn of(kind: &'static str, joint: &Joint) -> Self {
+        let (name, axis, pair) = (joint.name.clone(), joint.axes[0], &joint.pair);
+        let (pair, axis_w) =
+            if pair.b.is_world() { (pair.reversed(), -axis) } else { (pair.clone(), axis) };
+        Self { kind, name, pair, at_w: joint.at_w, axis_w }
+    }
+}
+
 /// In the order in which messages name them.
 static TYPES: [JointType; 6] = [
     spherical::TYPE,
@@ -136,8 +158,8 @@ pub(crate) fn read_all(
     root: &Table<'_>,
     assembly: &mut Assembly,
     elements: &mut Elements,
-) -> Result<Vec<JointInfo>, SceneError> {
-    let mut infos = Vec::new();
+) -> Result<(Vec<JointInfo>, Vec<JointPlace>), SceneError> {
+    let (mut infos, mut places) = (Vec::new(), Vec::new());
     let of_all = realisation::of_all(root)?;
     let tables = root.list("joint")?;
     for table in &tables {
@@ -149,6 +171,7 @@ pub(crate) fn read_all(
         let spider = assembly.body_names().get(bodies).cloned();
         // Without a body of its own a universal joint holds what its two bodies lose.
         let brought = if spider.is_some() { 0 } else { kind.brings };
+        places.push(JointPlace::of(kind.name, &joint));
         infos.push(JointInfo {
             name,
             kind: kind.name,
@@ -180,7 +203,7 @@ pub(crate) fn read_all(
             info.assembly_error = info.assembly_error.max(extension);
         }
     }
-    Ok(infos)
+    Ok((infos, places))
 }
 
 fn out_of_reach(table: &Table<'_>, extension: f64, reach: f64) -> SceneError {

@@ -25,7 +25,7 @@ pub(super) const TYPE: JointType = JointType {
     name: "revolute",
     holds: 5,
     brings: 0,
-    keys: &["axis", "reference", "span", "ring", "clearance", "realisation"],
+    keys: &["axis", "reference", "span", "ring", "clearance", "realisation", "limits", "friction"],
     asks: (Place::Point, Turn::Axis),
     expand,
 };

@@ -19,7 +19,7 @@ pub(super) const TYPE: JointType = JointType {
     name: "translational",
     holds: 5,
     brings: 0,
-    keys: &["axis", "reference", "span", "gauge", "offset", "offsets"],
+    keys: &["axis", "reference", "span", "gauge", "offset", "offsets", "limits", "friction"],
     asks: (Place::Line, Turn::All),
     expand,
 };

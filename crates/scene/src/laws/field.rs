@@ -6,6 +6,7 @@ use dbd_kernel::laws::{Field, FieldSource};
 
 use crate::assembly::Assembly;
 use crate::error::SceneError;
+use crate::laws::of_joints::OfJoint;
 use crate::pair::Pair;
 use crate::points::{Heading, PlaceOf};
 use crate::text::{Kind, Number, Table, Value};
@@ -15,12 +16,19 @@ pub(super) struct Reading<'a, 't> {
     table: &'a Table<'t>,
     assembly: &'a Assembly,
     pair: &'a Pair,
+    /// Where a table of a joint has its geometry.
+    of_joint: Option<OfJoint<'a>>,
     refused: Option<SceneError>,
 }
 
 impl<'a, 't> Reading<'a, 't> {
-    pub(super) fn new(table: &'a Table<'t>, assembly: &'a Assembly, pair: &'a Pair) -> Self {
-        Self { table, assembly, pair, refused: None }
+    pub(super) fn new(
+        table: &'a Table<'t>,
+        assembly: &'a Assembly,
+        pair: &'a Pair,
+        of_joint: Option<OfJoint<'a>>,
+    ) -> Self {
+        Self { table, assembly, pair, of_joint, refused: None }
     }
 
     /// Why a constant was refused.
@@ -41,6 +49,9 @@ impl<'a, 't> Reading<'a, 't> {
     /// A direction in the axes of the first body, as a joint's axis is given.
     fn heading(&mut self, field: &Field) -> Option<dbd_kernel::Vec3<f64>> {
         let (assembly, table, a) = (self.assembly, self.table, self.pair.a);
+        if let Some(OfJoint { place, .. }) = &self.of_joint {
+            return Some(assembly.vector_in(a, place.axis_w));
+        }
         let read = table.required(field.name, Heading(assembly)).map(|written| {
             let carried = assembly.carried_direction(a, written);
             assembly.resolve_direction(table.value(field.name), written, carried);
@@ -57,6 +68,12 @@ fn unit(field: &Field, row: usize) -> &'static str {
 impl FieldSource for Reading<'_, '_> {
     fn number(&mut self, field: &Field) -> Option<f64> {
         let kind = Number::any(unit(field, 0));
+        let of_joint = self.of_joint.as_ref();
+        if let Some(read) =
+            of_joint.and_then(|of| of.number(self.table, field.name, unit(field, 0)))
+        {
+            return self.keep(read);
+        }
         let read = match field.default {
             Some(default) => {
                 self.table.optional(field.name, kind).map(|given| given.unwrap_or(default))
@@ -81,6 +98,10 @@ impl FieldSource for Reading<'_, '_> {
 
     fn points(&mut self, field: &Field) -> Option<[[f64; 3]; 2]> {
         let (assembly, pair) = (self.assembly, self.pair);
+        if let Some(OfJoint { place, .. }) = &self.of_joint {
+            let point = |body| assembly.point_in(body, place.at_w).to_f64();
+            return Some([pair.a, pair.b].map(point));
+        }
         let read = self.table.required(field.name, TwoPlaces { assembly, pair });
         self.keep(read)
     }

@@ -8,6 +8,7 @@ mod info;
 mod kit;
 mod linked;
 mod list;
+mod of_joints;
 mod rows;
 mod source;
 
@@ -18,6 +19,7 @@ pub use kit::{Poses, hold};
 #[doc(hidden)]
 pub use linked::LinkedLaw;
 pub use list::LawList;
+pub(crate) use of_joints::{FRICTION, LIMITS};
 pub(crate) use rows::Listed;
 pub use rows::convert_words;
 pub(crate) use source::SourceRows;
@@ -28,11 +30,13 @@ use dbd_kernel::laws::{self, Field, Law};
 
 use crate::assembly::Assembly;
 use crate::error::SceneError;
+use crate::joints::{self, JointPlace};
 use crate::laws::field::Reading;
 use crate::laws::linked::linked_laws;
+use crate::laws::of_joints::{OF_JOINTS, OfJoint};
 use crate::laws::source::Source;
 use crate::nearest::nearest;
-use crate::pair::Between;
+use crate::pair::{Between, Pair};
 use crate::shortened::shortened;
 use crate::target::{Elements, Target};
 use crate::text::{Kind, Table, Value};
@@ -136,48 +140,52 @@ impl Kind for LawName<'_> {
     }
 }
 
-/// A law by its place, its rows, and of each the number of its table and what messages call it.
-type OfLaw = (usize, Box<dyn SourceRows>, Vec<(usize, String)>);
+/// Where an interaction stands in the scene: its table and the number of that.
+pub(crate) type LawPlace = (&'static str, usize);
 
 /// What a scene's interactions are called, and what they show.
+#[derive(Default)]
 pub(crate) struct Read {
     /// What messages call them, in the order of the model's rows.
     pub(crate) labels: Vec<String>,
-    /// The number of each one's table.
-    pub(crate) tables: Vec<usize>,
+    /// Where each one stands.
+    pub(crate) places: Vec<LawPlace>,
     /// What each shows.
     pub(crate) quantities: Vec<&'static [laws::Quantity]>,
 }
 
-/// Reads all interactions: those of one law stand together in the model, in the order in which the scene first names
-/// their law.
-pub(crate) fn read_all(
-    root: &Table<'_>,
-    assembly: &mut Assembly,
-    elements: &mut Elements,
-) -> Result<Read, SceneError> {
-    let known = known_laws();
-    let given = root.list("interaction")?;
-    let mut laws: Vec<OfLaw> = Vec::new();
-    for (number, table) in given.iter().enumerate() {
-        if !table.has("law") {
-            table.only(&[KEYS, &all_fields(&known)])?;
-        }
-        let law = table.required("law", LawName(&known))?;
-        let fields = known[law].fields.iter();
-        table.only(&[KEYS, &fields.map(|field| field.name).collect::<Vec<_>>()])?;
-        let pair = table.required("between", Between(assembly))?;
-        if pair.b.is_world() {
-            let help = "the ground comes first: between = [\"world\", BODY]";
-            return Err(table.refuse_value("between", "has the ground as its second body", help));
-        }
-        let place = laws.iter().position(|(of, ..)| *of == law).unwrap_or_else(|| {
-            let path = known[law].path.clone();
-            laws.push((law, (known[law].table)(path), Vec::new()));
-            laws.len() - 1
+/// An interaction that is read: its name, if it has one, with the table that it is refused by; its label; its place.
+struct One<'t> {
+    name: Option<String>,
+    table: Table<'t>,
+    label: String,
+    place: LawPlace,
+}
+
+/// The rows of each law so far.
+struct Rows<'t> {
+    known: Vec<KnownLaw>,
+    /// A law by its place among those known, its rows, and what they are.
+    laws: Vec<(usize, Box<dyn SourceRows>, Vec<One<'t>>)>,
+}
+
+impl<'t> Rows<'t> {
+    /// Adds a row of a law by its place among those known.
+    fn add(
+        &mut self,
+        law: usize,
+        assembly: &Assembly,
+        (pair, of_joint): (&Pair, Option<OfJoint<'_>>),
+        one: One<'t>,
+    ) -> Result<(), SceneError> {
+        let place = self.laws.iter().position(|(of, ..)| *of == law).unwrap_or_else(|| {
+            let path = self.known[law].path.clone();
+            self.laws.push((law, (self.known[law].table)(path), Vec::new()));
+            self.laws.len() - 1
         });
-        let (_, rows, of_law) = &mut laws[place];
-        let mut reading = Reading::new(table, assembly, &pair);
+        let (_, rows, of_law) = &mut self.laws[place];
+        let table = &one.table;
+        let mut reading = Reading::new(table, assembly, pair, of_joint);
         let done = rows.add([pair.a, pair.b], &mut reading);
         if let Some(refused) = reading.into_refused() {
             return Err(refused);
@@ -189,22 +197,83 @@ pub(crate) fn read_all(
             let help = format!("`{}` of {} must be {}", wrong.field, table.label(), wrong.expected);
             return Err(table.refuse_value(wrong.field, wrong.problem, help));
         }
-        of_law.push((number, pair.label(table)));
+        of_law.push(one);
+        Ok(())
     }
-    let mut read = Read { labels: Vec::new(), tables: Vec::new(), quantities: Vec::new() };
-    let mut sources = Vec::new();
-    for (law, rows, of_law) in laws {
-        for (number, label) in of_law {
-            let target = Target::Interaction(read.labels.len());
-            elements.read_optional(&given[number], "interaction", target)?;
-            read.labels.push(label);
-            read.tables.push(number);
-            read.quantities.push(known[law].quantities);
+}
+
+/// Reads all interactions, those of joints before those of `[[interaction]]`: those of one law stand together in the
+/// model, in the order in which the scene first has their law.
+pub(crate) fn read_all(
+    root: &Table<'_>,
+    joints: &[JointPlace],
+    assembly: &mut Assembly,
+    elements: &mut Elements,
+) -> Result<Read, SceneError> {
+    let mut rows = Rows { known: known_laws(), laws: Vec::new() };
+    of_joints(root, joints, assembly, &mut rows)?;
+    for (number, table) in root.list("interaction")?.into_iter().enumerate() {
+        let known = &rows.known;
+        if !table.has("law") {
+            table.only(&[KEYS, &all_fields(known)])?;
         }
-        sources.push(Arc::from(rows));
+        let law = table.required("law", LawName(known))?;
+        let fields = known[law].fields.iter();
+        table.only(&[KEYS, &fields.map(|field| field.name).collect::<Vec<_>>()])?;
+        let pair = table.required("between", Between(assembly))?;
+        if pair.b.is_world() {
+            let help = "the ground comes first: between = [\"world\", BODY]";
+            return Err(table.refuse_value("between", "has the ground as its second body", help));
+        }
+        let (label, place) = (pair.label(&table), ("interaction", number));
+        rows.add(law, assembly, (&pair, None), One { name: None, table, label, place })?;
+    }
+    let mut read = Read::default();
+    let mut sources = Vec::new();
+    for (law, source, of_law) in rows.laws {
+        for One { name, table, label, place } in of_law {
+            let target = Target::Interaction(read.labels.len());
+            match name {
+                Some(name) => elements.add(&table, name, "interaction", target)?,
+                None => elements.read_optional(&table, "interaction", target)?,
+            }
+            read.labels.push(label);
+            read.places.push(place);
+            read.quantities.push(rows.known[law].quantities);
+        }
+        sources.push(Arc::from(source));
     }
     assembly.set_laws(&sources);
     Ok(read)
+}
+
+/// Reads `limits` and `friction` of joints.
+fn of_joints<'t>(
+    root: &Table<'t>,
+    joints: &[JointPlace],
+    assembly: &Assembly,
+    rows: &mut Rows<'t>,
+) -> Result<(), SceneError> {
+    for (number, (joint, place)) in root.list("joint")?.into_iter().zip(joints).enumerate() {
+        joints::allow(&joint)?;
+        for (_, key, law) in OF_JOINTS.iter().filter(|(kind, ..)| *kind == place.kind) {
+            let Some(value) = joint.value(key) else { continue };
+            let table = value.table(match key.ends_with("limits") {
+                true => "{ from = …, to = …, stiffness = … }",
+                false => "{ coulomb = …, breakaway = … }",
+            })?;
+            let Some(law) = rows.known.iter().position(|known| known.name == *law) else {
+                continue;
+            };
+            let of_joint = OfJoint::new(&table, key, (place, rows.known[law].fields))?;
+            let name = format!("{}.{key}", place.name);
+            let [a, b] = &place.pair.names;
+            let label = format!("{key} `{name}` ({a}–{b})");
+            let one = One { name: Some(name), table, label, place: ("joint", number) };
+            rows.add(law, assembly, (&place.pair, Some(of_joint)), one)?;
+        }
+    }
+    Ok(())
 }
 
 /// The keys of all laws.

@@ -121,6 +121,6 @@ fn place(part: Part, scene: &Scene) -> Option<(&'static str, usize)> {
         }
         Part::Load(row) => Some(("load", row)),
         Part::Input(row) => Some(("input", row)),
-        Part::Law(row) => Some(("interaction", *scene.law_tables.get(row)?)),
+        Part::Law(row) => scene.law_places.get(row).copied(),
     }
 }

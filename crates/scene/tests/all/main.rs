@@ -8,6 +8,7 @@ mod four_bar;
 mod freedoms;
 mod geometry;
 mod injected;
+mod limits;
 mod long_form;
 mod long_texts;
 mod parameters;

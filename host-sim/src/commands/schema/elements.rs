@@ -89,6 +89,16 @@ pub(super) fn of_joint(key: &str, tables: &[TableKeys]) -> Option<Key> {
             "alike",
         ),
         "realisation" => realisation(),
+        "limits" | "turn_limits" | "slide_limits" => Key(
+            any(&["from", "to"].map(|end| within("limits", tables, &[end, "stiffness"]))),
+            "Ends of its angle or travel: { from = …, to = …, stiffness = … }",
+            "none",
+        ),
+        "friction" | "turn_friction" | "slide_friction" => Key(
+            within("friction", tables, &["coulomb"]),
+            "Dry friction that sticks: { coulomb = …, breakaway = … }",
+            "none",
+        ),
         _ => return None,
     })
 }

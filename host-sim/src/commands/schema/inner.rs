@@ -1,11 +1,12 @@
-//! What the keys of tables within tables mean and take: points, links, shapes, orientations, stiffnesses, spiders, rates, sines.
+//! What the keys of tables within tables mean and take: points, links, shapes, orientations, stiffnesses, spiders, rates, sines,
+//! limits, friction.
 //!
 //! `(table, key) => schema`, and whole tables of them.
 
 use dbd_scene::vocabulary::TableKeys;
 use serde_json::{Value, json};
 
-use super::values::Range::{Any, Positive};
+use super::values::Range::{Any, NotNegative, Positive};
 use super::values::{Key, any, array, choice, name, number, numbers, object, place};
 
 /// The schema of a key; `None` of one that it does not know.
@@ -18,6 +19,8 @@ pub(super) fn schema(table: &str, key: &str, tables: &[TableKeys]) -> Option<Val
         "spider" => of_spider(key),
         "rate" => of_rate(key),
         "sine" => of_sine(key),
+        "limits" => of_limits(key),
+        "friction" => of_friction(key),
         _ => None,
     };
     found.map(Key::schema)
@@ -159,6 +162,53 @@ fn of_spider(key: &str) -> Option<Key> {
         "angular_velocity" => {
             Key(numbers(3, Any), "[x, y, z] rad/s about its own axes", "as the first body turns")
         }
+        _ => return None,
+    })
+}
+
+fn of_limits(key: &str) -> Option<Key> {
+    Some(match key {
+        "from" => Key(number(Any), "rad (\"-30 deg\") or m: lower end", "none"),
+        "to" => Key(number(Any), "rad or m: upper end", "none"),
+        "offset" => Key(number(Any), "rad or m: the angle or the travel at t = 0", "0"),
+        "stiffness" => Key(number(Positive), "N·m/rad or N/m, > 0: beyond an end", ""),
+        "dissipation" => Key(
+            number(NotNegative),
+            "s/rad or s/m: coefficient a of stiffness · depth · (1 + a · rate of the depth)",
+            "0",
+        ),
+        "restitution" => Key(
+            number(Positive),
+            "In place of `dissipation`: speed after an impact over speed before it, in (0, 1]",
+            "",
+        ),
+        "speed" => {
+            Key(number(Positive), "rad/s or m/s: of the impact that `restitution` is of", "")
+        }
+        _ => return None,
+    })
+}
+
+fn of_friction(key: &str) -> Option<Key> {
+    Some(match key {
+        "coulomb" => Key(number(NotNegative), "N·m or N: while it slides fast", ""),
+        "breakaway" => Key(number(Positive), "N·m or N: to begin sliding", "`coulomb`"),
+        "stribeck" => Key(
+            number(Positive),
+            "rad/s or m/s: rate at which friction is midway between the two",
+            "0.05 rad/s, 0.01 m/s",
+        ),
+        "give" => Key(
+            number(Positive),
+            "rad or m: elastic part of the motion at `breakaway`",
+            "0.001 rad, 0.1 mm",
+        ),
+        "damping" => Key(
+            number(NotNegative),
+            "N·m·s/rad or N·s/m: of the elastic part",
+            "`breakaway`/`stribeck`",
+        ),
+        "viscous" => Key(number(NotNegative), "N·m·s/rad or N·s/m: while it slides", "0"),
         _ => return None,
     })
 }

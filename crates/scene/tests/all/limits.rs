@@ -1,0 +1,216 @@
+//! Limits and friction of joints: the interactions that they stand for.
+
+use dbd_kernel::energy::energy;
+use dbd_kernel::{Leapfrog, Plant};
+use dbd_scene::Scene;
+
+/// A slider on a guide and a lever on it, and what their joints have besides.
+fn scene(slide: &str, turn: &str) -> Result<Scene, String> {
+    let text = format!(
+        r#"
+name = "limits"
+duration = 1
+[[body]]
+name = "slider"
+mass = 2
+inertia = [0.01, 0.01, 0.01]
+position = [0, 0, 0]
+[[body]]
+name = "lever"
+mass = 1
+inertia = [0.01, 0.01, 0.01]
+position = [0, 0.3, 0]
+[[joint]]
+name = "guide"
+type = "translational"
+between = ["world", "slider"]
+at = [0, 0, 0]
+axis = [1, 0, 0]
+span = 0.1
+gauge = 0.05
+offset = 0.02
+stiffness = 1e6
+{slide}
+[[joint]]
+name = "pivot"
+type = "revolute"
+between = ["slider", "lever"]
+at = [0, 0, 0]
+axis = [0, 0, 1]
+span = 0.05
+stiffness = 1e6
+{turn}
+"#
+    );
+    Scene::parse(&text, "limits.toml").map_err(|error| format!("{:?}", miette::Report::new(error)))
+}
+
+#[test]
+fn a_key_of_a_joint_is_the_interaction_about_its_axis() {
+    let keyed = scene(
+        "limits = { from = \"-20 mm\", to = \"30 mm\", stiffness = \"1 MN/m\", dissipation = 0.5 }\n\
+         friction = { coulomb = 2, breakaway = 3, viscous = 0.1, damping = 7 }",
+        "limits = { from = \"-30 deg\", to = \"90 deg\", stiffness = 200 }\nfriction = { coulomb = 0.1 }",
+    )
+    .unwrap();
+    let listed = scene(
+        "",
+        "[[interaction]]\nlaw = \"end-stop\"\nbetween = [\"world\", \"slider\"]\npoints = [[0, 0, 0], [0, 0, 0]]\n\
+         normal = [1, 0, 0]\nfrom = -0.02\nto = 0.03\nstiffness = 1e6\ndissipation = 0.5\n\
+         [[interaction]]\nlaw = \"slide-friction\"\nbetween = [\"world\", \"slider\"]\naxis = [1, 0, 0]\n\
+         points = [[0, 0, 0], [0, 0, 0]]\ncoulomb = 2\nbreakaway = 3\nviscous = 0.1\ndamping = 7\n\
+         [[interaction]]\nlaw = \"hinge-stop\"\nbetween = [\"slider\", \"lever\"]\naxis = [0, 0, 1]\n\
+         from = \"-30 deg\"\nto = \"90 deg\"\nstiffness = 200\n\
+         [[interaction]]\nlaw = \"hinge-friction\"\nbetween = [\"slider\", \"lever\"]\naxis = [0, 0, 1]\n\
+         coulomb = 0.1\nbreakaway = 0.1\ndamping = 2\n",
+    )
+    .unwrap();
+    let of = |scene: &Scene| Plant::new(&scene.model, Leapfrog, 1e-4).unwrap().fingerprint();
+    assert_eq!(of(&keyed), of(&listed));
+    let labels: Vec<_> = keyed.interactions().iter().map(|found| found.label.clone()).collect();
+    assert_eq!(
+        labels,
+        [
+            "limits `guide.limits` (world–slider)",
+            "friction `guide.friction` (world–slider)",
+            "limits `pivot.limits` (slider–lever)",
+            "friction `pivot.friction` (slider–lever)",
+        ]
+    );
+    assert_eq!(keyed.interactions()[2].name(), Some("pivot.limits"));
+    assert_eq!(keyed.line_of_interaction(2), keyed.line_of_joint(1));
+}
+
+/// The ground may come second: signs are those of the joint.
+#[test]
+fn the_ground_may_be_the_second_body() {
+    let text = |between: &str, speed: f64| {
+        format!(
+            "name = \"g\"\nduration = 1\n[[body]]\nname = \"disc\"\nmass = 1\ninertia = [0.01, 0.01, 0.01]\n\
+             position = [0, 0, 0]\nangular_velocity = [0, 0, {speed}]\n[[joint]]\nname = \"pivot\"\n\
+             type = \"revolute\"\nbetween = {between}\nat = [0, 0, 0]\naxis = [0, 0, 1]\nspan = 0.1\n\
+             stiffness = 1e6\nlimits = {{ to = 0.1, stiffness = 100 }}\n"
+        )
+    };
+    let rate = |between: &str, speed: f64| {
+        let model = Scene::parse(&text(between, speed), "g.toml").unwrap().model;
+        let mut plant = Plant::new(&model, Leapfrog, 1e-5).unwrap();
+        plant.advance(20_000).ok().unwrap();
+        plant.state().bodies[0].angular_velocity.z
+    };
+    // The second body beside the first: the ground turns by +0.1 where the disc turns by -0.1.
+    for (between, speed, comes_back) in [
+        ("[\"world\", \"disc\"]", 2.0, true),
+        ("[\"world\", \"disc\"]", -2.0, false),
+        ("[\"disc\", \"world\"]", 2.0, false),
+        ("[\"disc\", \"world\"]", -2.0, true),
+    ] {
+        let found = rate(between, speed);
+        let expected = if comes_back { -speed } else { speed };
+        assert!((found - expected).abs() < 2e-2, "{between} {speed}: {found}");
+    }
+}
+
+/// An offset moves both ends; a cylindrical joint has limits of both motions.
+#[test]
+fn offsets_and_cylindrical_joints() {
+    let text = |keys: &str| {
+        format!(
+            "name = \"c\"\nduration = 1\n[[body]]\nname = \"rod\"\nmass = 1\ninertia = [0.01, 0.01, 0.01]\n\
+             position = [0, 0, 0]\nvelocity = [0, 0, 1]\nangular_velocity = [0, 0, 5]\n[[joint]]\nname = \"bush\"\n\
+             type = \"cylindrical\"\nbetween = [\"world\", \"rod\"]\nat = [0, 0, 0]\naxis = [0, 0, 1]\nspan = 0.1\n\
+             offset = 0.02\nstiffness = 1e6\n{keys}"
+        )
+    };
+    let end = |keys: &str| {
+        let model = Scene::parse(&text(keys), "c.toml").unwrap().model;
+        let mut plant = Plant::new(&model, Leapfrog, 1e-5).unwrap();
+        plant.advance(30_000).ok().unwrap();
+        let body = &plant.state().bodies[0];
+        (body.velocity.z, body.angular_velocity.z, energy(&model, plant.state(), 1e-5).total())
+    };
+    let none = "";
+    let slide = "slide_limits = { from = 0, to = 0.25, offset = 0.05, stiffness = 1e5 }";
+    let turn = "turn_limits = { to = \"90 deg\", offset = \"20 deg\", stiffness = 500 }";
+    let both = format!("{slide}\n{turn}");
+    for (keys, [v, w]) in [
+        (none, [1.0, 5.0]),
+        (slide, [-1.0, 5.0]),
+        (turn, [1.0, -5.0]),
+        (both.as_str(), [-1.0, -5.0]),
+    ] {
+        let found = end(keys);
+        assert!((found.0 - v).abs() < 1e-2 && (found.1 - w).abs() < 5e-2, "{keys}: {found:?}");
+        assert!((found.2 - 0.625).abs() < 1e-4, "{keys}: {found:?}");
+    }
+    let rubbing = end("slide_friction = { coulomb = 4 }\nturn_friction = { coulomb = 1 }");
+    assert!(rubbing.0.abs() < 1e-4 && rubbing.1.abs() < 1e-5, "{rubbing:?}");
+}
+
+/// A speed after an impact that is the given share of the speed before it.
+#[test]
+fn restitution_is_that_of_the_impact() {
+    for restitution in [0.95, 0.7, 0.3, 0.1] {
+        let text = format!(
+            "name = \"r\"\nduration = 1\n[[body]]\nname = \"sled\"\nmass = 3\ninertia = [0.01, 0.01, 0.01]\n\
+             position = [0, 0, 0]\nvelocity = [2, 0, 0]\n[[joint]]\nname = \"rail\"\ntype = \"translational\"\n\
+             between = [\"world\", \"sled\"]\nat = [0, 0, 0]\naxis = [1, 0, 0]\nspan = 0.1\ngauge = 0.05\n\
+             offset = 0.02\nstiffness = 1e6\nlimits = {{ to = 0.01, stiffness = 1e5, restitution = {restitution}, \
+             speed = 2 }}\n"
+        );
+        let model = Scene::parse(&text, "r.toml").unwrap().model;
+        let mut plant = Plant::new(&model, Leapfrog, 1e-5).unwrap();
+        plant.advance(20_000).ok().unwrap();
+        let found = plant.state().bodies[0].velocity.x / -2.0;
+        assert!((found - restitution).abs() < 2e-3, "{restitution}: {found}");
+    }
+}
+
+#[test]
+fn bad_limits_are_refused_with_place_reason_and_remedy() {
+    for (slide, turn, says) in [
+        ("limits = { stiffness = 1 }", "", ["limits nothing", "`from`, `to` or both"]),
+        ("limits = { from = 1, to = 0, stiffness = 1 }", "", ["`to`", "is not above `from`"]),
+        ("limits = { to = 1 }", "", ["has no `stiffness`", "N/m"]),
+        ("limits = { to = 1, stiffness = -1 }", "", ["stiffness", "a stiffness > 0"]),
+        (
+            "limits = { to = 1, stiffness = 1, speed = 1 }",
+            "",
+            ["has no `restitution`", "dissipation"],
+        ),
+        ("limits = { to = 1, stiffness = 1, restitution = 0.5 }", "", ["has no `speed`", "m/s"]),
+        (
+            "limits = { to = 1, stiffness = 1, restitution = 1.5, speed = 1 }",
+            "",
+            ["is no ratio of speeds", "(0, 1]"],
+        ),
+        (
+            "limits = { to = 1, stiffness = 1, restitution = 0.5, speed = 1, dissipation = 1 }",
+            "",
+            ["stands beside `restitution`", "either says"],
+        ),
+        ("limits = { to = 1, stiffness = 1, ratio = 1 }", "", ["has no key `ratio`", "`from`"]),
+        ("limits = 3", "", ["is an integer", "{ from = …"]),
+        ("turn_limits = { to = 1, stiffness = 1 }", "", ["has no key `turn_limits`", "`limits`"]),
+        ("", "limits = { to = \"1 mm\", stiffness = 1 }", ["`to`", "rad"]),
+        ("", "friction = { breakaway = 1 }", ["has no `coulomb`", "N·m"]),
+        ("", "friction = { coulomb = 2, breakaway = 1 }", ["`breakaway`", "at least as large"]),
+        (
+            "",
+            "friction = { coulomb = 0 }",
+            ["`friction` of joint `pivot` is too small", "a number > 0"],
+        ),
+        (
+            "",
+            "friction = { coulomb = 1 }\n[[tsda]]\nname = \"pivot.friction\"\nbetween = [\"world\", \"lever\"]\n\
+             points = [[1, 0, 0], [0, 0, 0]]\nfree_length = 1\nstiffness = 1",
+            ["pivot.friction", "differ from each other"],
+        ),
+    ] {
+        let text = scene(slide, turn).unwrap_err();
+        let flat: String = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        for words in says {
+            assert!(flat.contains(words), "{slide}{turn}: {words} not in {text}");
+        }
+    }
+}
