@@ -173,7 +173,7 @@ fn ranges_and_friction_of_joints_are_theirs() {
     assert!(made.omitted.is_empty() && made.scene.contains("# Limits, stated"), "{}", made.scene);
     let found = scene.interactions();
     assert_eq!((found.len(), found[0].law, found[0].name()), (1, "hinge-stop", Some("h.limits")));
-    assert!(made.scene.contains("from = -0.174532925199433"), "{}", made.scene);
+    assert!(made.scene.contains("from = -0.17453292519943295"), "{}", made.scene);
     let text = mujoco(
         &body("a", "<joint name='h' axis='0 0 1' range='-10 30'/>", ""),
         "<keyframe><key name='up' qpos='0.2'/></keyframe>",

@@ -177,6 +177,20 @@ impl Assembly {
         }
     }
 
+    /// What a unit impulse between two bodies, each free, makes of their rate: \[1/kg\] along a line through
+    /// both centres, \[1/(kg·m²)\] about a unit axis in the world.
+    pub(crate) fn mobility(&self, ends: [BodyIndex; 2], about: Option<Vec3<f64>>) -> f64 {
+        let of = |end: BodyIndex| match (self.model.bodies.get(end.row()), about) {
+            (Some(body), Some(axis_w)) => {
+                let [n, inverse] = [self.vector_in(end, axis_w), body.inverse_inertia];
+                n.x * n.x * inverse.x + n.y * n.y * inverse.y + n.z * n.z * inverse.z
+            }
+            (Some(body), None) => body.inverse_mass,
+            (None, _) => 0.0,
+        };
+        ends.map(of).iter().sum()
+    }
+
     /// The velocity \[m/s\] of the point of a body that is at a world point, and its angular
     /// velocity \[rad/s\], both world.
     pub(crate) fn motion(&self, body: BodyIndex, point_w: Vec3<f64>) -> (Vec3<f64>, Vec3<f64>) {

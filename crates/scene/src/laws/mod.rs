@@ -265,7 +265,7 @@ fn of_joints<'t>(
             let Some(law) = rows.known.iter().position(|known| known.name == *law) else {
                 continue;
             };
-            let of_joint = OfJoint::new(&table, key, (place, rows.known[law].fields))?;
+            let of_joint = OfJoint::new(&table, key, (place, rows.known[law].fields), assembly)?;
             let name = format!("{}.{key}", place.name);
             let [a, b] = &place.pair.names;
             let label = format!("{key} `{name}` ({a}–{b})");

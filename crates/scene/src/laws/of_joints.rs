@@ -5,6 +5,7 @@
 
 use dbd_kernel::laws::Field;
 
+use crate::assembly::Assembly;
 use crate::error::SceneError;
 use crate::joints::JointPlace;
 use crate::text::{Number, Table};
@@ -39,6 +40,8 @@ pub(super) struct OfJoint<'j> {
     is_limits: bool,
     /// The constants of its law.
     fields: &'static [Field],
+    /// \[1/(kg·m²), 1/kg\] of its two bodies, each free.
+    mobility: f64,
 }
 
 impl<'j> OfJoint<'j> {
@@ -47,13 +50,18 @@ impl<'j> OfJoint<'j> {
         table: &Table<'_>,
         key: &str,
         (place, fields): (&'j JointPlace, &'static [Field]),
+        assembly: &Assembly,
     ) -> Result<Self, SceneError> {
         let is_limits = key.ends_with("limits");
         table.only(&[if is_limits { LIMITS } else { FRICTION }])?;
         if is_limits && !(table.has("from") || table.has("to")) {
             return Err(table.refuse("limits nothing", "`from`, `to` or both"));
         }
-        Ok(Self { place, is_limits, fields })
+        // What turns is in radians.
+        let turns = fields.iter().any(|field| field.kind == "axis");
+        let about = turns.then_some(place.axis_w);
+        let mobility = assembly.mobility([place.pair.a, place.pair.b], about);
+        Ok(Self { place, is_limits, fields, mobility })
     }
 
     /// A number that the law has and the table gives in another way; `None` where it is read as it stands.
@@ -79,7 +87,8 @@ impl<'j> OfJoint<'j> {
         }
     }
 
-    /// What lets the elastic part of a motion come to rest: the limit at the rate of `stribeck`.
+    /// Half of what would be critical for the elastic part of the motion, the two bodies free: `√(k·μ)`, k the stiffness
+    /// `breakaway`/`give`.
     fn damping(&self, table: &Table<'_>) -> Result<f64, SceneError> {
         let given = |key: &str| {
             let field = self.fields.iter().find(|field| field.name == key);
@@ -91,8 +100,8 @@ impl<'j> OfJoint<'j> {
             Some(limit) => Some(limit),
             None => given("coulomb")?,
         };
-        let rate = given("stribeck")?.filter(|rate| *rate > 0.0);
-        Ok(limit.zip(rate).map_or(0.0, |(limit, rate)| limit / rate))
+        let square = limit.zip(given("give")?).map(|(limit, give)| limit / (give * self.mobility));
+        Ok(square.filter(|square| *square > 0.0 && square.is_finite()).map_or(0.0, libm::sqrt))
     }
 }
 

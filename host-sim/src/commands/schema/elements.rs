@@ -6,7 +6,7 @@ use dbd_scene::Realisation;
 use dbd_scene::vocabulary::{TableKeys, colours};
 use serde_json::{Value, json};
 
-use super::inner::{kinds, orientation, within};
+use super::inner::{kinds, limits, orientation, within};
 use super::values::Range::{Any, NotNegative, Positive};
 use super::values::{Key, any, array, choice, halves, heading, name, number, numbers, place};
 
@@ -90,7 +90,7 @@ pub(super) fn of_joint(key: &str, tables: &[TableKeys]) -> Option<Key> {
         ),
         "realisation" => realisation(),
         "limits" | "turn_limits" | "slide_limits" => Key(
-            any(&["from", "to"].map(|end| within("limits", tables, &[end, "stiffness"]))),
+            limits(tables),
             "Ends of its angle or travel: { from = …, to = …, stiffness = … }",
             "none",
         ),

@@ -36,6 +36,14 @@ pub(super) fn within(table: &'static str, tables: &[TableKeys], required: &[&str
     object(properties, required)
 }
 
+/// Limits of a joint.
+pub(super) fn limits(tables: &[TableKeys]) -> Value {
+    let mut schema = within("limits", tables, &["stiffness"]);
+    schema["anyOf"] = json!(["from", "to"].map(|end| json!({ "required": [end] })));
+    schema["dependencies"] = json!({ "restitution": ["speed"], "speed": ["restitution"] });
+    schema
+}
+
 /// One of the forms of an orientation.
 pub(super) fn orientation(tables: &[TableKeys]) -> Value {
     let mut schema = within("orientation", tables, &[]);
@@ -206,7 +214,7 @@ fn of_friction(key: &str) -> Option<Key> {
         "damping" => Key(
             number(NotNegative),
             "N·m·s/rad or N·s/m: of the elastic part",
-            "`breakaway`/`stribeck`",
+            "half of critical for its two bodies, each free",
         ),
         "viscous" => Key(number(NotNegative), "N·m·s/rad or N·s/m: while it slides", "0"),
         _ => return None,
