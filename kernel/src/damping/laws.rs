@@ -65,6 +65,10 @@ impl<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool> DamperPass<P>
     }
 
     fn act(&mut self, bodies: [BodyIndex; 2], dampers: &[Damper<P>], shares: &[Share<P::Real>]) {
+        let idle = |damper: &Damper<P>| damper.coefficient == P::Real::ZERO;
+        if P::Real::LANES == 1 && dampers.iter().all(idle) {
+            return;
+        }
         let (model, sweep) = (self.model, self.sweep);
         let rows = bodies.map(BodyIndex::row);
         let mut pair = Pair::new(model, rows, self.moving, P::Vector::ZERO, &sweep.kick);
@@ -73,7 +77,7 @@ impl<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool> DamperPass<P>
             let i = if REVERSE { count - 1 - i } else { i };
             let (Some(damper), Some(share)) = (dampers.get(i), shares.get(i)) else { break };
             // Its impulse would be 0.
-            if P::Real::LANES == 1 && damper.coefficient == P::Real::ZERO {
+            if P::Real::LANES == 1 && idle(damper) {
                 continue;
             }
             let bounds = damper.bounds().map(|bound| bound * sweep.h);

@@ -15,19 +15,17 @@ use crate::space::Linear as _;
 pub(super) struct Coordinate<P: Geometry> {
     /// \[m, rad\]
     pub(super) value: P::Real,
-    /// Its gradient.
-    pub(super) direction: Direction<P::Space>,
-    bend: Bend<P>,
+    way: Way<P>,
 }
 
-/// How its gradient changes with the pose.
-enum Bend<P: Geometry> {
-    /// \[1\] the square of the gradient of a turn.
-    Turn(P::Real),
-    /// \[m\] the arm of A's point, the way from it to B's and the arm of B's point, of a travel along an axis of A.
-    Travel([P::Vector; 3]),
-    /// \[m\] the length and both arms.
-    Distance(P::Real, [P::Vector; 2]),
+/// What its gradient is made of, and how that changes with the pose.
+enum Way<P: Geometry> {
+    /// The gradient of a turn, world.
+    Turn(P::Moment),
+    /// The axis, world; \[m\] the arm of A's point, the way from it to B's and the arm of B's point.
+    Travel(P::Vector, [P::Vector; 3]),
+    /// \[m\] the way, and both arms.
+    Distance(P::Vector, [P::Vector; 2]),
 }
 
 impl<P: Geometry> Coordinate<P> {
@@ -35,9 +33,7 @@ impl<P: Geometry> Coordinate<P> {
     #[inline(always)]
     pub(super) fn turn(seen: &Seen<'_, P>, axis: &Hinge<P::Space>, turns: Turns) -> Option<Self> {
         let (value, gradient) = axis.seen(seen)?.angle(turns);
-        let gradient = seen.a.moment_to_world(gradient);
-        let bend = Bend::Turn(gradient.dot(gradient));
-        Some(Self { value, direction: seen.about(gradient), bend })
+        Some(Self { value, way: Way::Turn(seen.a.moment_to_world(gradient)) })
     }
 
     /// How far B's point is from A's along an axis of A.
@@ -45,9 +41,7 @@ impl<P: Geometry> Coordinate<P> {
     pub(super) fn travel(seen: &Seen<'_, P>, points: &[P::Local; 2], axis: P::Vector) -> Self {
         let ((at_a, arm), (at_b, other)) = (seen.a.place(&points[0]), seen.b.place(&points[1]));
         let (way, axis) = (P::displacement(&at_a, &at_b), seen.a.to_world(axis));
-        // The force on A acts where B's point is: both then lie on one line.
-        let direction = seen.along(axis, [seen.a.arm_at(arm, way), other]);
-        Self { value: axis.dot(way), direction, bend: Bend::Travel([arm, way, other]) }
+        Self { value: axis.dot(way), way: Way::Travel(axis, [arm, way, other]) }
     }
 
     /// How far two points are apart; without a direction where they coincide.
@@ -55,9 +49,20 @@ impl<P: Geometry> Coordinate<P> {
     pub(super) fn distance(seen: &Seen<'_, P>, points: &[P::Local; 2]) -> Self {
         let ((at_a, arm), (at_b, other)) = (seen.a.place(&points[0]), seen.b.place(&points[1]));
         let way = P::displacement(&at_a, &at_b);
-        let value = way.dot(way).sqrt();
-        let direction = seen.along(way * value.reciprocal_or_zero(), [arm, other]);
-        Self { value, direction, bend: Bend::Distance(value, [arm, other]) }
+        Self { value: way.dot(way).sqrt(), way: Way::Distance(way, [arm, other]) }
+    }
+
+    /// Its gradient.
+    #[inline(always)]
+    pub(super) fn direction(&self, seen: &Seen<'_, P>) -> Direction<P::Space> {
+        match self.way {
+            Way::Turn(gradient) => seen.about(gradient),
+            // The force on A acts where B's point is: both then lie on one line.
+            Way::Travel(axis, [arm, way, other]) => {
+                seen.along(axis, [seen.a.arm_at(arm, way), other])
+            }
+            Way::Distance(way, arms) => seen.along(way * self.value.reciprocal_or_zero(), arms),
+        }
     }
 
     /// \[N·m\] what a force along it does to a turn of A and of B at most; what it does to moves, it visits as
@@ -69,11 +74,11 @@ impl<P: Geometry> Coordinate<P> {
         visit: Springs<'_, P>,
     ) -> [P::Real; 2] {
         let length = |v: P::Vector| v.dot(v).sqrt();
-        match &self.bend {
-            Bend::Turn(square) => [P::Real::HALF * force * *square; 2],
+        match &self.way {
+            Way::Turn(gradient) => [P::Real::HALF * force * gradient.dot(*gradient); 2],
             // The axis turns with A. Of the force F, the arm r of A's point and the way d to B's, a move ξ and a turn φ
             // of A meet 2·F·|φ|·|ξ| + F·(3·|r| + |d|)·φ² at most, and 2·|φ|·|ξ| ≤ ξ²/l + l·φ².
-            Bend::Travel(ways) => {
+            Way::Travel(_, ways) => {
                 let [arm, far, other] = ways.map(length);
                 let reach = arm + far;
                 let across = force * reach.reciprocal_or_zero();
@@ -83,8 +88,8 @@ impl<P: Geometry> Coordinate<P> {
                 let three = P::Real::ONE + P::Real::TWO;
                 [force * (three * arm + far + reach), force * other]
             }
-            Bend::Distance(apart, arms) => {
-                let across = force * apart.reciprocal_or_zero();
+            Way::Distance(_, arms) => {
+                let across = force * self.value.reciprocal_or_zero();
                 for axis in P::Vector::axes() {
                     visit(across, &seen.along(axis, *arms));
                 }

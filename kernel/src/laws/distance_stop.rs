@@ -58,7 +58,10 @@ impl<P: Geometry> Interaction<P> for DistanceStop<P> {
 
     #[inline(always)]
     fn dampers(&self, seen: &Seen<'_, P>, _: &Nothing, visit: &mut impl FnMut(Damper<P>)) {
-        visit(self.stopped(seen).damper(self.dissipation));
+        if self.dissipation == P::Real::ZERO {
+            return visit(Damper::idle());
+        }
+        visit(self.stopped(seen).damper(seen, self.dissipation));
     }
 
     fn check(&self) -> Result<(), Wrong> {

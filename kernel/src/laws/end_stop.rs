@@ -9,6 +9,7 @@ use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
 use crate::laws::interaction::{Damper, Interaction, Nothing, Quantity, Springs, Wrong};
 use crate::laws::stop::{Stopped, check};
+use crate::real::Real;
 use crate::record::Record;
 
 law! {
@@ -57,7 +58,10 @@ impl<P: Geometry> Interaction<P> for EndStop<P> {
 
     #[inline(always)]
     fn dampers(&self, seen: &Seen<'_, P>, _: &Nothing, visit: &mut impl FnMut(Damper<P>)) {
-        visit(self.stopped(seen).damper(self.dissipation));
+        if self.dissipation == P::Real::ZERO {
+            return visit(Damper::idle());
+        }
+        visit(self.stopped(seen).damper(seen, self.dissipation));
     }
 
     fn check(&self) -> Result<(), Wrong> {

@@ -120,7 +120,7 @@ impl<P: Geometry> Interaction<P> for HingeFriction<P> {
         visit: &mut impl FnMut(Damper<P>),
     ) {
         if let Some(rubbing) = self.rubbing(seen, memory) {
-            rubbing.dampers(visit);
+            rubbing.dampers(seen, visit);
         }
     }
 

@@ -63,8 +63,11 @@ impl<P: Geometry> Interaction<P> for HingeStop<P> {
 
     #[inline(always)]
     fn dampers(&self, seen: &Seen<'_, P>, turns: &Turns, visit: &mut impl FnMut(Damper<P>)) {
+        if self.dissipation == P::Real::ZERO {
+            return visit(Damper::idle());
+        }
         if let Some(stopped) = self.stopped(seen, *turns) {
-            visit(stopped.damper(self.dissipation));
+            visit(stopped.damper(seen, self.dissipation));
         }
     }
 

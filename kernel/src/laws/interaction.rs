@@ -8,6 +8,7 @@ use crate::laws::kind::{Field, FieldSink, FieldSource};
 use crate::real::Real;
 use crate::record::Direction;
 use crate::record::Record;
+use crate::space::Linear as _;
 use crate::words::{WordSource, WordVisitor, Words};
 
 /// So many of something, one beside the other: `[(); 2]` has two.
@@ -62,6 +63,14 @@ impl<P: Geometry> Damper<P> {
     pub fn new(coefficient: P::Real, direction: Direction<P::Space>) -> Self {
         let most = P::Real::from_f64(MOST);
         Self { coefficient, direction, rate: P::Real::ZERO, bounds: [-most, most] }
+    }
+
+    /// A damper that does nothing.
+    #[inline(always)]
+    #[must_use]
+    pub fn idle() -> Self {
+        let moments = [P::Moment::ZERO; 2];
+        Self::new(P::Real::ZERO, Direction { along: P::Vector::ZERO, moments })
     }
 
     /// With bounds of its tension \[N, N·m\]: `within(least, most)`. Both contain 0: a bound never pushes.

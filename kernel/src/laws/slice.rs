@@ -6,10 +6,7 @@ use crate::index::BodyIndex;
 use crate::laws::end::{Instant, Seen};
 use crate::laws::interaction::{Damper, Interaction, Quantity, Several, SharesOf, Springs};
 use crate::laws::row::{Act, DamperPass, Row};
-use crate::real::Real;
-use crate::record::Direction;
 use crate::record::{Record, Wrench, apply};
-use crate::space::{Linear as _, Space};
 use crate::words::{Word, WordSource, WordVisitor, Words as _};
 
 /// The shares of a row's dampers.
@@ -66,10 +63,6 @@ pub fn sweep<P: Geometry, T: Interaction<P>>(
     if T::Dampers::COUNT == 0 {
         return;
     }
-    let idle = Direction::<P::Space> {
-        along: <P::Space as Space>::Vector::ZERO,
-        moments: [<P::Space as Space>::Moment::ZERO; 2],
-    };
     for row in 0..rows.len() {
         let row = if reverse { rows.len() - 1 - row } else { row };
         let (Some(law), Some(state), Some(shares)) =
@@ -78,7 +71,7 @@ pub fn sweep<P: Geometry, T: Interaction<P>>(
             break;
         };
         let bodies = law.bodies();
-        let mut dampers = T::Dampers::of(Damper::<P>::new(P::Real::ZERO, idle));
+        let mut dampers = T::Dampers::of(Damper::<P>::idle());
         let mut count = 0;
         {
             let Some(seen) = pass.seen(bodies) else { continue };

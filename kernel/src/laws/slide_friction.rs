@@ -79,7 +79,7 @@ impl<P: Geometry> Interaction<P> for SlideFriction<P> {
 
     #[inline(always)]
     fn dampers(&self, seen: &Seen<'_, P>, slip: &Slip<P::Real>, visit: &mut impl FnMut(Damper<P>)) {
-        self.rubbing(seen, slip).dampers(visit);
+        self.rubbing(seen, slip).dampers(seen, visit);
     }
 
     fn check(&self) -> Result<(), Wrong> {

@@ -112,7 +112,7 @@ impl<P: Geometry> Rubbing<P> {
 
     #[inline(always)]
     pub(super) fn record(&self, seen: &Seen<'_, P>) -> Record<P::Space> {
-        seen.pull(&self.coordinate.direction, self.tension)
+        seen.pull(&self.coordinate.direction(seen), self.tension)
     }
 
     /// \[J\]
@@ -121,14 +121,15 @@ impl<P: Geometry> Rubbing<P> {
     }
 
     pub(super) fn tangent(&self, seen: &Seen<'_, P>, visit: Springs<'_, P>) -> [P::Real; 2] {
-        visit(self.stiffness, &self.coordinate.direction);
+        visit(self.stiffness, &self.coordinate.direction(seen));
         self.coordinate.bent(seen, self.tension.abs(), visit)
     }
 
     /// That of its give and the viscous one.
     #[inline(always)]
-    pub(super) fn dampers(&self, visit: &mut impl FnMut(Damper<P>)) {
-        let (direction, tension, limit) = (self.coordinate.direction, self.tension, self.limit);
+    pub(super) fn dampers(&self, seen: &Seen<'_, P>, visit: &mut impl FnMut(Damper<P>)) {
+        let (tension, limit) = (self.tension, self.limit);
+        let direction = self.coordinate.direction(seen);
         // Give and its damping together stay within the limit.
         let of_give = Damper::new(self.friction.damping, direction);
         visit(of_give.within(-limit - tension, limit - tension));

@@ -36,7 +36,10 @@ impl<P: Geometry> Stopped<P> {
     /// What its spring does.
     #[inline(always)]
     pub(super) fn record(&self, seen: &Seen<'_, P>) -> Record<P::Space> {
-        seen.pull(&self.coordinate.direction, self.stiffness * self.beyond)
+        if self.is_free() {
+            return Record::ZERO;
+        }
+        seen.pull(&self.coordinate.direction(seen), self.stiffness * self.beyond)
     }
 
     /// \[J\]
@@ -46,18 +49,27 @@ impl<P: Geometry> Stopped<P> {
 
     /// As if it were stopped.
     pub(super) fn tangent(&self, seen: &Seen<'_, P>, visit: Springs<'_, P>) -> [P::Real; 2] {
-        visit(self.stiffness, &self.coordinate.direction);
+        visit(self.stiffness, &self.coordinate.direction(seen));
         self.coordinate.bent(seen, (self.stiffness * self.beyond).abs(), visit)
     }
 
     /// Its damper with the coefficient a \[s/m, s/rad\]: together with the spring it never pulls towards the end.
     #[inline(always)]
-    pub(super) fn damper(&self, dissipation: P::Real) -> Damper<P> {
+    pub(super) fn damper(&self, seen: &Seen<'_, P>, dissipation: P::Real) -> Damper<P> {
+        if self.is_free() {
+            return Damper::idle();
+        }
         let (tension, zero) = (self.stiffness * self.beyond, P::Real::ZERO);
-        let damper = Damper::new(dissipation * tension.abs(), self.coordinate.direction);
+        let damper = Damper::new(dissipation * tension.abs(), self.coordinate.direction(seen));
         let [least, most] = damper.bounds();
         let upper = zero.less_than(tension);
         damper.within(P::Real::pick(upper, -tension, least), P::Real::pick(upper, most, -tension))
+    }
+
+    /// Whether it is within its range; lanes are not asked.
+    #[inline(always)]
+    fn is_free(&self) -> bool {
+        P::Real::LANES == 1 && self.beyond == P::Real::ZERO
     }
 
     /// \[m, rad\] how deep it is beyond the range.
