@@ -51,7 +51,7 @@ pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     for (name, line) in torsion_springs.zip(&scene.file_lines.torsion_springs) {
         if let Some((word, _)) = one_sided(name) {
             let text = format!(
-                "acts in both directions, which no {word} does: the law `hinge-stop` of an interaction acts beyond its range only"
+                "acts in both directions, which no {word} does: `limits` of a joint act beyond their range only"
             );
             let (severity, name, line) = (Severity::Note, name.clone(), Some(*line));
             warnings.push(Warning { severity, name, line, text });
@@ -89,14 +89,14 @@ impl Spring<'_> {
         let amount = if pulls { -self.extension } else { self.extension };
         if amount <= UNSTRAINED * self.facts.free_length {
             let text = format!(
-                "acts on both sides: unlike a {word} it would also {does} where it gets too {length}; a `tsda_force` \
-                 read-out shows whether it does"
+                "acts on both sides: unlike a {word} it would also {does} where it gets too {length}; the law \
+                 `distance-stop` of an interaction does not"
             );
             return Some((Severity::Note, text));
         }
         let text = format!(
             "{now} at t = 0, which no {word} does: it is {} m long and its free length is {} m; another free length, \
-             or leave it out where it is to be slack",
+             or the law `distance-stop` of an interaction, which acts on one side",
             short(self.facts.longest),
             short(self.facts.free_length)
         );
