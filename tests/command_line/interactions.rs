@@ -1,5 +1,6 @@
 //! Interactions at the command line: what `check`, pictures and summaries state of them, and the tables of their laws.
 
+use dbd_plant::digits::significant;
 use dbd_scene::laws::known_laws;
 use dbd_tests::page::{block, table};
 use dbd_tests::results::path;
@@ -23,7 +24,7 @@ fn the_page_has_a_table_of_each_law() {
                 "table" => format!("[[{}], …], the first ascending", field.units.join(", ")),
                 _ => field.units.join(", "),
             };
-            let default = field.default.map(|value| value.to_string()).unwrap_or_default();
+            let default = field.default.map(|value| significant(value, 15)).unwrap_or_default();
             let required = if field.default.is_none() { " **·**" } else { "" };
             vec![format!("`{}`{required}", field.name), value, default, field.about.to_owned()]
         };

@@ -176,18 +176,20 @@ fn keys(
     (q, reversed): (f64, bool),
     options: &Options,
 ) -> Option<Vec<String>> {
-    let stiffness = options.stiffness;
-    let (prefix, stiffness) = match (link.kind, joint.freedom) {
-        (Type::Revolute(_), Freedom::Hinge) => ("", stiffness * link.span * link.span / 4.0),
-        (Type::Translational(_), Freedom::Slide) => ("", stiffness),
-        (Type::Cylindrical(_), Freedom::Hinge) => {
-            ("turn_", stiffness * link.span * link.span / 4.0)
-        }
-        (Type::Cylindrical(_), Freedom::Slide) => ("slide_", stiffness),
+    let prefix = match (link.kind, joint.freedom) {
+        (Type::Revolute(_), Freedom::Hinge) | (Type::Translational(_), Freedom::Slide) => "",
+        (Type::Cylindrical(_), Freedom::Hinge) => "turn_",
+        (Type::Cylindrical(_), Freedom::Slide) => "slide_",
         _ => return (joint.friction == 0.0 && !joint.limited).then(Vec::new),
     };
+    let arm = if joint.freedom == Freedom::Hinge { 0.5 * link.span } else { 1.0 };
+    let stiffness = options.stiffness * arm * arm;
     let mut keys = Vec::new();
     let range = joint.range.filter(|_| joint.limited);
+    // A range without extent locks the joint, which no stop does.
+    if range.is_some_and(|[from, to]| from >= to) {
+        return None;
+    }
     if let Some([from, to]) = range {
         // A link whose bodies are exchanged goes the other way.
         let (from, to, q) = if reversed { (-to, -from, -q) } else { (from, to, q) };

@@ -197,6 +197,14 @@ fn ranges_and_friction_of_joints_are_theirs() {
         laws.sort_unstable();
         assert_eq!((found, made.omitted.len()), (laws, 0), "{joint}");
     }
+    // What is limited to no range at all is listed, not written into a scene that nobody could read.
+    for range in ["0 0", "1 0"] {
+        let joint = format!("<joint range='{range}' limited='true'/>");
+        let text = mujoco(&body("a", &joint, ""), "");
+        let options = Options { ignored: vec![Kind::Limit], ..Options::default() };
+        let made = of(&text, &options);
+        assert_eq!((made.omitted.len(), loaded(&made).interactions().len()), (1, 0), "{range}");
+    }
     // A ball has no angle that a joint of a scene could stop.
     let text = mujoco(&body("a", "<joint type='ball' range='0 40' frictionloss='2'/>", ""), "");
     let options = Options { ignored: Kind::ALL.to_vec(), ..Options::default() };

@@ -77,7 +77,7 @@ pub(crate) struct JointPlace {
     /// Its type.
     pub(crate) kind: &'static str,
     pub(crate) name: String,
-    /// The first body, which is not the ground alone, and the second one, which is a body.
+    /// Its bodies, exchanged where the ground is the second one: that is a body here.
     pub(crate) pair: Pair,
     /// \[m\] world.
     pub(crate) at_w: Vec3<f64>,

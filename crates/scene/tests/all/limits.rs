@@ -122,10 +122,10 @@ fn offsets_and_cylindrical_joints() {
              offset = 0.02\nstiffness = 1e6\n{keys}"
         )
     };
-    let end = |keys: &str| {
+    let end = |keys: &str, steps: u64| {
         let model = Scene::parse(&text(keys), "c.toml").unwrap().model;
         let mut plant = Plant::new(&model, Leapfrog, 1e-5).unwrap();
-        plant.advance(30_000).ok().unwrap();
+        plant.advance(steps).ok().unwrap();
         let body = &plant.state().bodies[0];
         (body.velocity.z, body.angular_velocity.z, energy(&model, plant.state(), 1e-5).total())
     };
@@ -139,12 +139,13 @@ fn offsets_and_cylindrical_joints() {
         (turn, [1.0, -5.0]),
         (both.as_str(), [-1.0, -5.0]),
     ] {
-        let found = end(keys);
+        let found = end(keys, 30_000);
         assert!((found.0 - v).abs() < 1e-2 && (found.1 - w).abs() < 5e-2, "{keys}: {found:?}");
         assert!((found.2 - 0.625).abs() < 1e-4, "{keys}: {found:?}");
     }
-    let rubbing = end("slide_friction = { coulomb = 4 }\nturn_friction = { coulomb = 1 }");
-    assert!(rubbing.0.abs() < 1e-3 && rubbing.1.abs() < 1e-2, "{rubbing:?}");
+    // They stop after 0.25 s and 0.05 s, and by then what rings on their give has died.
+    let rubbing = end("slide_friction = { coulomb = 4 }\nturn_friction = { coulomb = 1 }", 60_000);
+    assert!(rubbing.0.abs() < 1e-9 && rubbing.1.abs() < 1e-9, "{rubbing:?}");
 }
 
 /// A speed after an impact that is the given share of the speed before it.

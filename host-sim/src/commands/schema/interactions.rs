@@ -4,6 +4,7 @@
 //! one of another program: any keys go with it.
 
 use dbd_kernel::laws::Field;
+use dbd_plant::digits::significant;
 use dbd_scene::laws::known_laws;
 use serde_json::{Value, json};
 
@@ -78,6 +79,7 @@ fn meaning(field: &Field) -> String {
         _ if field.units.is_empty() => String::new(),
         _ => format!("{}; ", field.units.join(", ")),
     };
-    let default = field.default.map(|value| format!(" Default: {value}.")).unwrap_or_default();
+    let default = field.default.map(|value| format!(" Default: {}.", significant(value, 15)));
+    let default = default.unwrap_or_default();
     format!("{units}{}{default}", field.about)
 }
