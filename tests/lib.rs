@@ -20,6 +20,7 @@ macro_rules! pages {
 pages! {
     contributing "CONTRIBUTING.md"
     the_book "docs/README.md"
+    advise "docs/advise.md"
     architecture "docs/architecture.md"
     authoring "docs/authoring.md"
     board "docs/board.md"

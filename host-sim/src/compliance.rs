@@ -6,9 +6,9 @@
 //! of A. What is soft against the joints themselves counts as free. A joint that starts at free length
 //! swings up to twice as far. No statement of what loads, inputs and motion do later.
 
-use dbd_kernel::Vec3;
+use dbd_kernel::{State, Vec3};
 use dbd_scene::{JointElement, Scene};
-use dbd_study::reference::{Mechanism, State};
+use dbd_study::modes::weighted_forces;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 /// More bodies are not looked at: the time grows with the third power.
@@ -63,7 +63,9 @@ pub fn stretches(scene: &Scene) -> Vec<Stretch> {
         }
     }
     let eigen = SymmetricEigen::new(stiffness);
-    let pull = weighted_accelerations(scene, &roots);
+    let Ok(pull) = weighted_forces(&scene.model, &State::initial(&scene.model)) else {
+        return Vec::new();
+    };
     let mut way = DVector::zeros(6 * bodies);
     for (square, mode) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
         if *square > (SOFT * softest) * (SOFT * softest) {
@@ -109,21 +111,6 @@ fn roots(scene: &Scene) -> Vec<f64> {
     scene.model.bodies.iter().flat_map(of).collect()
 }
 
-/// M^(−½)·Q, bodies at rest: what acts on them but for dampers and spins.
-fn weighted_accelerations(scene: &Scene, roots: &[f64]) -> DVector<f64> {
-    let (mechanism, mut state): (Mechanism, State) = Mechanism::of(scene);
-    for body in &mut state.bodies {
-        body.velocity.fill(0.0);
-        body.rate.fill(0.0);
-    }
-    let accelerations = mechanism.accelerations(&state, 0.0);
-    let all = accelerations.iter().flat_map(|a| {
-        let [u, w] = [a.linear, a.angular];
-        [u.x, u.y, u.z, w.x, w.y, w.z]
-    });
-    DVector::from_iterator(roots.len(), all.zip(roots).map(|(a, root)| a * root))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -142,6 +129,13 @@ mod tests {
         let [hook] = stretches(&scene)[..] else { panic!() };
         assert!((hook.extension - 4.0 * 10.0 / 2e4 * steepest).abs() < 1e-12, "{hook:?}");
         assert_eq!((hook.joint, hook.free_length), (0, 0.03));
+        // A stop that is pressed by 4 mm carries 40 N in its place.
+        let held = format!(
+            "{text}[[interaction]]\nlaw = \"end-stop\"\nbetween = [\"world\", \"bob\"]\n\
+             points = [[0, 0, -0.496], [0, 0, 0]]\nnormal = [0, 0, 1]\nstiffness = 1e4\ndissipation = 0\n"
+        );
+        let [hook] = stretches(&Scene::parse(&held, "held.toml").unwrap())[..] else { panic!() };
+        assert!(hook.extension < 1e-12, "{hook:?}");
         // Levelled it falls at first: the joint holds m·g·I/(I + m·r²) = 1/11 of it.
         let level = text
             .replace("position = [0, 0, -0.5]", "position = [-0.5, 0, 0]")

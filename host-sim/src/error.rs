@@ -3,9 +3,11 @@
 use dbd_fmu::ArchiveError;
 use dbd_plant::{MethodError, PlantError};
 use dbd_study::SurveyError;
+use dbd_study::recommend::AdviseError;
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::commands::advise::AskedError;
 use crate::commands::compare::CompareRefusal;
 use crate::commands::export::ExportError;
 use crate::commands::fmu::FmuError;
@@ -72,6 +74,14 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Trade(#[from] TradeError),
+    /// What advice is asked for cannot be read.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Asked(#[from] AskedError),
+    /// There is no advice.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Advise(#[from] AdviseError),
     /// The paper's results could not be measured again, or not be written.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -128,6 +138,9 @@ impl Error {
             },
             Self::Reproduce(ReproduceError::Write { .. }) => Exit::Failed,
             Self::Reproduce(_) => Exit::Refused,
+            Self::Asked(_) => Exit::Refused,
+            Self::Advise(AdviseError::NoTruth(_) | AdviseError::None { .. }) => Exit::Failed,
+            Self::Advise(_) => Exit::Refused,
             Self::Trade(error) => match error {
                 TradeError::Folder(_) | TradeError::Survey(SurveyError::Window(_)) => Exit::Refused,
                 TradeError::Survey(_) | TradeError::Write(_) => Exit::Failed,

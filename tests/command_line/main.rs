@@ -1,5 +1,6 @@
 //! The command line as users and their scripts meet it: exit codes, files, numbers, messages.
 
+mod advise;
 mod balance;
 mod bench;
 mod check;

@@ -1,6 +1,7 @@
 //! Tables of the pages that are rendered from results in files: times, choices and counts, which
 //! no test can repeat in a moment.
 
+mod advice;
 mod bench;
 mod book;
 mod chip;

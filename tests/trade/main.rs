@@ -1,5 +1,6 @@
 //! Speed against accuracy: what a survey of a small scene comes to, kept, interrupted, repeated.
 
+mod advice;
 mod command;
 mod estimate;
 mod limits;

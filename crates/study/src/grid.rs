@@ -73,6 +73,12 @@ impl Grid {
         Self { interval, samples, stride }
     }
 
+    /// \[s\] the time of which every step is a whole part.
+    #[must_use]
+    pub fn unit(&self) -> f64 {
+        self.interval / self.stride as f64
+    }
+
     /// \[s\] its end.
     #[must_use]
     pub fn window(&self) -> f64 {

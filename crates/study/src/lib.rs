@@ -23,6 +23,7 @@
 //! - [`need`]: what the paper's scheme costs at an accuracy.
 //! - [`words`]: steps, costs and steppers as people read them.
 //! - [`advice`]: what to choose, in sentences.
+//! - [`recommend`](mod@recommend): one way of stepping a scene on a microcontroller.
 //! - [`precisions`]: what rounding costs on the target, in a sentence.
 //! - [`variants_table`]: the scene beside its variants, as a table.
 //! - [`front_table`]: what nothing beats, as a table.
@@ -50,6 +51,7 @@ pub mod page;
 pub mod paper;
 pub mod point;
 pub mod precisions;
+pub mod recommend;
 pub mod reference;
 pub mod stability;
 pub mod survey;

@@ -168,6 +168,19 @@ fn six(wrench: &Wrench<f64>) -> [f64; 6] {
     [fx, fy, fz, tx, ty, tz]
 }
 
+/// M⁻½·Q \[√kg·m/s²\], bodies at rest: what acts on them but for dampers and spins.
+///
+/// # Errors
+/// Where a force is undefined.
+pub fn weighted_forces(
+    model: &SceneModel<F64>,
+    state: &State<SceneModel<F64>>,
+) -> Result<DVector<f64>, Cause> {
+    let forces = wrenches(model, &at_rest(state), 1e-3)?;
+    let weighted = forces.iter().flat_map(six).zip(roots(model)).map(|(force, root)| force * root);
+    Ok(DVector::from_vec(weighted.collect()))
+}
+
 /// How the mass-scaled wrenches answer, with the sign of a stiffness, to `probe(freedom, by)`.
 fn scaled(
     model: &SceneModel<F64>,
@@ -278,11 +291,9 @@ pub fn remarks(scene: &Scene, modes: &Modes) -> Result<Vec<String>, ModesError> 
             "the scene moves at t = 0; its modes are those of the same pose at rest".to_owned(),
         );
     }
-    let forces = wrenches(model, &at_rest(&state), 1e-3)?;
-    let off: Vec<f64> =
-        forces.iter().flat_map(six).zip(roots(model)).map(|(force, root)| force * root).collect();
+    let off = weighted_forces(model, &state)?;
     if off.iter().any(|acceleration| acceleration.abs() > CALM) || modes.asymmetry > SYMMETRIC {
-        let [held, free] = modes.answer(model, &DVector::from_vec(off));
+        let [held, free] = modes.answer(model, &off);
         let name = |row: usize| scene.body_names.get(row).map_or("a body", String::as_str);
         let place = if free.1 > CALM {
             let (name, rate) = (name(free.0), significant(free.1, 3));

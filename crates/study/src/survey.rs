@@ -11,8 +11,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 use std::thread;
 
+use crate::reference::fine::states;
 use crate::reference::metric::Metric;
-use crate::reference::truth::{NoTruth, Opinion, integrate};
+use crate::reference::truth::{NoTruth, Opinion};
 use crate::reference::window::{GROWTH, before_chaos};
 use crate::reference::{Mechanism, State};
 use dbd_plant::Method;
@@ -150,7 +151,7 @@ pub fn survey(
             Some(truth) => truth,
             None => {
                 progress(Phase::Truth);
-                truth_of(Opinion::Dop853, scene, grid)?
+                states(Opinion::Dop853, scene, false, &grid.times())?
             }
         };
         let comparison = Comparison::new(scene, grid, &truth);
@@ -198,32 +199,29 @@ pub fn survey(
 }
 
 /// Finds window and truth.
-fn look(
+///
+/// # Errors
+/// Where the integrator gives up.
+pub(crate) fn look(
     scene: &Scene,
     key: u64,
     frame: Frame,
     progress: &mut dyn FnMut(Phase),
-) -> Result<(Head, Vec<State>), SurveyError> {
+) -> Result<(Head, Vec<State>), NoTruth> {
     progress(Phase::Window);
     let window = before_chaos(scene, frame.longest, SAMPLES, GROWTH)?;
     // At least one interval, so that there is something to compare.
     let last = window.times.iter().rposition(|time| *time <= window.end).unwrap_or(0).max(1);
     let grid = Grid::new(frame.unit, window.times[last]);
     progress(Phase::Truth);
-    let truth = truth_of(Opinion::Dop853, scene, grid)?;
+    let truth = states(Opinion::Dop853, scene, false, &grid.times())?;
     progress(Phase::Opinion);
-    let second = truth_of(Opinion::Verner98, scene, grid)?;
+    let second = states(Opinion::Verner98, scene, false, &grid.times())?;
     let metric = Metric::of(&Mechanism::of(scene).0);
     let pairs = truth.iter().zip(&second);
     let uncertainty = pairs.map(|(a, b)| metric.distance(a, b)).fold(0.0, f64::max);
     let in_space = in_space(&truth);
     Ok((Head { key, grid, growth: window.growth[last], uncertainty, in_space }, truth))
-}
-
-/// The states of a scene at a grid's times.
-fn truth_of(opinion: Opinion, scene: &Scene, grid: Grid) -> Result<Vec<State>, NoTruth> {
-    let (mechanism, start) = Mechanism::of(scene);
-    integrate(opinion, &mechanism, &start, &grid.times())
 }
 
 /// Finds the largest stable steps that are not known yet, on all the machine's threads.

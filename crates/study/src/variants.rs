@@ -197,7 +197,8 @@ fn motion(scene: &Scene, limit: Limit, grid: &Grid) -> Option<Vec<State>> {
 }
 
 /// \[m\] how far the bodies that both have are apart.
-fn distance((scene, own): (&Scene, &[State]), (other, states): (&Scene, &[State])) -> f64 {
+#[must_use]
+pub fn distance((scene, own): (&Scene, &[State]), (other, states): (&Scene, &[State])) -> f64 {
     let place = |name: &String| other.body_names.iter().position(|known| known == name);
     let names = scene.body_names.iter().enumerate();
     let pairs: Vec<(usize, usize)> =

@@ -157,6 +157,10 @@ pub fn ways(scene: &Scene, in_space: bool) -> Vec<Way> {
             }
         }
     }
+    // The references know no laws of interactions.
+    if !scene.interactions().is_empty() {
+        return ways;
+    }
     ways.extend([Way::NaiveSemiImplicitEuler, Way::NaiveLeapfrog, Way::LinearlyImplicitEuler]);
     ways
 }

@@ -3,6 +3,7 @@
 //! `arguments => command => text, files, exit code`. Callable in-process, so that tests and
 //! further commands need no binary.
 
+mod advise;
 mod check;
 mod compare;
 mod first_steps;
@@ -18,6 +19,7 @@ use clap::{ColorChoice, CommandFactory as _, Parser, Subcommand};
 use clap_complete::Shell;
 use dbd_import::omission;
 
+use crate::cli::advise::{AdviseArguments, advise_scene};
 use crate::cli::check::{CheckArguments, check_scene};
 use crate::cli::compare::compare;
 use crate::cli::first_steps::first_steps;
@@ -79,6 +81,10 @@ enum Command {
     /// where steps were counted, and trade-*.cache; prints what to choose
     #[command(after_help = help::TRADE)]
     Trade(TradeArguments),
+    /// Recommends one way of stepping a scene on a microcontroller, verified by running it; exit code 1 where
+    /// nothing meets the request
+    #[command(after_help = help::ADVISE)]
+    Advise(AdviseArguments),
     /// Measures the results of the method's paper again: writes OUT/reproduce/reproduce.{html,md,json} and files of
     /// each item, prints the paper's value, this one's and a verdict
     #[command(after_help = help::REPRODUCE)]
@@ -137,6 +143,7 @@ where
         Command::Run(arguments) => run_scene(&catalogue, &arguments, console),
         Command::Check(arguments) => check_scene(&catalogue, &arguments, console),
         Command::Trade(arguments) => trade_scene(&catalogue, &arguments, console),
+        Command::Advise(arguments) => advise_scene(&catalogue, &arguments, console),
         Command::Reproduce(arguments) => reproduce_items(&arguments, console),
         Command::Sweep(arguments) => sweep_scene(&catalogue, &arguments, console),
         Command::Compare(arguments) => compare(&catalogue, &arguments, console),
@@ -314,6 +321,7 @@ mod tests {
                     Command::Run(RunArguments { scene, .. })
                     | Command::Check(CheckArguments { scene, .. })
                     | Command::Trade(TradeArguments { scene, .. })
+                    | Command::Advise(AdviseArguments { scene, .. })
                     | Command::Export(ExportArguments { scene, .. }) => scene.scene,
                     _ => continue,
                 };

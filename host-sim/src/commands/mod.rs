@@ -12,7 +12,7 @@
 //! - [`run`]: a scene becomes a trace, a summary and a report.
 //! - [`sweep`]: many values of a scene, a row per case.
 //! - [`compare`]: two recorded runs in one report.
-//! - [`trade`]: speed against accuracy.
+//! - [`trade`]: speed against accuracy. [`advise`]: one way for a microcontroller.
 //! - [`mod@reproduce`]: the results of the method's paper, measured again.
 //! - [`export`]: Rust source of a scene's const model and its plant.
 //! - [`mod@fmu`]: a scene becomes an FMU for other tools.
@@ -21,6 +21,7 @@
 //! - [`new`]: a project with a plant in firmware, a scene to begin with.
 //! - [`completions`]: a script for a shell.
 
+pub mod advise;
 pub mod assembled;
 pub mod check;
 pub mod compare;

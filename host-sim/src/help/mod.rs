@@ -10,6 +10,8 @@ macro_rules! examples {
     };
 }
 
+/// Of `advise`.
+pub const ADVISE: &str = examples!("advise.txt");
 /// Of `check`.
 pub const CHECK: &str = examples!("check.txt");
 /// Of `compare`.

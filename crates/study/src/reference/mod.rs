@@ -1,5 +1,5 @@
 //! References in plain std Rust: another way to the same equations, sharing no force code with
-//! the kernel.
+//! the kernel. Of scenes with interactions, whose laws they do not know, the kernel at fine steps is the truth.
 //!
 //! `model's data => mechanism => accelerations`, and from them what runs are held against. The
 //! modules in the order in which they stand on each other:
@@ -14,6 +14,7 @@
 //! - [`implicit`], [`generalized_alpha`]: linearly implicit Euler and generalised-α, one sparse solve per step.
 //! - [`spectrum`]: all eigenfrequencies of a pose.
 //! - [`equations`], [`truth`]: the mechanism as a first-order system; DOP853 with a second opinion.
+//! - [`perturbed`](mod@perturbed), [`fine`]: a state nearby; the truth of any scene.
 //! - [`metric`], [`trajectory`]: how far a run is from the truth.
 //! - [`window`]: how long a trajectory can be told from a perturbed one.
 
@@ -21,6 +22,7 @@ mod blocks;
 pub mod driven;
 pub mod elements;
 pub mod equations;
+pub mod fine;
 pub mod generalized_alpha;
 pub mod implicit;
 pub mod instant;
@@ -28,6 +30,7 @@ pub mod mechanism;
 pub mod metric;
 pub mod naive;
 pub mod ordering;
+pub mod perturbed;
 pub mod signals;
 pub mod spectrum;
 pub mod state;

@@ -8,6 +8,7 @@ use dbd_plant::{Method, plant};
 use dbd_scene::Scene;
 use nalgebra::Vector3;
 
+use crate::reference::fine::states;
 use crate::reference::mechanism::Mechanism;
 use crate::reference::metric::distance;
 use crate::reference::state::State;
@@ -39,8 +40,10 @@ impl Trajectory {
     /// # Errors
     /// Where an integrator gives up.
     pub fn truth(scene: &Scene, window: f64, samples: u32) -> Result<Self, NoTruth> {
-        let (mechanism, start) = Mechanism::of(scene);
-        Self::truth_of(&mechanism, &start, sample_times(window, samples))
+        let times = sample_times(window, samples);
+        let [states, second] = [Opinion::Dop853, Opinion::Verner98]
+            .map(|opinion| states(opinion, scene, false, &times));
+        Ok(Self::of(times, states?, &second?))
     }
 
     /// The truth of a mechanism at ascending times \[s\] from a state at t = 0.
@@ -54,9 +57,13 @@ impl Trajectory {
     ) -> Result<Self, NoTruth> {
         let states = integrate(Opinion::Dop853, mechanism, start, &times)?;
         let second = integrate(Opinion::Verner98, mechanism, start, &times)?;
-        let pairs = states.iter().zip(&second);
+        Ok(Self::of(times, states, &second))
+    }
+
+    fn of(times: Vec<f64>, states: Vec<State>, second: &[State]) -> Self {
+        let pairs = states.iter().zip(second);
         let uncertainty = pairs.map(|(a, b)| distance(&a.positions(), &b.positions())).collect();
-        Ok(Self { times, states, uncertainty })
+        Self { times, states, uncertainty }
     }
 
     /// \[m\] the largest uncertainty of all samples.

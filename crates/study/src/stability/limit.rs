@@ -12,7 +12,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::reference::window::perturbed;
+use crate::reference::perturbed::perturbed;
 use crate::reference::{Mechanism, State as Reference, eigenfrequencies};
 use dbd_kernel::{F64, State, Vec3};
 use dbd_plant::{Method, MethodError, OrientationName, PrecisionName, plant_of_model};

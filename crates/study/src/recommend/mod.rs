@@ -1,0 +1,339 @@
+//! One way of stepping a scene on a microcontroller that meets a request at the least cost.
+//!
+//! `(scene, microcontroller, rate, accuracy) => model, method, step; what limits it; what would help`. Ways are tried from
+//! the least cost that they can have upwards, each with its longest step first, and held against the truth;
+//! what cannot be cheaper than the best is never run. The best is run over the whole scene before it is told.
+
+mod changes;
+mod mcu;
+mod search;
+
+use std::collections::BTreeSet;
+
+use dbd_plant::judge::Judge;
+use dbd_plant::{Frequencies, Method, PlanError, PlantError, plant};
+use dbd_scene::Scene;
+use miette::Diagnostic;
+use serde::Serialize;
+use thiserror::Error;
+
+use crate::frame::{TradeOptions, WindowError, frame};
+use crate::grid::unit;
+use crate::reference::truth::NoTruth;
+use crate::stability::MARGIN;
+use crate::survey::{Phase, look};
+use crate::words::shown;
+
+pub use changes::Change;
+pub use mcu::{MCUS, Mcu};
+use search::{Search, Trial};
+
+/// \[1\] The accuracy where none is asked for: a share of how far the bodies go.
+const SHARE: f64 = 0.01;
+
+/// Steps × bodies of the run that verifies, at most: about a minute.
+const AFFORDABLE: f64 = 3e8;
+
+/// Models of a mechanism have steps that are longer by at most about this factor.
+const SLOWER: f64 = 10.0;
+
+/// Looks at the run that verifies.
+const LOOKS: u64 = 200;
+
+/// What is asked for.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// The microcontroller.
+    pub mcu: &'static Mcu,
+    /// \[Hz\] its clock.
+    pub clock: f64,
+    /// \[Hz\] a controller's rate: a whole number of steps makes its period.
+    pub rate: Option<f64>,
+    /// \[m\] root mean square of bodies and time; a hundredth of the way that the bodies go where `None`.
+    pub accuracy: Option<f64>,
+    /// \[s\] the longest window of comparison, as of a survey.
+    pub window: Option<f64>,
+    /// The scene that ships under the scene's name: its steps were counted.
+    pub shipped: Option<Scene>,
+}
+
+/// What keeps the step from being longer.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Limit {
+    /// The stability of vibrations.
+    Vibration {
+        /// \[Hz\] the highest frequency at t = 0.
+        frequency_hz: f64,
+        /// What alone vibrates fastest: ``joint `wrist` ``.
+        element: Option<String>,
+    },
+    /// The fastest body turns too far.
+    Spin {
+        /// Its name.
+        body: String,
+    },
+    /// The accuracy asked for.
+    Accuracy,
+    /// The step is a whole part of the controller's period, or of what duration and sampling interval are multiples of.
+    Period,
+}
+
+/// A way of stepping, measured.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Way {
+    /// Which model of the mechanism: `as it is`, `bushing`, `planar` ….
+    pub model: String,
+    /// The scheme's name.
+    pub scheme: &'static str,
+    /// Newton iterations, for the schemes that have them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub newton: Option<u32>,
+    /// How dampers act, where not in the scheme's own way.
+    pub damping: Option<&'static str>,
+    /// The precision's name.
+    pub precision: &'static str,
+    /// \[s\] the step.
+    pub step: f64,
+    /// \[m\] root mean square over bodies and samples of the distance from the truth.
+    pub error: f64,
+    /// Instructions of a step on the microcontroller.
+    pub instructions: f64,
+    /// Whether these were counted of exactly this model and method; else they are an estimate.
+    pub counted: bool,
+    /// \[1\] the share of the clock that it takes.
+    pub load: f64,
+}
+
+/// A recommendation.
+#[derive(Clone, Debug, Serialize)]
+pub struct Recommendation {
+    /// The scene's name.
+    pub scene: String,
+    /// The microcontroller's name.
+    pub mcu: &'static str,
+    /// \[Hz\].
+    pub clock: f64,
+    /// Cycles per instruction: an estimate.
+    pub cycles_per_instruction: f64,
+    /// \[Hz\] as asked.
+    pub rate: Option<f64>,
+    /// \[m\] as asked, or the default.
+    pub accuracy: f64,
+    /// Whether it was asked for.
+    pub accuracy_asked: bool,
+    /// \[s\] the window of comparison.
+    pub window: f64,
+    /// \[m\] what the truth is known to.
+    pub uncertainty: f64,
+    /// What is recommended.
+    pub way: Way,
+    /// Whether it meets the request: accurate enough, and less than the whole clock.
+    pub meets: bool,
+    /// Why not, and what would.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shortfall: Option<String>,
+    /// What keeps its step from being longer.
+    pub limit: Limit,
+    /// \[s\] the largest stable step of the recommended model and method; `None` where all are.
+    pub stable_step: Option<f64>,
+    /// \[m\] the same way in double precision: what rounding costs is the difference.
+    pub error_in_f64: Option<f64>,
+    /// How far the run that verified it went: steps and \[s\].
+    pub verified: (u64, f64),
+    /// Ways that were run, and all that there are.
+    pub tried: (usize, usize),
+    /// Changes of the scene that would help most.
+    pub changes: Vec<Change>,
+    /// The changes of values that make the recommended model of the scene.
+    pub set: Vec<String>,
+    /// What would be taken without a request for accuracy, where that is not reached in real time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fastest: Option<Way>,
+}
+
+/// Why there is no recommendation.
+#[derive(Debug, Error, Diagnostic)]
+pub enum AdviseError {
+    /// The window cannot be looked at.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Window(#[from] WindowError),
+    /// There is no truth to compare with.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    NoTruth(#[from] NoTruth),
+    /// No step is stable, or no precision holds the scene.
+    #[error("no way of stepping the scene comes to the end of {}", shown(*window))]
+    #[diagnostic(help(
+        "`host-sim check` says what is unusual about the scene, `--window` takes a shorter comparison"
+    ))]
+    None {
+        /// \[s\].
+        window: f64,
+    },
+    /// Asked for more than the truth is known to.
+    #[error(
+        "an accuracy of {asked:.1e} m cannot be told: the truth itself is known to {known:.1e} m"
+    )]
+    #[diagnostic(help("at least {known:.1e} m; over a shorter --window it is known better"))]
+    Accuracy {
+        /// \[m\] as asked.
+        asked: f64,
+        /// \[m\].
+        known: f64,
+    },
+    /// The scene has laws whose cost is not known.
+    #[error("what a step of this scene costs on a microcontroller is not known: {why}")]
+    #[diagnostic(help(
+        "`host-sim new firmware SCENE` makes a project that counts it: `cargo cost`"
+    ))]
+    Uncounted {
+        /// Why.
+        why: String,
+    },
+    /// The scene cannot be run.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Plant(#[from] PlantError),
+    /// No step fits.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Plan(#[from] PlanError),
+}
+
+/// What to take for a scene. `progress` hears what it is at.
+///
+/// # Errors
+/// [`AdviseError`].
+pub fn recommend(
+    scene: &Scene,
+    request: &Request,
+    progress: &mut dyn FnMut(Phase),
+) -> Result<Recommendation, AdviseError> {
+    let period = request.rate.map(|rate| 1.0 / rate);
+    let options = TradeOptions {
+        window: request.window,
+        period,
+        cache: None,
+        shipped: request.shipped.clone(),
+    };
+    let mut frame = frame(scene, &options)?;
+    if period.is_none() {
+        // Other models of the mechanism take longer steps.
+        let highest = Frequencies::of(scene).estimate / SLOWER;
+        frame.unit = unit(scene, None, highest).unwrap_or(frame.unit);
+    }
+    let (head, truth) = look(scene, 0, frame, progress)?;
+    let known = head.uncertainty;
+    if let Some(asked) = request.accuracy.filter(|asked| *asked < known) {
+        return Err(AdviseError::Accuracy { asked, known });
+    }
+    progress(Phase::Limits);
+    let mut search = Search::new(scene, request, head, truth);
+    if search.candidates.is_empty() {
+        let why =
+            "it has laws that are not the project's, or no counted method steps it".to_owned();
+        return Err(AdviseError::Uncounted { why });
+    }
+    let accuracy = request.accuracy.unwrap_or_else(|| (SHARE * search.travel()).max(known));
+    // What fails over the whole scene is not told, nor tried again.
+    let mut broken = BTreeSet::new();
+    let mut verified = |search: &mut Search<'_>, accuracy: f64| loop {
+        let Some(trial) = search.cheapest(accuracy, &broken) else { return Ok(None) };
+        match run_whole(search.model(&trial), &trial.method, trial.step)? {
+            Some(steps) => return Ok::<_, AdviseError>(Some((trial, steps))),
+            None => broken.insert(trial.candidate),
+        };
+    };
+    let found = verified(&mut search, accuracy)?;
+    let real_time = |trial: &Trial| search::load(request, trial) <= 1.0;
+    let mut shortfall = None;
+    let mut fastest = None;
+    let (trial, steps) = match found {
+        Some((trial, steps)) if real_time(&trial) => (trial, steps),
+        found => {
+            let travel = search.travel();
+            let quick = verified(&mut search, travel)?;
+            let best = search.most_accurate();
+            let window = head.grid.window();
+            shortfall = Some(match (&found, &best, &quick) {
+                (Some((trial, _)), ..) => {
+                    search.too_slow(trial, quick.as_ref().map(|(quick, _)| quick))
+                }
+                (None, Some(best), _) => format!(
+                    "nothing that was tried is as accurate as {accuracy:.1e} m; the best is off by {:.1e} m",
+                    best.error
+                ),
+                (None, None, _) => return Err(AdviseError::None { window }),
+            });
+            fastest = quick.as_ref().map(|(quick, _)| search.way(quick));
+            let taken = match found {
+                Some(found) => Some(found),
+                None => best.and_then(|best| {
+                    let steps = run_whole(search.model(&best), &best.method, best.step).ok()??;
+                    Some((best, steps))
+                }),
+            };
+            taken.or(quick).ok_or(AdviseError::None { window })?
+        }
+    };
+    let limit = search.limit(&trial);
+    progress(Phase::Variants);
+    let changes = match limit {
+        Limit::Vibration { .. } => changes::of(&search, &trial),
+        _ => Vec::new(),
+    };
+    Ok(Recommendation {
+        scene: scene.name.clone(),
+        mcu: request.mcu.name,
+        clock: request.clock,
+        cycles_per_instruction: request.mcu.cycles,
+        rate: request.rate,
+        accuracy,
+        accuracy_asked: request.accuracy.is_some(),
+        window: head.grid.window(),
+        uncertainty: known,
+        meets: shortfall.is_none(),
+        shortfall,
+        limit,
+        stable_step: search.stable(&trial),
+        error_in_f64: search.in_double(&trial),
+        verified: (steps, steps as f64 * trial.step),
+        tried: search.counts(),
+        changes,
+        set: search.set(&trial),
+        fastest,
+        way: search.way(&trial),
+    })
+}
+
+/// Runs a way over the whole scene, as far as is affordable; how many steps, `None` where it fails.
+fn run_whole(scene: &Scene, method: &Method, step: f64) -> Result<Option<u64>, AdviseError> {
+    let mut plant = plant(scene, method, step)?;
+    let bodies = scene.body_names.len().max(1) as f64;
+    let steps = (scene.duration / step).round().min(AFFORDABLE / bodies).max(1.0) as u64;
+    let mut judge = Judge::new(scene, plant.as_ref());
+    let stride = steps.div_ceil(LOOKS);
+    let mut done = 0;
+    while done < steps {
+        let some = stride.min(steps - done);
+        if !plant.advance(some).is_running() || judge.judge(&plant.state()).is_err() {
+            return Ok(None);
+        }
+        done += some;
+    }
+    Ok(Some(done))
+}
+
+/// \[s\] The longest step of a method that leaves [`MARGIN`] below a stable one and turns no body too far.
+fn ceiling(frequencies: &Frequencies, method: &Method) -> f64 {
+    let limit = |frequency: f64| {
+        if frequency > 0.0 { method.stability_limit() / frequency } else { f64::INFINITY }
+    };
+    let stable = (1.0 - MARGIN) * limit(frequencies.estimate);
+    stable.min(limit(frequencies.bound)).min(frequencies.longest_turn())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,388 @@
+//! The ways of stepping a scene, cheapest first, each run only where it may be the best.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use dbd_plant::digits::significant;
+use dbd_plant::judge::Judge;
+use dbd_plant::time::display;
+use dbd_plant::{Frequencies, Method, PrecisionName, plant};
+use dbd_scene::Scene;
+
+use crate::cache::Head;
+use crate::costs::Costs;
+use crate::estimate;
+use crate::limits::{Limit as Bounds, Limits};
+use crate::recommend::{Limit, Request, Way, ceiling};
+use crate::reference::Mechanism;
+use crate::reference::State;
+use crate::reference::metric::Metric;
+use crate::variants::{AS_IT_IS, Variant, counted_as, distance, variants};
+use crate::ways::{Way as Stepped, ways};
+use crate::words::percent;
+
+/// Steps of a way that are tried at most.
+const TRIES: usize = 6;
+
+/// A step that is shorter by this factor than asked by the order of an error.
+const SAFER: f64 = 1.1;
+
+/// An error that falls by less is no longer that of the step.
+const FALLS: f64 = 0.9;
+
+/// A step that could be longer by this factor, were it not a part of a period, is limited by that.
+const FITS: f64 = 1.1;
+
+/// Steps × bodies of a run for accuracy, at most: a way that needs more costs a chip more than it has.
+const AFFORDABLE: f64 = 1e8;
+
+/// A model of the mechanism and what bounds its steps.
+pub(super) struct Model {
+    pub(super) name: &'static str,
+    pub(super) scene: Scene,
+    limits: Limits,
+    frequencies: Frequencies,
+}
+
+/// A way of stepping a model.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub(super) model: usize,
+    pub(super) method: Method,
+    /// Instructions of a step on the microcontroller.
+    instructions: f64,
+    counted: bool,
+    /// \[s\] no step of it is longer.
+    ceiling: f64,
+}
+
+/// A candidate at a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Trial {
+    pub(super) candidate: usize,
+    pub(super) method: Method,
+    pub(super) step: f64,
+    pub(super) error: f64,
+    pub(super) instructions: f64,
+    /// Whether it is the longest step that its stability allows.
+    longest: bool,
+}
+
+impl Trial {
+    /// Instructions per simulated second.
+    pub(super) fn cost(&self) -> f64 {
+        self.instructions / self.step
+    }
+}
+
+/// All candidates and what is known of them.
+pub(super) struct Search<'s> {
+    pub(super) scene: &'s Scene,
+    request: &'s Request,
+    pub(super) head: Head,
+    truth: Vec<State>,
+    travel: f64,
+    models: Vec<Model>,
+    pub(super) candidates: Vec<Candidate>,
+    bounds: BTreeMap<(usize, String), Bounds>,
+    errors: BTreeMap<(usize, u64), Option<f64>>,
+}
+
+impl<'s> Search<'s> {
+    pub(super) fn new(
+        scene: &'s Scene,
+        request: &'s Request,
+        head: Head,
+        truth: Vec<State>,
+    ) -> Self {
+        let own = Variant { name: AS_IT_IS, scene: scene.clone() };
+        let model = |Variant { name, scene }: Variant| Model {
+            name,
+            limits: Limits::of(&scene),
+            frequencies: Frequencies::of(&scene),
+            scene,
+        };
+        let models: Vec<Model> = [own].into_iter().chain(variants(scene)).map(model).collect();
+        let metric = Metric::of(&Mechanism::of(scene).0);
+        let ways = truth.iter().map(|state| metric.distance(&truth[0], state));
+        let travel = ways.fold(0.0, f64::max);
+        let mut search = Self {
+            scene,
+            request,
+            head,
+            truth,
+            travel,
+            models,
+            candidates: Vec::new(),
+            bounds: BTreeMap::new(),
+            errors: BTreeMap::new(),
+        };
+        search.candidates = search.all();
+        search
+    }
+
+    /// All ways of all models whose cost is known, ascending in the least cost that they can have.
+    fn all(&self) -> Vec<Candidate> {
+        let costs = Costs::shipped();
+        let mut all = Vec::new();
+        for (row, model) in self.models.iter().enumerate() {
+            let methods = ways(&model.scene, false).into_iter().filter_map(|way| way.method());
+            for method in methods {
+                let Some((instructions, counted)) =
+                    self.instructions(&model.scene, &method, &costs)
+                else {
+                    continue;
+                };
+                let ceiling = ceiling(&model.frequencies, &method).min(self.head.grid.unit());
+                all.push(Candidate { model: row, method, instructions, counted, ceiling });
+            }
+        }
+        let least = |candidate: &Candidate| candidate.instructions / candidate.ceiling;
+        all.sort_by(|a, b| least(a).total_cmp(&least(b)));
+        all
+    }
+
+    /// Instructions of a step on the microcontroller, and whether they were counted.
+    pub(super) fn instructions(
+        &self,
+        scene: &Scene,
+        method: &Method,
+        costs: &Costs,
+    ) -> Option<(f64, bool)> {
+        let shipped = self.request.shipped.as_ref();
+        let counted = shipped.and_then(|shipped| counted_as(shipped, scene)).and_then(|called| {
+            costs.instructions_per_step(
+                &called,
+                method.scheme_name(),
+                method.newton(),
+                method.foreign_damping().map(|damping| damping.name()),
+                method.precision_name(),
+                method.orientation_name(),
+            )
+        });
+        let on_m4f = match counted {
+            Some(counted) => counted,
+            None => estimate::instructions(scene, method, costs)?,
+        };
+        let here = self.request.mcu.instructions(method.precision(), on_m4f)?;
+        Some((here, counted.is_some()))
+    }
+
+    /// \[m\] how far the bodies go from their start.
+    pub(super) fn travel(&self) -> f64 {
+        self.travel
+    }
+
+    pub(super) fn model(&self, trial: &Trial) -> &Scene {
+        &self.models[self.candidates[trial.candidate].model].scene
+    }
+
+    /// How long a step of a candidate may be.
+    fn bounds(&mut self, candidate: Candidate) -> Bounds {
+        let way = Stepped::Kernel(candidate.method);
+        let limits = &self.models[candidate.model].limits;
+        let decisive = limits.decisive(&way);
+        let label =
+            decisive.map_or_else(String::new, |method| Stepped::Kernel(method).stepper().label());
+        let key = (candidate.model, format!("{label} of {}", way.stability_limit()));
+        *self
+            .bounds
+            .entry(key)
+            .or_insert_with(|| limits.limit(&way, decisive.map(|method| limits.found(&method))))
+    }
+
+    /// \[m\] how far a candidate is off with so many steps per interval; `None` where it fails.
+    fn error(&mut self, candidate: usize, steps: u64) -> Option<f64> {
+        if let Some(known) = self.errors.get(&(candidate, steps)) {
+            return *known;
+        }
+        let Candidate { model, method, .. } = self.candidates[candidate];
+        let error = self.measured(&self.models[model].scene, &method, steps);
+        self.errors.insert((candidate, steps), error);
+        error
+    }
+
+    /// \[m\] how far a run of a model by a method is from the truth; `None` where it fails.
+    pub(super) fn measured(&self, model: &Scene, method: &Method, steps: u64) -> Option<f64> {
+        let states = self.run(model, method, steps)?;
+        let error = distance((self.scene, &self.truth), (model, &states));
+        Some(error).filter(|error| error.is_finite())
+    }
+
+    /// The states of a model at the samples, t = 0 first.
+    pub(super) fn run(&self, model: &Scene, method: &Method, steps: u64) -> Option<Vec<State>> {
+        let mut plant = plant(model, method, self.head.grid.step(steps)).ok()?;
+        let mut judge = Judge::new(model, plant.as_ref());
+        let mut states = vec![State::of(&plant.state())];
+        while states.len() < self.truth.len() {
+            let state = plant.advance(steps).is_running().then(|| plant.state())?;
+            judge.judge(&state).ok()?;
+            states.push(State::of(&state));
+        }
+        Some(states)
+    }
+
+    /// The cheapest way that is at most so far off \[m\], of candidates that are not `broken`.
+    pub(super) fn cheapest(&mut self, accuracy: f64, broken: &BTreeSet<usize>) -> Option<Trial> {
+        let mut best: Option<Trial> = None;
+        for row in (0..self.candidates.len()).filter(|row| !broken.contains(row)) {
+            let candidate = self.candidates[row];
+            let cost = best.map_or(f64::INFINITY, |best| best.cost());
+            if candidate.instructions / candidate.ceiling >= cost {
+                break;
+            }
+            if let Some(trial) = self.longest(row, accuracy, cost) {
+                best = Some(trial);
+            }
+        }
+        best
+    }
+
+    /// A candidate's longest step that is at most so far off \[m\], where it costs less than `cost`.
+    pub(super) fn longest(&mut self, row: usize, accuracy: f64, cost: f64) -> Option<Trial> {
+        let candidate = self.candidates[row];
+        let Candidate { method, instructions, .. } = candidate;
+        let longest = self.bounds(candidate).advised.min(self.head.grid.unit());
+        if longest <= 0.0 {
+            return None;
+        }
+        let grid = self.head.grid;
+        let (mut steps, mut last) = (grid.steps(longest), f64::INFINITY);
+        for attempt in 0..TRIES {
+            let step = grid.step(steps);
+            let work = steps as f64 * f64::from(grid.samples) * self.scene.body_names.len() as f64;
+            if instructions / step >= cost || work > AFFORDABLE {
+                return None;
+            }
+            let shorter = match self.error(row, steps) {
+                Some(error) if error <= accuracy => {
+                    let longest = attempt == 0;
+                    return Some(Trial {
+                        candidate: row,
+                        method,
+                        step,
+                        error,
+                        instructions,
+                        longest,
+                    });
+                }
+                // Rounding, or another model, not the step.
+                Some(error) if error > FALLS * last => return None,
+                Some(error) => {
+                    let [_, order] = method.orders().map(|order| f64::from(order.max(1)));
+                    let by = SAFER * (error / accuracy).powf(1.0 / order);
+                    last = error;
+                    by.clamp(1.2, 8.0)
+                }
+                None => 2.0,
+            };
+            steps = grid.steps(step / shorter);
+        }
+        None
+    }
+
+    /// The most accurate of all that was run.
+    pub(super) fn most_accurate(&self) -> Option<Trial> {
+        let known = self.errors.iter().filter_map(|(key, error)| Some((*key, (*error)?)));
+        let ((row, steps), error) = known.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let Candidate { method, instructions, .. } = self.candidates[row];
+        let step = self.head.grid.step(steps);
+        Some(Trial { candidate: row, method, step, error, instructions, longest: false })
+    }
+
+    /// What keeps a trial's step from being longer.
+    pub(super) fn limit(&mut self, trial: &Trial) -> Limit {
+        let candidate = self.candidates[trial.candidate];
+        let bounds = self.bounds(candidate);
+        let Model { frequencies, scene, .. } = &self.models[candidate.model];
+        if !trial.longest {
+            return Limit::Accuracy;
+        }
+        if bounds.advised >= FITS * trial.step {
+            return Limit::Period;
+        }
+        if bounds.advised >= frequencies.longest_turn() {
+            let body = scene.body_names.get(frequencies.fastest).cloned().unwrap_or_default();
+            return Limit::Spin { body };
+        }
+        let element = scene.facts().fastest().map(|element| element.name.clone());
+        Limit::Vibration { frequency_hz: frequencies.estimate_hz(), element }
+    }
+
+    /// \[s\] the largest stable step of a trial's way; `None` where all are.
+    pub(super) fn stable(&mut self, trial: &Trial) -> Option<f64> {
+        let stable = self.bounds(self.candidates[trial.candidate]).stable;
+        Some(stable).filter(|step| step.is_finite())
+    }
+
+    /// \[m\] how far the same way is off in double precision.
+    pub(super) fn in_double(&self, trial: &Trial) -> Option<f64> {
+        let method = trial.method.with_precision(PrecisionName::F64);
+        let steps = self.steps(trial.step);
+        self.measured(self.model(trial), &method, steps)
+    }
+
+    /// Steps per interval of a step.
+    pub(super) fn steps(&self, step: f64) -> u64 {
+        (self.head.grid.interval / step).round() as u64
+    }
+
+    /// Ways that were run, and all.
+    pub(super) fn counts(&self) -> (usize, usize) {
+        let run: BTreeSet<usize> = self.errors.keys().map(|(row, _)| *row).collect();
+        (run.len(), self.candidates.len())
+    }
+
+    /// The changes of values that make a trial's model of the scene.
+    pub(super) fn set(&self, trial: &Trial) -> Vec<String> {
+        let own = self.scene.changes.len();
+        self.model(trial).changes.get(own..).unwrap_or_default().to_vec()
+    }
+
+    /// A trial as it is told.
+    pub(super) fn way(&self, trial: &Trial) -> Way {
+        let Candidate { model, counted, .. } = self.candidates[trial.candidate];
+        Way {
+            model: self.models[model].name.to_owned(),
+            scheme: trial.method.scheme_name(),
+            newton: trial.method.newton(),
+            damping: trial.method.foreign_damping().map(|damping| damping.name()),
+            precision: trial.method.precision_name(),
+            step: trial.step,
+            error: trial.error,
+            instructions: trial.instructions,
+            counted,
+            load: load(self.request, trial),
+        }
+    }
+
+    /// Why a trial does not meet a request, and what would.
+    pub(super) fn too_slow(&self, trial: &Trial, quick: Option<&Trial>) -> String {
+        let Request { mcu, clock, .. } = self.request;
+        let load = load(self.request, trial);
+        let needed = clock * load;
+        let mut said = format!(
+            "not in real time: {} of a {} at {} MHz; it takes {} MHz",
+            percent(load),
+            mcu.name,
+            significant(clock * 1e-6, 4),
+            significant(needed * 1e-6, 3),
+        );
+        match quick.filter(|quick| self::load(self.request, quick) <= 1.0) {
+            Some(quick) => {
+                let Way { model, scheme, precision, step, error, .. } = self.way(quick);
+                said += &format!(
+                    "; in real time the nearest is {scheme}, {precision}, step {} of the model `{model}`: off by \
+                     {error:.1e} m",
+                    display(step),
+                );
+            }
+            None => said += "; no way of stepping it is fast enough here at any accuracy",
+        }
+        said
+    }
+}
+
+/// \[1\] the share of the clock that a trial takes.
+pub(super) fn load(request: &Request, trial: &Trial) -> f64 {
+    trial.cost() * request.mcu.cycles / request.clock
+}

@@ -1,0 +1,85 @@
+//! `host-sim advise` on the command line.
+
+use std::io::Write;
+
+use clap::Args;
+use dbd_plant::time::Time;
+use dbd_study::Phase;
+use dbd_study::recommend::{Request, recommend};
+
+use crate::arguments::SceneArgument;
+use crate::cli::named::load;
+use crate::commands::advise::{mcu, positive, rows};
+use crate::commands::warnings::of_scene;
+use crate::error::Error;
+use crate::terminal::text::json;
+use crate::terminal::{Catalogue, Console, Exit, Found, Progress};
+
+#[derive(Debug, Args)]
+pub(super) struct AdviseArguments {
+    #[command(flatten)]
+    pub(super) scene: SceneArgument,
+    /// Class of the microcontroller: cortex-m0plus, cortex-m4f, cortex-m7, cortex-m7-double, cortex-m33
+    #[arg(long, value_name = "NAME", default_value = "cortex-m4f")]
+    mcu: String,
+    /// Its clock, e.g. 168MHz [default: a usual one of the class]
+    #[arg(long, value_name = "FREQUENCY", allow_hyphen_values = true)]
+    clock: Option<String>,
+    /// Rate of the controller, e.g. 1kHz: a whole number of steps makes its period
+    #[arg(long, value_name = "FREQUENCY", allow_hyphen_values = true)]
+    rate: Option<String>,
+    /// How far off the motion may be, e.g. 0.1mm, root mean square over bodies and time [default: 1 % of how
+    /// far the bodies go]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    accuracy: Option<String>,
+    /// Longest window of comparison, e.g. 0.2s; it ends before chaos takes over [default: 0.5s or
+    /// the scene's duration]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    window: Option<Time>,
+    /// As JSON
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn advise_scene(
+    catalogue: &Catalogue,
+    arguments: &AdviseArguments,
+    console: &mut Console<'_>,
+) -> Result<Exit, Error> {
+    let mcu = mcu(&arguments.mcu)?;
+    let number = |option, unit, example, text: &Option<String>| {
+        text.as_ref().map(|text| positive(option, unit, example, text)).transpose()
+    };
+    let clock = number("clock", "Hz", "168MHz", &arguments.clock)?;
+    let rate = number("rate", "Hz", "1kHz", &arguments.rate)?;
+    let accuracy = number("accuracy", "m", "0.1mm", &arguments.accuracy)?;
+    let Found { scene, .. } = load(catalogue, &arguments.scene)?;
+    of_scene(&scene).iter().for_each(|warning| console.warn(warning));
+    let request = Request {
+        mcu,
+        clock: clock.unwrap_or(mcu.clock),
+        rate,
+        accuracy,
+        window: arguments.window.map(Time::seconds),
+        shipped: Catalogue::shipped(&scene.name),
+    };
+    let bars = console.terminal;
+    let mut progress = Progress::of(bars, "evaluations", &mut *console.err as &mut dyn Write);
+    let found = recommend(&scene, &request, &mut |phase| match phase {
+        Phase::Window => progress.begin("how long before chaos"),
+        Phase::Truth => progress.begin("the truth"),
+        Phase::Opinion => progress.begin("the truth, a second opinion"),
+        Phase::Limits => progress.begin("ways of stepping, the cheapest first"),
+        Phase::Variants => progress.begin("changes of the scene"),
+        Phase::Runs(..) | Phase::Times(..) => {}
+    });
+    progress.finish();
+    let found = found?;
+    if arguments.json {
+        console.print(&json(&found))?;
+    } else {
+        let rows = rows(&scene, &arguments.scene.scene, &found);
+        console.print(&console.look.table(&rows))?;
+    }
+    Ok(if found.meets { Exit::Done } else { Exit::Failed })
+}

@@ -1,0 +1,220 @@
+//! Advice beside what comes of it: stability far beyond the scene's duration, the share of the stable step, and the error
+//! against another truth at other times.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use dbd_plant::judge::Judge;
+use dbd_plant::{DampingName, Method, Named as _, PrecisionName, SchemeName, plant};
+use dbd_scene::Scene;
+use dbd_study::recommend::{Limit, Mcu, Recommendation, Request, recommend};
+use dbd_study::reference::State;
+use dbd_study::reference::fine::states;
+use dbd_study::reference::truth::Opinion;
+use dbd_study::variants::distance;
+use dbd_tests::mechanisms::{JOINTS, Kind, mechanism};
+use dbd_tests::{results, scene, scene_names};
+
+/// An advised way goes so many times as far as its scene.
+const FURTHER: u64 = 10;
+
+/// Of so many steps at most.
+const MOST_STEPS: u64 = 2_000_000;
+
+/// Samples of the other truth, at most.
+const SAMPLES: u64 = 31;
+
+/// Mechanisms at random: their seeds are 1, 2, ….
+const RANDOM: u64 = 100;
+
+/// What is kept of them.
+const FILE: &str = "docs/results/advice.csv";
+
+const KIND: Kind =
+    Kind { planar: false, joints: JOINTS, damping: [0.0, 0.2], driven: true, loose: false };
+
+/// What an advice came to.
+struct Held {
+    advice: Recommendation,
+    /// Steps that went well, and whether all did.
+    steps: u64,
+    stable: bool,
+    /// \[m\] the error against the other truth; of nothing where there is none.
+    elsewhere: Option<f64>,
+}
+
+fn advised(scene: &Scene, window: Option<f64>) -> Result<Recommendation, String> {
+    let mcu = Mcu::of_name("cortex-m4f").unwrap();
+    let shipped = Some(scene.clone());
+    let request = Request { mcu, clock: mcu.clock, rate: None, accuracy: None, window, shipped };
+    recommend(scene, &request, &mut |_| ()).map_err(|why| format!("{}: {why}", scene.name))
+}
+
+/// The advised model and method.
+fn taken(scene: &Scene, advice: &Recommendation) -> (Scene, Method) {
+    let way = &advice.way;
+    let changes = advice.set.iter();
+    let model = changes.fold(scene.clone(), |scene, change| scene.with(change).unwrap());
+    let scheme = SchemeName::of_name(way.scheme).unwrap();
+    let precision = PrecisionName::of_name(way.precision).unwrap();
+    let mut method = Method::new(scheme, way.newton, precision).unwrap();
+    if let Some(damping) = way.damping {
+        method = method.with_damping(DampingName::of_name(damping).unwrap()).unwrap();
+    }
+    (model, method)
+}
+
+fn held(scene: &Scene, window: Option<f64>) -> Result<Held, String> {
+    let advice = advised(scene, window)?;
+    let (model, method) = taken(scene, &advice);
+    let step = advice.way.step;
+    let mut plant = plant(&model, &method, step).unwrap();
+    let all = ((FURTHER as f64 * scene.duration / step).round() as u64).min(MOST_STEPS);
+    let mut judge = Judge::new(&model, plant.as_ref());
+    let mut stable = true;
+    while stable && plant.steps() < all {
+        let some = (all / 500).max(1).min(all - plant.steps());
+        stable = plant.advance(some).is_running() && judge.judge(&plant.state()).is_ok();
+    }
+    Ok(Held { steps: plant.steps(), stable, elsewhere: elsewhere(scene, &advice), advice })
+}
+
+/// \[m\] how far the advised way is from the second opinion, at other times than it was judged by.
+fn elsewhere(scene: &Scene, advice: &Recommendation) -> Option<f64> {
+    let (model, method) = taken(scene, advice);
+    let step = advice.way.step;
+    let steps = (advice.window / step).round() as u64;
+    let stride = steps.div_ceil(SAMPLES);
+    if stride == 0 {
+        return None;
+    }
+    let times: Vec<f64> = (0..=steps / stride).map(|row| (row * stride) as f64 * step).collect();
+    let truth = states(Opinion::Verner98, scene, false, &times).unwrap();
+    let mut plant = plant(&model, &method, step).unwrap();
+    let mut run = vec![State::of(&plant.state())];
+    while run.len() < times.len() {
+        assert!(plant.advance(stride).is_running());
+        run.push(State::of(&plant.state()));
+    }
+    Some(distance((scene, &truth), (&model, &run)))
+}
+
+impl Held {
+    /// The step over the largest stable one.
+    fn share(&self) -> Option<f64> {
+        Some(self.advice.way.step / self.advice.stable_step?)
+    }
+
+    fn limit(&self) -> &'static str {
+        match self.advice.limit {
+            Limit::Vibration { .. } => "vibration",
+            Limit::Spin { .. } => "spin",
+            Limit::Accuracy => "accuracy",
+            Limit::Period => "period",
+        }
+    }
+
+    /// The error as told over that against the other truth; errors of rounding count as none.
+    fn ratio(&self) -> Option<f64> {
+        let floor = 1e-9 + 10.0 * self.advice.uncertainty;
+        Some((self.advice.way.error + floor) / (self.elsewhere? + floor))
+    }
+
+    /// What does not hold.
+    fn faults(&self) -> Vec<String> {
+        let Self { advice, steps, stable, elsewhere } = self;
+        let mut faults = Vec::new();
+        let mut holds = |good: bool, what: String| {
+            if !good {
+                faults.push(format!("{}: {what}", advice.scene));
+            }
+        };
+        holds(*stable, format!("fails after {steps} steps"));
+        let error = advice.way.error;
+        holds(!advice.meets || error <= advice.accuracy, format!("off by {error:e} m"));
+        if let Some(share) = self.share() {
+            let decides = matches!(advice.limit, Limit::Vibration { .. });
+            let least = if decides { 0.7 } else { 0.0 };
+            holds((least..=1.0).contains(&share), format!("{share} of the stable step"));
+        }
+        if let Some(ratio) = self.ratio() {
+            holds((0.5..=2.0).contains(&ratio), format!("off by {error:e}, not {elsewhere:?} m"));
+        }
+        faults
+    }
+
+    fn row(&self) -> String {
+        let Self { advice, steps, stable, elsewhere, .. } = self;
+        let way = &advice.way;
+        let text = |number: Option<f64>| number.map_or_else(String::new, |n| format!("{n:.3e}"));
+        format!(
+            "{},{},{},{},{},{:?},{},{},{:.3e},{:.3e},{},{},{},{:.4},{}\n",
+            advice.scene,
+            way.model,
+            way.scheme,
+            way.damping.unwrap_or(""),
+            way.precision,
+            way.step,
+            text(self.share()),
+            self.limit(),
+            advice.accuracy,
+            way.error,
+            text(*elsewhere),
+            steps,
+            if *stable { "yes" } else { "no" },
+            way.load,
+            if way.counted { "counted" } else { "estimated" },
+        )
+    }
+}
+
+/// A few scenes, and a few mechanisms at random.
+#[test]
+fn advice_holds() {
+    for name in ["hexagon", "cart-pendulum", "spring-ball"] {
+        assert_eq!(held(&scene(name), Some(0.1)).unwrap().faults(), [""; 0]);
+    }
+    for seed in 1..=4 {
+        let scene = Scene::parse(&mechanism(seed, KIND), "random.toml").unwrap();
+        assert_eq!(held(&scene, Some(0.1)).unwrap().faults(), [""; 0]);
+    }
+}
+
+/// All of them, into a file: takes some ten minutes. `cargo test --release -p dbd-tests --test trade advice_of_all --
+/// --ignored`.
+#[test]
+#[ignore = "takes ten minutes; writes docs/results/advice.csv"]
+fn advice_of_all() {
+    let shipped = scene_names().into_iter().map(|name| scene(&name));
+    let random =
+        (1..=RANDOM).map(|seed| Scene::parse(&mechanism(seed, KIND), "random.toml").unwrap());
+    let scenes: Vec<Scene> = shipped.chain(random).collect();
+    let next = AtomicUsize::new(0);
+    let rows = Mutex::new(vec![String::new(); scenes.len()]);
+    let faults = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(|| {
+                loop {
+                    let row = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(scene) = scenes.get(row) else { break };
+                    let found = held(scene, None);
+                    let mut wrong = faults.lock().unwrap();
+                    match found {
+                        Ok(held) => {
+                            wrong.extend(held.faults());
+                            rows.lock().unwrap()[row] = held.row();
+                        }
+                        Err(why) => wrong.push(why),
+                    }
+                }
+            });
+        }
+    });
+    let head = "scene,model,scheme,damping,precision,step_s,share_of_stable,limit,accuracy_m,error_m,\
+                error_elsewhere_m,steps,stable,load_168mhz,instructions\n";
+    let text = head.to_owned() + &rows.lock().unwrap().concat();
+    std::fs::write(results::path(FILE), text).unwrap();
+    let faults = faults.lock().unwrap();
+    assert!(faults.is_empty(), "{faults:#?}");
+}
