@@ -30,6 +30,7 @@ pub mod store;
 mod trade_off;
 
 pub use context::{Context, PaperError, Scenes, TEN};
+pub use spectrum::{Kick, kick};
 pub use finding::{Curve, Finding, Plot, Row, Verdict};
 
 /// An item of the paper.

@@ -19,7 +19,7 @@ pub(super) fn schema(table: &str, key: &str, tables: &[TableKeys]) -> Option<Val
     let found = match table {
         "scene" => of_scene(key),
         "assemble" => of_assemble(key, tables),
-        "body" => of_body(key, tables),
+        "body" | "start" => of_body(key, tables),
         "joint" => of_joint(key, tables).or_else(|| of_spring(key, tables)),
         "tsda" => of_tsda(key).or_else(|| of_spring(key, tables)),
         "point_on_line" => of_line(key).or_else(|| of_spring(key, tables)),
