@@ -2,6 +2,7 @@
 
 use dbd_fmu::ArchiveError;
 use dbd_plant::{MethodError, PlantError};
+use dbd_scene::Restless;
 use dbd_study::SurveyError;
 use dbd_study::modes::ModesError;
 use miette::Diagnostic;
@@ -119,6 +120,8 @@ impl Error {
             | Self::Relax(RelaxError::Write(WriteError::Write { .. } | WriteError::Differs)) => {
                 Exit::Failed
             }
+            Self::ModeTable(ModeTableError::Restless(Restless::TooMany { .. }))
+            | Self::Relax(RelaxError::Restless(Restless::TooMany { .. })) => Exit::Refused,
             Self::ModeTable(
                 ModeTableError::Restless(_)
                 | ModeTableError::Modes(ModesError::Slow)

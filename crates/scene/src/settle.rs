@@ -68,7 +68,9 @@ pub enum Restless {
         "no pose of equilibrium: nothing holds `{body}`, which is accelerated by {acceleration:.3e} m/s² and \
          {angular:.3e} rad/s²"
     )]
-    #[diagnostic(help("a spring, a joint or a stop that holds it against gravity, loads and inputs"))]
+    #[diagnostic(help(
+        "a spring, a joint or a stop that holds it against gravity, loads and inputs"
+    ))]
     NotHeld {
         /// The body that moves most.
         body: String,
@@ -78,7 +80,9 @@ pub enum Restless {
         angular: f64,
     },
     /// A torsion spring has no angle.
-    #[error("no pose of equilibrium: the search meets a pose at which a torsion angle is undefined")]
+    #[error(
+        "no pose of equilibrium: the search meets a pose at which a torsion angle is undefined"
+    )]
     #[diagnostic(help("poses nearer to the equilibrium"))]
     Undefined,
 }
@@ -124,10 +128,7 @@ pub(crate) fn settle(root: &Table<'_>, scene: &mut Scene) -> Result<Settled, Sce
         }
         Restless::NotHeld { body, .. } => {
             let problem = format!("finds no pose at which `{body}` rests");
-            refuse(
-                problem,
-                "a spring, a joint or a stop that holds it against gravity and loads",
-            )
+            refuse(problem, "a spring, a joint or a stop that holds it against gravity and loads")
         }
         Restless::Undefined => {
             let problem = "meets a pose at which a torsion spring's twist is undefined".to_owned();

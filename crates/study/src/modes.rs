@@ -65,9 +65,7 @@ pub enum ModesError {
     #[error(
         "the modes of {bodies} bodies would take too long; those of {MOST_BODIES} are the most"
     )]
-    #[diagnostic(help(
-        "`host-sim modes` finds the lowest and the highest modes of larger scenes"
-    ))]
+    #[diagnostic(help("`host-sim modes` finds the lowest and the highest modes of larger scenes"))]
     TooMany {
         /// How many there are.
         bodies: usize,
@@ -84,7 +82,9 @@ pub enum ModesError {
     Range,
     /// The iteration does not converge.
     #[error("the iteration for the modes of many bodies does not converge")]
-    #[diagnostic(help("fewer modes, or the modes of a part of the mechanism as a scene of its own"))]
+    #[diagnostic(help(
+        "fewer modes, or the modes of a part of the mechanism as a scene of its own"
+    ))]
     Slow,
 }
 

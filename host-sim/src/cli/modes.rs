@@ -49,8 +49,7 @@ pub(super) fn modes_of_scene(
         kick: arguments.kick.clone(),
     };
     let modes = find(&found.scene, &options)?;
-    let mut text =
-        if arguments.json { json(&modes.table) } else { modes.table.text(console.look) };
+    let mut text = if arguments.json { json(&modes.table) } else { modes.table.text(console.look) };
     if let Some(out) = &arguments.out {
         let (out, overwrite) = (out.clone(), arguments.overwrite);
         let folder = modes.write(&Destination { out, file: found.file, overwrite })?;

@@ -172,12 +172,23 @@ const HEAD: [&str; 9] = [
     "held by",
 ];
 
+/// Those of the page's table.
+const ON_PAGE: [usize; 4] = [0, 1, 2, 8];
+
+/// Of effective masses what is below this share of the total is rounding, as are such damping ratios.
+const ROUNDING: f64 = 1e-9;
+
+/// Three digits, 0 for rounding against a size.
+fn above_rounding(value: f64, size: f64) -> String {
+    if value.abs() < ROUNDING * size { "0".into() } else { significant(value, 3) }
+}
+
 fn percent(share: f64) -> String {
-    format!("{} %", significant(100.0 * share, 3))
+    format!("{} %", above_rounding(100.0 * share, 100.0))
 }
 
 fn ratio(row: &ModeRow) -> String {
-    row.ratio.map_or_else(|| "–".into(), |ratio| significant(ratio, 3))
+    row.ratio.map_or_else(|| "–".into(), |ratio| above_rounding(ratio, 1.0))
 }
 
 fn held_by(row: &ModeRow) -> String {
@@ -190,7 +201,10 @@ fn held_by(row: &ModeRow) -> String {
 
 impl ModeTable {
     fn line(row: &ModeRow) -> [String; 9] {
-        let [x, y, z] = row.effective_mass.map(|mass| significant(mass, 3));
+        let [x, y, z] = [0, 1, 2].map(|axis| match row.mass_share[axis] < ROUNDING {
+            true => "0".to_owned(),
+            false => significant(row.effective_mass[axis], 3),
+        });
         let share = row.mass_share.iter().sum::<f64>() / 3.0;
         [
             row.number.to_string(),
@@ -306,7 +320,8 @@ impl FoundModes {
             |name: &str, text: &str| files.write(name, text).map_err(ModeTableError::Write);
         write("modes.csv", &self.table.csv())?;
         write("modes.html", &page::html(&self.page()))?;
-        let freedoms = "six freedoms per body: shifts along the world's axes, turns about the body's own";
+        let freedoms =
+            "six freedoms per body: shifts along the world's axes, turns about the body's own";
         for (name, entries, unit) in [
             ("mass.mtx", &matrices.mass, "kg, kg m^2"),
             ("stiffness.mtx", &matrices.stiffness, "N/m, N, N m"),
@@ -336,14 +351,19 @@ impl FoundModes {
                 shape: F32s(motion.iter().flatten().map(|part| *part as f32).collect()),
             })
             .collect();
+        let of_page = |row: &ModeRow| {
+            let line = ModeTable::line(row);
+            ON_PAGE.map(|column| line[column].clone()).to_vec()
+        };
         let rows = table.rows().into_iter().filter(|(name, _)| *name != "warning");
         data.text = Text {
             warnings: table.remarks.clone(),
             tables: vec![
                 PageTable {
                     title: "Modes".into(),
-                    columns: HEAD.map(str::to_owned).to_vec(),
-                    rows: table.modes.iter().map(|row| ModeTable::line(row).to_vec()).collect(),
+                    // The page is too narrow for all columns; the other files have them.
+                    columns: ON_PAGE.map(|column| HEAD[column].to_owned()).to_vec(),
+                    rows: table.modes.iter().map(of_page).collect(),
                 },
                 PageTable {
                     title: "Summary".into(),

@@ -42,9 +42,7 @@ pub enum WriteError {
 impl Diagnostic for WriteError {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         Some(Box::new(match self {
-            Self::Taken { .. } => {
-                "name another file, or replace that one with --overwrite"
-            }
+            Self::Taken { .. } => "name another file, or replace that one with --overwrite",
             Self::Both => "one of them, or --write FILE",
             Self::Differs => "this is a mistake in host-sim; the scene itself can be used as it is",
             Self::Scene(error) => return Some(Box::new(error.help())),

@@ -49,9 +49,7 @@ impl Assembly {
     /// The orientation of a body's principal axes, unit and scalar first, given that of the axes it is written in.
     pub(crate) fn orientation_of_written(&self, body: BodyIndex, written: [f64; 4]) -> [f64; 4] {
         match self.turns.get(body.row()) {
-            Some(Some(turn)) => {
-                normalised(Quaternion::from_f64(written).product(*turn).to_f64())
-            }
+            Some(Some(turn)) => normalised(Quaternion::from_f64(written).product(*turn).to_f64()),
             _ => written,
         }
     }

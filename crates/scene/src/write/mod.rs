@@ -161,7 +161,8 @@ impl<'w, 't> Writer<'w, 't> {
     fn body(&mut self, table: &Table<'t>, row: usize) -> Result<(), SceneError> {
         self.table(table, |key| key == "name")?;
         let model: &SceneModel<F64> = &self.scene.model;
-        let (Some(body), Some(state)) = (model.bodies.get(row), self.scene.assembled_states.get(row))
+        let (Some(body), Some(state)) =
+            (model.bodies.get(row), self.scene.assembled_states.get(row))
         else {
             return Ok(());
         };

@@ -64,12 +64,11 @@ pub fn extremes(
     let resolution = resolution(state, most);
     let low = inverse.iter().map(|value| 1.0 / value - shift);
     let squares: Vec<f64> = low.chain(top.iter().take(highest).rev().copied()).collect();
-    let shapes = DMatrix::from_fn(size, squares.len(), |row, column| {
-        match column.checked_sub(lowest) {
+    let shapes =
+        DMatrix::from_fn(size, squares.len(), |row, column| match column.checked_sub(lowest) {
             None => low_shapes[(row, column)],
             Some(place) => top_shapes[(row, highest - 1 - place)],
-        }
-    });
+        });
     let frequencies = squares.iter().map(|square| frequency(*square, resolution)).collect();
     Ok(Modes { frequencies, shapes, asymmetry, resolution })
 }

@@ -95,11 +95,7 @@ fn bare(model: &SceneModel<F64>) -> SceneModel<F64> {
 }
 
 /// All bodies moved along a motion \[m, rad\] of six numbers per body.
-fn moved(
-    rest: &State<SceneModel<F64>>,
-    motion: &[[f64; 6]],
-    by: f64,
-) -> State<SceneModel<F64>> {
+fn moved(rest: &State<SceneModel<F64>>, motion: &[[f64; 6]], by: f64) -> State<SceneModel<F64>> {
     let mut state = rest.clone();
     for (body, [x, y, z, a, b, c]) in state.bodies.iter_mut().zip(motion) {
         body.position = body.position + Vec3::new(*x, *y, *z) * by;
@@ -120,8 +116,7 @@ fn law_powers(
     motion: &[[f64; 6]],
 ) -> Vec<f64> {
     let bodies = state.bodies.iter();
-    let frames: Vec<_> =
-        bodies.map(|body| F64::frame(&body.position, &body.orientation)).collect();
+    let frames: Vec<_> = bodies.map(|body| F64::frame(&body.position, &body.orientation)).collect();
     let instant = Instant { frames: &frames, bodies: &state.bodies, signals: &state.signals };
     let mut powers = Vec::new();
     model.laws.look_at_all(&state.laws, &mut |_, law| {

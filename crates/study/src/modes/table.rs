@@ -107,8 +107,7 @@ pub fn table(scene: &Scene, count: usize) -> Result<Table, ModesError> {
         let shape = found.shapes.column(mode);
         let effective_mass = std::array::from_fn(|axis| {
             let along = model.bodies.iter().enumerate();
-            let sum: f64 =
-                along.map(|(row, body)| body.mass.sqrt() * shape[6 * row + axis]).sum();
+            let sum: f64 = along.map(|(row, body)| body.mass.sqrt() * shape[6 * row + axis]).sum();
             sum * sum
         });
         let kinetic = |row: usize| shape.rows(6 * row, 6).norm_squared();
@@ -251,7 +250,11 @@ impl Matrices {
             let sum = sum.into_iter().filter(|(_, value)| *value != 0.0);
             sum.map(|((column, row), value)| (row, column, value)).collect()
         };
-        let mass = roots.iter().enumerate().map(|(row, root)| (row, row, 1.0 / (root * root)));
+        let masses = model
+            .bodies
+            .iter()
+            .flat_map(|b| [b.mass, b.mass, b.mass, b.inertia.x, b.inertia.y, b.inertia.z]);
+        let mass = masses.enumerate().map(|(row, mass)| (row, row, mass));
         Ok(Self {
             size: roots.len(),
             mass: mass.collect(),

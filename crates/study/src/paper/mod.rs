@@ -30,8 +30,8 @@ pub mod store;
 mod trade_off;
 
 pub use context::{Context, PaperError, Scenes, TEN};
-pub use spectrum::{Kick, kick};
 pub use finding::{Curve, Finding, Plot, Row, Verdict};
+pub use spectrum::{Kick, kick};
 
 /// An item of the paper.
 #[derive(Clone, Copy)]

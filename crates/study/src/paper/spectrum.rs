@@ -75,11 +75,7 @@ impl Spectrum {
 
 /// The spectrum of a scene's pose at t = 0, frozen, after the free lengths of all springs of its joint
 /// `joint` have changed.
-pub(super) fn of(
-    scene: &Scene,
-    joint: usize,
-    sampling: Sampling,
-) -> Result<Spectrum, PaperError> {
+pub(super) fn of(scene: &Scene, joint: usize, sampling: Sampling) -> Result<Spectrum, PaperError> {
     let mut model = frozen(&scene.model, &State::initial(&scene.model));
     // Every other element: equal changes of all of a joint's springs would cancel by symmetry.
     let groups = scene.joints[joint].groups.clone();
@@ -92,7 +88,8 @@ pub(super) fn of(
             }
         }
     }
-    let mut plant = plant_of_model(&model, &scheme(SchemeName::Leapfrog)?, sampling.interval / 4.0)?;
+    let mut plant =
+        plant_of_model(&model, &scheme(SchemeName::Leapfrog)?, sampling.interval / 4.0)?;
     let firsts: Vec<usize> = scene.joints.iter().map(|joint| joint.groups.start).collect();
     let mut signals = vec![Vec::with_capacity(SAMPLES); firsts.len()];
     for _ in 0..SAMPLES {
