@@ -88,8 +88,7 @@ fn a_mass_hangs_in_a_rope_of_a_distance_stop() {
 #[test]
 fn the_scene_at_rest_has_the_elements_that_it_had() {
     let folder = Folder::new();
-    for (name, more) in
-        [("3ruu", ""), ("hexagon", ""), ("double-wishbone", ""), ("gyroscope", "")]
+    for (name, more) in [("3ruu", ""), ("hexagon", ""), ("double-wishbone", ""), ("gyroscope", "")]
     {
         let more: Vec<&str> = if more.is_empty() { Vec::new() } else { vec![more] };
         let rest = at_rest(&folder, &shipped(name), &more);

@@ -332,11 +332,8 @@ impl Scene {
         let geometry = geometry::read_all(&root, &assembly)?;
         let resolved = assembly.resolved();
         let started = start::read(&root, &assembly)?;
-        let (mut model, body_names) = assembly.finish();
+        let (model, body_names) = assembly.finish();
         let assembled_states = model.initial.clone();
-        for (row, state) in started {
-            model.initial[row] = state;
-        }
         let mut scene = Self {
             name,
             description,
@@ -369,6 +366,7 @@ impl Scene {
             let reduced = scene.reduced().map_err(|unplanar| unplanar.refuse(&scene, &root))?;
             scene.planar = Some(reduced);
         }
+        start::apply(&root, &mut scene, started)?;
         if settle {
             scene.settled = Some(settle::settle(&root, &mut scene)?);
         }
