@@ -37,6 +37,7 @@ pages! {
     laws "docs/laws.md"
     measured "docs/measured.md"
     method "docs/method.md"
+    modes "docs/modes.md"
     near_rigid "docs/near-rigid.md"
     paper "docs/paper.md"
     planar "docs/planar.md"

@@ -33,6 +33,14 @@ pub struct SceneArgument {
 }
 
 impl SceneArgument {
+    /// The same for a command that brings the scene to rest itself.
+    #[must_use]
+    pub fn unsettled(&self) -> Self {
+        let mut set = self.set.clone();
+        set.push("settle=false".to_owned());
+        Self { set, settle: false, ..self.clone() }
+    }
+
     /// The changes of the scene.
     #[must_use]
     pub fn changes(&self) -> Vec<String> {

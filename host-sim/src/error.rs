@@ -2,7 +2,9 @@
 
 use dbd_fmu::ArchiveError;
 use dbd_plant::{MethodError, PlantError};
+use dbd_scene::Restless;
 use dbd_study::SurveyError;
+use dbd_study::modes::ModesError;
 use dbd_study::recommend::AdviseError;
 use miette::Diagnostic;
 use thiserror::Error;
@@ -12,8 +14,10 @@ use crate::commands::compare::CompareRefusal;
 use crate::commands::export::ExportError;
 use crate::commands::fmu::FmuError;
 use crate::commands::import::ImportError;
+use crate::commands::mode_table::ModeTableError;
 use crate::commands::new::NewError;
 use crate::commands::picture::PictureError;
+use crate::commands::relax::RelaxError;
 use crate::commands::reproduce::ReproduceError;
 use crate::commands::run::RunError;
 use crate::commands::sweep::error::SweepError;
@@ -62,6 +66,14 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     LongForm(#[from] WriteError),
+    /// There are no modes, or they were not written.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    ModeTable(#[from] ModeTableError),
+    /// A scene was not brought to rest.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Relax(#[from] RelaxError),
     /// A scene is not watched.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -114,7 +126,21 @@ impl Error {
             Self::Export(_) | Self::Fmu(_) | Self::Import(_) | Self::New(_) | Self::Picture(_) => {
                 Exit::Refused
             }
-            Self::LongForm(WriteError::Write { .. } | WriteError::Differs) => Exit::Failed,
+            Self::LongForm(WriteError::Write { .. } | WriteError::Differs)
+            | Self::Relax(RelaxError::Write(WriteError::Write { .. } | WriteError::Differs)) => {
+                Exit::Failed
+            }
+            Self::ModeTable(ModeTableError::Restless(Restless::TooMany { .. }))
+            | Self::Relax(RelaxError::Restless(Restless::TooMany { .. })) => Exit::Refused,
+            Self::ModeTable(
+                ModeTableError::Restless(_)
+                | ModeTableError::Modes(ModesError::Slow)
+                | ModeTableError::Kick(_)
+                | ModeTableError::Write(_),
+            ) => Exit::Failed,
+            Self::ModeTable(_) => Exit::Refused,
+            Self::Relax(RelaxError::Restless(_)) => Exit::Failed,
+            Self::Relax(_) => Exit::Refused,
             Self::LongForm(_) | Self::Watch(_) => Exit::Refused,
             Self::Output(_) => Exit::Failed,
             // 1 means that the runs differ.

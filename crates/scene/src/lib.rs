@@ -52,6 +52,7 @@ mod shortened;
 pub mod single;
 mod solid;
 mod spring;
+mod start;
 mod target;
 mod text;
 pub mod time;
@@ -84,12 +85,12 @@ pub use origin::Setting;
 pub use planar::Planar;
 pub use readout::ReadoutInfo;
 pub use runtime::{SceneModel, widen};
-pub use settle::Settled;
+pub use settle::{Restless, Settled};
 pub use shortened::shortened;
 pub use solid::Solid;
 pub use text::is_name;
 
-use dbd_kernel::F64;
+use dbd_kernel::{BodyState, F64};
 
 use crate::assembly::{Assembly, Resolved};
 use crate::error::Source;
@@ -113,6 +114,7 @@ const KEYS: &[&str] = &[
     "planar",
     "settle",
     "realisation",
+    "start",
     "points",
     "defaults",
     "parameters",
@@ -171,6 +173,8 @@ pub struct Scene {
     pub model: SceneModel<F64>,
     /// The scene in its plane, where it says `planar = true`: what steps is this model then.
     pub planar: Option<Planar>,
+    /// The states at which joints are assembled: those at t = 0 but for `start` and `settle`.
+    assembled_states: Vec<BodyState<F64>>,
     file_lines: FileLines,
     origin: Origin,
     written_angles: Vec<WrittenAngle>,
@@ -233,6 +237,22 @@ impl Scene {
             Writer::new(root, scene, resolved, text).write()
         };
         Self::read(text, file, changes, None, write).map(|(_, text)| text)
+    }
+
+    /// The long form of this scene as it is now, wherever its bodies are: states at t = 0 that are not those of the
+    /// file stand in `[start]`, and it does not settle again.
+    ///
+    /// # Errors
+    /// None for a scene that was read from its text alone; else as [`Scene::parse_with`].
+    pub fn long_text(&self) -> Result<String, SceneError> {
+        let (file, text) = self.origin.file();
+        // What it says of settling has been done.
+        let changes = self.changes.iter().filter(|change| !change.starts_with("settle="));
+        let changes: Vec<&String> = changes.collect();
+        let write = |_: &Self, root: &Table<'_>, resolved: &_| {
+            Writer::new(root, self, resolved, text).write()
+        };
+        Self::read(text, file, &changes, None, write).map(|(_, text)| text)
     }
 
     /// All numbers that the scene's file writes, with the changes, by their paths: what
@@ -311,7 +331,9 @@ impl Scene {
         input::read_over(&root, &mut known, &inputs, &readouts)?;
         let geometry = geometry::read_all(&root, &assembly)?;
         let resolved = assembly.resolved();
+        let started = start::read(&root, &assembly)?;
         let (model, body_names) = assembly.finish();
+        let assembled_states = model.initial.clone();
         let mut scene = Self {
             name,
             description,
@@ -328,6 +350,7 @@ impl Scene {
             geometry,
             model,
             planar: None,
+            assembled_states,
             file_lines: FileLines::of(&root)?,
             origin: Origin::of(source, &root),
             written_angles: Vec::new(),
@@ -343,6 +366,7 @@ impl Scene {
             let reduced = scene.reduced().map_err(|unplanar| unplanar.refuse(&scene, &root))?;
             scene.planar = Some(reduced);
         }
+        start::apply(&root, &mut scene, started)?;
         if settle {
             scene.settled = Some(settle::settle(&root, &mut scene)?);
         }

@@ -6,12 +6,15 @@
 //! motion runs downhill, to a stable equilibrium. A planar scene rests in its plane, whose model steps. One written order
 //! of sums: the same bits on every host.
 
-use dbd_kernel::{Body, F64, State, Vec3, forces};
+use dbd_kernel::{Body, F64, Quaternion, State, Vec3, forces};
+use miette::Diagnostic;
+use thiserror::Error;
 
 use crate::Scene;
 use crate::closure::{MOST_BODIES, Pose, length};
 use crate::error::SceneError;
 use crate::joints::{Moved, ROUNDING};
+use crate::orientation::settled;
 use crate::runtime::SceneModel;
 use crate::text::Table;
 
@@ -44,18 +47,73 @@ pub struct Settled {
     pub moved: Vec<Moved>,
     /// Steps that were computed.
     pub iterations: usize,
+    /// \[N\] the largest force on a body at the pose of rest, of a planar scene in its plane.
+    pub force: f64,
+    /// \[N·m\] the largest torque on a body there.
+    pub torque: f64,
 }
 
-/// Moves the bodies of a scene to where they rest.
-pub(crate) fn settle(root: &Table<'_>, scene: &mut Scene) -> Result<Settled, SceneError> {
-    let (model, names) = (scene.stepped(), &scene.body_names);
-    let refuse = |problem: String, help: &str| root.refuse_value("settle", &problem, help);
-    if model.bodies.len() > MOST_BODIES {
-        let problem = format!("is to bring {} bodies to rest", model.bodies.len());
-        return Err(refuse(problem, &format!("at most {MOST_BODIES}; write the poses instead")));
+/// Why a scene was not brought to rest.
+#[derive(Clone, Debug, PartialEq, Error, Diagnostic)]
+pub enum Restless {
+    /// Too many bodies.
+    #[error("{bodies} bodies are too many to bring to rest: at most {MOST_BODIES}")]
+    #[diagnostic(help("bring the scene to rest in parts, or write the poses"))]
+    TooMany {
+        /// How many there are.
+        bodies: usize,
+    },
+    /// A body keeps moving.
+    #[error(
+        "no pose of equilibrium: nothing holds `{body}`, which is accelerated by {acceleration:.3e} m/s² and \
+         {angular:.3e} rad/s²"
+    )]
+    #[diagnostic(help(
+        "a spring, a joint or a stop that holds it against gravity, loads and inputs"
+    ))]
+    NotHeld {
+        /// The body that moves most.
+        body: String,
+        /// \[m/s²\] of its centre of mass where the search ended.
+        acceleration: f64,
+        /// \[rad/s²\] its angular acceleration there.
+        angular: f64,
+    },
+    /// A torsion spring has no angle.
+    #[error(
+        "no pose of equilibrium: the search meets a pose at which a torsion angle is undefined"
+    )]
+    #[diagnostic(help("poses nearer to the equilibrium"))]
+    Undefined,
+}
+
+impl Scene {
+    /// The scene at rest where the forces at t = 0 balance, with what was moved in [`Scene::settled`]. Velocities
+    /// of the scene are left out.
+    ///
+    /// # Errors
+    /// Where it has more than 200 bodies, nothing holds a body, or a torsion angle becomes undefined.
+    pub fn relaxed(&self) -> Result<Self, Restless> {
+        let mut scene = self.clone();
+        let planar = scene.planar.as_mut().map(|planar| &mut planar.model.initial);
+        for state in scene.model.initial.iter_mut().chain(planar.into_iter().flatten()) {
+            (state.velocity, state.angular_velocity) = (Vec3::ZERO, Vec3::ZERO);
+        }
+        scene.settled = Some(rest(&mut scene)?);
+        // What is written reads back to the same bits.
+        for state in &mut scene.model.initial {
+            state.orientation = Quaternion::from_f64(settled(state.orientation.to_f64()));
+        }
+        Ok(scene)
     }
+}
+
+/// Moves the bodies of a scene that says `settle = true` to where they rest.
+pub(crate) fn settle(root: &Table<'_>, scene: &mut Scene) -> Result<Settled, SceneError> {
+    let refuse = |problem: String, help: &str| root.refuse_value("settle", &problem, help);
+    let names = &scene.body_names;
     let is_moving = |row: &usize| {
-        let state = &model.initial[*row];
+        let state = &scene.stepped().initial[*row];
         state.velocity.dot(state.velocity) + state.angular_velocity.dot(state.angular_velocity)
             > 0.0
     };
@@ -63,26 +121,43 @@ pub(crate) fn settle(root: &Table<'_>, scene: &mut Scene) -> Result<Settled, Sce
         let problem = format!("is to bring `{}` to rest, which is given a velocity", names[row]);
         return Err(refuse(problem, "either `settle`, or velocities and `rates`"));
     }
+    rest(scene).map_err(|restless| match restless {
+        Restless::TooMany { bodies } => {
+            let problem = format!("is to bring {bodies} bodies to rest");
+            refuse(problem, &format!("at most {MOST_BODIES}; write the poses instead"))
+        }
+        Restless::NotHeld { body, .. } => {
+            let problem = format!("finds no pose at which `{body}` rests");
+            refuse(problem, "a spring, a joint or a stop that holds it against gravity and loads")
+        }
+        Restless::Undefined => {
+            let problem = "meets a pose at which a torsion spring's twist is undefined".to_owned();
+            refuse(problem, "poses nearer to the equilibrium")
+        }
+    })
+}
+
+/// Moves the bodies of a scene without velocities to where they rest.
+fn rest(scene: &mut Scene) -> Result<Settled, Restless> {
+    let model = scene.stepped();
+    if model.bodies.len() > MOST_BODIES {
+        return Err(Restless::TooMany { bodies: model.bodies.len() });
+    }
     let given: Vec<Pose> =
         model.initial.iter().map(|state| Pose::new(state.position, state.orientation)).collect();
     let unknowns = if scene.planar.is_some() { PLANE } else { SPACE };
     let mut search = Search::of(model, given.clone(), unknowns);
-    let end = search.run();
-    let (poses, iterations) = (search.poses, search.steps);
-    match end {
+    match search.run() {
         End::AtRest => {}
         End::Moving(row) => {
-            let problem = format!("finds no pose at which `{}` rests", names[row]);
-            return Err(refuse(
-                problem,
-                "a spring, a joint or a stop that holds it against gravity and loads",
-            ));
+            let body = scene.body_names[row].clone();
+            let [acceleration, angular] = search.acceleration(row).ok_or(Restless::Undefined)?;
+            return Err(Restless::NotHeld { body, acceleration, angular });
         }
-        End::Undefined => {
-            let problem = "meets a pose at which a torsion spring's twist is undefined".to_owned();
-            return Err(refuse(problem, "poses nearer to the equilibrium"));
-        }
+        End::Undefined => return Err(Restless::Undefined),
     }
+    let [force, torque] = search.residual().ok_or(Restless::Undefined)?;
+    let (poses, iterations) = (search.poses, search.steps);
     let mut moved = Vec::new();
     for (row, (pose, given)) in poses.iter().zip(&given).enumerate() {
         let mut state = scene.stepped().initial[row];
@@ -99,7 +174,7 @@ pub(crate) fn settle(root: &Table<'_>, scene: &mut Scene) -> Result<Settled, Sce
             moved.push(Moved { body: scene.body_names[row].clone(), distance, angle });
         }
     }
-    Ok(Settled { moved, iterations })
+    Ok(Settled { moved, iterations, force, torque })
 }
 
 /// How a search ends.
@@ -167,6 +242,34 @@ impl<'m> Search<'m> {
             tau = (tau * GROWTH).min(1e12);
         }
         End::Moving(worst)
+    }
+
+    /// The forces \[N\] and torques \[N·m, world axes\] on the bodies; `None` where a twist is undefined.
+    fn wrenches(&mut self) -> Option<Vec<[Vec3<f64>; 2]>> {
+        let size = self.size;
+        let forces = self.forces(&self.poses.clone())?;
+        let split = |own: &[f64]| {
+            let [force, torque] = self.split(own);
+            [force, torque * (size * size)]
+        };
+        Some(forces.chunks_exact(self.unknowns.len()).map(split).collect())
+    }
+
+    /// \[N, N·m\] the largest force and torque on a body.
+    fn residual(&mut self) -> Option<[f64; 2]> {
+        let all = self.wrenches()?;
+        let largest = |which: usize| all.iter().map(|own| length(own[which])).fold(0.0, f64::max);
+        Some([0, 1].map(largest))
+    }
+
+    /// \[m/s², rad/s²\] of a body.
+    fn acceleration(&mut self, row: usize) -> Option<[f64; 2]> {
+        let [force, torque] = self.wrenches()?[row];
+        let (body, pose) = (&self.model.bodies[row], &self.poses[row]);
+        let Vec3 { x, y, z } = pose.orientation.rotation().to_body(torque);
+        let inertia = body.inertia;
+        let angular = Vec3::new(x / inertia.x, y / inertia.y, z / inertia.z);
+        Some([length(force) / body.mass, length(angular)])
     }
 
     /// \[N\] on all bodies, torques over the size; `None` where a twist is undefined.

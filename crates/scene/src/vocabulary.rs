@@ -4,7 +4,7 @@
 //! write scenes.
 
 use crate::{body, defaults, drive, geometry, inertia, input, joints, laws, links, load};
-use crate::{orientation, point_on_line, points, readout, spring, torsion_spring, tsda};
+use crate::{orientation, point_on_line, points, readout, spring, start, torsion_spring, tsda};
 
 /// A table of scene files and the keys that it may have.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,6 +35,7 @@ pub fn vocabulary() -> Vec<TableKeys> {
         one("torsion_spring", &[torsion_spring::KEYS, spring::KEYS]),
         one("load", &[load::KEYS]),
         one("sine", &[drive::SINE]),
+        one("start", &[start::KEYS]),
         one("limits", &[laws::LIMITS]),
         one("friction", &[laws::FRICTION]),
     ];

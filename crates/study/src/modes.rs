@@ -7,14 +7,26 @@
 
 use std::f64::consts::TAU;
 
-use dbd_kernel::forces::{Wrench, wrenches};
+use dbd_kernel::forces::wrenches;
 use dbd_kernel::status::Cause;
-use dbd_kernel::{BodyState, F64, Quaternion, State, Vec3};
+use dbd_kernel::{BodyState, F64, State, Vec3};
 use dbd_plant::digits::significant;
 use dbd_scene::{Scene, SceneModel};
 use miette::Diagnostic;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use thiserror::Error;
+
+use matrices::{at_rest, roots, six};
+
+mod damped;
+mod iterative;
+mod matrices;
+mod shares;
+mod table;
+
+pub use iterative::extremes;
+pub use shares::{Element, elements, softened, strain_shares};
+pub use table::{Fastest, Matrices, ModeRow, QUADRATIC, RatioSource, Table, table};
 
 /// Bodies at most: time grows with the cube of their number, to some seconds at this one.
 pub const MOST_BODIES: usize = 200;
@@ -53,9 +65,7 @@ pub enum ModesError {
     #[error(
         "the modes of {bodies} bodies would take too long; those of {MOST_BODIES} are the most"
     )]
-    #[diagnostic(help(
-        "without --modes; or the modes of a part of the mechanism as a scene of its own"
-    ))]
+    #[diagnostic(help("`host-sim modes` finds the lowest and the highest modes of larger scenes"))]
     TooMany {
         /// How many there are.
         bodies: usize,
@@ -70,6 +80,12 @@ pub enum ModesError {
     )]
     #[diagnostic(help("smaller stiffnesses or larger masses and inertias"))]
     Range,
+    /// The iteration does not converge.
+    #[error("the iteration for the modes of many bodies does not converge")]
+    #[diagnostic(help(
+        "fewer modes, or the modes of a part of the mechanism as a scene of its own"
+    ))]
+    Slow,
 }
 
 impl From<Cause> for ModesError {
@@ -129,45 +145,6 @@ impl Modes {
     }
 }
 
-/// A body's state moved along freedom `c`: a shift along a world axis or a turn about its own.
-fn moved(state: &State<SceneModel<F64>>, freedom: usize, by: f64) -> State<SceneModel<F64>> {
-    let mut state = state.clone();
-    let body = &mut state.bodies[freedom / 6];
-    let axis = Vec3::axes()[freedom % 3];
-    if freedom % 6 < 3 {
-        body.position = body.position + axis * by;
-    } else {
-        let v = axis * (0.5 * by).sin();
-        let turn = Quaternion::new((0.5 * by).cos(), v.x, v.y, v.z);
-        body.orientation = body.orientation.product(turn);
-    }
-    state
-}
-
-/// 1/√m and 1/√I of every freedom.
-fn roots(model: &SceneModel<F64>) -> Vec<f64> {
-    let inertias = model
-        .bodies
-        .iter()
-        .flat_map(|b| [b.mass, b.mass, b.mass, b.inertia.x, b.inertia.y, b.inertia.z]);
-    inertias.map(|m| 1.0 / m.sqrt()).collect()
-}
-
-/// The state without velocities.
-fn at_rest(state: &State<SceneModel<F64>>) -> State<SceneModel<F64>> {
-    let mut rest = state.clone();
-    for body in &mut rest.bodies {
-        (body.velocity, body.angular_velocity) = (Vec3::ZERO, Vec3::ZERO);
-    }
-    rest
-}
-
-/// A body's wrench as six numbers.
-fn six(wrench: &Wrench<f64>) -> [f64; 6] {
-    let ([fx, fy, fz], [tx, ty, tz]) = (wrench.force.to_f64(), wrench.torque.to_f64());
-    [fx, fy, fz, tx, ty, tz]
-}
-
 /// M⁻½·Q \[√kg·m/s²\], bodies at rest: what acts on them but for dampers and spins.
 ///
 /// # Errors
@@ -181,34 +158,6 @@ pub fn weighted_forces(
     Ok(DVector::from_vec(weighted.collect()))
 }
 
-/// How the mass-scaled wrenches answer, with the sign of a stiffness, to `probe(freedom, by)`.
-fn scaled(
-    model: &SceneModel<F64>,
-    probe: impl Fn(usize, f64) -> State<SceneModel<F64>>,
-) -> Result<DMatrix<f64>, ModesError> {
-    let roots = roots(model);
-    let mut matrix = DMatrix::zeros(roots.len(), roots.len());
-    for column in 0..roots.len() {
-        let at = |by: f64| wrenches(model, &probe(column, by), 1e-3);
-        for (times, weight) in (1_u8..).zip(WEIGHTS) {
-            let by = f64::from(times) * PROBE;
-            let (plus, minus) = (at(by)?, at(-by)?);
-            for (body, (plus, minus)) in plus.iter().zip(&minus).enumerate() {
-                for (i, (plus, minus)) in six(plus).into_iter().zip(six(minus)).enumerate() {
-                    let row = 6 * body + i;
-                    let change = weight * (plus - minus) / PROBE;
-                    matrix[(row, column)] -= change * roots[row] * roots[column];
-                }
-            }
-        }
-    }
-    if matrix.iter().all(|entry: &f64| entry.is_finite()) {
-        Ok(matrix)
-    } else {
-        Err(ModesError::Range)
-    }
-}
-
 /// `M⁻½·K·M⁻½` \[1/s²\] and its asymmetry, 0 where K is 0.
 ///
 /// # Errors
@@ -217,8 +166,7 @@ pub fn scaled_stiffness(
     model: &SceneModel<F64>,
     state: &State<SceneModel<F64>>,
 ) -> Result<(DMatrix<f64>, f64), ModesError> {
-    let rest = at_rest(state);
-    let matrix = scaled(model, |freedom, by| moved(&rest, freedom, by))?;
+    let matrix = dense(model, &matrices::stiffness(model, state)?);
     let transpose = matrix.transpose();
     let largest = matrix.amax();
     let asymmetry = if largest == 0.0 { 0.0 } else { (&matrix - &transpose).amax() / largest };
@@ -233,18 +181,27 @@ pub fn scaled_damping(
     model: &SceneModel<F64>,
     state: &State<SceneModel<F64>>,
 ) -> Result<DMatrix<f64>, ModesError> {
-    let rest = at_rest(state);
-    scaled(model, |freedom, by| {
-        let mut state = rest.clone();
-        let body = &mut state.bodies[freedom / 6];
-        let rate = Vec3::axes()[freedom % 3] * by;
-        if freedom % 6 < 3 {
-            body.velocity = rate;
-        } else {
-            body.angular_velocity = rate;
-        }
-        state
-    })
+    Ok(dense(model, &matrices::damping(model, state)?))
+}
+
+fn dense(model: &SceneModel<F64>, entries: &[matrices::Entry]) -> DMatrix<f64> {
+    let size = 6 * model.bodies.len();
+    let mut matrix = DMatrix::zeros(size, size);
+    entries.iter().for_each(|(row, column, value)| matrix[(*row, *column)] = *value);
+    matrix
+}
+
+/// \[Hz\] rounding makes frequencies up to here of none, with a largest `ω²`.
+fn resolution(state: &State<SceneModel<F64>>, largest: f64) -> f64 {
+    let far = state.bodies.iter().flat_map(|body| body.position.to_f64());
+    let far = far.fold(1.0, |far: f64, place| far.max(place.abs()));
+    (8.0 * f64::EPSILON * far / PROBE * largest).sqrt() / TAU
+}
+
+/// \[Hz\] of an eigenvalue: negative where it is, 0 below the resolution.
+fn frequency(square: f64, resolution: f64) -> f64 {
+    let frequency = square.abs().sqrt() / TAU;
+    if frequency <= resolution { 0.0 } else { frequency.copysign(square) }
 }
 
 /// The modes about the pose of `state`, whatever its velocities: six per body.
@@ -259,15 +216,9 @@ pub fn modes(model: &SceneModel<F64>, state: &State<SceneModel<F64>>) -> Result<
     let eigen = SymmetricEigen::new(matrix);
     let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
     order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
-    let far = state.bodies.iter().flat_map(|body| body.position.to_f64());
-    let far = far.fold(1.0, |far: f64, place| far.max(place.abs()));
-    let resolution = (8.0 * f64::EPSILON * far / PROBE * eigen.eigenvalues.amax()).sqrt() / TAU;
-    let frequency = |square: f64| {
-        let frequency = square.abs().sqrt() / TAU;
-        if frequency <= resolution { 0.0 } else { frequency.copysign(square) }
-    };
+    let resolution = resolution(state, eigen.eigenvalues.amax());
     Ok(Modes {
-        frequencies: order.iter().map(|i| frequency(eigen.eigenvalues[*i])).collect(),
+        frequencies: order.iter().map(|i| frequency(eigen.eigenvalues[*i], resolution)).collect(),
         shapes: DMatrix::from_fn(order.len(), order.len(), |row, column| {
             eigen.eigenvectors[(row, order[column])]
         }),

@@ -7,7 +7,9 @@ mod advise;
 mod check;
 mod compare;
 mod first_steps;
+mod modes;
 mod named;
+mod relax;
 mod reproduce;
 mod run;
 mod trade;
@@ -23,7 +25,9 @@ use crate::cli::advise::{AdviseArguments, advise_scene};
 use crate::cli::check::{CheckArguments, check_scene};
 use crate::cli::compare::compare;
 use crate::cli::first_steps::first_steps;
+use crate::cli::modes::{ModesArguments, modes_of_scene};
 use crate::cli::named::load;
+use crate::cli::relax::{RelaxArguments, relax_scene};
 use crate::cli::reproduce::{ReproduceArguments, reproduce_items};
 use crate::cli::run::{RunArguments, run_scene};
 use crate::cli::trade::{TradeArguments, trade_scene};
@@ -77,6 +81,13 @@ enum Command {
     /// Reads and assembles a scene without running it: counts, joints, frequencies, warnings
     #[command(after_help = help::CHECK)]
     Check(CheckArguments),
+    /// Finds the modes of a scene: frequencies, damping ratios, effective masses, the joints that make them; with --out
+    /// writes DIR/SCENE/modes.{csv,json,html} and the matrices
+    #[command(after_help = help::MODES)]
+    Modes(ModesArguments),
+    /// Moves a scene's bodies to where they rest under their loads; prints what moved and the forces that remain
+    #[command(after_help = help::RELAX)]
+    Relax(RelaxArguments),
     /// Surveys speed against accuracy: writes OUT/SCENE/trade.{csv,svg,html,json}, trade-cortex-m4f.svg
     /// where steps were counted, and trade-*.cache; prints what to choose
     #[command(after_help = help::TRADE)]
@@ -142,6 +153,8 @@ where
         Command::List { json } => list(&catalogue, json, console).map_err(Error::from),
         Command::Run(arguments) => run_scene(&catalogue, &arguments, console),
         Command::Check(arguments) => check_scene(&catalogue, &arguments, console),
+        Command::Modes(arguments) => modes_of_scene(&catalogue, &arguments, console),
+        Command::Relax(arguments) => relax_scene(&catalogue, &arguments, console),
         Command::Trade(arguments) => trade_scene(&catalogue, &arguments, console),
         Command::Advise(arguments) => advise_scene(&catalogue, &arguments, console),
         Command::Reproduce(arguments) => reproduce_items(&arguments, console),
@@ -320,6 +333,8 @@ mod tests {
                 let scene = match cli.command.unwrap() {
                     Command::Run(RunArguments { scene, .. })
                     | Command::Check(CheckArguments { scene, .. })
+                    | Command::Modes(ModesArguments { scene, .. })
+                    | Command::Relax(RelaxArguments { scene, .. })
                     | Command::Trade(TradeArguments { scene, .. })
                     | Command::Advise(AdviseArguments { scene, .. })
                     | Command::Export(ExportArguments { scene, .. }) => scene.scene,

@@ -29,7 +29,7 @@ pub struct AssembledCheck {
 }
 
 /// What was moved to bring the scene to rest.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct SettledCheck {
     /// The bodies that were moved.
     pub moved: Vec<MovedCheck>,

@@ -1,7 +1,7 @@
 //! The folder of a scene's results.
 //!
 //! `(--out, scene's file) => OUT/STEM`, made where it is not there yet. Results of another scene are
-//! never replaced unasked: `summary.json` and `trade.json` say whose they are.
+//! never replaced unasked: `summary.json`, `trade.json` and `modes.json` say whose they are.
 
 use std::fmt;
 use std::fs;
@@ -20,6 +20,9 @@ use crate::terminal::SceneFile;
 const OF_A_RUN: [&str; 3] = ["trace.csv", "report.html", "summary.json"];
 const OF_A_SURVEY: [&str; 5] =
     ["trade.csv", "trade.svg", "trade-cortex-m4f.svg", "trade.html", "trade.json"];
+/// Files of `modes`, the last again saying whose they are.
+const OF_MODES: [&str; 6] =
+    ["modes.csv", "modes.html", "mass.mtx", "stiffness.mtx", "damping.mtx", "modes.json"];
 
 /// Where results go.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,7 +80,7 @@ struct Owner {
 }
 
 /// Files of results that name their scene.
-const NAMING: [&str; 2] = ["summary.json", "trade.json"];
+const NAMING: [&str; 3] = ["summary.json", "trade.json", "modes.json"];
 
 impl Destination {
     /// The file of a run's animation, within the folder.
@@ -99,7 +102,7 @@ impl Destination {
         let folder = file::folder(&self.out, &self.file.stem).map_err(failed)?;
         let animation = self.animation();
         let own = [animation.as_str(), "writable"];
-        file::sweep(&folder, &[&OF_A_RUN[..], &OF_A_SURVEY, &own].concat());
+        file::sweep(&folder, &[&OF_A_RUN[..], &OF_A_SURVEY, &OF_MODES, &own].concat());
         self.claim(&folder, scene)?;
         Ok(folder)
     }
@@ -160,7 +163,7 @@ fn clear(folder: &Path) -> io::Result<()> {
         let of_a_run = OF_A_RUN.contains(&name.as_str()) || animation.as_ref() == Some(&name);
         let of_a_survey = name.starts_with("trade")
             && [".csv", ".json", ".svg", ".html", ".cache"].iter().any(|end| name.ends_with(end));
-        if of_a_run || of_a_survey {
+        if of_a_run || of_a_survey || OF_MODES.contains(&name.as_str()) {
             fs::remove_file(entry.path())?;
         }
     }

@@ -8,6 +8,8 @@
 //! - [`folder`]: where results go.
 //! - [`golden`]: a run beside a golden file.
 //! - [`modes`]: how a scene vibrates about its pose at t = 0.
+//! - [`mod@relax`]: where a scene rests under its loads.
+//! - [`mode_table`]: the modes of a scene as a table, a page and matrices.
 //! - [`surveyed`]: a survey that lies beside a run's results.
 //! - [`run`]: a scene becomes a trace, a summary and a report.
 //! - [`sweep`]: many values of a scene, a row per case.
@@ -33,10 +35,12 @@ pub mod folder;
 pub mod golden;
 pub mod import;
 pub mod list;
+pub mod mode_table;
 pub mod modes;
 pub mod new;
 pub mod picture;
 pub mod planar;
+pub mod relax;
 pub mod reproduce;
 pub mod rounding;
 pub mod run;

@@ -42,9 +42,7 @@ pub enum WriteError {
 impl Diagnostic for WriteError {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         Some(Box::new(match self {
-            Self::Taken { .. } => {
-                "--write takes another name, or replace that file with --overwrite"
-            }
+            Self::Taken { .. } => "name another file, or replace that one with --overwrite",
             Self::Both => "one of them, or --write FILE",
             Self::Differs => "this is a mistake in host-sim; the scene itself can be used as it is",
             Self::Scene(error) => return Some(Box::new(error.help())),
@@ -69,7 +67,14 @@ pub fn long_form(
     file: &str,
     changes: &[String],
 ) -> Result<String, WriteError> {
-    let written = Scene::long_form(text, file, changes)?;
+    seen_to_read_back(scene, Scene::long_form(text, file, changes)?, file)
+}
+
+/// A scene's written text, if it reads back to the same bits.
+///
+/// # Errors
+/// [`WriteError::Differs`] where it does not.
+pub fn seen_to_read_back(scene: &Scene, written: String, file: &str) -> Result<String, WriteError> {
     match Scene::parse(&written, file) {
         // As they are shown, −0 is not 0.
         Ok(back)

@@ -26,12 +26,16 @@ pub const FMU: &str = examples!("fmu.txt");
 pub const IMPORT: &str = examples!("import.txt");
 /// Of `list`.
 pub const LIST: &str = examples!("list.txt");
+/// Of `modes`.
+pub const MODES: &str = examples!("modes.txt");
 /// Of `new firmware`.
 pub const NEW_FIRMWARE: &str = examples!("new-firmware.txt");
 /// Of `new laws`.
 pub const NEW_LAWS: &str = examples!("new-laws.txt");
 /// Of `new scene`.
 pub const NEW_SCENE: &str = examples!("new-scene.txt");
+/// Of `relax`.
+pub const RELAX: &str = examples!("relax.txt");
 /// Of `reproduce`.
 pub const REPRODUCE: &str = examples!("reproduce.txt");
 /// Of `run`.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use dbd_kernel::{BodyIndex, Quaternion, Vec3};
 
 use crate::assembly::Assembly;
-use crate::orientation::settled;
+use crate::orientation::{normalised, settled};
 
 impl Assembly {
     /// The named points, world, at the initial pose.
@@ -43,6 +43,14 @@ impl Assembly {
         match self.turns.get(body.row()) {
             Some(Some(turn)) => turn.rotation().to_body(vector),
             _ => vector,
+        }
+    }
+
+    /// The orientation of a body's principal axes, unit and scalar first, given that of the axes it is written in.
+    pub(crate) fn orientation_of_written(&self, body: BodyIndex, written: [f64; 4]) -> [f64; 4] {
+        match self.turns.get(body.row()) {
+            Some(Some(turn)) => normalised(Quaternion::from_f64(written).product(*turn).to_f64()),
+            _ => written,
         }
     }
 

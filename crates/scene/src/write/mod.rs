@@ -1,15 +1,15 @@
 //! The long form of a scene: every pose and place a number in SI, nothing left to assemble or to look up.
 //!
 //! `(tables, what values stand for, model) => text that reads back to the same bits`. Comments that stand before or
-//! behind what is still there stay. What it leaves out: `[points]`, `[parameters]`, `[assemble]`, `[defaults]`, and
-//! what of a body gives its pose and inertia otherwise.
+//! behind what is still there stay. What it leaves out: `[points]`, `[parameters]`, `[assemble]`, `[defaults]`,
+//! `settle`, and what of a body gives its pose and inertia otherwise. Bodies that settled have a table in `[start]`.
 
 mod comments;
 mod literal;
 
 use std::collections::BTreeMap;
 
-use dbd_kernel::F64;
+use dbd_kernel::{F64, Vec3};
 use toml::de::DeValue;
 
 use crate::assembly::Resolved;
@@ -21,7 +21,7 @@ use crate::write::literal::{basic_string, direction, key, number, orientation, v
 use crate::{Scene, Solid};
 
 /// What the long form has no use for.
-const LEFT_OUT: &[&str] = &["points", "parameters", "assemble", "defaults"];
+const LEFT_OUT: &[&str] = &["points", "parameters", "assemble", "defaults", "settle", "start"];
 
 /// Kinds of which there are many, in the order of the reference.
 const MANY: &[&str] = &[
@@ -110,7 +110,28 @@ impl<'w, 't> Writer<'w, 't> {
                 }
             }
         }
+        self.starts();
         Ok(self.text)
+    }
+
+    /// The states at t = 0 that are not those at which the joints are assembled.
+    fn starts(&mut self) {
+        let states = self.scene.model.initial.iter().zip(&self.scene.assembled_states);
+        for ((now, assembled), name) in states.zip(&self.scene.body_names) {
+            // −0 is not 0.
+            if format!("{now:?}") == format!("{assembled:?}") {
+                continue;
+            }
+            let (position, turn) = (vector(now.position), orientation(now.orientation.to_f64()));
+            self.text.push_str(&format!(
+                "\n[start.{}]\nposition = {position}\norientation = {turn}\n",
+                key(name)
+            ));
+            let rates = [("velocity", now.velocity), ("angular_velocity", now.angular_velocity)];
+            for (name, rate) in rates.into_iter().filter(|(_, rate)| *rate != Vec3::ZERO) {
+                self.text.push_str(&format!("{name} = {}\n", vector(rate)));
+            }
+        }
     }
 
     /// A line with the comments around the place where it stood.
@@ -140,10 +161,12 @@ impl<'w, 't> Writer<'w, 't> {
     fn body(&mut self, table: &Table<'t>, row: usize) -> Result<(), SceneError> {
         self.table(table, |key| key == "name")?;
         let model: &SceneModel<F64> = &self.scene.model;
-        let (Some(body), Some(state)) = (model.bodies.get(row), model.initial.get(row)) else {
+        let (Some(body), Some(state)) =
+            (model.bodies.get(row), self.scene.assembled_states.get(row))
+        else {
             return Ok(());
         };
-        let at_rest = dbd_kernel::Vec3::ZERO;
+        let at_rest = Vec3::ZERO;
         for name in OF_A_BODY {
             let now = match *name {
                 "mass" => Some(number(body.mass)),
@@ -180,7 +203,7 @@ impl<'w, 't> Writer<'w, 't> {
 
     /// Whether a written orientation is that of a body.
     fn is_turned_as(&self, written: &str, row: usize) -> bool {
-        let own = self.scene.model.initial[row].orientation;
+        let own = self.scene.assembled_states[row].orientation;
         let bits = |q: [f64; 4]| q.map(f64::to_bits);
         literal::read_orientation(written).is_some_and(|q| bits(q) == bits(own.to_f64()))
     }
@@ -196,7 +219,7 @@ impl<'w, 't> Writer<'w, 't> {
             let is_given = value.get().get("angular_velocity").is_some();
             let is_set = self.scene.assembled.is_some() && !is_given;
             if let (Some(body), "spider", true) = (body, name, is_set) {
-                let turning = vector(self.scene.model.initial[body].angular_velocity);
+                let turning = vector(self.scene.assembled_states[body].angular_velocity);
                 let open = written.trim_end_matches('}').trim_end().to_owned();
                 written = format!("{open}, angular_velocity = {turning} }}");
             }

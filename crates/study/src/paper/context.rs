@@ -39,6 +39,9 @@ pub enum PaperError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Plant(#[from] PlantError),
+    /// Nothing vibrates.
+    #[error("nothing vibrates about this pose")]
+    Still,
     /// A run fails where the paper's does not.
     #[error("the run fails after {time} s: the method cannot be measured on this scene")]
     Failed {

@@ -31,6 +31,7 @@ mod trade_off;
 
 pub use context::{Context, PaperError, Scenes, TEN};
 pub use finding::{Curve, Finding, Plot, Row, Verdict};
+pub use spectrum::{Kick, kick};
 
 /// An item of the paper.
 #[derive(Clone, Copy)]

@@ -4,12 +4,14 @@ use std::f64::consts::TAU;
 
 use dbd_kernel::State;
 use dbd_kernel::energy::each_extension;
+use dbd_plant::digits::significant;
 use dbd_plant::{SchemeName, plant_of_model};
 use dbd_scene::Scene;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
+use serde::Serialize;
 
-use crate::modes::modes;
+use crate::modes::{MOST_BODIES, extremes, modes};
 use crate::paper::context::{Context, PaperError, advance, scheme};
 use crate::paper::finding::{Curve, Finding, Map, Plot, Row, Tolerance, assumptions};
 use crate::stability::frozen;
@@ -23,11 +25,29 @@ const CHANGE: f64 = 1e-3;
 /// Samples of a signal: a power of two.
 const SAMPLES: usize = 1 << 13;
 
-/// \[Hz\] resolution and highest frequency of the spectrum follow.
-const INTERVAL: f64 = 5e-5;
+/// How a run is sampled.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sampling {
+    /// \[s\] between samples; resolution and highest frequency of the spectrum follow.
+    interval: f64,
+    /// \[Hz\] the highest frequency that is looked at.
+    shown: f64,
+}
 
-/// \[Hz\] the plots' highest frequency.
-const SHOWN: f64 = 2000.0;
+impl Sampling {
+    /// Of the figure of the paper.
+    pub(super) const PAPER: Self = Self { interval: 5e-5, shown: 2000.0 };
+
+    /// Of a scene whose highest frequency \[Hz\] is this one.
+    fn up_to(highest: f64) -> Self {
+        Self { interval: 1.0 / (8.0 * highest), shown: 2.0 * highest }
+    }
+
+    /// \[Hz\] between two frequencies of the spectrum.
+    fn resolution(self) -> f64 {
+        1.0 / (SAMPLES as f64 * self.interval)
+    }
+}
 
 /// The magnitude spectrum of a signal.
 #[derive(Clone, Debug)]
@@ -55,7 +75,7 @@ impl Spectrum {
 
 /// The spectrum of a scene's pose at t = 0, frozen, after the free lengths of all springs of its joint
 /// `joint` have changed.
-pub(super) fn of(scene: &Scene, joint: usize) -> Result<Spectrum, PaperError> {
+pub(super) fn of(scene: &Scene, joint: usize, sampling: Sampling) -> Result<Spectrum, PaperError> {
     let mut model = frozen(&scene.model, &State::initial(&scene.model));
     // Every other element: equal changes of all of a joint's springs would cancel by symmetry.
     let groups = scene.joints[joint].groups.clone();
@@ -68,7 +88,8 @@ pub(super) fn of(scene: &Scene, joint: usize) -> Result<Spectrum, PaperError> {
             }
         }
     }
-    let mut plant = plant_of_model(&model, &scheme(SchemeName::Leapfrog)?, INTERVAL / 4.0)?;
+    let mut plant =
+        plant_of_model(&model, &scheme(SchemeName::Leapfrog)?, sampling.interval / 4.0)?;
     let firsts: Vec<usize> = scene.joints.iter().map(|joint| joint.groups.start).collect();
     let mut signals = vec![Vec::with_capacity(SAMPLES); firsts.len()];
     for _ in 0..SAMPLES {
@@ -86,8 +107,79 @@ pub(super) fn of(scene: &Scene, joint: usize) -> Result<Spectrum, PaperError> {
         });
         advance(plant.as_mut(), 4)?;
     }
-    let points = summed(&signals);
+    let points = summed(&signals, sampling);
     Ok(Spectrum { signals, points })
+}
+
+/// What the paper's procedure finds of a scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Kick {
+    /// The joint whose springs were lengthened.
+    pub joint: String,
+    /// \[Hz\] the frequency of the largest magnitude.
+    pub dominant: f64,
+    /// \[Hz\] between two frequencies of the spectrum.
+    pub resolution: f64,
+    /// \[N/m\] of a spring of the joint.
+    pub stiffness: f64,
+    /// \[N·s/m\] the damping constant that follows, `2·k/ω`.
+    pub damping: f64,
+    /// \[Hz\] the nearest eigenfrequency of the frozen pose.
+    pub nearest: f64,
+    /// The dominant over the nearest eigenfrequency.
+    pub ratio: f64,
+}
+
+impl Kick {
+    /// What people read.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        format!(
+            "springs of joint `{}` lengthened by 1 mm: dominant frequency {} ± {} Hz, {} times the nearest \
+             eigenfrequency, {} Hz; c = 2k/ω = {} N·s/m with k = {} N/m",
+            self.joint,
+            significant(self.dominant, 5),
+            significant(0.5 * self.resolution, 2),
+            significant(self.ratio, 5),
+            significant(self.nearest, 5),
+            significant(self.damping, 4),
+            significant(self.stiffness, 4),
+        )
+    }
+}
+
+/// Section 2.4 on any scene: lengthens every other spring of a joint about the frozen pose at t = 0, runs, and takes the dominant frequency of all joints' extensions.
+///
+/// # Errors
+/// Where there are no modes, nothing vibrates, or the run fails.
+pub fn kick(scene: &Scene, joint: usize) -> Result<Kick, PaperError> {
+    let model = frozen(&scene.model, &State::initial(&scene.model));
+    let state = State::initial(&model);
+    let frequencies = if model.bodies.len() > MOST_BODIES {
+        extremes(&model, &state, [200, 20])?.frequencies
+    } else {
+        modes(&model, &state)?.frequencies
+    };
+    let highest = frequencies.last().copied().unwrap_or(0.0);
+    if highest <= 0.0 {
+        return Err(PaperError::Still);
+    }
+    let sampling = Sampling::up_to(highest);
+    let dominant = of(scene, joint, sampling)?.dominant();
+    let nearest = |a: &f64, b: &f64| (a - dominant).abs().total_cmp(&(b - dominant).abs());
+    let nearest = frequencies.into_iter().min_by(nearest).unwrap_or(0.0);
+    let elements = scene.joint_elements();
+    let stiffness = elements.iter().find(|element| element.joint == joint);
+    let stiffness = stiffness.map_or(0.0, |element| element.stiffness);
+    Ok(Kick {
+        joint: scene.joints[joint].name.clone(),
+        dominant,
+        resolution: sampling.resolution(),
+        stiffness,
+        damping: 2.0 * stiffness / (TAU * dominant),
+        nearest,
+        ratio: dominant / nearest,
+    })
 }
 
 /// A Hann window, mean taken off.
@@ -98,8 +190,8 @@ fn windowed(signal: &[f64]) -> Vec<Complex<f64>> {
     signal.iter().enumerate().map(|(n, x)| Complex::new((x - mean) * weight(n), 0.0)).collect()
 }
 
-/// Frequencies up to [`SHOWN`], and the root of the signals' summed power over its largest.
-fn summed(signals: &[Vec<f64>]) -> Vec<[f64; 2]> {
+/// Frequencies up to the highest shown one, and the root of the signals' summed power over its largest.
+fn summed(signals: &[Vec<f64>], sampling: Sampling) -> Vec<[f64; 2]> {
     let fft = FftPlanner::new().plan_fft_forward(SAMPLES);
     let mut power = vec![0.0; SAMPLES / 2];
     for signal in signals.iter().filter(|signal| signal.len() == SAMPLES) {
@@ -108,10 +200,10 @@ fn summed(signals: &[Vec<f64>]) -> Vec<[f64; 2]> {
         power.iter_mut().zip(&spectrum).for_each(|(sum, value)| *sum += value.norm_sqr());
     }
     let largest = power.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-    let frequency = |bin: usize| bin as f64 / (SAMPLES as f64 * INTERVAL);
+    let frequency = |bin: usize| bin as f64 * sampling.resolution();
     let points =
         power.iter().enumerate().map(|(bin, power)| [frequency(bin), (power / largest).sqrt()]);
-    points.filter(|[frequency, _]| *frequency > 0.0 && *frequency <= SHOWN).collect()
+    points.filter(|[frequency, _]| *frequency > 0.0 && *frequency <= sampling.shown).collect()
 }
 
 /// Morlet wavelet magnitudes: time \[ms\] by frequency \[kHz\].
@@ -120,6 +212,7 @@ fn scalogram(signal: &[f64]) -> Option<Map> {
     const CENTRE: f64 = 6.0;
     const COLUMNS: usize = 120;
     const ROWS: usize = 60;
+    let Sampling { interval, shown } = Sampling::PAPER;
     let mut planner = FftPlanner::new();
     let (forward, back) = (planner.plan_fft_forward(SAMPLES), planner.plan_fft_inverse(SAMPLES));
     if signal.len() != SAMPLES {
@@ -127,7 +220,7 @@ fn scalogram(signal: &[f64]) -> Option<Map> {
     }
     let mut spectrum = windowed(signal);
     forward.process(&mut spectrum);
-    let frequencies: Vec<f64> = (1..=ROWS).map(|n| SHOWN * n as f64 / ROWS as f64).collect();
+    let frequencies: Vec<f64> = (1..=ROWS).map(|n| shown * n as f64 / ROWS as f64).collect();
     let mut values = Vec::with_capacity(ROWS);
     for frequency in &frequencies {
         let scale = CENTRE / (TAU * frequency);
@@ -135,7 +228,7 @@ fn scalogram(signal: &[f64]) -> Option<Map> {
             .iter()
             .enumerate()
             .map(|(bin, value)| {
-                let omega = TAU * bin as f64 / (SAMPLES as f64 * INTERVAL);
+                let omega = TAU * bin as f64 / (SAMPLES as f64 * interval);
                 let weight = if bin < SAMPLES / 2 {
                     (-0.5 * (scale * omega - CENTRE).powi(2)).exp()
                 } else {
@@ -150,7 +243,7 @@ fn scalogram(signal: &[f64]) -> Option<Map> {
     }
     let largest = values.iter().flatten().copied().fold(f64::MIN_POSITIVE, f64::max);
     values.iter_mut().flatten().for_each(|value| *value /= largest);
-    let time = |n: usize| 1e3 * INTERVAL * (SAMPLES / COLUMNS) as f64 * (n as f64 + 0.5);
+    let time = |n: usize| 1e3 * interval * (SAMPLES / COLUMNS) as f64 * (n as f64 + 0.5);
     Some(Map {
         x: (0..COLUMNS).map(time).collect(),
         y: frequencies.iter().map(|frequency| 1e-3 * frequency).collect(),
@@ -163,7 +256,7 @@ pub(super) fn spectrum(context: &Context<'_>) -> Result<Finding, PaperError> {
     let scene = context.scene("3ruu")?;
     let mut found = Vec::new();
     for joint in 0..scene.joints.len() {
-        found.push((joint, of(&scene, joint)?));
+        found.push((joint, of(&scene, joint, Sampling::PAPER)?));
     }
     let nearest = |a: &f64, b: &f64| (a - DOMINANT).abs().total_cmp(&(b - DOMINANT).abs());
     let dominants: Vec<f64> = found.iter().map(|(_, spectrum)| spectrum.dominant()).collect();
@@ -238,9 +331,9 @@ mod tests {
 
     #[test]
     fn a_tone_is_found_where_it_is_in_both_pictures() {
-        let tone = |n: usize| (TAU * 700.0 * INTERVAL * n as f64).sin();
+        let tone = |n: usize| (TAU * 700.0 * Sampling::PAPER.interval * n as f64).sin();
         let signal: Vec<f64> = (0..SAMPLES).map(tone).collect();
-        let points = summed(std::slice::from_ref(&signal));
+        let points = summed(std::slice::from_ref(&signal), Sampling::PAPER);
         let spectrum = Spectrum { signals: Vec::new(), points };
         assert!((spectrum.dominant() - 700.0).abs() < 2.5, "{}", spectrum.dominant());
         let map = scalogram(&signal).unwrap();

@@ -98,7 +98,7 @@ pub(super) fn largest(context: &Context<'_>) -> Result<Finding, PaperError> {
             });
         }
         let joint = shipped.joints.len() / 2;
-        let dominant = spectrum::of(&shipped, joint)?.dominant();
+        let dominant = spectrum::of(&shipped, joint, spectrum::Sampling::PAPER)?.dominant();
         if let Some(at) = point(&shipped)?.filter(|_| dominant > 0.0) {
             rows.push(Row::open(
                 format!("{name}: largest step · (2π)²f, one iteration, f dominant"),

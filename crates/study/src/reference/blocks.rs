@@ -4,7 +4,7 @@
 
 use std::collections::BTreeSet;
 
-use nalgebra::{DVector, Matrix6, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
 use nalgebra_sparse::factorization::{CscCholesky, CscSymbolicCholesky};
 use nalgebra_sparse::pattern::SparsityPattern;
 
@@ -54,7 +54,8 @@ impl BlockMatrix {
         Self::new(mechanism.bodies.len(), &pairs.collect())
     }
 
-    fn new(bodies: usize, pairs: &BTreeSet<(usize, usize)>) -> Self {
+    /// A matrix with a block for each body and for each pair.
+    pub(crate) fn new(bodies: usize, pairs: &BTreeSet<(usize, usize)>) -> Self {
         let mut places = vec![0; bodies];
         for (place, body) in least_degree(bodies, pairs).into_iter().enumerate() {
             places[body] = place;
@@ -108,6 +109,30 @@ impl BlockMatrix {
     /// A body's part of a solution.
     pub(crate) fn part(&self, solution: &DVector<f64>, row: usize) -> Vector6<f64> {
         solution.fixed_rows::<6>(6 * self.places[row]).into()
+    }
+
+    /// Its factor; `None` where it is not positive definite.
+    pub(crate) fn factored(&self) -> Option<CscCholesky<f64>> {
+        let symbolic = CscSymbolicCholesky::factor(self.pattern.clone());
+        CscCholesky::factor_numerical(symbolic, &self.values).ok()
+    }
+
+    /// Rows of a matrix, six per body, in the order of elimination.
+    pub(crate) fn ordered(&self, rows: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut ordered = rows.clone();
+        for (body, place) in self.places.iter().enumerate() {
+            ordered.rows_mut(6 * place, 6).copy_from(&rows.rows(6 * body, 6));
+        }
+        ordered
+    }
+
+    /// The opposite of [`Self::ordered`].
+    pub(crate) fn unordered(&self, rows: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut unordered = rows.clone();
+        for (body, place) in self.places.iter().enumerate() {
+            unordered.rows_mut(6 * body, 6).copy_from(&rows.rows(6 * place, 6));
+        }
+        unordered
     }
 
     /// The solution.

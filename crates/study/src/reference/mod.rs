@@ -38,6 +38,7 @@ pub mod trajectory;
 pub mod truth;
 pub mod window;
 
+pub(crate) use blocks::BlockMatrix;
 pub use mechanism::Mechanism;
 pub use spectrum::eigenfrequencies;
 pub use state::State;

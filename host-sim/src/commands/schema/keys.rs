@@ -20,6 +20,7 @@ pub(super) fn schema(table: &str, key: &str, tables: &[TableKeys]) -> Option<Val
         "scene" => of_scene(key),
         "assemble" => of_assemble(key, tables),
         "body" => of_body(key, tables),
+        "start" => of_start(key, tables),
         "joint" => of_joint(key, tables).or_else(|| of_spring(key, tables)),
         "tsda" => of_tsda(key).or_else(|| of_spring(key, tables)),
         "point_on_line" => of_line(key).or_else(|| of_spring(key, tables)),
@@ -55,6 +56,12 @@ fn of_scene(key: &str) -> Option<Key> {
         ),
         _ => return None,
     })
+}
+
+fn of_start(key: &str, tables: &[TableKeys]) -> Option<Key> {
+    let is_rate = ["velocity", "angular_velocity"].contains(&key);
+    let default = if is_rate { "0" } else { "that of its [[body]]" };
+    of_body(key, tables).map(|Key(schema, text, _)| Key(schema, text, default))
 }
 
 fn of_assemble(key: &str, tables: &[TableKeys]) -> Option<Key> {

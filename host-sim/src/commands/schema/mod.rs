@@ -117,6 +117,7 @@ fn schema() -> Value {
     properties.insert("points".into(), points(&tables));
     properties.insert("assemble".into(), assemble(&tables));
     properties.insert("defaults".into(), of_defaults(&tables));
+    properties.insert("start".into(), start(&tables));
     let mut whole = Map::new();
     for (table, meaning) in MANY {
         let items = one(table, meaning, &tables);
@@ -286,6 +287,16 @@ fn assemble(tables: &[TableKeys]) -> Value {
     schema
 }
 
+fn start(tables: &[TableKeys]) -> Value {
+    let keys = keys_of("start", tables);
+    let keys = keys.iter().filter_map(|key| Some((*key, keys::schema("body", key, tables)?)));
+    json!({
+        "type": "object",
+        "description": "States at t = 0 that are not those at which the joints are assembled, by body.",
+        "additionalProperties": object(keys, &[]),
+    })
+}
+
 fn of_defaults(tables: &[TableKeys]) -> Value {
     let kinds = defaults();
     let joint_types: Vec<&str> = of_kinds("joint", tables).map(|(kind, _)| kind).collect();
@@ -313,7 +324,7 @@ mod tests {
     #[test]
     fn every_key_of_the_reader_is_described() {
         let tables = vocabulary();
-        let apart = ["points", "defaults", "parameters", "assemble"];
+        let apart = ["points", "defaults", "parameters", "assemble", "start"];
         for known in &tables {
             for key in &known.keys {
                 let is_table = MANY.iter().any(|(table, _)| table == key) || apart.contains(key);
