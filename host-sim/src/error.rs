@@ -1,6 +1,7 @@
 //! What ends a command early, and the exit code it ends with.
 
 use dbd_fmu::ArchiveError;
+use dbd_plant::instance::InstanceError;
 use dbd_plant::{MethodError, PlantError};
 use dbd_study::SurveyError;
 use miette::Diagnostic;
@@ -10,6 +11,7 @@ use crate::commands::compare::CompareRefusal;
 use crate::commands::export::ExportError;
 use crate::commands::fmu::FmuError;
 use crate::commands::import::ImportError;
+use crate::commands::linearise::LineariseError;
 use crate::commands::new::NewError;
 use crate::commands::picture::PictureError;
 use crate::commands::reproduce::ReproduceError;
@@ -44,6 +46,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Fmu(#[from] FmuError),
+    /// There is no linear system.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Linearise(#[from] LineariseError),
     /// Nothing was imported.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -104,6 +110,11 @@ impl Error {
             Self::Export(_) | Self::Fmu(_) | Self::Import(_) | Self::New(_) | Self::Picture(_) => {
                 Exit::Refused
             }
+            Self::Linearise(
+                LineariseError::Write { .. }
+                | LineariseError::Instance(InstanceError::Failed { .. }),
+            ) => Exit::Failed,
+            Self::Linearise(_) => Exit::Refused,
             Self::LongForm(WriteError::Write { .. } | WriteError::Differs) => Exit::Failed,
             Self::LongForm(_) | Self::Watch(_) => Exit::Refused,
             Self::Output(_) => Exit::Failed,

@@ -11,6 +11,7 @@ mod gltf;
 mod golden;
 mod import;
 mod interactions;
+mod linearise;
 mod modes;
 mod new;
 mod picture;
