@@ -207,8 +207,7 @@ impl Settled {
                 let response = at_rest(b)?;
                 return Ok(Self { slow, response, jacobians });
             }
-            // NaN is refused, too.
-            if !(residual <= 1.0) {
+            if residual.is_nan() || residual > 1.0 {
                 return Err(restless());
             }
             probe.shift(&shift.column(0).into_owned());
