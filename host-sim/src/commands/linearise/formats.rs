@@ -108,21 +108,24 @@ fn csv(linear: &Linear) -> String {
     let Linear { a, b, c, d, drift, states, inputs, outputs, .. } = linear;
     let drift = DMatrix::from_column_slice(drift.len(), 1, drift.as_slice());
     let none = [String::new()];
-    let matrices: [(&str, &DMatrix<f64>, &[String], &[String]); 5] = [
-        ("A", a, states, states),
-        ("B", b, states, inputs),
-        ("C", c, outputs, states),
-        ("D", d, outputs, inputs),
-        ("drift", &drift, states, &none),
-    ];
-    let mut text = Format::Csv.head().to_owned();
-    for (matrix, values, rows, columns) in matrices {
-        for (row, of) in rows.iter().enumerate() {
-            for (column, by) in columns.iter().enumerate() {
-                let value = format!("{:?}", values[(row, column)]);
-                let cells = [matrix, of, by, &value].map(quoted);
-                text += &(cells.join(",") + "\n");
-            }
+    [
+        Format::Csv.head().to_owned(),
+        entries("A", a, states, states),
+        entries("B", b, states, inputs),
+        entries("C", c, outputs, states),
+        entries("D", d, outputs, inputs),
+        entries("drift", &drift, states, &none),
+    ]
+    .concat()
+}
+
+/// A line per entry of a matrix.
+fn entries(name: &str, matrix: &DMatrix<f64>, rows: &[String], columns: &[String]) -> String {
+    let mut text = String::new();
+    for (row, of) in rows.iter().enumerate() {
+        for (column, by) in columns.iter().enumerate() {
+            let value = format!("{:?}", matrix[(row, column)]);
+            text += &([name, of, by, &value].map(quoted).join(",") + "\n");
         }
     }
     text
