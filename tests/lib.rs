@@ -35,6 +35,7 @@ pages! {
     import "docs/import.md"
     joints "docs/joints.md"
     laws "docs/laws.md"
+    linearise "docs/linearise.md"
     measured "docs/measured.md"
     method "docs/method.md"
     modes "docs/modes.md"

@@ -9,8 +9,9 @@ use dbd_scene::Scene;
 const SCENE: &str = include_str!("../scenes/cart-pendulum.toml");
 
 /// State feedback on cart [N/m], angle [N/rad] and their rates: the linear regulator of the ideal cart
-/// and pendulum for weights 20, 50, 1, 1 on these and 0.05 on the force.
-const GAINS: [f64; 4] = [-20.0, 88.97, -18.33, 17.54];
+/// and pendulum for weights 20, 50, 1, 1 on these and 0.05 on the force. `host-sim linearise` gives A and B; a
+/// test computes the gains from them.
+pub const GAINS: [f64; 4] = [-20.0, 88.97, -18.33, 17.54];
 
 /// The force [N] on the cart for its position, the angle from upright and their rates.
 pub fn force(state: [f64; 4]) -> f64 {

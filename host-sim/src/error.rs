@@ -1,6 +1,7 @@
 //! What ends a command early, and the exit code it ends with.
 
 use dbd_fmu::ArchiveError;
+use dbd_plant::instance::InstanceError;
 use dbd_plant::{MethodError, PlantError};
 use dbd_scene::Restless;
 use dbd_study::SurveyError;
@@ -14,6 +15,7 @@ use crate::commands::compare::CompareRefusal;
 use crate::commands::export::ExportError;
 use crate::commands::fmu::FmuError;
 use crate::commands::import::ImportError;
+use crate::commands::linearise::LineariseError;
 use crate::commands::mode_table::ModeTableError;
 use crate::commands::new::NewError;
 use crate::commands::picture::PictureError;
@@ -50,6 +52,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Fmu(#[from] FmuError),
+    /// There is no linear system.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Linearise(#[from] LineariseError),
     /// Nothing was imported.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -126,6 +132,11 @@ impl Error {
             Self::Export(_) | Self::Fmu(_) | Self::Import(_) | Self::New(_) | Self::Picture(_) => {
                 Exit::Refused
             }
+            Self::Linearise(
+                LineariseError::Write { .. }
+                | LineariseError::Instance(InstanceError::Failed { .. }),
+            ) => Exit::Failed,
+            Self::Linearise(_) => Exit::Refused,
             Self::LongForm(WriteError::Write { .. } | WriteError::Differs)
             | Self::Relax(RelaxError::Write(WriteError::Write { .. } | WriteError::Differs)) => {
                 Exit::Failed

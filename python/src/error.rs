@@ -59,7 +59,7 @@ impl From<InstanceError> for Refusal {
             InstanceError::Multiple { .. } | InstanceError::Past { .. } => ("TimeError", None),
             InstanceError::Failed { time, step, .. } => ("StepFailed", Some((time, step))),
             InstanceError::State(_) => ("StateError", None),
-            InstanceError::Linearisation(_) => ("LinearisationError", None),
+            InstanceError::Linearisation { .. } => ("LinearisationError", None),
         };
         Self { class, sentence, failed }
     }

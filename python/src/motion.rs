@@ -4,12 +4,11 @@
 
 use std::sync::atomic::AtomicBool;
 
-use dbd_plant::instance::Instance;
-use dbd_plant::instance::linearisation::Probe;
+use dbd_plant::instance::{Instance, LinearOptions};
+use nalgebra::DMatrix;
 use numpy::{
     AllowTypeChange, PyArray1, PyArray2, PyArrayLikeDyn, PyUntypedArrayMethods as _, ToPyArray as _,
 };
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple};
 
@@ -18,9 +17,6 @@ use crate::error::{Refusal, raise};
 use crate::plant::Plant;
 use crate::rollout::{Watch, read};
 use crate::states;
-
-/// ẋ, and A, B, C, D.
-type Matrices<'py> = (Bound<'py, PyArray1<f64>>, [Bound<'py, PyArray2<f64>>; 4]);
 
 impl Plant {
     /// Steps without holding the interpreter.
@@ -237,49 +233,38 @@ impl Plant {
     ///     perturb: [m, rad, m/s, rad/s] of the differences, which are of fourth order.
     ///
     /// Raises:
-    ///     LinearisationError: The states are not those of the slow motions, or something is undefined here.
+    ///     LinearisationError: The states are not those of the slow motions, `perturb` is not between 0 and 0.1,
+    ///         or something is undefined here.
     ///     UnknownName: There is no such output or input.
     #[pyo3(signature = (states=None, inputs=None, outputs=None, *, perturb=1e-5))]
     fn linearise<'py>(
-        slf: &Bound<'py, Self>,
+        &self,
+        py: Python<'py>,
         states: Option<Vec<String>>,
         inputs: Option<Vec<String>>,
         outputs: Option<Vec<String>>,
         perturb: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let linear = slf.py().import("dbd._linear")?;
-        linear.call_method1("linearise", (slf, states, inputs, outputs, perturb))
-    }
-
-    /// The Jacobians that `linearise` stands on, `shift` away from the present state: ẋ, (A, B, C, D).
-    fn _jacobians<'py>(
-        &self,
-        py: Python<'py>,
-        inputs: Vec<String>,
-        outputs: Vec<String>,
-        shift: Vec<f64>,
-        perturb: f64,
-    ) -> PyResult<Matrices<'py>> {
-        if !(perturb.is_finite() && perturb > 0.0 && perturb < 0.1) {
-            return Err(PyValueError::new_err(format!(
-                "perturb cannot be {perturb:?}; between 0 and 0.1"
-            )));
-        }
-        let instance = self.held(py)?;
-        let inputs = arguments::inputs(&instance, Some(inputs)).map_err(raise(py))?;
-        let names = outputs.iter().map(|name| instance.output(name));
-        let outputs = names.collect::<Result<Vec<_>, _>>().map_err(raise(py))?;
-        let mut probe = Probe::new(&instance).map_err(raise(py))?;
-        probe.shift(&shift);
-        let all = py.detach(|| probe.jacobians(&inputs, &outputs, perturb)).map_err(raise(py))?;
-        let matrix = |values, rows, columns| arguments::shaped(py, values, rows, columns);
-        let (count, width) = (all.count, inputs.len());
-        let matrices = [
-            matrix(all.a, count, count)?,
-            matrix(all.b, count, width)?,
-            matrix(all.c, outputs.len(), count)?,
-            matrix(all.d, outputs.len(), width)?,
-        ];
-        Ok((all.rate.to_pyarray(py), matrices))
+        let options = LinearOptions { states, inputs, outputs, perturb };
+        let mut instance = self.held(py)?;
+        // A plant may be sent to a thread, but not shared.
+        let instance: &mut Instance = &mut instance;
+        let linear = py.detach(move || instance.linearise(&options)).map_err(raise(py))?;
+        let matrix = |of: &DMatrix<f64>| {
+            let rows = of.transpose().as_slice().to_vec();
+            arguments::shaped(py, rows, of.nrows(), of.ncols())
+        };
+        let class = py.import("dbd._linear")?.getattr("Linear")?;
+        class.call1((
+            matrix(&linear.a)?,
+            matrix(&linear.b)?,
+            matrix(&linear.c)?,
+            matrix(&linear.d)?,
+            linear.drift.as_slice().to_pyarray(py),
+            linear.states,
+            linear.inputs,
+            linear.outputs,
+            linear.slowest_left_out,
+        ))
     }
 }

@@ -270,7 +270,7 @@ REFUSED = [
     (lambda: cart().set_state(orientation=np.zeros((2, 4))), dbd.StateError, "`cart`"),
     (lambda: cart().set_state(velocity=np.full((2, 3), np.nan)), dbd.StateError, "`cart`"),
     (lambda: cart().linearise(["cart_point.x"], perturb=0.0), ValueError, "perturb"),
-    (lambda: cart().linearise(["cart.x", "cart.x"]), dbd.LinearisationError, "each once"),
+    (lambda: cart().linearise(["cart.x", "cart.x"]), dbd.LinearisationError, "each output once"),
     (lambda: cart().linearise(["cart.x", "nothing"]), dbd.UnknownName, "nothing"),
 ]
 

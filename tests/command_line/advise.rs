@@ -32,11 +32,11 @@ fn what_is_advised_runs() {
     assert_eq!(advice["accuracy"], 1e-4);
     let words = call(&[&["advise", SCENE][..], &options].concat()).out;
     let line = words.lines().find(|line| line.starts_with("run it")).unwrap();
-    let line = shlex::split(line.trim_start_matches("run it").trim()).unwrap();
+    let line: Vec<&str> = line.trim_start_matches("run it").split_whitespace().collect();
     let folder = Folder::new();
-    let out = folder.path().to_str().unwrap();
-    let mut arguments: Vec<&str> = line[1..].iter().map(String::as_str).collect();
-    arguments.extend(["--out", out, "--duration", "0.2s", "--json"]);
+    let out = folder.path("out");
+    let mut arguments = line[1..].to_vec();
+    arguments.extend(["--out", out.to_str().unwrap(), "--duration", "0.2s", "--json"]);
     let done = call(&arguments);
     assert_eq!(done.exit, Exit::Done, "{line:?}: {}", done.err);
     // A run takes the advised way without a warning.

@@ -12,6 +12,7 @@ mod gltf;
 mod golden;
 mod import;
 mod interactions;
+mod linearise;
 mod mode_table;
 mod modes;
 mod new;

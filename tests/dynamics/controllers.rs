@@ -65,7 +65,7 @@ fn the_delta_keeps_to_its_path() -> f64 {
 /// The same state feedback on a plant in single precision, for 10 s.
 #[test]
 fn the_pendulum_stays_up_in_single_precision() {
-    const GAINS: [f64; 4] = [-20.0, 88.97, -18.33, 17.54];
+    use balance::GAINS;
     let scene = scene("cart-pendulum");
     let model: SceneModel<F32> = scene.model.convert();
     let mut plant = Plant::new(&model, Leapfrog, scene.step.unwrap()).unwrap();

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use dbd_plant::instance::NEAR;
+use dbd_plant::instance::linearisation::Probe;
 use dbd_plant::instance::{Instance, InstanceError};
 use dbd_scene::time::{display, rounded};
 
@@ -64,6 +65,8 @@ pub struct Component {
     pub(crate) is_waiting: bool,
     /// Parameters as the plant has them, by path.
     pub(crate) parameters: BTreeMap<String, f64>,
+    /// The plant in double precision that derivatives are taken of, of the present parameters.
+    pub(crate) probe: Option<Probe>,
 }
 
 impl Component {
@@ -94,6 +97,7 @@ impl Component {
             set: BTreeMap::new(),
             is_waiting: false,
             parameters: BTreeMap::new(),
+            probe: None,
         };
         component.note_parameters().map_err(|error| error.sentence())?;
         Ok(component)
@@ -101,6 +105,7 @@ impl Component {
 
     /// Reads the parameters, some of which may follow from others.
     pub(crate) fn note_parameters(&mut self) -> Result<(), InstanceError> {
+        self.probe = None;
         let numbers = self.instance.parameters()?;
         self.parameters = numbers.into_iter().map(|number| (number.path, number.value)).collect();
         Ok(())
@@ -118,7 +123,7 @@ impl Component {
         self.mode
     }
 
-    fn role(&self, reference: u32) -> Result<&Role, Refusal> {
+    pub(crate) fn role(&self, reference: u32) -> Result<&Role, Refusal> {
         let variable = self.description.variables.get(reference as usize);
         variable.map(|variable| &variable.role).ok_or_else(|| {
             Refusal::Error(format!(
@@ -128,7 +133,7 @@ impl Component {
         })
     }
 
-    fn expect(&self, modes: &[Mode]) -> Result<(), Refusal> {
+    pub(crate) fn expect(&self, modes: &[Mode]) -> Result<(), Refusal> {
         if modes.contains(&self.mode) {
             return Ok(());
         }
@@ -206,7 +211,7 @@ impl Component {
     }
 
     /// Gives the plant the parameters that wait.
-    fn settle(&mut self) -> Result<(), Refusal> {
+    pub(crate) fn settle(&mut self) -> Result<(), Refusal> {
         if !self.is_waiting {
             return Ok(());
         }

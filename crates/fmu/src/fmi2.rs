@@ -154,6 +154,14 @@ exported! {
     fn fmi2DeSerializeFMUstate(bytes: *const u8, size: usize, state: *mut *mut c_void) |held| {
         deserialize(held, bytes, size, state)
     };
+    fn fmi2GetDirectionalDerivative(
+        unknowns: *const c_uint, unknown_count: usize, knowns: *const c_uint, known_count: usize,
+        seed: *const f64, sensitivity: *mut f64,
+    ) |held| {
+        let (unknowns, knowns) = (slice(unknowns, unknown_count)?, slice(knowns, known_count)?);
+        let seed = slice(seed, known_count)?;
+        write(sensitivity, &held.component.directional_derivative(unknowns, knowns, seed)?)
+    };
     fn fmi2DoStep(point: f64, size: f64, _no_going_back: c_int) |held| held.step(point, size);
     fn fmi2GetStatus(kind: c_int, value: *mut c_int) |held| {
         is_kind(kind, DO_STEP)?;
@@ -175,10 +183,6 @@ exported! {
 }
 
 unsupported! {
-    fn fmi2GetDirectionalDerivative(
-        unknowns: *const c_uint, unknown_count: usize, knowns: *const c_uint, known_count: usize,
-        seed: *const f64, sensitivity: *mut f64,
-    );
     fn fmi2EnterEventMode();
     fn fmi2NewDiscreteStates(info: *mut EventInfo);
     fn fmi2EnterContinuousTimeMode();

@@ -117,6 +117,16 @@ exported! {
     fn fmi3DeserializeFMUState(bytes: *const u8, size: usize, state: *mut *mut c_void) |held| {
         deserialize(held, bytes, size, state)
     };
+    fn fmi3GetDirectionalDerivative(
+        unknowns: *const u32, unknown_count: usize, knowns: *const u32, known_count: usize,
+        seed: *const f64, seed_count: usize, sensitivity: *mut f64, sensitivity_count: usize,
+    ) |held| {
+        same_count(known_count, seed_count)?;
+        same_count(unknown_count, sensitivity_count)?;
+        let (unknowns, knowns) = (slice(unknowns, unknown_count)?, slice(knowns, known_count)?);
+        let seed = slice(seed, seed_count)?;
+        write(sensitivity, &held.component.directional_derivative(unknowns, knowns, seed)?)
+    };
     fn fmi3DoStep(
         point: f64, size: f64, _no_going_back: Boolean, event: *mut Boolean, terminate: *mut Boolean,
         early: *mut Boolean, last_time: *mut f64,

@@ -101,7 +101,6 @@ unsupported! {
     fn fmi3EnterEventMode();
     fn fmi3GetNumberOfVariableDependencies(reference: u32, dependencies_count: *mut usize);
     fn fmi3GetVariableDependencies(dependent: u32, element_indices_of_dependent: *mut usize, independents: *mut u32, element_indices_of_independents: *mut usize, dependency_kinds: *mut c_int, dependencies_count: usize);
-    fn fmi3GetDirectionalDerivative(unknowns: *const u32, unknowns_count: usize, knowns: *const u32, knowns_count: usize, seed: *const f64, seed_count: usize, sensitivity: *mut f64, sensitivity_count: usize);
     fn fmi3GetAdjointDerivative(unknowns: *const u32, unknowns_count: usize, knowns: *const u32, knowns_count: usize, seed: *const f64, seed_count: usize, sensitivity: *mut f64, sensitivity_count: usize);
     fn fmi3EnterConfigurationMode();
     fn fmi3ExitConfigurationMode();

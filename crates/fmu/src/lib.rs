@@ -14,6 +14,7 @@
 //! - [`page`]: the page of an FMU's `documentation/`.
 //! - [`archive`](mod@archive): the FMU as a file.
 //! - [`component`]: an instance as FMI sees it.
+//! - `derivative`: derivatives of its outputs with respect to its inputs.
 //! - `saved`: its state as bytes.
 //! - [`foreign`]: what a caller in C hands over.
 //! - [`calls`]: components by their handles, and what happens around each call.
@@ -24,6 +25,7 @@
 pub mod archive;
 pub mod calls;
 pub mod component;
+mod derivative;
 pub mod description;
 mod exported;
 pub mod fmi2;

@@ -60,11 +60,13 @@ pub fn model_description(of: &Description, fmi: Fmi, token: &str) -> String {
     xml += &match fmi {
         Fmi::Two => format!(
             "  <CoSimulation modelIdentifier=\"{IDENTIFIER}\" {able} canGetAndSetFMUstate=\"true\" \
-             canSerializeFMUstate=\"true\" canNotUseMemoryManagementFunctions=\"true\"/>\n"
+             canSerializeFMUstate=\"true\" canNotUseMemoryManagementFunctions=\"true\" \
+             providesDirectionalDerivative=\"true\"/>\n"
         ),
         Fmi::Three => format!(
             "  <CoSimulation modelIdentifier=\"{IDENTIFIER}\" {able} canGetAndSetFMUState=\"true\" \
-             canSerializeFMUState=\"true\" fixedInternalStepSize=\"{:?}\"/>\n",
+             canSerializeFMUState=\"true\" providesDirectionalDerivatives=\"true\" \
+             fixedInternalStepSize=\"{:?}\"/>\n",
             of.step
         ),
     };

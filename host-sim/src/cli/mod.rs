@@ -7,6 +7,7 @@ mod advise;
 mod check;
 mod compare;
 mod first_steps;
+mod linearise;
 mod modes;
 mod named;
 mod relax;
@@ -25,6 +26,7 @@ use crate::cli::advise::{AdviseArguments, advise_scene};
 use crate::cli::check::{CheckArguments, check_scene};
 use crate::cli::compare::compare;
 use crate::cli::first_steps::first_steps;
+use crate::cli::linearise::linearise_scene;
 use crate::cli::modes::{ModesArguments, modes_of_scene};
 use crate::cli::named::load;
 use crate::cli::relax::{RelaxArguments, relax_scene};
@@ -36,6 +38,7 @@ use crate::commands::completions::script;
 use crate::commands::export::{self, ExportArguments};
 use crate::commands::fmu::{FmuArguments, fmu};
 use crate::commands::import::{self, Import, ImportArguments};
+use crate::commands::linearise::LineariseArguments;
 use crate::commands::list::list;
 use crate::commands::new::{FirmwareArguments, NewCommand, SceneArguments, firmware, laws, scene};
 use crate::commands::schema;
@@ -114,6 +117,9 @@ enum Command {
     /// Writes an FMU of a scene, with which other tools simulate it: FMI 2.0 or 3.0, co-simulation
     #[command(after_help = help::FMU)]
     Fmu(FmuArguments),
+    /// Linearises a scene: prints poles, drift and names, with --out writes A, B, C and D
+    #[command(after_help = help::LINEARISE)]
+    Linearise(LineariseArguments),
     /// Makes a scene of MuJoCo's MJCF: each part with the line it comes from; what has no counterpart is
     /// listed with its size and refused, unless its kind is ignored
     #[command(after_help = help::IMPORT)]
@@ -162,6 +168,7 @@ where
         Command::Compare(arguments) => compare(&catalogue, &arguments, console),
         Command::Export(arguments) => export_scene(&catalogue, &arguments, console),
         Command::Fmu(arguments) => write_fmu(&catalogue, &arguments, console),
+        Command::Linearise(arguments) => linearise_scene(&catalogue, &arguments, console),
         Command::Import(arguments) => import_file(&arguments, console),
         Command::New(NewCommand::Firmware(arguments)) => {
             new_firmware(&catalogue, &arguments, console)
@@ -336,6 +343,7 @@ mod tests {
                     | Command::Modes(ModesArguments { scene, .. })
                     | Command::Relax(RelaxArguments { scene, .. })
                     | Command::Trade(TradeArguments { scene, .. })
+                    | Command::Linearise(LineariseArguments { scene, .. })
                     | Command::Advise(AdviseArguments { scene, .. })
                     | Command::Export(ExportArguments { scene, .. }) => scene.scene,
                     _ => continue,

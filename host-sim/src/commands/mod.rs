@@ -18,6 +18,7 @@
 //! - [`mod@reproduce`]: the results of the method's paper, measured again.
 //! - [`export`]: Rust source of a scene's const model and its plant.
 //! - [`mod@fmu`]: a scene becomes an FMU for other tools.
+//! - [`mod@linearise`]: a scene as a linear system.
 //! - [`mod@import`]: another program's file becomes a scene.
 //! - [`schema`]: what a scene file may hold, for editors.
 //! - [`new`]: a project with a plant in firmware, a scene to begin with.
@@ -34,6 +35,7 @@ pub mod fmu;
 pub mod folder;
 pub mod golden;
 pub mod import;
+pub mod linearise;
 pub mod list;
 pub mod mode_table;
 pub mod modes;

@@ -24,6 +24,8 @@ pub const EXPORT: &str = examples!("export.txt");
 pub const FMU: &str = examples!("fmu.txt");
 /// Of `import`.
 pub const IMPORT: &str = examples!("import.txt");
+/// Of `linearise`.
+pub const LINEARISE: &str = examples!("linearise.txt");
 /// Of `list`.
 pub const LIST: &str = examples!("list.txt");
 /// Of `modes`.

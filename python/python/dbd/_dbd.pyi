@@ -144,9 +144,6 @@ class Plant:
         perturb: float = 1e-5,
     ) -> Linear:
         """The plant as a linear system near its present state."""
-    def _jacobians(
-        self, inputs: list[str], outputs: list[str], shift: list[float], perturb: float
-    ) -> tuple[NDArray[np.float64], list[NDArray[np.float64]]]: ...
 
 def rollouts(
     plants: Sequence[Plant],

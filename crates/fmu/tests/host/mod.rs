@@ -266,6 +266,39 @@ impl Host<'_> {
         }
     }
 
+    /// The derivatives of variables along a change of others, both by their references.
+    pub fn derivative(&self, of: &[u32], by: &[u32], seed: &[f64]) -> Result<Vec<f64>, c_int> {
+        let mut found = vec![0.0; of.len()];
+        let (handle, to) = (self.handle, found.as_mut_ptr());
+        let (of_at, by_at, seed_at) = (of.as_ptr(), by.as_ptr(), seed.as_ptr());
+        // SAFETY: as many of each.
+        let status = unsafe {
+            match self.of.fmi {
+                Fmi::Two => fmi2::fmi2GetDirectionalDerivative(
+                    handle,
+                    of_at,
+                    of.len(),
+                    by_at,
+                    by.len(),
+                    seed_at,
+                    to,
+                ),
+                Fmi::Three => fmi3::fmi3GetDirectionalDerivative(
+                    handle,
+                    of_at,
+                    of.len(),
+                    by_at,
+                    by.len(),
+                    seed_at,
+                    seed.len(),
+                    to,
+                    of.len(),
+                ),
+            }
+        };
+        if status == OK { Ok(found) } else { Err(status) }
+    }
+
     pub fn keep(&self) -> Result<*mut c_void, c_int> {
         let mut state = null_mut();
         let status = both!(self, fmi2GetFMUstate, fmi3GetFMUState(&mut state));

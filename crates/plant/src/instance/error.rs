@@ -112,10 +112,15 @@ pub enum InstanceError {
         "a state saved by an instance of the same scene, scheme, precision and step"
     ))]
     State(SnapshotError),
-    /// The motion has no derivatives at a state.
-    #[error("{0}")]
-    #[diagnostic(help("other outputs, or another pose"))]
-    Linearisation(String),
+    /// There is no linear system at a state.
+    #[error("{what}")]
+    #[diagnostic(help("{remedy}"))]
+    Linearisation {
+        /// What is wrong.
+        what: String,
+        /// What would be right.
+        remedy: &'static str,
+    },
 }
 
 impl InstanceError {

@@ -9,6 +9,7 @@
 use dbd_kernel::forces::wrenches;
 use dbd_kernel::{F64, Quaternion, State, Vec3};
 use dbd_scene::SceneModel;
+use nalgebra::{DMatrix, DVector};
 
 use crate::instance::blueprint::Blueprint;
 use crate::instance::error::InstanceError;
@@ -20,21 +21,19 @@ const WEIGHTS: [f64; 2] = [8.0 / 12.0, -1.0 / 12.0];
 
 type Bodies = State<SceneModel<F64>>;
 
-/// The Jacobians of a state, rows one after another.
+/// The Jacobians of a state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Jacobians {
-    /// How many coordinates.
-    pub count: usize,
     /// \[m/s, rad/s, m/s², rad/s²\] ẋ itself.
-    pub rate: Vec<f64>,
-    /// \[units of `rate` over those of the coordinates\] ∂ẋ/∂x, count × count.
-    pub a: Vec<f64>,
-    /// \[units of `rate` over those of the inputs\] ∂ẋ/∂u, count × inputs.
-    pub b: Vec<f64>,
-    /// \[units of the outputs over those of the coordinates\] ∂y/∂x, outputs × count.
-    pub c: Vec<f64>,
-    /// \[units of the outputs over those of the inputs\] ∂y/∂u, outputs × inputs.
-    pub d: Vec<f64>,
+    pub rate: DVector<f64>,
+    /// \[units of `rate` over those of the coordinates\] ∂ẋ/∂x.
+    pub a: DMatrix<f64>,
+    /// \[units of `rate` over those of the inputs\] ∂ẋ/∂u.
+    pub b: DMatrix<f64>,
+    /// \[units of the outputs over those of the coordinates\] ∂y/∂x.
+    pub c: DMatrix<f64>,
+    /// \[units of the outputs over those of the inputs\] ∂y/∂u.
+    pub d: DMatrix<f64>,
 }
 
 /// A plant of the scene in double precision and in space, and the state that it is looked at in.
@@ -59,24 +58,38 @@ impl Probe {
         let mut instance = Instance::new(blueprint, Settings { step, ..Settings::default() })?;
         let set = of.set().iter().map(|(path, value)| (path.as_str(), *value));
         instance.set_parameters(set)?;
-        let mut state = instance.plant().state();
+        let state = instance.plant().state();
+        let mut probe = Self { instance, state, rates: Vec::new() };
+        probe.follow(of);
+        Ok(probe)
+    }
+
+    /// Takes the present state of an instance with the same parameters.
+    pub fn follow(&mut self, of: &Instance) {
         let now = of.plant().state();
-        state.bodies = now.bodies;
-        state.signals = now.signals;
-        state.step = now.step;
-        if state.turns.len() == now.turns.len() {
-            state.turns = now.turns;
+        self.state.bodies = now.bodies;
+        self.state.signals = now.signals;
+        self.state.step = now.step;
+        if self.state.turns.len() == now.turns.len() {
+            self.state.turns = now.turns;
         }
-        let rates = state.bodies.iter().map(|body| body.angular_velocity).collect();
-        Ok(Self { instance, state, rates })
+        // A plane's laws have memories of another shape.
+        if of.scene().planar.is_none() {
+            self.state.laws = now.laws;
+        }
+        self.note_rates();
+    }
+
+    fn note_rates(&mut self) {
+        self.rates = self.state.bodies.iter().map(|body| body.angular_velocity).collect();
     }
 
     /// Moves the state by so much of each coordinate \[m, rad, m/s, rad/s\].
-    pub fn shift(&mut self, by: &[f64]) {
+    pub fn shift(&mut self, by: &DVector<f64>) {
         for (coordinate, by) in by.iter().enumerate() {
             self.state = self.moved(coordinate, *by);
         }
-        self.rates = self.state.bodies.iter().map(|body| body.angular_velocity).collect();
+        self.note_rates();
     }
 
     /// How many coordinates: twelve per body.
@@ -112,7 +125,7 @@ impl Probe {
     ) -> Result<Vec<f64>, InstanceError> {
         let model = self.instance.plant().model();
         let forces = wrenches(model, state, self.instance.step_size())
-            .map_err(|cause| InstanceError::Linearisation(self.instance.scene().fault(&cause)))?;
+            .map_err(|cause| undefined(self.instance.scene().fault(&cause)))?;
         let mut rates = Vec::with_capacity(self.count());
         for (row, body) in state.bodies.iter().enumerate() {
             rates.extend(body.velocity.to_f64());
@@ -134,7 +147,7 @@ impl Probe {
     }
 
     fn outputs(&mut self, state: &Bodies, outputs: &[usize]) -> Result<Vec<f64>, InstanceError> {
-        let refused = |error| InstanceError::Linearisation(format!("{error}"));
+        let refused = |error| undefined(format!("{error}"));
         self.instance.plant_mut().set_state(state).map_err(refused)?;
         let mut values = Vec::with_capacity(outputs.len());
         self.instance.values_of(outputs, &mut values);
@@ -158,56 +171,78 @@ impl Probe {
         for (row, spin) in self.rates.iter().enumerate() {
             rate[6 * row + 3..6 * row + 6].copy_from_slice(&spin.to_f64());
         }
-        let (mut a, mut c) = (vec![0.0; count * count], vec![0.0; outputs.len() * count]);
+        let mut a = DMatrix::zeros(count, count);
+        let mut c = DMatrix::zeros(outputs.len(), count);
         for column in 0..count {
             let part = column % 6;
             let turned = |by: f64| {
                 let turn = column < count / 2 && part >= 3;
                 turn.then(|| ((column / 6), Vec3::axes()[part % 3] * by))
             };
-            for (times, weight) in [1.0, 2.0].into_iter().zip(WEIGHTS) {
-                for by in [times * probe, -times * probe] {
-                    let weight = weight / probe * by.signum();
-                    let moved = self.moved(column, by);
-                    let rates = self.rate(&moved, turned(by))?;
-                    add(&mut a, count, column, weight, &rates);
-                    add(&mut c, count, column, weight, &self.outputs(&moved, outputs)?);
-                }
+            for (by, weight) in probes(probe) {
+                let moved = self.moved(column, by);
+                add(&mut a, column, weight, &self.rate(&moved, turned(by))?);
+                add(&mut c, column, weight, &self.outputs(&moved, outputs)?);
             }
         }
-        let width = inputs.len();
-        let (mut b, mut d) = (vec![0.0; count * width], vec![0.0; outputs.len() * width]);
+        let (b, d) = self.input_jacobians(inputs, outputs, probe)?;
+        Ok(Jacobians { rate: DVector::from_vec(finite(rate)?), a: finite(a)?, b, c: finite(c)?, d })
+    }
+
+    /// ∂ẋ/∂u and ∂y/∂u here, by differences as in [`Self::jacobians`].
+    ///
+    /// # Errors
+    /// As [`Self::jacobians`].
+    pub fn input_jacobians(
+        &mut self,
+        inputs: &[usize],
+        outputs: &[usize],
+        probe: f64,
+    ) -> Result<(DMatrix<f64>, DMatrix<f64>), InstanceError> {
+        let (width, state) = (inputs.len(), self.state.clone());
+        let mut b = DMatrix::zeros(self.count(), width);
+        let mut d = DMatrix::zeros(outputs.len(), width);
+        let refused = |error| undefined(format!("{error}"));
         for (column, input) in inputs.iter().enumerate() {
             let kind = self.instance.inputs().get(*input).map(|input| input.unit);
             let probe = if matches!(kind, Some("m" | "m/s")) { probe } else { 1.0 };
+            self.instance.plant_mut().set_state(&state).map_err(refused)?;
             let held = self.instance.input_value(*input).unwrap_or_default();
-            for (times, weight) in [1.0, 2.0].into_iter().zip(WEIGHTS) {
-                for by in [times * probe, -times * probe] {
-                    let weight = weight / probe * by.signum();
-                    self.instance.plant_mut().set_state(&state).ok();
-                    self.instance.set_input(*input, held + by)?;
-                    let driven = self.instance.plant().state();
-                    let rates = self.rate(&driven, None)?;
-                    add(&mut b, width, column, weight, &rates);
-                    add(&mut d, width, column, weight, &self.outputs(&driven, outputs)?);
-                }
+            for (by, weight) in probes(probe) {
+                self.instance.plant_mut().set_state(&state).map_err(refused)?;
+                self.instance.set_input(*input, held + by)?;
+                let driven = self.instance.plant().state();
+                add(&mut b, column, weight, &self.rate(&driven, None)?);
+                add(&mut d, column, weight, &self.outputs(&driven, outputs)?);
             }
         }
-        let finite = |all: &[f64]| all.iter().all(|entry| entry.is_finite());
-        if finite(&rate) && [&a, &b, &c, &d].into_iter().all(|all| finite(all)) {
-            Ok(Jacobians { count, rate, a, b, c, d })
-        } else {
-            let what = "an output or a force is undefined near this state";
-            Err(InstanceError::Linearisation(what.to_owned()))
-        }
+        Ok((finite(b)?, finite(d)?))
     }
 }
 
+/// Displacements of a central difference of fourth order, with their weights.
+fn probes(probe: f64) -> impl Iterator<Item = (f64, f64)> {
+    let both = [(1.0, WEIGHTS[0]), (2.0, WEIGHTS[1])].into_iter();
+    both.flat_map(move |(times, weight)| {
+        [times * probe, -times * probe].map(|by| (by, weight / probe * by.signum()))
+    })
+}
+
 /// Adds a weighed column.
-fn add(matrix: &mut [f64], width: usize, column: usize, weight: f64, values: &[f64]) {
-    for (row, value) in values.iter().enumerate() {
-        if let Some(entry) = matrix.get_mut(row * width + column) {
-            *entry += weight * value;
-        }
+fn add(matrix: &mut DMatrix<f64>, column: usize, weight: f64, values: &[f64]) {
+    for (entry, value) in matrix.column_mut(column).iter_mut().zip(values) {
+        *entry += weight * value;
+    }
+}
+
+fn undefined(what: String) -> InstanceError {
+    InstanceError::Linearisation { what, remedy: "other outputs, or another pose" }
+}
+
+fn finite<M: AsRef<[f64]>>(all: M) -> Result<M, InstanceError> {
+    if all.as_ref().iter().all(|entry| entry.is_finite()) {
+        Ok(all)
+    } else {
+        Err(undefined("an output or a force is undefined near this state".into()))
     }
 }

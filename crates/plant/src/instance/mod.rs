@@ -55,18 +55,23 @@
 //! - `running`: a plant, what it is given and what it shows.
 //! - `saved`: its state as bytes.
 //! - [`linearisation`]: how its motion answers to small changes of state and inputs.
+//! - [`spectrum`]: eigenvalues of a matrix and the subspace of its slowest motions.
+//! - [`linear`]: the plant as a linear system.
 
 pub mod blueprint;
 mod error;
+pub mod linear;
 pub mod linearisation;
 mod running;
 mod saved;
 pub mod settings;
+pub mod spectrum;
 pub mod variables;
 
 pub use blueprint::Blueprint;
 pub use dbd_scene::parameters::SceneNumber;
 pub use error::InstanceError;
+pub use linear::{Linear, LinearOptions};
 pub use running::{Instance, NEAR};
 pub use settings::Settings;
 pub use variables::{Input, Output};

@@ -203,7 +203,7 @@ axis = [0, 1, 0]
         assert!((value - exact).abs() < 1e-6 * exact.abs().max(1.0), "{value} {exact}");
     };
     // Rows of the rates of the shift's rates: 6 + 0 across, 6 + 1 along.
-    let a = |row: usize, column: usize| all.a[12 * row + column];
+    let a = |row: usize, column: usize| all.a[(row, column)];
     near(all.rate[7], 10.0);
     near(a(6, 0), -10.0);
     near(a(7, 1), -100.0);

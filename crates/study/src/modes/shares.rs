@@ -57,7 +57,7 @@ pub fn softened(
     let mut model = model.clone();
     match &element.part {
         Part::Groups(groups) => {
-            for group in model.groups[groups.clone()].to_vec() {
+            for group in model.groups[groups.clone()].iter().copied() {
                 for row in (usize::from(group.element)..).take(group.elements()) {
                     *match group.law {
                         Law::Tsda => &mut model.tsdas[row].stiffness,

@@ -103,7 +103,7 @@ pub fn table(scene: &Scene, count: usize) -> Result<Table, ModesError> {
     let elements = elements(scene);
     let shown = found.frequencies.len().min(count);
     let mut rows = Vec::with_capacity(shown);
-    for mode in 0..shown {
+    for (mode, ratio) in ratios.iter().enumerate().take(shown) {
         let shape = found.shapes.column(mode);
         let effective_mass = std::array::from_fn(|axis| {
             let along = model.bodies.iter().enumerate();
@@ -120,7 +120,7 @@ pub fn table(scene: &Scene, count: usize) -> Result<Table, ModesError> {
         rows.push(ModeRow {
             number: mode + 1,
             frequency: found.frequencies[mode],
-            ratio: ratios[mode],
+            ratio: *ratio,
             effective_mass,
             mass_share: effective_mass.map(|mass| mass / total_mass),
             body: scene.body_names[row].clone(),

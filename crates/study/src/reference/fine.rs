@@ -98,7 +98,7 @@ mod tests {
         let truth = states(Opinion::Dop853, &scene, false, &times).unwrap();
         let second = states(Opinion::Verner98, &scene, false, &times).unwrap();
         let (g, omega) = (9.81, 100.0_f64);
-        let fall = (2.0 * 0.1 / g as f64).sqrt();
+        let fall = (2.0_f64 * 0.1 / g).sqrt();
         let (rest, speed) = (g / omega.powi(2), g * fall);
         // z = -rest + rest·cos(ωt) - v/ω·sin(ωt) is 0 again at:
         let contact = 2.0 * (std::f64::consts::PI - (speed / omega / rest).atan()) / omega;
