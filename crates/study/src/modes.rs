@@ -12,31 +12,22 @@ use dbd_kernel::status::Cause;
 use dbd_kernel::{BodyState, F64, State, Vec3};
 use dbd_plant::digits::significant;
 use dbd_scene::{Scene, SceneModel};
-use miette::Diagnostic;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
-use thiserror::Error;
 
+use error::PROBE;
 use matrices::{at_rest, roots, six};
 
 mod damped;
+mod error;
 mod iterative;
 mod matrices;
 mod shares;
 mod table;
 
+pub use error::{MOST_BODIES, ModesError};
 pub use iterative::extremes;
 pub use shares::{Element, elements, softened, strain_shares};
 pub use table::{Fastest, Matrices, ModeRow, QUADRATIC, RatioSource, Table, table};
-
-/// Bodies at most: time grows with the cube of their number, to some seconds at this one.
-pub const MOST_BODIES: usize = 200;
-
-/// \[m, rad\] of the differences, which are of fourth order: what they leave out is of the order of
-/// 1e-20 m⁴ over a spring's length to the fourth power, rounding of 1e-16 m over this.
-const PROBE: f64 = 1e-5;
-
-/// Weights of the differences at 1 and 2 probes.
-const WEIGHTS: [f64; 2] = [8.0 / 12.0, -1.0 / 12.0];
 
 /// Beyond it K is not that of a pose in equilibrium.
 const SYMMETRIC: f64 = 1e-3;
@@ -56,42 +47,6 @@ pub struct Modes {
     pub asymmetry: f64,
     /// \[Hz\] rounding makes frequencies up to here of none.
     pub resolution: f64,
-}
-
-/// Why there are no modes.
-#[derive(Clone, Copy, Debug, PartialEq, Error, Diagnostic)]
-pub enum ModesError {
-    /// Too many bodies.
-    #[error(
-        "the modes of {bodies} bodies would take too long; those of {MOST_BODIES} are the most"
-    )]
-    #[diagnostic(help("`host-sim modes` finds the lowest and the highest modes of larger scenes"))]
-    TooMany {
-        /// How many there are.
-        bodies: usize,
-    },
-    /// The forces near the pose are undefined, as a torsion spring's are without a twist.
-    #[error("there are no modes about this pose: a twist is undefined ({0:?})")]
-    #[diagnostic(help("another pose: one in which every torsion spring has a twist"))]
-    Pose(Cause),
-    /// A stiffness beyond the range of numbers.
-    #[error(
-        "there are no modes about this pose: its stiffness over its masses is beyond all numbers"
-    )]
-    #[diagnostic(help("smaller stiffnesses or larger masses and inertias"))]
-    Range,
-    /// The iteration does not converge.
-    #[error("the iteration for the modes of many bodies does not converge")]
-    #[diagnostic(help(
-        "fewer modes, or the modes of a part of the mechanism as a scene of its own"
-    ))]
-    Slow,
-}
-
-impl From<Cause> for ModesError {
-    fn from(cause: Cause) -> Self {
-        Self::Pose(cause)
-    }
 }
 
 impl Modes {

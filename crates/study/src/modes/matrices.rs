@@ -10,7 +10,7 @@ use dbd_kernel::forces::{Wrench, wrenches};
 use dbd_kernel::{BodyIndex, F64, Quaternion, State, Vec3};
 use dbd_scene::SceneModel;
 
-use super::{ModesError, PROBE, WEIGHTS};
+use super::error::{ModesError, PROBE, WEIGHTS};
 
 /// An entry of a matrix: row, column, value.
 pub(super) type Entry = (usize, usize, f64);

@@ -12,8 +12,8 @@ use dbd_scene::{Scene, SceneModel};
 use nalgebra::DVectorView;
 use std::ops::Range;
 
+use super::error::{ModesError, PROBE, WEIGHTS};
 use super::matrices::{at_rest, roots, six};
-use super::{ModesError, PROBE, WEIGHTS};
 
 /// A joint, a raw element, a torsion spring or an interaction of a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -6,7 +6,7 @@ use dbd_scene::parameters::SceneNumber;
 use serde::Serialize;
 
 use crate::limits::Limits;
-use crate::recommend::ceiling;
+use crate::recommend::request::ceiling;
 use crate::recommend::search::{Search, Trial};
 use crate::variants::distance;
 use crate::ways::Way;

@@ -6,6 +6,7 @@
 
 mod changes;
 mod mcu;
+mod request;
 mod search;
 
 use std::collections::BTreeSet;
@@ -20,12 +21,12 @@ use thiserror::Error;
 use crate::frame::{TradeOptions, WindowError, frame};
 use crate::grid::unit;
 use crate::reference::truth::NoTruth;
-use crate::stability::MARGIN;
 use crate::survey::{Phase, look};
 use crate::words::shown;
 
 pub use changes::Change;
 pub use mcu::{MCUS, Mcu};
+pub use request::{Limit, Request, Way};
 use search::{Search, Trial};
 
 /// \[1\] The accuracy where none is asked for: a share of how far the bodies go.
@@ -39,71 +40,6 @@ const SLOWER: f64 = 10.0;
 
 /// Looks at the run that verifies.
 const LOOKS: u64 = 200;
-
-/// What is asked for.
-#[derive(Clone, Debug)]
-pub struct Request {
-    /// The microcontroller.
-    pub mcu: &'static Mcu,
-    /// \[Hz\] its clock.
-    pub clock: f64,
-    /// \[Hz\] a controller's rate: a whole number of steps makes its period.
-    pub rate: Option<f64>,
-    /// \[m\] root mean square of bodies and time; a hundredth of the way that the bodies go where `None`.
-    pub accuracy: Option<f64>,
-    /// \[s\] the longest window of comparison, as of a survey.
-    pub window: Option<f64>,
-    /// The scene that ships under the scene's name: its steps were counted.
-    pub shipped: Option<Scene>,
-}
-
-/// What keeps the step from being longer.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(tag = "kind", rename_all = "kebab-case")]
-pub enum Limit {
-    /// The stability of vibrations.
-    Vibration {
-        /// \[Hz\] the highest frequency at t = 0.
-        frequency_hz: f64,
-        /// What alone vibrates fastest: ``joint `wrist` ``.
-        element: Option<String>,
-    },
-    /// The fastest body turns too far.
-    Spin {
-        /// Its name.
-        body: String,
-    },
-    /// The accuracy asked for.
-    Accuracy,
-    /// The step is a whole part of the controller's period, or of what duration and sampling interval are multiples of.
-    Period,
-}
-
-/// A way of stepping, measured.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Way {
-    /// Which model of the mechanism: `as it is`, `bushing`, `planar` ….
-    pub model: String,
-    /// The scheme's name.
-    pub scheme: &'static str,
-    /// Newton iterations, for the schemes that have them.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub newton: Option<u32>,
-    /// How dampers act, where not in the scheme's own way.
-    pub damping: Option<&'static str>,
-    /// The precision's name.
-    pub precision: &'static str,
-    /// \[s\] the step.
-    pub step: f64,
-    /// \[m\] root mean square over bodies and samples of the distance from the truth.
-    pub error: f64,
-    /// Instructions of a step on the microcontroller.
-    pub instructions: f64,
-    /// Whether these were counted of exactly this model and method; else they are an estimate.
-    pub counted: bool,
-    /// \[1\] the share of the clock that it takes.
-    pub load: f64,
-}
 
 /// A recommendation.
 #[derive(Clone, Debug, Serialize)]
@@ -324,15 +260,6 @@ fn run_whole(scene: &Scene, method: &Method, step: f64) -> Result<Option<u64>, A
         done += some;
     }
     Ok(Some(done))
-}
-
-/// \[s\] The longest step of a method that leaves [`MARGIN`] below a stable one and turns no body too far.
-fn ceiling(frequencies: &Frequencies, method: &Method) -> f64 {
-    let limit = |frequency: f64| {
-        if frequency > 0.0 { method.stability_limit() / frequency } else { f64::INFINITY }
-    };
-    let stable = (1.0 - MARGIN) * limit(frequencies.estimate);
-    stable.min(limit(frequencies.bound)).min(frequencies.longest_turn())
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use crate::cache::Head;
 use crate::costs::Costs;
 use crate::estimate;
 use crate::limits::{Limit as Bounds, Limits};
-use crate::recommend::{Limit, Request, Way, ceiling};
+use crate::recommend::request::{Limit, Request, Way, ceiling};
 use crate::reference::Mechanism;
 use crate::reference::State;
 use crate::reference::metric::Metric;
@@ -28,6 +28,9 @@ const SAFER: f64 = 1.1;
 
 /// An error that falls by less is no longer that of the step.
 const FALLS: f64 = 0.9;
+
+/// A shorter step that takes so many of the microcontroller's usual clocks is not tried.
+const HOPELESS: f64 = 20.0;
 
 /// A step that could be longer by this factor, were it not a part of a period, is limited by that.
 const FITS: f64 = 1.1;
@@ -250,7 +253,9 @@ impl<'s> Search<'s> {
         for attempt in 0..TRIES {
             let step = grid.step(steps);
             let work = steps as f64 * f64::from(grid.samples) * self.scene.body_names.len() as f64;
-            if instructions / step >= cost || work > AFFORDABLE {
+            let clocks = instructions / step * self.request.mcu.cycles / self.request.mcu.clock;
+            let hopeless = attempt > 0 && clocks > HOPELESS;
+            if instructions / step >= cost || work > AFFORDABLE || hopeless {
                 return None;
             }
             let shorter = match self.error(row, steps) {
