@@ -340,6 +340,13 @@ fn the_kick_finds_a_frequency_of_the_pose() {
     assert!((number("nearest") / frequency - 1.0).abs() < 1e-3, "{kick} {frequency}");
     let damping = 2.0 * 5e4 / (TAU * number("dominant"));
     assert!((number("damping") / damping - 1.0).abs() < 1e-9, "{kick}");
+    let out = folder.path("out");
+    let done = call(&["modes", &scene, "--kick", "--out", out.to_str().unwrap()]);
+    assert_eq!(done.exit, Exit::Done, "{}", done.err);
+    for (name, title) in [("spectrum", "Magnitude spectrum"), ("scalogram", "Wavelet scalogram")] {
+        let file = folder.path(&format!("out/scene/kick-{name}.svg"));
+        assert!(fs::read_to_string(&file).unwrap().contains(title), "{name}");
+    }
     let done = call(&["modes", &scene, "--kick=nobody"]);
     assert!(done.exit == Exit::Refused && done.err.contains("no joint `nobody`"), "{}", done.err);
     assert!(done.err.contains("its joints: ball"), "{}", done.err);
@@ -357,7 +364,8 @@ fn table_page_and_matrices_are_written() {
     assert!(done.out.contains("fastest mode") && done.out.contains("written"), "{}", done.out);
     let read = |name: &str| fs::read_to_string(folder.path(&format!("out/scene/{name}"))).unwrap();
     assert_eq!(read("modes.csv").lines().count(), 13);
-    assert!(read("modes.html").contains("\"shape\":") && read("modes.html").contains("held by"));
+    let page = read("modes.html");
+    assert!(page.contains("\"shape\":") && page.contains("held by") && page.contains("<svg"));
     let json: Value = serde_json::from_str(&read("modes.json")).unwrap();
     assert_eq!(json["modes"].as_array().unwrap().len(), 12);
     let stiffness = read("stiffness.mtx");

@@ -10,7 +10,7 @@ use dbd_plant::digits::significant;
 use dbd_report::data::{Mode, Run, Table as PageTable, Text};
 use dbd_report::output::set::FileSet;
 use dbd_report::packed::F32s;
-use dbd_report::picture::Mechanism;
+use dbd_report::picture::{Mechanism, Paper, svg};
 use dbd_report::{Data, page};
 use dbd_scene::{Restless, Scene};
 use dbd_study::modes::{
@@ -335,9 +335,18 @@ impl FoundModes {
             scene_hash: Some(out.file.hash.clone()),
             ..self.table.clone()
         };
+        for (name, (_, picture)) in
+            ["kick-spectrum.svg", "kick-scalogram.svg"].into_iter().zip(self.plots())
+        {
+            write(name, picture)?;
+        }
         write("modes.json", &text::json(&table))?;
         files.finish().and_then(|whole| whole.publish()).map_err(ModeTableError::Write)?;
         Ok(folder)
+    }
+
+    fn plots(&self) -> &[(String, String)] {
+        self.table.kick.as_ref().map_or(&[], |kick| &kick.plots)
     }
 
     fn page(&self) -> Data {
@@ -353,16 +362,18 @@ impl FoundModes {
             .collect();
         let of_page = |row: &ModeRow| {
             let line = ModeTable::line(row);
-            ON_PAGE.map(|column| line[column].clone()).to_vec()
+            let [mode, frequency, damping, held] = ON_PAGE.map(|column| line[column].clone());
+            vec![format!("{mode}: {frequency}"), damping, held]
         };
         let rows = table.rows().into_iter().filter(|(name, _)| *name != "warning");
         data.text = Text {
             warnings: table.remarks.clone(),
+            picture: Some(svg(&Mechanism::of(&self.scene), Paper::Page)),
             tables: vec![
                 PageTable {
                     title: "Modes".into(),
                     // The page is too narrow for all columns; the other files have them.
-                    columns: ON_PAGE.map(|column| HEAD[column].to_owned()).to_vec(),
+                    columns: ["mode: f [Hz]", HEAD[2], HEAD[8]].map(str::to_owned).to_vec(),
                     rows: table.modes.iter().map(of_page).collect(),
                 },
                 PageTable {

@@ -14,6 +14,7 @@ use serde::Serialize;
 use crate::modes::{MOST_BODIES, extremes, modes};
 use crate::paper::context::{Context, PaperError, advance, scheme};
 use crate::paper::finding::{Curve, Finding, Map, Plot, Row, Tolerance, assumptions};
+use crate::paper::plot::svg;
 use crate::stability::frozen;
 
 /// \[Hz\] section 2.4.
@@ -128,6 +129,9 @@ pub struct Kick {
     pub nearest: f64,
     /// The dominant over the nearest eigenfrequency.
     pub ratio: f64,
+    /// Magnitude spectrum and wavelet scalogram: title and SVG.
+    #[serde(skip)]
+    pub plots: [(String, String); 2],
 }
 
 impl Kick {
@@ -165,7 +169,8 @@ pub fn kick(scene: &Scene, joint: usize) -> Result<Kick, PaperError> {
         return Err(PaperError::Still);
     }
     let sampling = Sampling::up_to(highest);
-    let dominant = of(scene, joint, sampling)?.dominant();
+    let spectrum = of(scene, joint, sampling)?;
+    let dominant = spectrum.dominant();
     let nearest = |a: &f64, b: &f64| (a - dominant).abs().total_cmp(&(b - dominant).abs());
     let nearest = frequencies.into_iter().min_by(nearest).unwrap_or(0.0);
     let elements = scene.joint_elements();
@@ -179,6 +184,7 @@ pub fn kick(scene: &Scene, joint: usize) -> Result<Kick, PaperError> {
         damping: 2.0 * stiffness / (TAU * dominant),
         nearest,
         ratio: dominant / nearest,
+        plots: plots(&spectrum, sampling).map(|plot| (plot.title.clone(), svg(&plot))),
     })
 }
 
@@ -207,12 +213,12 @@ fn summed(signals: &[Vec<f64>], sampling: Sampling) -> Vec<[f64; 2]> {
 }
 
 /// Morlet wavelet magnitudes: time \[ms\] by frequency \[kHz\].
-fn scalogram(signal: &[f64]) -> Option<Map> {
+fn scalogram(signal: &[f64], sampling: Sampling) -> Option<Map> {
     /// Oscillations of the wavelet within its width.
     const CENTRE: f64 = 6.0;
     const COLUMNS: usize = 120;
     const ROWS: usize = 60;
-    let Sampling { interval, shown } = Sampling::PAPER;
+    let Sampling { interval, shown } = sampling;
     let mut planner = FftPlanner::new();
     let (forward, back) = (planner.plan_fft_forward(SAMPLES), planner.plan_fft_inverse(SAMPLES));
     if signal.len() != SAMPLES {
@@ -251,6 +257,34 @@ fn scalogram(signal: &[f64]) -> Option<Map> {
     })
 }
 
+/// Spectrum and scalogram, as in Fig. 4.
+fn plots(spectrum: &Spectrum, sampling: Sampling) -> [Plot; 2] {
+    let curve = Curve {
+        name: "spring extensions of all joints".into(),
+        paper: false,
+        line: true,
+        points: spectrum.points.iter().map(|[f, m]| [1e-3 * f, *m]).collect(),
+    };
+    [
+        Plot {
+            name: "a".into(),
+            title: "Magnitude spectrum".into(),
+            axes: ["frequency [kHz]".into(), "magnitude over its largest".into()],
+            logarithmic: [false, false],
+            curves: vec![curve],
+            map: None,
+        },
+        Plot {
+            name: "b".into(),
+            title: "Wavelet scalogram".into(),
+            axes: ["time [ms]".into(), "frequency [kHz]".into()],
+            logarithmic: [false, false],
+            curves: Vec::new(),
+            map: scalogram(spectrum.loudest(), sampling),
+        },
+    ]
+}
+
 /// Fig. 4.
 pub(super) fn spectrum(context: &Context<'_>) -> Result<Finding, PaperError> {
     let scene = context.scene("3ruu")?;
@@ -284,43 +318,23 @@ pub(super) fn spectrum(context: &Context<'_>) -> Result<Finding, PaperError> {
         ),
         Row::extra("highest mode of the pose, which limits the step", "Hz", highest),
     ];
-    let curve = Curve {
-        name: "spring extensions of all joints".into(),
-        paper: false,
-        line: true,
-        points: spectrum.points.iter().map(|[f, m]| [1e-3 * f, *m]).collect(),
-    };
-    let paper = Curve {
-        name: "paper: 752 Hz".into(),
-        paper: true,
-        line: true,
-        points: vec![[1e-3 * DOMINANT, 0.0], [1e-3 * DOMINANT, 1.0]],
-    };
-    let plots = vec![
-        Plot {
-            name: "a".into(),
-            title: "Magnitude spectrum".into(),
-            axes: ["frequency [kHz]".into(), "magnitude over its largest".into()],
-            logarithmic: [false, false],
-            curves: vec![paper, curve],
-            map: None,
+    let mut plots = plots(spectrum, Sampling::PAPER);
+    plots[0].curves.insert(
+        0,
+        Curve {
+            name: "paper: 752 Hz".into(),
+            paper: true,
+            line: true,
+            points: vec![[1e-3 * DOMINANT, 0.0], [1e-3 * DOMINANT, 1.0]],
         },
-        Plot {
-            name: "b".into(),
-            title: "Wavelet scalogram".into(),
-            axes: ["time [ms]".into(), "frequency [kHz]".into()],
-            logarithmic: [false, false],
-            curves: Vec::new(),
-            map: scalogram(spectrum.loudest()),
-        },
-    ];
+    );
     Ok(Finding {
         assumptions: assumptions(&[
             "About the pose at t = 0 without gravity and preloads, 1 MN/m, undamped; every other spring of one joint is lengthened by 1 mm.",
             "Hann window, 0.41 s in samples of 50 µs; Morlet wavelet with six oscillations.",
         ]),
         rows,
-        plots,
+        plots: plots.into(),
         ..Finding::default()
     })
 }
@@ -336,11 +350,11 @@ mod tests {
         let points = summed(std::slice::from_ref(&signal), Sampling::PAPER);
         let spectrum = Spectrum { signals: Vec::new(), points };
         assert!((spectrum.dominant() - 700.0).abs() < 2.5, "{}", spectrum.dominant());
-        let map = scalogram(&signal).unwrap();
+        let map = scalogram(&signal, Sampling::PAPER).unwrap();
         let middle = map.x.len() / 2;
         let row = (0..map.y.len())
             .max_by(|a, b| map.values[*a][middle].total_cmp(&map.values[*b][middle]));
         assert!((map.y[row.unwrap()] - 0.7).abs() < 0.04);
-        assert!(scalogram(&signal[1..]).is_none());
+        assert!(scalogram(&signal[1..], Sampling::PAPER).is_none());
     }
 }
