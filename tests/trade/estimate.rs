@@ -72,3 +72,23 @@ fn estimates_are_near_what_was_counted() {
         assert!(off.abs() < 0.35 || scheme == "generalized-alpha", "{scheme} {precision} {name}");
     }
 }
+
+/// Instructions of leapfrog in f32 in a plane, by `cargo cost` in projects of `host-sim new firmware --precision f32 --step
+/// 100us` with the damping beside them; the table of costs has no such rows.
+const IN_A_PLANE: [(&str, DampingName, f64); 4] = [
+    ("gripper", DampingName::Sweeps, 22_090.0),
+    ("gripper", DampingName::JointWise, 12_306.0),
+    ("cart-pendulum", DampingName::Sweeps, 3_671.0),
+    ("cart-pendulum", DampingName::JointWise, 3_795.0),
+];
+
+#[test]
+fn dampers_in_a_plane_are_estimated_as_they_were_counted() {
+    for (name, damping, count) in IN_A_PLANE {
+        let scene = scene(name).with("planar=true").unwrap();
+        let method = Method::default().with_precision(PrecisionName::F32);
+        let method = method.with_damping(damping).unwrap();
+        let off = instructions(&scene, &method, &Costs::shipped()).unwrap() / count - 1.0;
+        assert!(off.abs() < 0.1, "{name} {}: {off:+.3}", damping.name());
+    }
+}
