@@ -88,7 +88,7 @@ fn vibrations_limit_a_step_by_their_frequency() {
     let linear = 2.0 / Frequencies::of(&scene).estimate;
     assert!((stable / linear - 1.0).abs() < 0.02, "{stable:e} {linear:e}");
     let share = trial.step / stable;
-    assert!((0.7..=1.0 - MARGIN).contains(&share), "{share}");
+    assert!((0.5..=1.0 - MARGIN).contains(&share), "{share}");
     // Steps are parts of the duration: one that could be longer by a tenth is limited by that.
     match search.limit(&trial) {
         Limit::Vibration { element, .. } => assert_eq!(element.as_deref(), Some("joint `pivot`")),
