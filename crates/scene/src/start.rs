@@ -1,7 +1,8 @@
 //! `[start.BODY]`: the state of a body at t = 0 where it differs from the one at which the joints are assembled.
 //!
-//! `tables => initial states`, in the plane, too, of a planar scene, which is reduced where its joints are closed. Joints, free lengths and angles are those of the poses of `[[body]]`. A body with a
-//! table here starts without the velocities that `[[body]]` gives it.
+//! `tables => initial states`, in the plane, too, of a planar scene, which is reduced where its joints are closed.
+//! Joints, free lengths and angles are those of the poses of `[[body]]`. A body with a table here starts without the
+//! velocities that `[[body]]` gives it.
 
 use dbd_kernel::{BodyIndex, BodyState, F64, Quaternion, Vec3};
 

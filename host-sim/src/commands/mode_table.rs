@@ -225,7 +225,7 @@ impl ModeTable {
         let source = match self.damping_ratios {
             RatioSource::QuadraticEigenproblem => "eigenvalues of the damped system".to_owned(),
             RatioSource::ModalDiagonal => format!(
-                "diagonal of the damping matrix in the undamped modes, as for all scenes of more than {QUADRATIC} bodies"
+                "diagonal of the damping matrix in the undamped modes: of more than {QUADRATIC} bodies, or where the eigenvalues do not converge"
             ),
             RatioSource::Undamped => "none: nothing damps".to_owned(),
         };

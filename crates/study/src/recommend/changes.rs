@@ -11,10 +11,10 @@ use crate::recommend::search::{Search, Trial};
 use crate::variants::distance;
 use crate::ways::Way;
 
-/// How many are told.
+/// Changes that are listed, at most.
 const MOST: usize = 3;
 
-/// What helps less is not told.
+/// \[1\] A change whose cost is above this share of the present one is not listed.
 const WORTH: f64 = 0.9;
 
 /// A change of the scene and what it does to the recommended way.
@@ -51,7 +51,7 @@ fn candidates(scene: &Scene) -> Vec<(String, Vec<String>)> {
         let scaled = numbers.iter().map(|number| (&number.path, number.value * factor));
         scaled.map(|(path, value)| format!("{path}={value:e}")).collect()
     };
-    // Of what stands for a rigid joint; a spring's stiffness is the mechanism's own.
+    // Of joints, whose stiffness stands for a rigid one; that of a spring is a property of the mechanism.
     let last = |number: &&SceneNumber| {
         let mut steps = number.path.split('.');
         steps.next() == Some("joint")

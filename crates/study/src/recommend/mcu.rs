@@ -16,7 +16,7 @@ pub struct Mcu {
     pub cycles: f64,
     /// \[1\] Instructions of a step over those of a Cortex-M4F, in `f32`, `fixed`, `f64`: the geometric means of three scenes
     /// (four-bar, hexagon, 3rrr by leapfrog in projects of `host-sim new firmware`), each counted in QEMU by `cargo cost`
-    /// from the same source compiled for the core; the three are within 6 % of each other.
+    /// from the same source compiled for the core; the three are within 7 % of each other.
     pub factors: [f64; 3],
     /// What the factors rest on.
     pub basis: &'static str,

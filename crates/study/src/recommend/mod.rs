@@ -2,7 +2,7 @@
 //!
 //! `(scene, microcontroller, rate, accuracy) => model, method, step; what limits it; what would help`. Ways are tried from
 //! the least cost that they can have upwards, each with its longest step first, and held against the truth;
-//! what cannot be cheaper than the best is never run. The best is run over the whole scene before it is told.
+//! what cannot be cheaper than the best is never run. The best is run over the whole scene before it is recommended.
 
 mod changes;
 mod mcu;
@@ -12,7 +12,7 @@ mod search;
 use std::collections::BTreeSet;
 
 use dbd_plant::judge::Judge;
-use dbd_plant::{Frequencies, Method, PlanError, PlantError, plant};
+use dbd_plant::{Frequencies, Method, PlantError, plant};
 use dbd_scene::Scene;
 use miette::Diagnostic;
 use serde::Serialize;
@@ -110,7 +110,7 @@ pub enum AdviseError {
     },
     /// Asked for more than the truth is known to.
     #[error(
-        "an accuracy of {asked:.1e} m cannot be told: the truth itself is known to {known:.1e} m"
+        "an accuracy of {asked:.1e} m cannot be verified: the truth itself is known to {known:.1e} m"
     )]
     #[diagnostic(help("at least {known:.1e} m; over a shorter --window it is known better"))]
     Accuracy {
@@ -132,10 +132,6 @@ pub enum AdviseError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Plant(#[from] PlantError),
-    /// No step fits.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Plan(#[from] PlanError),
 }
 
 /// What to take for a scene. `progress` hears what it is at.
@@ -173,7 +169,7 @@ pub fn recommend(
         return Err(AdviseError::Uncounted { why });
     }
     let accuracy = request.accuracy.unwrap_or_else(|| (SHARE * search.travel()).max(known));
-    // What fails over the whole scene is not told, nor tried again.
+    // What fails over the whole scene is not recommended, nor tried again.
     let mut broken = BTreeSet::new();
     let mut verified = |search: &mut Search<'_>, accuracy: f64| loop {
         let Some(trial) = search.cheapest(accuracy, &broken) else { return Ok(None) };

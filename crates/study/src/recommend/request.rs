@@ -1,4 +1,4 @@
-//! What is asked for, a way of stepping as it is told, and what keeps its step from being longer.
+//! What is asked for, a measured way of stepping, and what keeps its step from being longer.
 
 use dbd_plant::{Frequencies, Method};
 use dbd_scene::Scene;

@@ -343,7 +343,7 @@ impl<'s> Search<'s> {
         self.model(trial).changes.get(own..).unwrap_or_default().to_vec()
     }
 
-    /// A trial as it is told.
+    /// A trial with its names and its load.
     pub(super) fn way(&self, trial: &Trial) -> Way {
         let Candidate { model, counted, .. } = self.candidates[trial.candidate];
         Way {
