@@ -134,7 +134,7 @@ impl Held {
         holds(!advice.meets || error <= advice.accuracy, format!("off by {error:e} m"));
         if let Some(share) = self.share() {
             let decides = matches!(advice.limit, Limit::Vibration { .. });
-            let least = if decides { 0.7 } else { 0.0 };
+            let least = if decides { 0.75 } else { 0.0 };
             holds((least..=1.0).contains(&share), format!("{share} of the stable step"));
         }
         if let Some(ratio) = self.ratio() {
