@@ -12,7 +12,7 @@ import dbd._dbd as compiled
 STUBS = ast.parse((Path(dbd.__file__).parent / "_dbd.pyi").read_text())
 TYPE = {node.name: node for node in STUBS.body if isinstance(node, ast.ClassDef)}
 FUNCTIONS = {node.name: node for node in STUBS.body if isinstance(node, ast.FunctionDef)}
-OWN = {"__getitem__", "__setitem__", "__copy__", "__deepcopy__", "__reduce__", "_jacobians"}
+OWN = {"__getitem__", "__setitem__", "__copy__", "__deepcopy__", "__reduce__"}
 
 
 def arguments(node: ast.FunctionDef) -> list[tuple[str, str]]:
