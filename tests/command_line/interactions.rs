@@ -126,6 +126,46 @@ fn the_balance_states_what_friction_takes() {
     assert!(done.out.contains("– (dampers, interactions, loads or inputs change the energy)"));
 }
 
+/// A thrown disc that comes to roll loses ½·m·v² and ½·I·ω² less 1/12 J to friction, in space, in the plane of the paper
+/// and in another plane, whatever its body's axes.
+#[test]
+fn the_balance_states_what_a_contact_takes() {
+    let text = |planar: &str, normal: &str, start: &str| {
+        let depth = 0.1 - 9.81 / 1e5;
+        let [position, gravity] = [("0", depth), ("1", -9.81)].map(|(_, size)| {
+            let parts = normal.split(", ").map(|part| match part {
+                "1" => size.to_string(),
+                part => part.to_owned(),
+            });
+            parts.collect::<Vec<_>>().join(", ")
+        });
+        format!(
+            "name = \"thrown\"\nduration = 1\n{planar}gravity = [{gravity}]\n[[body]]\nname = \"disc\"\n\
+             mass = 1\ninertia = [0.005, 0.005, 0.005]\nposition = [{position}]\n{start}\n[[interaction]]\n\
+             law = \"plane-contact\"\nbetween = [\"world\", \"disc\"]\npoints = [[0, 0, 0], [0, 0, 0]]\n\
+             normal = [{normal}]\nradius = 0.1\nstiffness = 1e5\ndissipation = 1\nfriction = 0.2\ndamping = 50\n"
+        )
+    };
+    let turned = "orientation = { quaternion = [0.8, 0, 0.6, 0] }\n";
+    let upright = "velocity = [2, 0, 0]\nangular_velocity = [0, 0, 30]";
+    let flat = format!("{turned}velocity = [2, 0, 0]\nangular_velocity = [0, -30, 0]");
+    let cases = [
+        text("planar = false\n", "0, 1, 0", upright),
+        text("planar = true\n", "0, 1, 0", upright),
+        text("planar = false\n", "0, 0, 1", &flat),
+        text("planar = true\n", "0, 0, 1", &flat),
+    ];
+    for case in cases {
+        let folder = Folder::new();
+        let summary = folder.summary(&folder.scene(&case), &["--step", "100us"]);
+        assert_eq!(summary["status"], "ok", "{case}");
+        let balance = &summary["energy_balance"];
+        let [laws, remains] = ["laws", "remains"].map(|key| balance[key].as_f64().unwrap());
+        assert!((laws - (2.0 + 2.25 - 1.0 / 12.0)).abs() < 2e-2, "{balance}: {case}");
+        assert!(remains.abs() < 2e-2, "{balance}: {case}");
+    }
+}
+
 /// A law of another program is no error of the scene's text; a wrong key of a law that is known is one.
 #[test]
 fn the_schema_takes_laws_of_other_programs() {

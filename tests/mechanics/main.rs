@@ -5,6 +5,7 @@
 mod analytic;
 mod clearance;
 mod conservation;
+mod contact;
 mod extremes;
 mod guards;
 mod inputs;
@@ -21,3 +22,4 @@ mod sketch;
 mod snapshot;
 mod sources;
 mod status;
+mod tables;

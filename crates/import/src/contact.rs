@@ -1,26 +1,53 @@
-//! Which geoms can touch: a scene has no contact.
+//! Which geoms can touch, and what a scene has of that: spheres, capsules and boxes on planes.
 //!
-//! `geoms, <contact> => each geom that some other could touch`. As MuJoCo chooses pairs: bits that meet, not
-//! of bodies rigid with each other or next to each other in the tree, not excluded.
+//! `geoms, <contact> => contacts, each geom that some other could touch besides`. As MuJoCo chooses pairs: bits that meet,
+//! not of bodies rigid with each other or next to each other in the tree, not excluded; and the pairs of `<contact>`.
 
 use std::collections::BTreeSet;
 
+use nalgebra::Vector3;
+
+use crate::defaults::{Defaults, MAIN};
 use crate::element::Element;
 use crate::error::Fault;
+use crate::geom::{Form, Grip, Surface};
+use crate::mechanism::{Contact, Mechanism, rounded};
 use crate::omission::{Kind, Omissions};
 use crate::settings::Settings;
 use crate::tree::{Tree, WORLD};
 
-/// Lists geoms that can touch another, and pairs.
+/// A solid on a plane.
+#[derive(Clone, Debug)]
+pub(crate) struct Touch {
+    /// The plane and the solid by their places among the geoms.
+    plane: usize,
+    solid: usize,
+    grip: Grip,
+}
+
+impl Touch {
+    /// Two geoms; `None` where they are no plane and no solid that meets one in points, or the solid is the world's.
+    fn of(tree: &Tree, [i, j]: [usize; 2], grip: Grip) -> Option<Self> {
+        let is_plane = |i: usize| tree.surfaces[i].form == Form::Plane;
+        let (plane, solid) = if is_plane(i) { (i, j) } else { (j, i) };
+        let surface = &tree.surfaces[solid];
+        let meets = is_plane(plane) && !surface.form.spheres().is_empty();
+        (meets && lead(tree, surface.body) != WORLD).then_some(Self { plane, solid, grip })
+    }
+}
+
+/// Lists contacts, and geoms that can touch another besides.
 pub(crate) fn find(
     root: &Element,
     tree: &Tree,
     settings: &Settings,
+    defaults: &Defaults,
     omissions: &mut Omissions,
-) -> Result<(), Fault> {
+) -> Result<Vec<Touch>, Fault> {
     if settings.is_off("contact") {
-        return Ok(());
+        return Ok(Vec::new());
     }
+    let mut touches = Vec::new();
     let mut excluded = BTreeSet::new();
     for section in root.sections("contact") {
         for child in &section.children {
@@ -38,8 +65,19 @@ pub(crate) fn find(
                 }
                 "pair" => {
                     let geom = |name| child.text(name).unwrap_or("?").to_owned();
-                    let what = format!("pair of `{}` and `{}`", geom("geom1"), geom("geom2"));
-                    omissions.add(Kind::Contact, child.place, what);
+                    let names = ["geom1", "geom2"].map(geom);
+                    let known = |name: &String| {
+                        tree.surfaces.iter().position(|one| one.name.as_ref() == Some(name))
+                    };
+                    let grip = Grip::of(&defaults.of(child, MAIN)?, [0, 3])?;
+                    let both = known(&names[0]).zip(known(&names[1]));
+                    match both.and_then(|(i, j)| Touch::of(tree, [i, j], grip)) {
+                        Some(touch) => touches.push(touch),
+                        None => {
+                            let what = format!("pair of `{}` and `{}`", names[0], names[1]);
+                            omissions.add(Kind::Contact, child.place, what);
+                        }
+                    }
                 }
                 other => {
                     let what = format!("<{other}> in <contact>");
@@ -58,16 +96,66 @@ pub(crate) fn find(
         let pair = (a.body.min(b.body), a.body.max(b.body));
         meet && ra != rb && !next && !excluded.contains(&pair)
     };
+    let paired: BTreeSet<[usize; 2]> =
+        touches.iter().map(|touch| [touch.plane, touch.solid]).collect();
+    let between = |i: usize, j: usize| {
+        let grip = tree.surfaces[i].grip.and(tree.surfaces[j].grip);
+        Touch::of(tree, [i, j], grip)
+    };
+    for i in 0..tree.surfaces.len() {
+        let found = (0..i).filter(|j| touch(i, *j)).filter_map(|j| between(i, j));
+        // A pair of its own replaces what the bits say.
+        touches.extend(found.filter(|touch| !paired.contains(&[touch.plane, touch.solid])));
+    }
     for (i, surface) in tree.surfaces.iter().enumerate() {
-        let others = (0..tree.surfaces.len()).filter(|j| touch(i, *j)).count();
+        let others = 0..tree.surfaces.len();
+        let others = others.filter(|j| touch(i, *j) && between(i, *j).is_none()).count();
         if others > 0 {
             let s = if others == 1 { "" } else { "s" };
             let what = format!("{}: may touch {others} other{s}", surface.words);
             omissions.add(Kind::Contact, surface.place, what);
         }
     }
-    Ok(())
+    Ok(touches)
 }
+
+/// Adds the contacts of a mechanism.
+pub(crate) fn add(mechanism: &mut Mechanism<'_>, touches: &[Touch]) {
+    for Touch { plane, solid, grip } in touches {
+        let tree = mechanism.tree;
+        let (plane, solid) = (&tree.surfaces[*plane], &tree.surfaces[*solid]);
+        let between = [plane.body, solid.body].map(|body| mechanism.side(body));
+        let Some(part) = between[1] else { continue };
+        let pose = |surface: &Surface| mechanism.pose.start[surface.body] * surface.pose;
+        let (ground, placed) = (pose(plane), pose(solid));
+        let normal = ground.rotation * Vector3::z();
+        let stiffness = mechanism.options.stiffness;
+        // Half of what would be critical for the body alone, as friction of joints has it.
+        let shear = SHEAR * stiffness * mechanism.parts.parts[part].mass.mass;
+        let damping = rounded(shear.sqrt());
+        let called = solid.name.clone().unwrap_or_else(|| mechanism.name(Some(part)).to_owned());
+        for (centre, radius) in solid.form.spheres() {
+            let contact = Contact {
+                name: mechanism.own_name(&format!("{called}-contact")),
+                between,
+                points: [
+                    ground.translation.vector,
+                    placed.translation.vector + placed.rotation * centre,
+                ],
+                normal,
+                radius: radius + grip.margin(),
+                friction: grip.friction(),
+                rolling: grip.rolling(),
+                damping,
+                source: (format!("{} on {}", solid.words, plane.words), solid.place),
+            };
+            mechanism.contacts.push(contact);
+        }
+    }
+}
+
+/// Tangential over normal stiffness, as of scenes.
+const SHEAR: f64 = 0.8;
 
 /// The first of the bodies that are rigid with a body.
 fn lead(tree: &Tree, mut body: usize) -> usize {

@@ -149,6 +149,28 @@ pub(crate) struct Signal {
     pub(crate) source: Source,
 }
 
+/// A sphere or a point on a plane.
+pub(crate) struct Contact {
+    /// Its name.
+    pub(crate) name: String,
+    /// The part that has the plane, and the one that has the sphere.
+    pub(crate) between: [Side; 2],
+    /// \[m\] a point of the plane, the centre of the sphere, world, where the scene begins.
+    pub(crate) points: [Vector3<f64>; 2],
+    /// Normal of the plane, world.
+    pub(crate) normal: Vector3<f64>,
+    /// \[m\]
+    pub(crate) radius: f64,
+    /// \[1\]
+    pub(crate) friction: f64,
+    /// \[m\]
+    pub(crate) rolling: f64,
+    /// \[N·s/m\] of the tangential give.
+    pub(crate) damping: f64,
+    /// What it was made of.
+    pub(crate) source: Source,
+}
+
 /// What a scene is written of.
 pub(crate) struct Mechanism<'m> {
     /// The bodies.
@@ -177,6 +199,8 @@ pub(crate) struct Mechanism<'m> {
     pub(crate) driven: BTreeMap<usize, f64>,
     /// Whether the scene is planar.
     pub(crate) planar: bool,
+    /// Contacts.
+    pub(crate) contacts: Vec<Contact>,
     /// Loads.
     pub(crate) loads: Vec<Load>,
     /// Inputs.
@@ -210,6 +234,7 @@ impl<'m> Mechanism<'m> {
             tendons: BTreeMap::new(),
             driven: BTreeMap::new(),
             planar: false,
+            contacts: Vec::new(),
             loads: Vec::new(),
             inputs: Vec::new(),
             readouts: Vec::new(),

@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 
 use crate::body::Freedom;
 use crate::chain::{self, ALIKE, Circumstances, Stage, Way};
-use crate::contact;
+use crate::contact::{self, Touch};
 use crate::defaults::Defaults;
 use crate::element::Element;
 use crate::error::Fault;
@@ -31,6 +31,7 @@ pub(crate) struct Model<'m> {
     settings: Settings,
     defaults: Defaults,
     tree: Tree,
+    touches: Vec<Touch>,
     omissions: Omissions,
 }
 
@@ -46,8 +47,8 @@ impl<'m> Model<'m> {
         let defaults = Defaults::read(root)?;
         let mut meshes = Meshes::read(root, &settings, &defaults, folder)?;
         let tree = tree::read(root, &settings, &defaults, &mut meshes, &mut omissions)?;
-        contact::find(root, &tree, &settings, &mut omissions)?;
-        Ok(Self { root, settings, defaults, tree, omissions })
+        let touches = contact::find(root, &tree, &settings, &defaults, &mut omissions)?;
+        Ok(Self { root, settings, defaults, tree, touches, omissions })
     }
 
     /// The scene.
@@ -119,6 +120,7 @@ impl<'m> Model<'m> {
         tendons::add(&mut mechanism, root, settings, defaults, &mut omissions)?;
         actuators::add(&mut mechanism, root, settings, defaults, &mut omissions)?;
         signals::add(&mut mechanism, root)?;
+        contact::add(&mut mechanism, &self.touches);
         mechanism.notes.extend(self.tree.notes.iter().cloned());
         let head = write::Head { settings, texts };
         let mut scene = write::scene(&mechanism, &head, omissions.list(), file);

@@ -8,7 +8,7 @@ use crate::body;
 use crate::defaults::Defaults;
 use crate::element::Element;
 use crate::error::Fault;
-use crate::geom::{Look, Surface};
+use crate::geom::{Form, Grip, Look, Surface};
 use crate::mass::Mass;
 use crate::mesh::{Meshes, REMEDY};
 use crate::omission::{Kind, Omissions};
@@ -96,6 +96,14 @@ impl Scales<'_> {
             words: words.clone(),
             kind: bits("contype")?,
             affinity: bits("conaffinity")?,
+            name: element.text("name").map(str::to_owned),
+            form: match geom.solid {
+                Some(solid) => Form::Solid(solid),
+                None if geom.word == "plane" => Form::Plane,
+                None => Form::Other,
+            },
+            pose: within.frame * geom.pose,
+            grip: Grip::of(&given, [0, 2])?,
         };
         let unseen = surface.kind == 0 && surface.affinity == 0;
         self.surfaces.push(surface);

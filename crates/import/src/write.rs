@@ -39,6 +39,7 @@ pub(crate) fn scene(
     bodies(&mut out, mechanism, head.texts);
     joints(&mut out, mechanism, head.texts);
     springs(&mut out, mechanism, head.texts);
+    contacts(&mut out, mechanism, head.texts);
     let signals = [("input", &mechanism.inputs), ("readout", &mechanism.readouts)];
     for (table, signals) in signals {
         for signal in signals {
@@ -71,6 +72,12 @@ fn top(
             out,
             "# Limits, stated: as stiff as their joints, an impact at {LIMIT_SPEED} rad/s or m/s returns {} of it.",
             RESTITUTION
+        );
+    }
+    if !mechanism.contacts.is_empty() {
+        let _ = writeln!(
+            out,
+            "# Contacts, stated: as stiff as joints, an impact at {LIMIT_SPEED} m/s returns {RESTITUTION} of it."
         );
     }
     if options.weld == Weld::Merge {
@@ -250,6 +257,32 @@ fn springs(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
         comment(out, &load.source, texts);
         let _ = writeln!(out, "[[load]]\nbody = {}", text(mechanism.name(Some(load.part))));
         let _ = writeln!(out, "force = {}", vector(load.force, 0.0));
+    }
+}
+
+fn contacts(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
+    let size = mechanism.size();
+    for contact in &mechanism.contacts {
+        out.push('\n');
+        comment(out, &contact.source, texts);
+        let _ = writeln!(out, "[[interaction]]\nname = {}", text(&contact.name));
+        let _ = writeln!(out, "law = \"plane-contact\"");
+        let _ = writeln!(out, "between = {}", between(mechanism, contact.between));
+        let [ground, centre] =
+            [0, 1].map(|i| vector(mechanism.within(contact.between[i], contact.points[i]), size));
+        let _ = writeln!(out, "points = [{ground}, {centre}]");
+        let _ = writeln!(out, "normal = {}", vector(contact.normal, 1.0));
+        let _ = writeln!(out, "radius = {}", number(contact.radius));
+        let _ = writeln!(out, "stiffness = {}", number(mechanism.options.stiffness));
+        let dissipation = dbd_scene::laws::dissipation(RESTITUTION, LIMIT_SPEED);
+        let _ = writeln!(out, "dissipation = {}", number(rounded(dissipation)));
+        if contact.friction > 0.0 {
+            let _ = writeln!(out, "friction = {}", number(contact.friction));
+            let _ = writeln!(out, "damping = {}", number(contact.damping));
+        }
+        if contact.rolling > 0.0 {
+            let _ = writeln!(out, "rolling = {}", number(contact.rolling));
+        }
     }
 }
 

@@ -21,7 +21,7 @@ use dbd_kernel::schedule::Signal;
 use dbd_kernel::snapshot::SnapshotError;
 use dbd_kernel::{
     BodyIndex, BodyState, Energy, F32, F64, Fixed, Geometry, Planar32, Planar64, Real as _, Scheme,
-    State, Status,
+    State, Status, Vec3,
 };
 use dbd_scene::laws::convert_words;
 use dbd_scene::{Misfit, Planar, Scene, SceneModel, widen};
@@ -299,6 +299,9 @@ where
         let mut state = widen(self.plant.state());
         if let Some(planar) = &self.planar {
             planar.states_outward(&mut state.bodies);
+            self.exact.laws.turn_memories(&mut state.laws, &mut |body, v| {
+                planar.plane.of_body_outward(body.row(), Vec3::from_f64(v)).to_f64()
+            });
         }
         state
     }
@@ -342,10 +345,16 @@ where
                 bodies
             }
         };
+        let mut laws = state.laws.clone();
+        if let Some(planar) = &self.planar {
+            self.exact.laws.turn_memories(&mut laws, &mut |body, v| {
+                planar.plane.of_body_inward(body.row(), Vec3::from_f64(v)).to_f64()
+            });
+        }
         self.plant.set_state(State {
             bodies,
             turns: state.turns.clone(),
-            laws: convert_words(&state.laws, |x| P::Real::from_f64(x).word()),
+            laws: convert_words(&laws, |x| P::Real::from_f64(x).word()),
             step: state.step,
             signals: state.signals.iter().map(Signal::convert).collect(),
         })

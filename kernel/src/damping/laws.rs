@@ -82,7 +82,8 @@ impl<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool> DamperPass<P>
             }
             let bounds = damper.bounds().map(|bound| bound * sweep.h);
             let known = sweep.damper::<REVERSE>(damper.coefficient, share);
-            pair.damp_within::<P, K>(&damper.direction, known, (damper.rate, bounds));
+            let limits = (damper.rate, bounds, damper.brakes());
+            pair.damp_within::<P, K>(&damper.direction, known, limits);
         }
         pair.store::<P>(self.moving);
     }

@@ -172,7 +172,7 @@ impl<S: Space> Pair<S> {
         });
     }
 
-    /// One damper acts towards a rate, its impulse within bounds \[N·s\].
+    /// One damper acts towards a rate, its impulse within bounds \[N·s\], and within what stops the rate if it brakes.
     #[inline(always)]
     pub(super) fn damp_within<
         P: Geometry<Space = S, Real = S::Real, Vector = S::Vector, Moment = S::Moment>,
@@ -181,12 +181,21 @@ impl<S: Space> Pair<S> {
         &mut self,
         direction: &Direction<S>,
         damper: Damper<S::Real>,
-        (towards, [least, most]): (S::Real, [S::Real; 2]),
+        (towards, [least, most], brakes): (S::Real, [S::Real; 2], bool),
     ) {
         self.push::<P, K>(direction, S::Real::truth(false), |inverse, rate, kick| {
             let (x, impulse_per_rate) = damper.impulse_per_rate(inverse);
             let rate = if K::KNOWN { rate - kick * damper.unmet(x) } else { rate };
             let impulse = impulse_per_rate * (rate - towards);
+            let impulse = S::Real::pick(most.less_than(impulse), most, impulse);
+            let impulse = S::Real::pick(impulse.less_than(least), least, impulse);
+            if !brakes {
+                return impulse;
+            }
+            let (whole, zero) = (rate / inverse, S::Real::ZERO);
+            let backward = whole.less_than(zero);
+            let (least, most) =
+                (S::Real::pick(backward, whole, zero), S::Real::pick(backward, zero, whole));
             let impulse = S::Real::pick(most.less_than(impulse), most, impulse);
             S::Real::pick(impulse.less_than(least), least, impulse)
         });

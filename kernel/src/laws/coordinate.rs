@@ -44,6 +44,13 @@ impl<P: Geometry> Coordinate<P> {
         Self { value: axis.dot(way), way: Way::Travel(axis, [arm, way, other]) }
     }
 
+    /// How far a point that both bodies have is carried along a direction of A, world; the arm of A's point, the way from
+    /// it to B's and the arm of B's point.
+    #[inline(always)]
+    pub(super) fn carried(value: P::Real, axis: P::Vector, ways: [P::Vector; 3]) -> Self {
+        Self { value, way: Way::Travel(axis, ways) }
+    }
+
     /// How far two points are apart; without a direction where they coincide.
     #[inline(always)]
     pub(super) fn distance(seen: &Seen<'_, P>, points: &[P::Local; 2]) -> Self {

@@ -51,6 +51,8 @@ pub struct Damper<P: Geometry> {
     pub rate: P::Real,
     /// \[N, N·m\] the least mean tension over the time it acts, at most 0, and the largest, at least 0.
     bounds: [P::Real; 2],
+    /// Whether it takes no more than all of the rate.
+    brakes: bool,
 }
 
 /// Beyond any force, and its product with any step is a number in single precision.
@@ -62,7 +64,7 @@ impl<P: Geometry> Damper<P> {
     #[must_use]
     pub fn new(coefficient: P::Real, direction: Direction<P::Space>) -> Self {
         let most = P::Real::from_f64(MOST);
-        Self { coefficient, direction, rate: P::Real::ZERO, bounds: [-most, most] }
+        Self { coefficient, direction, rate: P::Real::ZERO, bounds: [-most, most], brakes: false }
     }
 
     /// A damper that does nothing.
@@ -95,6 +97,20 @@ impl<P: Geometry> Damper<P> {
     #[must_use]
     pub fn towards(self, rate: P::Real) -> Self {
         Self { rate, ..self }
+    }
+
+    /// Which never turns the rate around, whatever the rate that it goes towards: a tangent of a damper's law.
+    #[inline(always)]
+    #[must_use]
+    pub fn braking(self) -> Self {
+        Self { brakes: true, ..self }
+    }
+
+    /// Whether it never turns the rate around.
+    #[inline(always)]
+    #[must_use]
+    pub fn brakes(&self) -> bool {
+        self.brakes
     }
 
     /// \[N, N·m\] its tension at a rate \[m/s, rad/s\] along its direction.
@@ -213,6 +229,10 @@ pub trait Interaction<P: Geometry>: Constants<P> {
         _visit: &mut impl FnMut(Damper<P>),
     ) {
     }
+
+    /// Replaces the vectors of its memory: `turn(0, v)` those in the axes of A, `turn(1, v)` those in the axes of B.
+    /// A plane's memory comes into space by it, and back.
+    fn turn(_state: &mut Self::State, _turn: &mut dyn FnMut(usize, [f64; 3]) -> [f64; 3]) {}
 
     /// Whether its constants go together, as a scene gives them.
     ///

@@ -17,15 +17,20 @@ mod declare;
 
 mod coordinate;
 mod curve;
+mod distance_damper;
+mod distance_spring;
 mod distance_stop;
 mod end;
 mod end_stop;
 mod hinge;
+mod hinge_damper;
 mod hinge_friction;
+mod hinge_spring;
 mod hinge_stop;
 mod interaction;
 mod kind;
 mod list;
+mod plane_contact;
 mod row;
 mod slice;
 mod slide_friction;
@@ -33,12 +38,16 @@ mod slip;
 mod stop;
 
 pub use curve::Curve;
+pub use distance_damper::DistanceDamper;
+pub use distance_spring::DistanceSpring;
 pub use distance_stop::DistanceStop;
 pub(crate) use end::Body;
 pub use end::{End, Instant, Seen};
 pub use end_stop::EndStop;
 pub use hinge::{Hinge, Turns, Twisted};
+pub use hinge_damper::HingeDamper;
 pub use hinge_friction::{HingeFriction, TurnSlip};
+pub use hinge_spring::HingeSpring;
 pub use hinge_stop::HingeStop;
 pub use interaction::{
     Constants, Damper, Interaction, Law, Nothing, Quantity, Several, Springs, Wrong,
@@ -47,6 +56,7 @@ pub use interaction::{
 pub use kind::first;
 pub use kind::{Axis, Count, Field, FieldSink, FieldSource, Kind, Normal, Number, Points, Table};
 pub use list::Laws;
+pub use plane_contact::{Held, PlaneContact};
 pub use row::{Act, DamperPass, Row};
 #[doc(hidden)]
 pub use slice::{act, look, memory, shares_of, sweep};

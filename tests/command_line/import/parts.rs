@@ -273,6 +273,86 @@ fn geoms_become_geometry() {
     assert!(near(place(ball.body, at), [1.0, 0.0, 2.0]) && radius == 0.5);
 }
 
+/// Spheres, ends of capsules and corners of boxes meet planes: as MuJoCo pairs them, rubbed as it says; other pairs are
+/// listed.
+#[test]
+fn solids_touch_planes() {
+    let text = |geoms: &str, floor: &str, others: &str| {
+        let body = format!(
+            "<body name='a' pos='0 0 1' euler='0 90 0'><freejoint/>\
+             <inertial pos='0.1 0 0' mass='2' diaginertia='0.1 0.1 0.1'/>{geoms}</body>"
+        );
+        mujoco(
+            &format!("<geom name='floor' type='plane' pos='0 0 0.2' size='1 1 1' {floor}/>{body}"),
+            others,
+        )
+    };
+    let contacts = |text: &str| {
+        let made = of(text, &Options { stiffness: 1e6, ..Options::default() });
+        let scene = loaded(&made);
+        let found = scene.interactions();
+        assert!(found.iter().all(|one| one.law == "plane-contact"), "{found:?}");
+        let points: Vec<_> = found.iter().map(|one| one.points.unwrap()).collect();
+        (points, made.scene)
+    };
+    // Turned about y: z of the body is x of the world; the body is at its centre of mass.
+    let (points, scene) = contacts(&text("<geom name='foot' size='0.1' pos='0 0 0.3'/>", "", ""));
+    let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
+    assert!(
+        near(points[0][0], [0.0, 0.0, 0.2]) && near(points[0][1], [-0.1, 0.0, 0.3]),
+        "{points:?}"
+    );
+    for line in
+        ["name = \"foot-contact\"", "radius = 0.1", "stiffness = 1000000.0", "friction = 1.0"]
+    {
+        assert!(scene.contains(&format!("\n{line}\n")), "{line}: {scene}");
+    }
+    assert!(!scene.contains("rolling"), "{scene}");
+    let counts = [
+        ("<geom type='capsule' size='0.1 0.2'/>", 2),
+        ("<geom type='box' size='0.1 0.2 0.3'/>", 8),
+        ("<geom size='0.1'/><geom size='0.2' contype='0' conaffinity='0'/>", 1),
+    ];
+    for (geoms, count) in counts {
+        assert_eq!(contacts(&text(geoms, "", "")).0.len(), count, "{geoms}");
+    }
+    // The larger friction, or that of the higher priority; margin and rolling.
+    for (foot, floor, says) in [
+        ("friction='0.3'", "friction='0.7'", "friction = 0.7"),
+        ("friction='0.3' priority='1'", "friction='0.7'", "friction = 0.3"),
+        ("condim='6' friction='1 0 0.02'", "", "rolling = 0.02"),
+        ("margin='0.02' gap='0.005'", "", "radius = 0.115"),
+    ] {
+        let (_, scene) = contacts(&text(&format!("<geom size='0.1' {foot}/>"), floor, ""));
+        assert!(scene.contains(&format!("\n{says}\n")), "{says}: {scene}");
+    }
+    let (_, smooth) = contacts(&text("<geom size='0.1' condim='1'/>", "condim='1'", ""));
+    assert!(!smooth.contains("friction = "), "{smooth}");
+    // A pair has its own, whatever the bits; excluded bodies have none.
+    let pair = "<contact><pair geom1='floor' geom2='foot' friction='0.4 0.4 0 0 0'/></contact>";
+    for bits in ["", "contype='0' conaffinity='0'"] {
+        let foot = format!("<geom name='foot' size='0.1' {bits}/>");
+        let (points, scene) = contacts(&text(&foot, "", pair));
+        assert!(points.len() == 1 && scene.contains("\nfriction = 0.4\n"), "{scene}");
+    }
+    let exclude = "<contact><exclude body1='world' body2='a'/></contact>";
+    assert!(contacts(&text("<geom size='0.1'/>", "", exclude)).0.is_empty());
+    let off = "<option><flag contact='disable'/></option>";
+    assert!(contacts(&text("<geom size='0.1'/>", "", off)).0.is_empty());
+    // What has no counterpart is listed beside what has.
+    let both = text("<geom size='0.1'/><geom type='cylinder' size='0.1 0.2'/>", "", "");
+    let made = of(&both, &Options { ignored: vec![Kind::Contact], ..Options::default() });
+    let omitted: Vec<_> = made.omitted.iter().map(|one| one.what.as_str()).collect();
+    assert_eq!(
+        omitted,
+        [
+            "geom `floor`, plane: may touch 1 other",
+            "geom, cylinder, radius 0.1 m, length 0.4 m: may touch 1 other"
+        ]
+    );
+    assert_eq!(loaded(&made).interactions().len(), 1);
+}
+
 /// What nobody sees of a name, and what a spreadsheet would compute, is left out; names stay apart.
 #[test]
 fn names_fit_a_scene() {

@@ -94,6 +94,19 @@ impl<P: Geometry> LawList<P> {
         self.tables.iter().flat_map(|table| table.source.bodies())
     }
 
+    /// Replaces the vectors of memories, each of the axes of a body: those of a plane in space, and back.
+    pub fn turn_memories(
+        &self,
+        states: &mut [Word],
+        turn: &mut dyn FnMut(BodyIndex, [f64; 3]) -> [f64; 3],
+    ) {
+        for (table, [_, from, _]) in self.each() {
+            if let Some(words) = states.get_mut(from..) {
+                table.rows.turn(words, turn);
+            }
+        }
+    }
+
     /// Table and row of a row over all tables, with where its words and its shares begin.
     fn each(&self) -> impl Iterator<Item = (&Table<P>, [usize; 3])> {
         let mut next = [0; 3];

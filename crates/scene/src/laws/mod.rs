@@ -19,6 +19,7 @@ pub use kit::{Poses, hold};
 #[doc(hidden)]
 pub use linked::LinkedLaw;
 pub use list::LawList;
+pub use of_joints::dissipation;
 pub(crate) use of_joints::{FRICTION, LIMITS};
 pub(crate) use rows::Listed;
 pub use rows::convert_words;
@@ -98,6 +99,11 @@ pub fn known_laws() -> Vec<KnownLaw> {
         KnownLaw::of::<laws::EndStop>("dbd_kernel::laws::EndStop"),
         KnownLaw::of::<laws::HingeStop>("dbd_kernel::laws::HingeStop"),
         KnownLaw::of::<laws::DistanceStop>("dbd_kernel::laws::DistanceStop"),
+        KnownLaw::of::<laws::PlaneContact>("dbd_kernel::laws::PlaneContact"),
+        KnownLaw::of::<laws::DistanceSpring>("dbd_kernel::laws::DistanceSpring"),
+        KnownLaw::of::<laws::DistanceDamper>("dbd_kernel::laws::DistanceDamper"),
+        KnownLaw::of::<laws::HingeSpring>("dbd_kernel::laws::HingeSpring"),
+        KnownLaw::of::<laws::HingeDamper>("dbd_kernel::laws::HingeDamper"),
         KnownLaw::of::<laws::HingeFriction>("dbd_kernel::laws::HingeFriction"),
         KnownLaw::of::<laws::SlideFriction>("dbd_kernel::laws::SlideFriction"),
     ];

@@ -130,7 +130,8 @@ fn restituted(table: &Table<'_>, unit: &'static str) -> Result<Option<f64>, Scen
 /// The coefficient a \[s/m, s/rad\] at which an impact at `speed` v \[m/s, rad/s\] returns e times that, for
 /// `F = k·x·(1 + a·ẋ)` whatever k: `(1 + a·v)·exp(−(1 + a·v)) = (1 − a·e·v)·exp(−(1 − a·e·v))` (Hunt & Crossley, J. Appl.
 /// Mech. 42 (1975) 440, with exponent 1).
-fn dissipation(restitution: f64, speed: f64) -> f64 {
+#[must_use]
+pub fn dissipation(restitution: f64, speed: f64) -> f64 {
     let e = restitution;
     // Where it is positive, y = a·v is too large; e·y < 1.
     let excess = |y: f64| libm::log1p(y) - y - (libm::log1p(-e * y) + e * y);

@@ -1,10 +1,10 @@
 //! The rows of a law in one precision, their memories kept as words.
 
-use dbd_kernel::Geometry;
 use dbd_kernel::damping::Share;
 use dbd_kernel::forces::Wrench;
 use dbd_kernel::laws::{self, Act, DamperPass, Instant, Interaction, Row, Several};
 use dbd_kernel::words::{Word, WordSource, WordVisitor, Words};
+use dbd_kernel::{BodyIndex, Geometry};
 
 /// A word of the kind of another one.
 pub(super) fn of_bits(like: Word, bits: u64) -> Word {
@@ -88,6 +88,8 @@ pub(crate) trait Rows<P: Geometry>: Send + Sync {
         pass: &mut dyn DamperPass<P>,
     );
     fn look(&self, row: usize, words: &[Word], look: &mut dyn FnMut(&dyn Row<P>));
+    /// Replaces the vectors of memories, those in the axes of a body.
+    fn turn(&self, words: &mut [Word], turn: &mut dyn FnMut(BodyIndex, [f64; 3]) -> [f64; 3]);
 }
 
 /// The rows of `T`.
@@ -164,6 +166,15 @@ impl<P: Geometry, T: Interaction<P>> Rows<P> for Of<T> {
         {
             let states = [state::<P, T>(words)];
             laws::look::<P, T>(std::slice::from_ref(law), 0, &states, look);
+        }
+    }
+    fn turn(&self, words: &mut [Word], turn: &mut dyn FnMut(BodyIndex, [f64; 3]) -> [f64; 3]) {
+        let each = Rows::<P>::words(self);
+        for (number, law) in self.0.iter().enumerate() {
+            let Some(words) = words.get_mut(number * each..(number + 1) * each) else { break };
+            let mut memory = state::<P, T>(words);
+            T::turn(&mut memory, &mut |end, v| turn(law.bodies()[end], v));
+            memory.visit(&mut Store(words.iter_mut()));
         }
     }
 }

@@ -5,10 +5,14 @@
 //! sample and at every jump of a load or table, so that no sample is interpolated and no step
 //! straddles a jump.
 
+use differential_equations::control::ControlFlag;
 use differential_equations::error::Error;
+use differential_equations::interpolate::Interpolation;
 use differential_equations::ivp::IVP;
 use differential_equations::methods::ExplicitRungeKutta;
 use differential_equations::ode::ODE;
+use differential_equations::solout::Solout;
+use differential_equations::solution::Solution;
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -101,7 +105,7 @@ impl Piece {
         equations: &Equations<'_>,
         end: f64,
     ) -> Result<(Vec<f64>, Vec<f64>), NoTruth> {
-        let problem = IVP::ode(equations, self.time, end, self.y.clone());
+        let problem = IVP::ode(equations, self.time, end, self.y.clone()).solout(Latest);
         let first = self.step.min(end - self.time);
         let solution = match opinion {
             Opinion::Dop853 => {
@@ -126,6 +130,28 @@ impl Piece {
     fn finite(&self, y: Option<Vec<f64>>) -> Result<Vec<f64>, NoTruth> {
         y.filter(|y| y.iter().all(|value| value.is_finite()))
             .ok_or(NoTruth { time: self.time, reason: "the state is not finite".into() })
+    }
+}
+
+/// Keeps the times of all steps and the values at the last alone: a stiff scene takes millions.
+struct Latest;
+
+impl Solout<f64, Vec<f64>> for Latest {
+    fn solout<I: Interpolation<f64, Vec<f64>> + ?Sized>(
+        &mut self,
+        time: f64,
+        _: f64,
+        y: &Vec<f64>,
+        _: &Vec<f64>,
+        _: &mut I,
+        solution: &mut Solution<f64, Vec<f64>>,
+    ) -> ControlFlag<f64, Vec<f64>> {
+        solution.t.push(time);
+        match solution.y.last_mut() {
+            Some(last) => last.clone_from(y),
+            None => solution.y.push(y.clone()),
+        }
+        ControlFlag::Continue
     }
 }
 

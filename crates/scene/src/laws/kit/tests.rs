@@ -1,6 +1,7 @@
 use super::*;
 use dbd_kernel::laws::{
-    Damper, DistanceStop, EndStop, Hinge, HingeFriction, HingeStop, SlideFriction, Springs,
+    Curve, Damper, DistanceDamper, DistanceSpring, DistanceStop, EndStop, Hinge, HingeDamper,
+    HingeFriction, HingeSpring, HingeStop, PlaneContact, SlideFriction, Springs,
 };
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{BodyIndex, Real as _};
@@ -62,6 +63,42 @@ fn the_projects_laws_keep_what_laws_promise() {
         viscous: 0.2,
     };
     hold(&friction, poses).unwrap();
+}
+
+/// A table with a slope of its own beside each knot.
+fn table() -> Curve<f64, 16> {
+    let mut knots = [[0.0; 2]; 16];
+    knots[..4].copy_from_slice(&[[-0.5, -80.0], [-0.05, -30.0], [0.0, 0.0], [0.03, 90.0]]);
+    Curve { knots, count: 4 }
+}
+
+#[test]
+fn tables_keep_what_laws_promise() {
+    let (poses, points) = (Poses::default(), end_stop(0.0).points);
+    let spring = DistanceSpring { bodies: BODIES, points, free_length: 0.06, force: table() };
+    hold(&spring, poses).unwrap();
+    hold(&DistanceDamper { bodies: BODIES, points, force: table() }, poses).unwrap();
+    hold(&HingeSpring { bodies: BODIES, axis: hinge(), torque: table() }, poses).unwrap();
+    hold(&HingeDamper { bodies: BODIES, axis: hinge(), torque: table() }, poses).unwrap();
+}
+
+#[test]
+fn a_contact_keeps_what_laws_promise() {
+    let EndStop { bodies, points, normal, .. } = end_stop(0.0);
+    let contact = PlaneContact {
+        bodies,
+        points,
+        normal,
+        radius: 0.02,
+        stiffness: 1e5,
+        dissipation: 0.5,
+        friction: 0.4,
+        shear: 0.8,
+        damping: 20.0,
+        rolling: 1e-3,
+    };
+    hold(&contact, Poses::default()).unwrap();
+    hold(&PlaneContact { radius: 0.0, friction: 0.0, ..contact }, Poses::default()).unwrap();
 }
 
 dbd_kernel::law! {

@@ -1,0 +1,66 @@
+//! A spring between two points by a table of its force over its extension: progressive, one-sided, preloaded.
+//!
+//! Distance `|d| ↦ tension F(|d| − free_length)`, straight between knots and beyond them; its energy is the area.
+
+use crate::geometry::Geometry;
+use crate::laws::coordinate::Coordinate;
+use crate::laws::curve::{Spring, rising};
+use crate::laws::end::Seen;
+use crate::laws::interaction::{Interaction, Nothing, Quantity, Springs, Wrong};
+use crate::real::Real;
+use crate::record::Record;
+
+law! {
+    /// A spring between two points by a table of its force over its extension: progressive, one-sided, preloaded.
+    pub struct DistanceSpring = "distance-spring" {
+        /// A point of the first body and one of the second.
+        points: Points,
+        /// Distance at which the extension is 0.
+        free_length: Number("m") = 0.0,
+        /// Tension over extension, which never falls; before the first knot and after the last it goes on straight.
+        force: Table<16>("m", "N"),
+    }
+}
+
+impl<P: Geometry> DistanceSpring<P> {
+    #[inline(always)]
+    fn spring(&self, seen: &Seen<'_, P>) -> Spring<'_, P, 16> {
+        Spring {
+            coordinate: Coordinate::distance(seen, &self.points),
+            rest: self.free_length,
+            curve: &self.force,
+        }
+    }
+}
+
+impl<P: Geometry> Interaction<P> for DistanceSpring<P> {
+    type State = Nothing;
+    type Dampers = [(); 0];
+    const QUANTITIES: &'static [Quantity] = &[Quantity { name: "force", unit: "N" }];
+
+    #[inline(always)]
+    fn record(&self, seen: &Seen<'_, P>, _: &Nothing) -> Option<Record<P::Space>> {
+        let spring = self.spring(seen);
+        // Points that coincide have no line along which they could be pulled.
+        let lost = spring.coordinate.value == P::Real::ZERO && spring.tension() != P::Real::ZERO;
+        (!lost).then(|| spring.record(seen))
+    }
+
+    fn energy(&self, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {
+        self.spring(seen).energy()
+    }
+
+    fn tangent(&self, seen: &Seen<'_, P>, _: &Nothing, visit: Springs<'_, P>) -> [P::Real; 2] {
+        self.spring(seen).tangent(seen, visit)
+    }
+
+    fn check(&self) -> Result<(), Wrong> {
+        let zero = P::Real::ZERO;
+        Wrong::unless(self.free_length >= zero, "free_length", "is negative", "a distance ≥ 0")?;
+        rising(&self.force, "force")
+    }
+
+    fn read(&self, _: usize, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {
+        self.spring(seen).tension()
+    }
+}

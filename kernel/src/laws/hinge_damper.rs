@@ -1,0 +1,66 @@
+//! A damper about an axis by a table of its torque over its rate.
+//!
+//! Rate of the twist `ω ↦ torque T(ω)` against it, along the twist's gradient; see [`super::curve`].
+
+use crate::geometry::Geometry;
+use crate::laws::coordinate::Coordinate;
+use crate::laws::curve::{brake, braking};
+use crate::laws::end::Seen;
+use crate::laws::hinge::Turns;
+use crate::laws::interaction::{Damper, Interaction, Nothing, Quantity, Springs, Wrong};
+use crate::real::Real;
+use crate::record::Record;
+
+law! {
+    /// A damper about an axis by a table of its torque over its rate.
+    pub struct HingeDamper = "hinge-damper" {
+        /// Axis of rotation.
+        axis: Axis,
+        /// Torque against the rate, 0 at rest, which never falls.
+        torque: Table<16>("rad/s", "N·m"),
+    }
+}
+
+impl<P: Geometry> HingeDamper<P> {
+    /// Its gradient alone counts: no turns.
+    #[inline(always)]
+    fn turn(&self, seen: &Seen<'_, P>) -> Option<Coordinate<P>> {
+        Coordinate::turn(seen, &self.axis, Turns(0))
+    }
+}
+
+impl<P: Geometry> Interaction<P> for HingeDamper<P> {
+    type State = Nothing;
+    type Dampers = [(); 1];
+    const QUANTITIES: &'static [Quantity] = &[Quantity { name: "torque", unit: "N·m" }];
+
+    #[inline(always)]
+    fn record(&self, _: &Seen<'_, P>, _: &Nothing) -> Option<Record<P::Space>> {
+        Some(Record::ZERO)
+    }
+
+    fn energy(&self, _: &Seen<'_, P>, _: &Nothing) -> P::Real {
+        P::Real::ZERO
+    }
+
+    fn tangent(&self, _: &Seen<'_, P>, _: &Nothing, _: Springs<'_, P>) -> [P::Real; 2] {
+        [P::Real::ZERO; 2]
+    }
+
+    #[inline(always)]
+    fn dampers(&self, seen: &Seen<'_, P>, _: &Nothing, visit: &mut impl FnMut(Damper<P>)) {
+        visit(match self.turn(seen) {
+            Some(turn) => brake(seen, &turn, &self.torque),
+            None => Damper::idle(),
+        });
+    }
+
+    fn check(&self) -> Result<(), Wrong> {
+        braking(&self.torque, "torque")
+    }
+
+    fn read(&self, _: usize, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {
+        let rate = |turn: Coordinate<P>| self.torque.at(seen.rate(&turn.direction(seen))).0;
+        self.turn(seen).map_or(P::Real::ZERO, rate)
+    }
+}

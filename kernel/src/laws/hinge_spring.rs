@@ -1,0 +1,65 @@
+//! A spring about an axis by a table of its torque over its angle: progressive, one-sided, with a dead zone.
+//!
+//! Twist `θ ↦ torque T(θ)` against it, along the twist's gradient; its energy is the area.
+
+use crate::geometry::Geometry;
+use crate::laws::coordinate::Coordinate;
+use crate::laws::curve::{Spring, rising};
+use crate::laws::end::Seen;
+use crate::laws::hinge::Turns;
+use crate::laws::interaction::{Interaction, Quantity, Springs, Wrong};
+use crate::real::Real;
+use crate::record::Record;
+
+law! {
+    /// A spring about an axis by a table of its torque over its angle: progressive, one-sided, with a dead zone.
+    pub struct HingeSpring = "hinge-spring" {
+        /// Axis of rotation; the angle is 0 at t = 0 and counts whole turns.
+        axis: Axis,
+        /// Torque against the angle, which never falls; before the first knot and after the last it goes on straight.
+        torque: Table<16>("rad", "N·m"),
+    }
+}
+
+impl<P: Geometry> HingeSpring<P> {
+    #[inline(always)]
+    fn spring(&self, seen: &Seen<'_, P>, turns: Turns) -> Option<Spring<'_, P, 16>> {
+        let coordinate = Coordinate::turn(seen, &self.axis, turns)?;
+        Some(Spring { coordinate, rest: P::Real::ZERO, curve: &self.torque })
+    }
+}
+
+impl<P: Geometry> Interaction<P> for HingeSpring<P> {
+    type State = Turns;
+    type Dampers = [(); 0];
+    const QUANTITIES: &'static [Quantity] = &[Quantity { name: "torque", unit: "N·m" }];
+
+    #[inline(always)]
+    fn settle(&self, seen: &Seen<'_, P>, turns: &mut Turns) {
+        if let Some(twist) = self.axis.seen(seen) {
+            twist.settle(turns);
+        }
+    }
+
+    #[inline(always)]
+    fn record(&self, seen: &Seen<'_, P>, turns: &Turns) -> Option<Record<P::Space>> {
+        Some(self.spring(seen, *turns)?.record(seen))
+    }
+
+    fn energy(&self, seen: &Seen<'_, P>, turns: &Turns) -> P::Real {
+        self.spring(seen, *turns).map_or(P::Real::ZERO, |spring| spring.energy())
+    }
+
+    fn tangent(&self, seen: &Seen<'_, P>, turns: &Turns, visit: Springs<'_, P>) -> [P::Real; 2] {
+        let Some(spring) = self.spring(seen, *turns) else { return [P::Real::ZERO; 2] };
+        spring.tangent(seen, visit)
+    }
+
+    fn check(&self) -> Result<(), Wrong> {
+        rising(&self.torque, "torque")
+    }
+
+    fn read(&self, _: usize, seen: &Seen<'_, P>, turns: &Turns) -> P::Real {
+        self.spring(seen, *turns).map_or(P::Real::ZERO, |spring| spring.tension())
+    }
+}
