@@ -198,7 +198,9 @@ fn advice_of_all() {
                 loop {
                     let row = next.fetch_add(1, Ordering::Relaxed);
                     let Some(scene) = scenes.get(row) else { break };
+                    let begun = std::time::Instant::now();
                     let found = held(scene, None);
+                    eprintln!("{} {}: {:.0?}", row, scene.name, begun.elapsed());
                     let mut wrong = faults.lock().unwrap();
                     match found {
                         Ok(held) => {

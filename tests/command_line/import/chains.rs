@@ -48,6 +48,19 @@ fn a_body_may_slide_and_turn_in_the_plane() {
     assert!(worst(&found) < 1e-5, "{found:?}");
 }
 
+/// Balls, a capsule and boxes on a slope roll, slip, slide and stay: off by what contacts give way, and by what
+/// MuJoCo's are off.
+#[test]
+fn solids_on_a_slope_move_as_in_mujoco() {
+    for (stiffness, most) in [(1e6, 3e-4), (1e7, 1e-4)] {
+        let options = Options { stiffness, duration: 0.5, ..Options::default() };
+        let scene = loaded(&imported("slope.xml", &options));
+        assert_eq!(scene.interactions().len(), 21);
+        let found = distances(&scene, "tests/command_line/import/slope.csv");
+        assert!(worst(&found) < most, "{stiffness}: {found:?}");
+    }
+}
+
 /// A body with these joints; where `parent` holds, on another that hangs at a hinge.
 fn body(joints: &str, parent: bool) -> String {
     let own = format!(

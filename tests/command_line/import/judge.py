@@ -6,7 +6,7 @@
 
 `record` writes a table of 0.5 s: time, then x, y, z of each group of bodies that are rigid with each other, by
 the name of its first. `distance` prints how far a trace of host-sim is from MuJoCo's, body by body. What a scene
-has no counterpart for is off: contact, limits, armature, dry friction, equalities of joints, tendons that are not
+has no counterpart for is off: contact but of spheres, capsules and boxes with planes, limits, armature, dry friction, equalities of joints, tendons that are not
 between two sites, actuators that are no linear law or act at neither a joint nor a tendon. Controls are the keyframe's.
 """
 
@@ -28,7 +28,11 @@ def load(file, step):
             spec.delete(one)
     model = spec.compile()
     off = mujoco.mjtDisableBit
-    model.opt.disableflags |= off.mjDSBL_CONTACT | off.mjDSBL_LIMIT | off.mjDSBL_FRICTIONLOSS
+    model.opt.disableflags |= off.mjDSBL_LIMIT | off.mjDSBL_FRICTIONLOSS
+    if not touches_planes_alone(model):
+        model.opt.disableflags |= off.mjDSBL_CONTACT
+    model.geom_solref[:], model.geom_solimp[:] = (4 * step, 1), (0.9999, 0.9999, 0.001, 0.5, 2)
+    model.opt.impratio = 100
     model.opt.disableflags |= off.mjDSBL_REFSAFE
     model.dof_armature[:] = 0
     site = mujoco.mjtWrap.mjWRAP_SITE
@@ -46,6 +50,14 @@ def load(file, step):
     model.eq_solref[:] = (4 * step, 1)
     model.eq_solimp[:] = (0.9999, 0.9999, 0.001, 0.5, 2)
     return model
+
+
+def touches_planes_alone(model):
+    kinds, plane = model.geom_type, int(mujoco.mjtGeom.mjGEOM_PLANE)
+    solids = [int(getattr(mujoco.mjtGeom, f"mjGEOM_{name}")) for name in ("SPHERE", "CAPSULE", "BOX")]
+    meets = model.geom_contype[:, None] & model.geom_conaffinity[None, :]
+    pairs = [(kinds[i], kinds[j]) for i, j in np.argwhere(meets)]
+    return bool(pairs) and all(plane in pair and any(one in solids for one in pair) for pair in pairs)
 
 
 def groups(model):
