@@ -47,11 +47,7 @@ fn a_disc_rolls_or_slides_down_a_slope() {
     let rolls = disc(lean, "", "friction = 0.5\ndamping = 50");
     let slides = disc(lean, "", "friction = 0.15");
     let (rolling, sliding) = (3.27, G * (lean.sin() - 0.15 * lean.cos()));
-    fn both<P: Geometry>(
-        rolls: &Scene,
-        slides: &Scene,
-        scheme: impl Scheme + Copy,
-    ) -> [[f64; 3]; 2] {
+    fn both<P: Geometry>(rolls: &Scene, slides: &Scene, scheme: impl Scheme) -> [[f64; 3]; 2] {
         [after::<P, _>(rolls, scheme, 1e-4, 1.0), after::<P, _>(slides, scheme, 1e-4, 1.0)]
     }
     let cases = [

@@ -21,6 +21,9 @@ const FURTHER: u64 = 10;
 /// Of so many steps at most.
 const MOST_STEPS: u64 = 2_000_000;
 
+/// \[s\] the accuracy is judged over so much of a scene at most.
+const WINDOW: f64 = 0.25;
+
 /// Samples of the other truth, at most.
 const SAMPLES: u64 = 31;
 
@@ -199,7 +202,7 @@ fn advice_of_all() {
                     let row = next.fetch_add(1, Ordering::Relaxed);
                     let Some(scene) = scenes.get(row) else { break };
                     let begun = std::time::Instant::now();
-                    let found = held(scene, None);
+                    let found = held(scene, Some(WINDOW));
                     eprintln!("{} {}: {:.0?}", row, scene.name, begun.elapsed());
                     let mut wrong = faults.lock().unwrap();
                     match found {

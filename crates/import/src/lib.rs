@@ -21,7 +21,6 @@
 //! - `lacks`: what a joint has that a scene has no counterpart for.
 //! - `weigh`: masses of bodies.
 //! - `tree`: all of them, in their frames.
-//! - `contact`: which geoms can touch.
 //! - `pose`: joint coordinates become poses.
 //! - [`options`]: what is stated rather than read.
 //! - `chain`: several joints of one body, and which joints of a scene say them.
@@ -32,6 +31,7 @@
 //! - `elements`: springs and inputs along coordinates.
 //! - `inertia`: what joints have to move.
 //! - `servo`: actuators that are linear laws.
+//! - `contact`: which geoms can touch, and contacts of solids with planes.
 //! - `joints`, `loops`, `tendons`, `actuators`, `signals`: what brings them in.
 //! - `write`: the scene's text.
 //! - `assembled`: springs of a mechanism whose loops are open at the file's pose.

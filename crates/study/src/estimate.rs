@@ -35,7 +35,7 @@ struct Share {
     lever: f64,
     /// Of each law, its first body the ground: stops within their range, friction that slides. Counted by `cargo cost`
     /// in projects of `host-sim new firmware` with one joint, less the same without the law.
-    laws: [(&'static str, f64); 5],
+    laws: [(&'static str, f64); 10],
 }
 
 const IN_SPACE: Share = Share {
@@ -56,6 +56,11 @@ const IN_SPACE: Share = Share {
         ("distance-stop", 470.0),
         ("hinge-friction", 2567.0),
         ("slide-friction", 1472.0),
+        ("plane-contact", 3480.0),
+        ("distance-spring", 136.0),
+        ("distance-damper", 1230.0),
+        ("hinge-spring", 261.0),
+        ("hinge-damper", 1202.0),
     ],
 };
 
@@ -78,6 +83,11 @@ const IN_PLANE: Share = Share {
         ("distance-stop", 406.0),
         ("hinge-friction", 1653.0),
         ("slide-friction", 1070.0),
+        ("plane-contact", 1920.0),
+        ("distance-spring", 110.0),
+        ("distance-damper", 937.0),
+        ("hinge-spring", 199.0),
+        ("hinge-damper", 891.0),
     ],
 };
 

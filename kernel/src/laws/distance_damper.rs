@@ -1,12 +1,12 @@
 //! A damper between two points by a table of its force over its rate: digressive, other in bump than in rebound.
 //!
-//! Rate of the distance `v ↦ tension F(v)`, straight between knots and beyond them; see [`super::curve`].
+//! Rate of the distance `v ↦ tension F(v)`, straight between knots and beyond them; see `tabled`.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
-use crate::laws::curve::{brake, braking};
 use crate::laws::end::Seen;
 use crate::laws::interaction::{Damper, Interaction, Nothing, Quantity, Springs, Wrong};
+use crate::laws::tabled::{brake, braking};
 use crate::real::Real;
 use crate::record::Record;
 

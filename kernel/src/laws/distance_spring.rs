@@ -4,9 +4,9 @@
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
-use crate::laws::curve::{Spring, rising};
 use crate::laws::end::Seen;
 use crate::laws::interaction::{Interaction, Nothing, Quantity, Springs, Wrong};
+use crate::laws::tabled::{Spring, rising};
 use crate::real::Real;
 use crate::record::Record;
 

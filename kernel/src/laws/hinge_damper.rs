@@ -1,13 +1,13 @@
 //! A damper about an axis by a table of its torque over its rate.
 //!
-//! Rate of the twist `ω ↦ torque T(ω)` against it, along the twist's gradient; see [`super::curve`].
+//! Rate of the twist `ω ↦ torque T(ω)` against it, along the twist's gradient; see `tabled`.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
-use crate::laws::curve::{brake, braking};
 use crate::laws::end::Seen;
 use crate::laws::hinge::Turns;
 use crate::laws::interaction::{Damper, Interaction, Nothing, Quantity, Springs, Wrong};
+use crate::laws::tabled::{brake, braking};
 use crate::real::Real;
 use crate::record::Record;
 

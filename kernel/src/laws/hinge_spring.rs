@@ -4,10 +4,10 @@
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
-use crate::laws::curve::{Spring, rising};
 use crate::laws::end::Seen;
 use crate::laws::hinge::Turns;
 use crate::laws::interaction::{Interaction, Quantity, Springs, Wrong};
+use crate::laws::tabled::{Spring, rising};
 use crate::real::Real;
 use crate::record::Record;
 

@@ -36,6 +36,7 @@ mod slice;
 mod slide_friction;
 mod slip;
 mod stop;
+mod tabled;
 
 pub use curve::Curve;
 pub use distance_damper::DistanceDamper;

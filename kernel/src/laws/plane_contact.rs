@@ -7,10 +7,10 @@
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
-use crate::laws::curve::{drag, inverse_of_rate};
 use crate::laws::end::Seen;
 use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
 use crate::laws::stop::{Stopped, check};
+use crate::laws::tabled::{drag, inverse_of_rate};
 use crate::real::Real;
 use crate::record::Record;
 use crate::space::{Linear, Moment as _, Vector as _};
@@ -256,12 +256,15 @@ impl<P: Geometry> Interaction<P> for PlaneContact<P> {
         visit: &mut impl FnMut(Damper<P>),
     ) {
         let zero = P::Real::ZERO;
+        let shears = self.is_rough() && self.damping != zero;
+        if self.dissipation == zero && !shears && self.rolling == zero {
+            return (0..3).for_each(|_| visit(Damper::idle()));
+        }
         let touching = self.touching(seen, memory);
         let is_free = P::Real::LANES == 1 && touching.stopped.beyond == zero;
         let dampers = [
             (self.dissipation != zero).then(|| touching.stopped.damper(seen, self.dissipation)),
-            (self.is_rough() && self.damping != zero && !is_free)
-                .then(|| self.shear_damper(seen, &touching)),
+            (shears && !is_free).then(|| self.shear_damper(seen, &touching)),
             (self.rolling != zero && !is_free).then(|| self.rolling_damper(seen, &touching)),
         ];
         dampers.into_iter().for_each(|damper| visit(damper.unwrap_or_else(Damper::idle)));
