@@ -25,6 +25,7 @@ const NUMBERS: &[&str] = &[
     "kernel/src/real.rs",
     "kernel/src/square_root.rs",
 ];
+const ADVICE: &str = "cargo test --release -p dbd-tests --test trade advice_of_all -- --ignored, then cargo xtask provenance";
 const SURVEY: &str = "host-sim trade, DBD_COLLECT (docs/trade.md), then cargo xtask provenance";
 
 /// A file of data.
@@ -45,7 +46,7 @@ const fn data(
     Data { file, stands_on, command }
 }
 
-const DATA: [Data; 14] = [
+const DATA: [Data; 15] = [
     data("docs/costs.csv", SAMPLE, "cargo xtask cost"),
     data("docs/costs-mix.csv", SAMPLE, "cargo xtask cost"),
     data("docs/results/guards.csv", SAMPLE, "cargo xtask cost --guards"),
@@ -59,6 +60,7 @@ const DATA: [Data; 14] = [
     data("docs/results/trade.csv", BITS, SURVEY),
     data("docs/results/timing.csv", BITS, SURVEY),
     data("docs/results/precisions-on-chip.csv", BITS, SURVEY),
+    data("docs/results/advice.csv", BITS, ADVICE),
     data("docs/results/proof.csv", NUMBERS, "cargo xtask prove"),
     // Other programs, with their versions in the rows.
     data("docs/results/engines.csv", &[], "see its head, then cargo xtask provenance"),
