@@ -26,13 +26,14 @@ pub(crate) struct Touch {
 }
 
 impl Touch {
-    /// Two geoms; `None` where they are no plane and no solid that meets one in points, or the solid is the world's.
+    /// Two geoms; `None` where they are no plane and no solid that meets one in points, the solid is the world's, or both are
+    /// rigid with each other.
     fn of(tree: &Tree, [i, j]: [usize; 2], grip: Grip) -> Option<Self> {
         let is_plane = |i: usize| tree.surfaces[i].form == Form::Plane;
         let (plane, solid) = if is_plane(i) { (i, j) } else { (j, i) };
-        let surface = &tree.surfaces[solid];
-        let meets = is_plane(plane) && !surface.form.spheres().is_empty();
-        (meets && lead(tree, surface.body) != WORLD).then_some(Self { plane, solid, grip })
+        let meets = is_plane(plane) && !tree.surfaces[solid].form.spheres().is_empty();
+        let [ground, body] = [plane, solid].map(|i| lead(tree, tree.surfaces[i].body));
+        (meets && body != WORLD && body != ground).then_some(Self { plane, solid, grip })
     }
 }
 

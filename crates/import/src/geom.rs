@@ -79,7 +79,7 @@ impl Grip {
     /// That of a geom or, with `[0, 3]` as the places of its coefficients, of a pair.
     ///
     /// # Errors
-    /// Where a number is none.
+    /// Where a value is no number.
     pub(crate) fn of(given: &Attributes<'_>, [slide, roll]: [usize; 2]) -> Result<Self, Fault> {
         let friction = given.numbers("friction", 1, 5)?.unwrap_or_default();
         let part = |place: usize, default| friction.get(place).copied().unwrap_or(default);
@@ -93,15 +93,18 @@ impl Grip {
 
     /// That of two surfaces.
     pub(crate) fn and(self, other: Self) -> Self {
+        // Whatever the priority, a margin is that of both.
+        let margin = self.margin.max(other.margin);
         if self.priority != other.priority {
-            return if self.priority > other.priority { self } else { other };
+            let decides = if self.priority > other.priority { self } else { other };
+            return Self { margin, ..decides };
         }
         let most = |i: usize| self.friction[i].max(other.friction[i]);
         Self {
             priority: self.priority,
             dimension: self.dimension.max(other.dimension),
             friction: [most(0), most(1)],
-            margin: self.margin.max(other.margin),
+            margin,
         }
     }
 

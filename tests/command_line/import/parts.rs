@@ -322,6 +322,7 @@ fn solids_touch_planes() {
         ("friction='0.3' priority='1'", "friction='0.7'", "friction = 0.3"),
         ("condim='6' friction='1 0 0.02'", "", "rolling = 0.02"),
         ("margin='0.02' gap='0.005'", "", "radius = 0.115"),
+        ("priority='1'", "margin='0.025'", "radius = 0.125"),
     ] {
         let (_, scene) = contacts(&text(&format!("<geom size='0.1' {foot}/>"), floor, ""));
         assert!(scene.contains(&format!("\n{says}\n")), "{says}: {scene}");
@@ -335,6 +336,13 @@ fn solids_touch_planes() {
         let (points, scene) = contacts(&text(&foot, "", pair));
         assert!(points.len() == 1 && scene.contains("\nfriction = 0.4\n"), "{scene}");
     }
+    // Not of one body with itself.
+    let own = "<geom name='foot' size='0.1' contype='0' conaffinity='0'/>\
+               <geom name='sole' type='plane' size='1 1 1' contype='0' conaffinity='0'/>";
+    let pair = "<contact><pair geom1='sole' geom2='foot'/></contact>";
+    let options = Options { ignored: vec![Kind::Contact], ..Options::default() };
+    let made = of(&text(own, "contype='0' conaffinity='0'", pair), &options);
+    assert_eq!((made.omitted.len(), loaded(&made).interactions().len()), (1, 0));
     let exclude = "<contact><exclude body1='world' body2='a'/></contact>";
     assert!(contacts(&text("<geom size='0.1'/>", "", exclude)).0.is_empty());
     let off = "<option><flag contact='disable'/></option>";
