@@ -14,6 +14,7 @@ use crate::commands::advise::AskedError;
 use crate::commands::compare::CompareRefusal;
 use crate::commands::export::ExportError;
 use crate::commands::fmu::FmuError;
+use crate::commands::hil::HilError;
 use crate::commands::import::ImportError;
 use crate::commands::linearise::LineariseError;
 use crate::commands::mode_table::ModeTableError;
@@ -56,6 +57,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Linearise(#[from] LineariseError),
+    /// A line to a microcontroller did not do its work.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Hil(#[from] HilError),
     /// Nothing was imported.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -137,6 +142,8 @@ impl Error {
                 | LineariseError::Instance(InstanceError::Failed { .. }),
             ) => Exit::Failed,
             Self::Linearise(_) => Exit::Refused,
+            Self::Hil(error) if error.is_refusal() => Exit::Refused,
+            Self::Hil(_) => Exit::Failed,
             Self::LongForm(WriteError::Write { .. } | WriteError::Differs)
             | Self::Relax(RelaxError::Write(WriteError::Write { .. } | WriteError::Differs)) => {
                 Exit::Failed

@@ -11,7 +11,7 @@
 //! - [`comparison`]: two of them beside each other.
 //! - [`help`]: the examples in the help of each command.
 //! - [`arguments`]: what several commands take.
-//! - [`commands`]: `list`, `check`, `run`, `compare`, `sweep`, `trade`, `reproduce`, `export`, `fmu`, `import`, `new`, `completions`.
+//! - [`commands`]: `list`, `check`, `run`, `compare`, `sweep`, `trade`, `reproduce`, `export`, `fmu`, `hil`, `import`, `new`, `completions`.
 //! - [`error`]: what ends a command early.
 //! - [`cli`]: arguments in, exit code out.
 //! - [`program`]: the command line as a program of a user's own, with laws of their own.

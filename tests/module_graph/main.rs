@@ -22,6 +22,7 @@ const CRATES: &[&str] = &[
     "crates/report",
     "crates/golden",
     "crates/import",
+    "crates/link",
     "host-sim",
     "tests/bench",
     "tests/fuzz",

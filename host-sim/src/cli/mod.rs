@@ -7,6 +7,7 @@ mod advise;
 mod check;
 mod compare;
 mod first_steps;
+mod hil;
 mod linearise;
 mod modes;
 mod named;
@@ -26,6 +27,7 @@ use crate::cli::advise::{AdviseArguments, advise_scene};
 use crate::cli::check::{CheckArguments, check_scene};
 use crate::cli::compare::compare;
 use crate::cli::first_steps::first_steps;
+use crate::cli::hil::{HilArguments, hil_of_scene};
 use crate::cli::linearise::linearise_scene;
 use crate::cli::modes::{ModesArguments, modes_of_scene};
 use crate::cli::named::load;
@@ -120,6 +122,10 @@ enum Command {
     /// Linearises a scene: prints poles, drift and names, with --out writes A, B, C and D
     #[command(after_help = help::LINEARISE)]
     Linearise(LineariseArguments),
+    /// Hardware in the loop: drives a plant on a microcontroller over a serial line and compares every frame bit for
+    /// bit with its own model, or is the plant (--serve); exit code 1 where a bit differs
+    #[command(after_help = help::HIL)]
+    Hil(HilArguments),
     /// Makes a scene of MuJoCo's MJCF: each part with the line it comes from; what has no counterpart is
     /// listed with its size and refused, unless its kind is ignored
     #[command(after_help = help::IMPORT)]
@@ -169,6 +175,7 @@ where
         Command::Export(arguments) => export_scene(&catalogue, &arguments, console),
         Command::Fmu(arguments) => write_fmu(&catalogue, &arguments, console),
         Command::Linearise(arguments) => linearise_scene(&catalogue, &arguments, console),
+        Command::Hil(arguments) => hil_of_scene(&catalogue, &arguments, console),
         Command::Import(arguments) => import_file(&arguments, console),
         Command::New(NewCommand::Firmware(arguments)) => {
             new_firmware(&catalogue, &arguments, console)

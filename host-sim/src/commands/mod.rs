@@ -19,6 +19,7 @@
 //! - [`export`]: Rust source of a scene's const model and its plant.
 //! - [`mod@fmu`]: a scene becomes an FMU for other tools.
 //! - [`mod@linearise`]: a scene as a linear system.
+//! - [`hil`]: one end of a line to a microcontroller.
 //! - [`mod@import`]: another program's file becomes a scene.
 //! - [`schema`]: what a scene file may hold, for editors.
 //! - [`new`]: a project with a plant in firmware, a scene to begin with.
@@ -34,6 +35,7 @@ pub mod export;
 pub mod fmu;
 pub mod folder;
 pub mod golden;
+pub mod hil;
 pub mod import;
 pub mod linearise;
 pub mod list;

@@ -22,6 +22,8 @@ pub const COMPLETIONS: &str = examples!("completions.txt");
 pub const EXPORT: &str = examples!("export.txt");
 /// Of `fmu`.
 pub const FMU: &str = examples!("fmu.txt");
+/// Of `hil`.
+pub const HIL: &str = examples!("hil.txt");
 /// Of `import`.
 pub const IMPORT: &str = examples!("import.txt");
 /// Of `linearise`.

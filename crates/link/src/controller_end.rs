@@ -1,0 +1,170 @@
+//! The controller's end of the line: what it sends, and which answers it accepts.
+//!
+//! `settings, inputs => frames; bytes => messages of the open session, each newer than the last`. The end neither
+//! waits nor allocates; [`ask`] waits for an answer and asks again where none comes.
+
+use crate::frame::{Frame, FrameError, Receiver};
+use crate::message::{Header, Message, Outputs, Refusal, Statistics, Welcome};
+use crate::plant_end::Line;
+
+/// The controller's end.
+#[derive(Clone, Debug)]
+pub struct ControllerEnd {
+    session: u16,
+    sequence: u32,
+    /// Of the plant's newest frame; `None` before the first one of a session.
+    newest: Option<u32>,
+    receiver: Receiver,
+    frame: Frame,
+    statistics: Statistics,
+}
+
+impl ControllerEnd {
+    /// An end whose first session has this number; another one than an earlier program's, so that its frames count
+    /// as foreign.
+    #[must_use]
+    pub fn new(session: u16) -> Self {
+        Self {
+            session: session.max(1),
+            sequence: 0,
+            newest: None,
+            receiver: Receiver::default(),
+            frame: Frame::default(),
+            statistics: Statistics::default(),
+        }
+    }
+
+    /// What was seen since the start.
+    pub const fn statistics(&self) -> &Statistics {
+        &self.statistics
+    }
+
+    /// The sequence number of the newest frame that was sent.
+    #[must_use]
+    pub const fn sequence(&self) -> u32 {
+        self.sequence
+    }
+
+    /// Gives the session another number: a plant that lost the last one opens a new one.
+    pub fn renew(&mut self) {
+        self.session = self.session.checked_add(1).unwrap_or(1);
+        self.newest = None;
+    }
+
+    /// Sends a message; its sequence number.
+    pub fn send(&mut self, message: &Message, line: &mut impl Line) -> u32 {
+        // 0 is what no frame of inputs has.
+        self.sequence = self.sequence.checked_add(1).unwrap_or(1);
+        self.frame.encode(Header { session: self.session, sequence: self.sequence }, message);
+        self.statistics.sent = self.statistics.sent.saturating_add(1);
+        line.send(self.frame.bytes());
+        self.sequence
+    }
+
+    /// Takes a byte of the line; the message that it ends.
+    pub fn receive(&mut self, byte: u8) -> Option<Message> {
+        let counts = &mut self.statistics;
+        let (header, message) = match self.receiver.push(byte) {
+            Ok(received) => received?,
+            Err(FrameError::Version(_)) => {
+                counts.version = counts.version.saturating_add(1);
+                return None;
+            }
+            Err(_) => {
+                counts.bad = counts.bad.saturating_add(1);
+                return None;
+            }
+        };
+        if header.session != self.session {
+            counts.foreign = counts.foreign.saturating_add(1);
+            return None;
+        }
+        if let Some(newest) = self.newest {
+            let ahead = header.sequence.wrapping_sub(newest);
+            if ahead == 0 || ahead > u32::MAX / 2 {
+                // A plant that was switched off counts from 1 again, and says that it knows no session.
+                if matches!(message, Message::Refused(Refusal::Session)) {
+                    return Some(message);
+                }
+                counts.late = counts.late.saturating_add(1);
+                return None;
+            }
+            counts.dropped = counts.dropped.saturating_add(ahead - 1);
+        }
+        self.newest = Some(header.sequence);
+        counts.good = counts.good.saturating_add(1);
+        if matches!(message, Message::Refused(_)) {
+            counts.refused = counts.refused.saturating_add(1);
+        }
+        Some(message)
+    }
+
+    /// Notes that a question was sent again.
+    pub fn repeated(&mut self) {
+        self.statistics.repeated = self.statistics.repeated.saturating_add(1);
+    }
+}
+
+/// A line that can be waited on.
+pub trait Wait: Line {
+    /// The next byte; `None` where the time for an answer to the last frame that was sent is over.
+    fn byte(&mut self) -> Option<u8>;
+}
+
+/// Why a question was not answered.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unanswered {
+    /// The plant refused it.
+    Refused(Refusal),
+    /// No answer came, however often it was asked.
+    Silent,
+}
+
+/// Asks until `accept` accepts an answer, at most `times`; answers to earlier questions are passed over.
+///
+/// # Errors
+/// [`Unanswered`].
+pub fn ask<T>(
+    end: &mut ControllerEnd,
+    line: &mut impl Wait,
+    times: u32,
+    message: &Message,
+    mut accept: impl FnMut(Message) -> Option<T>,
+) -> Result<T, Unanswered> {
+    for time in 0..times {
+        if time > 0 {
+            end.repeated();
+        }
+        end.send(message, line);
+        while let Some(byte) = line.byte() {
+            match end.receive(byte) {
+                Some(Message::Refused(refusal)) => return Err(Unanswered::Refused(refusal)),
+                Some(answer) => {
+                    if let Some(accepted) = accept(answer) {
+                        return Ok(accepted);
+                    }
+                }
+                None => {}
+            }
+        }
+    }
+    Err(Unanswered::Silent)
+}
+
+/// The welcome of an answer.
+pub fn welcome(answer: Message) -> Option<Welcome> {
+    match answer {
+        Message::Welcome(welcome) => Some(welcome),
+        _ => None,
+    }
+}
+
+/// The outputs of an answer that are of this step.
+pub fn outputs_at(step: u64) -> impl Fn(Message) -> Option<Outputs> {
+    move |answer| match answer {
+        Message::Outputs(outputs) if outputs.step == step => Some(outputs),
+        // A plant that failed on the way says where.
+        Message::Outputs(outputs) if !outputs.running => Some(outputs),
+        _ => None,
+    }
+}

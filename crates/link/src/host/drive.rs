@@ -1,0 +1,433 @@
+//! The controller's end on a PC: opens the session, sends inputs, follows the plant with a model of its own.
+//!
+//! Lost frames are asked for again, a closed port is opened again, a plant that was switched off gets the model's
+//! state back, and a model that cannot follow takes the plant's.
+
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+use thiserror::Error;
+
+use crate::controller_end::{ControllerEnd, Unanswered, ask, outputs_at, welcome};
+use crate::device::Device as _;
+use crate::host::connection::Connection;
+use crate::host::controller::{Controller, ControllerError, Shown};
+use crate::host::follower::{Followed, Follower};
+use crate::host::port::PortError;
+use crate::host::report::{Latency, Report};
+use crate::message::{
+    Chunk, Hello, Identity, Inputs, MAX_CHUNK, Message, Mismatch, Mode, Outputs, Refusal, Settings,
+    Statistics, Values,
+};
+
+/// Questions of one kind before the line counts as dead.
+const TIMES: u32 = 10;
+/// Inputs in real time whose answer is waited for, for their latency.
+const PENDING: usize = 1024;
+
+/// What a run is to do.
+#[derive(Clone, Debug)]
+pub struct DriveOptions {
+    /// How the session runs.
+    pub settings: Settings,
+    /// Steps since t = 0 at which it ends.
+    pub until: u64,
+    /// How long a plant that does not answer is waited for, and a port that does not open.
+    pub patience: Duration,
+    /// Says nothing and closes the port for this long, when the plant has taken these steps: tests of a line that
+    /// breaks.
+    pub silence: Option<(u64, Duration)>,
+    /// The number of the first session.
+    pub session: u16,
+}
+
+/// A frame of outputs and the inputs that answer it.
+#[derive(Clone, Debug)]
+pub struct Sample<'s> {
+    /// Steps since t = 0.
+    pub step: u64,
+    /// Values of the sensors.
+    pub sensors: &'s [f64],
+    /// Values of the inputs from here on.
+    pub inputs: &'s [f64],
+    /// How the outputs compare with the model.
+    pub followed: Followed,
+}
+
+/// Why a run ended early.
+#[derive(Debug, Error)]
+pub enum DriveError {
+    /// The port does not open.
+    #[error(transparent)]
+    Port(#[from] PortError),
+    /// The controller failed.
+    #[error(transparent)]
+    Controller(#[from] ControllerError),
+    /// The plant is another one.
+    #[error("the plant at the port is another one: its {} differs", .mismatch.name())]
+    Identity {
+        /// What differs first.
+        mismatch: Mismatch,
+        /// The plant's.
+        plant: Box<Identity>,
+        /// The model's.
+        model: Box<Identity>,
+    },
+    /// The plant refused the settings.
+    #[error("the plant refused the settings: it has no timer for real time, or a count is 0")]
+    Settings,
+    /// The plant refused the inputs.
+    #[error("the plant refused the inputs {0:?}: they are not finite in its precision")]
+    Inputs(Values),
+    /// Nobody answers.
+    #[error("no answer from the plant within {0} s")]
+    Silent(f64),
+    /// The plant and its model cannot be brought to one state.
+    #[error("the plant's state cannot be taken over: {0}")]
+    State(&'static str),
+    /// The trace was not written.
+    #[error("cannot write the trace: {0}")]
+    Trace(#[from] std::io::Error),
+}
+
+/// Drives a plant until the wanted step; what is seen is shown to `look`.
+///
+/// # Errors
+/// [`DriveError`], with what was counted until then in `report`.
+pub fn drive(
+    connection: &mut Connection,
+    follower: &mut Follower,
+    controller: &mut Controller,
+    options: &DriveOptions,
+    report: &mut Report,
+    look: &mut dyn FnMut(Sample<'_>) -> std::io::Result<()>,
+) -> Result<(), DriveError> {
+    let start = Instant::now();
+    let end = ControllerEnd::new(options.session);
+    let mut run = Run {
+        end,
+        connection,
+        follower,
+        controller,
+        options,
+        report,
+        look,
+        latencies: Vec::new(),
+        silence: options.silence,
+    };
+    let outcome = run.all();
+    let Run { end, latencies, .. } = run;
+    report.note(follower);
+    report.latency = Latency::of(&latencies);
+    report.own = *end.statistics();
+    report.reconnected = connection.opened.saturating_sub(1);
+    report.disturbed = connection.disturbed();
+    report.seconds = start.elapsed().as_secs_f64();
+    outcome
+}
+
+struct Run<'r> {
+    end: ControllerEnd,
+    connection: &'r mut Connection,
+    follower: &'r mut Follower,
+    controller: &'r mut Controller,
+    options: &'r DriveOptions,
+    report: &'r mut Report,
+    look: &'r mut dyn FnMut(Sample<'_>) -> std::io::Result<()>,
+    latencies: Vec<Duration>,
+    silence: Option<(u64, Duration)>,
+}
+
+impl Run<'_> {
+    fn all(&mut self) -> Result<(), DriveError> {
+        let mut outputs = self.open()?;
+        match self.options.settings.mode {
+            Mode::Lockstep => self.lockstep(&mut outputs)?,
+            Mode::RealTime => self.real_time(&mut outputs)?,
+        }
+        self.report.plant = self.statistics();
+        // A farewell that is lost is not missed.
+        _ = ask(&mut self.end, self.connection, TIMES, &Message::Goodbye, |answer| {
+            matches!(answer, Message::Farewell).then_some(())
+        });
+        Ok(())
+    }
+
+    /// Opens the port and a session, and brings plant and model to one state; where the plant stands.
+    fn open(&mut self) -> Result<Outputs, DriveError> {
+        let patience = self.options.patience;
+        let end = Instant::now() + patience;
+        loop {
+            self.connection.open(end.saturating_duration_since(Instant::now()))?;
+            self.end.renew();
+            let model = identity(self.follower)?;
+            let hello = Hello { identity: model.clone(), settings: self.options.settings };
+            let hello = Message::Hello(hello);
+            match ask(&mut self.end, self.connection, TIMES, &hello, welcome) {
+                Ok(welcome) => return self.meet(welcome.outputs),
+                Err(Unanswered::Refused(Refusal::Identity(mismatch, plant))) => {
+                    let (plant, model) = (Box::new(plant), Box::new(model));
+                    return Err(DriveError::Identity { mismatch, plant, model });
+                }
+                Err(Unanswered::Refused(Refusal::Settings)) => return Err(DriveError::Settings),
+                Err(_) if Instant::now() < end => {}
+                Err(_) => return Err(DriveError::Silent(patience.as_secs_f64())),
+            }
+        }
+    }
+
+    /// Brings plant and model to one state after a welcome.
+    fn meet(&mut self, outputs: Outputs) -> Result<Outputs, DriveError> {
+        let own = self.follower.model().step();
+        let lockstep = self.options.settings.mode == Mode::Lockstep;
+        let same = outputs.step == own && outputs.hash == self.follower.model().hash();
+        if same {
+            return Ok(outputs);
+        }
+        if outputs.step < own {
+            // It was switched off and has begun anew.
+            return self.give();
+        }
+        if lockstep && own > 0 && outputs.step == own + u64::from(self.options.settings.steps) {
+            // The last answer was lost with the port.
+            if self.follower.follow(&outputs) == Followed::Equal {
+                return Ok(outputs);
+            }
+        }
+        if !lockstep && own > 0 && outputs.step > own {
+            return Ok(outputs);
+        }
+        self.take()
+    }
+
+    /// Asks until an answer is accepted; opens the session again where the plant or the port went away.
+    fn asked<T>(
+        &mut self,
+        message: &Message,
+        accept: impl FnMut(Message) -> Option<T>,
+    ) -> Result<T, Unanswered> {
+        ask(&mut self.end, self.connection, TIMES, message, accept)
+    }
+
+    /// The model goes on from the plant's state.
+    fn take(&mut self) -> Result<Outputs, DriveError> {
+        let mut bytes: Vec<u8> = Vec::new();
+        loop {
+            let offset = bytes.len() as u32;
+            let chunk = self.asked(&Message::Save { offset }, |answer| match answer {
+                Message::Saved(chunk) if chunk.offset == offset => Some(chunk),
+                _ => None,
+            });
+            let chunk = chunk.map_err(|why| self.no_state(&why))?;
+            bytes.extend_from_slice(&chunk.bytes);
+            if bytes.len() as u32 >= chunk.total {
+                break;
+            }
+        }
+        if !self.follower.restore(&bytes) {
+            return Err(DriveError::State("the model does not accept it"));
+        }
+        self.report.synchronised += 1;
+        Ok(self.present())
+    }
+
+    /// The plant goes on from the model's state.
+    fn give(&mut self) -> Result<Outputs, DriveError> {
+        let state = self.follower.save().ok_or(DriveError::State("the model has failed"))?;
+        let total = state.len() as u32;
+        for (number, bytes) in state.chunks(MAX_CHUNK).enumerate() {
+            let offset = (number * MAX_CHUNK) as u32;
+            let bytes = bytes.iter().copied().collect();
+            let end = offset + chunk_length(&bytes);
+            let message = Message::Restore(Chunk { total, offset, bytes });
+            let received = self.asked(&message, |answer| match answer {
+                Message::Restored { received } if received >= end => Some(()),
+                _ => None,
+            });
+            received.map_err(|why| self.no_state(&why))?;
+        }
+        self.report.restored += 1;
+        Ok(self.present())
+    }
+
+    fn no_state(&self, why: &Unanswered) -> DriveError {
+        match why {
+            Unanswered::Silent => DriveError::Silent(self.options.patience.as_secs_f64()),
+            Unanswered::Refused(Refusal::Failed) => DriveError::State("the plant has failed"),
+            Unanswered::Refused(_) => DriveError::State("the plant refused"),
+        }
+    }
+
+    /// What the plant would send, by the model.
+    fn present(&self) -> Outputs {
+        let model = self.follower.model();
+        let mut values = Values::new();
+        model.read(&mut values);
+        Outputs {
+            step: model.step(),
+            running: model.running(),
+            hash: model.hash(),
+            values,
+            ..Outputs::default()
+        }
+    }
+
+    fn statistics(&mut self) -> Option<Statistics> {
+        self.asked(&Message::Count, |answer| match answer {
+            Message::Counted(statistics) => Some(statistics),
+            _ => None,
+        })
+        .ok()
+    }
+
+    /// The inputs that answer these outputs.
+    fn inputs(&mut self, outputs: &Outputs) -> Result<Values, DriveError> {
+        let model = self.follower.model();
+        let shown = Shown {
+            step: outputs.step,
+            time: outputs.step as f64 * model.step_size(),
+            sensors: &outputs.values,
+        };
+        Ok(self.controller.next(shown, model.inputs().len())?)
+    }
+
+    /// Breaks the line where it is to break here.
+    fn be_silent(&mut self, step: u64) -> Result<bool, DriveError> {
+        match self.silence {
+            Some((at, duration)) if step >= at => {
+                self.silence = None;
+                self.connection.close();
+                std::thread::sleep(duration);
+                Ok(true)
+            }
+            _ => Ok(false),
+        }
+    }
+
+    fn lockstep(&mut self, outputs: &mut Outputs) -> Result<(), DriveError> {
+        let mut followed = Followed::Equal;
+        let steps = u64::from(self.options.settings.steps);
+        while outputs.step < self.options.until && outputs.running {
+            if self.be_silent(outputs.step)? {
+                *outputs = self.open()?;
+            }
+            let values = self.inputs(outputs)?;
+            let (step, sensors, inputs) = (outputs.step, &outputs.values, &values);
+            (self.look)(Sample { step, sensors, inputs, followed })?;
+            // The same inputs until the plant has taken its steps, whatever happens to the line.
+            loop {
+                let message = Message::Inputs(Inputs { step, values: values.clone() });
+                let (before, sent) = (self.end.sequence(), Instant::now());
+                let answer = self.asked(&message, outputs_at(step + steps));
+                for sequence in before + 1..=self.end.sequence() {
+                    self.follower.note(sequence, &values);
+                }
+                match answer {
+                    Ok(new) => {
+                        self.latencies.push(sent.elapsed());
+                        followed = self.follower.follow(&new);
+                        *outputs = new;
+                        if followed == Followed::Unknown {
+                            *outputs = self.take()?;
+                        }
+                        break;
+                    }
+                    Err(Unanswered::Refused(Refusal::Values)) => {
+                        return Err(DriveError::Inputs(values));
+                    }
+                    Err(Unanswered::Refused(Refusal::Failed)) => return Ok(()),
+                    Err(Unanswered::Silent | Unanswered::Refused(_)) => {
+                        let new = self.open()?;
+                        if new.step != step {
+                            *outputs = new;
+                            break;
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn real_time(&mut self, outputs: &mut Outputs) -> Result<(), DriveError> {
+        let mut followed = Followed::Equal;
+        // Frames of inputs whose answer is waited for.
+        let mut pending: VecDeque<(u32, Instant)> = VecDeque::new();
+        let patience = self.options.patience;
+        loop {
+            if self.be_silent(outputs.step)? {
+                *outputs = self.open()?;
+                pending.clear();
+            }
+            let values = self.inputs(outputs)?;
+            let (step, sensors, inputs) = (outputs.step, &outputs.values, &values);
+            (self.look)(Sample { step, sensors, inputs, followed })?;
+            if outputs.step >= self.options.until || !outputs.running {
+                return Ok(());
+            }
+            let message = Message::Inputs(Inputs { step, values: values.clone() });
+            let sequence = self.end.send(&message, self.connection);
+            self.follower.note(sequence, &values);
+            pending.push_back((sequence, Instant::now()));
+            if pending.len() > PENDING {
+                pending.pop_front();
+            }
+            // The newest outputs: those that wait already are followed, and not answered one by one.
+            let mut end = Instant::now() + patience;
+            let mut new = None;
+            while let Some(message) = self.message_until(end) {
+                match message {
+                    Message::Outputs(outputs) => {
+                        while pending.front().is_some_and(|first| first.0 <= outputs.received) {
+                            if let Some((sequence, sent)) = pending.pop_front()
+                                && sequence == outputs.received
+                            {
+                                self.latencies.push(sent.elapsed());
+                            }
+                        }
+                        followed = self.follower.follow(&outputs);
+                        new = Some(outputs);
+                        end = Instant::now();
+                    }
+                    Message::Refused(Refusal::Values) => return Err(DriveError::Inputs(values)),
+                    Message::Refused(Refusal::Session) => {
+                        new = None;
+                        break;
+                    }
+                    _ => {}
+                }
+            }
+            match new {
+                Some(_) if followed == Followed::Unknown => *outputs = self.take()?,
+                Some(new) => *outputs = new,
+                None => {
+                    *outputs = self.open()?;
+                    pending.clear();
+                }
+            }
+        }
+    }
+
+    /// The next message until `end`.
+    fn message_until(&mut self, end: Instant) -> Option<Message> {
+        loop {
+            let byte = self.connection.byte_until(end)?;
+            if let Some(message) = self.end.receive(byte) {
+                return Some(message);
+            }
+        }
+    }
+}
+
+fn chunk_length(bytes: &heapless::Vec<u8, MAX_CHUNK>) -> u32 {
+    bytes.len() as u32
+}
+
+/// The model's identity with its fingerprint.
+fn identity(follower: &Follower) -> Result<Identity, DriveError> {
+    let state = follower.save().ok_or(DriveError::State("the model has failed"))?;
+    let mut identity = follower.model().identity();
+    let head = state.get(4..18).and_then(|head| head.first_chunk());
+    identity.fingerprint = *head.ok_or(DriveError::State("it has no fingerprint"))?;
+    Ok(identity)
+}

@@ -1,0 +1,31 @@
+//! Hardware in the loop: a plant and its controller at the two ends of a serial line.
+//!
+//! One end steps the plant ([`PlantEnd`]), the other one drives it ([`ControllerEnd`]); either may be a
+//! microcontroller, either a PC. Frames carry a version, a session, a sequence number, a step number and a CRC-32;
+//! whatever the line does, no frame steps the plant wrongly. `no_std`, nothing is allocated. The protocol is described in
+//! the book's page on hardware in the loop.
+//!
+//! The modules, each of which uses only those before it:
+//!
+//! - [`message`]: what the two ends say to each other.
+//! - [`frame`]: messages as bytes.
+//! - [`device`]: what the plant's end needs of a plant; the kernel's plant.
+//! - [`plant_end`], [`controller_end`]: the two ends.
+//! - [`host`]: the PC's half (feature `host`).
+#![cfg_attr(not(feature = "host"), no_std)]
+#![forbid(unsafe_code)]
+
+#[cfg(all(test, not(feature = "host")))]
+extern crate std;
+
+pub mod controller_end;
+pub mod device;
+pub mod frame;
+#[cfg(feature = "host")]
+pub mod host;
+pub mod message;
+pub mod plant_end;
+
+pub use controller_end::ControllerEnd;
+pub use device::{Device, KernelPlant};
+pub use plant_end::{Line, PlantEnd};

@@ -1,0 +1,328 @@
+//! Messages of the protocol: what plant and controller say to each other.
+//!
+//! Postcard (a stable binary format) encodes them in the order in which fields and variants are declared
+//! here: a change of either needs another [`VERSION`].
+
+use heapless::{String, Vec};
+use serde::{Deserialize, Serialize};
+
+/// Version of the protocol, the first byte of every frame.
+pub const VERSION: u8 = 1;
+/// Numbers that a message carries at most.
+pub const MAX_VALUES: usize = 64;
+/// \[bytes\] of a snapshot that a message carries at most.
+pub const MAX_CHUNK: usize = 128;
+/// Changes of the inputs that an [`Outputs`] lists at most.
+pub const MAX_CHANGES: usize = 8;
+
+/// Values of inputs or sensors, in the order of the [`Identity`]. Double precision holds those of every precision
+/// exactly.
+pub type Values = Vec<f64, MAX_VALUES>;
+/// A name, cut where it is longer.
+pub type Name = String<32>;
+
+/// What comes before each message.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Header {
+    /// The session that the controller opened; 0 is none.
+    pub session: u16,
+    /// The sender's counter of frames.
+    pub sequence: u32,
+}
+
+/// A message.
+// A frame is decoded in place, once: no message is kept in number.
+#[allow(clippy::large_enum_variant)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Message {
+    /// Controller: opens a session.
+    Hello(Hello),
+    /// Plant: the session is open.
+    Welcome(Welcome),
+    /// Plant: a message was not accepted; nothing was changed.
+    Refused(Refusal),
+    /// Controller: values of the inputs.
+    Inputs(Inputs),
+    /// Plant: values of the sensors.
+    Outputs(Outputs),
+    /// Controller: asks for a piece of the plant's state. At offset 0 the plant takes a new snapshot.
+    Save {
+        /// \[bytes\] where the piece begins.
+        offset: u32,
+    },
+    /// Plant: the piece.
+    Saved(Chunk),
+    /// Controller: a piece of the state from which the plant is to go on.
+    Restore(Chunk),
+    /// Plant: has this many bytes of it; the state is taken where they are all.
+    Restored {
+        /// \[bytes\] that have arrived in order.
+        received: u32,
+    },
+    /// Controller: asks for the plant's statistics.
+    Count,
+    /// Plant: its statistics.
+    Counted(Statistics),
+    /// Controller: ends the session. The plant stops and keeps its state.
+    Goodbye,
+    /// Plant: the session is over.
+    Farewell,
+}
+
+/// What steps: two ends talk only where all of it but the names is equal.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Identity {
+    /// Name of the scene.
+    pub scene: Name,
+    /// Name of the scheme.
+    pub scheme: Name,
+    /// Name of the precision.
+    pub precision: Name,
+    /// \[s\] the step.
+    pub step: f64,
+    /// Version of the snapshots, fingerprints of scheme and model (constants, initial state, precision and
+    /// step): the head of a snapshot.
+    pub fingerprint: [u8; 14],
+    /// Inputs that are not driven by a table of the scene.
+    pub inputs: u8,
+    /// Numbers of all sensors.
+    pub outputs: u8,
+}
+
+/// The first difference between two identities.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Mismatch {
+    /// Another number of inputs.
+    Inputs,
+    /// Another number of sensor values.
+    Outputs,
+    /// Another step.
+    Step,
+    /// Another precision.
+    Precision,
+    /// Another scheme or way of damping.
+    Scheme,
+    /// Other constants or another initial state.
+    Model,
+}
+
+impl Mismatch {
+    /// What differs, in words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Inputs => "number of inputs",
+            Self::Outputs => "number of sensor values",
+            Self::Step => "step",
+            Self::Precision => "precision",
+            Self::Scheme => "scheme or damping",
+            Self::Model => "model (constants or initial state)",
+        }
+    }
+}
+
+impl Identity {
+    /// The first difference to another identity, if any. Names that were cut do not count.
+    #[must_use]
+    pub fn mismatch(&self, other: &Self) -> Option<Mismatch> {
+        // Bytes 0 and 1 are the version, 2 to 5 the scheme, 6 to 13 the model.
+        let schemes = [&self.fingerprint[..6], &other.fingerprint[..6]];
+        if self.precision != other.precision {
+            Some(Mismatch::Precision)
+        } else if self.step.to_bits() != other.step.to_bits() {
+            Some(Mismatch::Step)
+        } else if schemes[0] != schemes[1] {
+            Some(Mismatch::Scheme)
+        } else if self.inputs != other.inputs {
+            Some(Mismatch::Inputs)
+        } else if self.outputs != other.outputs {
+            Some(Mismatch::Outputs)
+        } else {
+            (self.fingerprint != other.fingerprint).then_some(Mismatch::Model)
+        }
+    }
+}
+
+/// Who advances the plant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Mode {
+    /// The controller: the plant takes its steps when inputs arrive and waits for them for ever.
+    #[default]
+    Lockstep,
+    /// A timer: the plant takes its steps at each tick, with the newest inputs.
+    RealTime,
+}
+
+/// What a plant in real time does when no inputs arrive for [`Settings::timeout`] ticks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Policy {
+    /// The inputs keep their values.
+    #[default]
+    Hold,
+    /// The inputs are set to 0.
+    Zero,
+    /// The plant stops until inputs arrive; it keeps its state.
+    Stop,
+}
+
+/// How a session runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Settings {
+    /// Who advances the plant.
+    pub mode: Mode,
+    /// Steps per frame of inputs, or per tick.
+    pub steps: u32,
+    /// What happens when the controller is late.
+    pub policy: Policy,
+    /// Ticks without inputs after which it is late. At least 1.
+    pub timeout: u32,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { mode: Mode::Lockstep, steps: 1, policy: Policy::Hold, timeout: 20 }
+    }
+}
+
+/// Opens a session.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Hello {
+    /// What the controller expects.
+    pub identity: Identity,
+    /// How the session is to run.
+    pub settings: Settings,
+}
+
+/// Answers a [`Hello`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Welcome {
+    /// What steps.
+    pub identity: Identity,
+    /// Where the plant stands.
+    pub outputs: Outputs,
+    /// \[µs\] from tick to tick; 0 where no timer ticks.
+    pub period: u32,
+}
+
+/// Why a message was not accepted.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Refusal {
+    /// No session is open, or another one.
+    Session,
+    /// The two models differ; with the plant's own identity.
+    Identity(Mismatch, Identity),
+    /// The plant has no timer for [`Mode::RealTime`], or the settings ask for 0 steps.
+    Settings,
+    /// The inputs are of another step than the plant's present one, which is given.
+    Step(u64),
+    /// A number too many or too few, or one that is not finite in the plant's precision.
+    Values,
+    /// The plant has failed; it needs a state.
+    Failed,
+    /// The state was not accepted: damaged, of another model, out of order or larger than the plant's buffer.
+    State,
+}
+
+/// Values of the inputs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Inputs {
+    /// The step of the outputs that they answer; in lockstep the plant's present one.
+    pub step: u64,
+    /// One per input.
+    pub values: Values,
+}
+
+/// When the plant's inputs changed, and to what.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Change {
+    /// Steps that were done before.
+    pub step: u64,
+    /// The sequence number of the [`Inputs`] with the values; 0: [`Policy::Zero`] set them.
+    pub sequence: u32,
+}
+
+/// Where a plant stands.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Outputs {
+    /// Steps since t = 0.
+    pub step: u64,
+    /// Whether the plant has not failed.
+    pub running: bool,
+    /// The hash of the state's stored words: equal where all bits are.
+    #[serde(with = "postcard::fixint::le")]
+    pub hash: u64,
+    /// The sequence number of the newest [`Inputs`] that arrived.
+    pub received: u32,
+    /// Values of the sensors; not a number where a sensor has none.
+    pub values: Values,
+    /// The last changes of the inputs, oldest first.
+    pub changes: Vec<Change, MAX_CHANGES>,
+}
+
+/// A piece of a snapshot.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Chunk {
+    /// \[bytes\] of the whole snapshot.
+    pub total: u32,
+    /// \[bytes\] where the piece begins.
+    pub offset: u32,
+    /// The piece.
+    pub bytes: Vec<u8, MAX_CHUNK>,
+}
+
+/// What an end has seen since it started.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Statistics {
+    /// Frames sent.
+    pub sent: u32,
+    /// Frames accepted.
+    pub good: u32,
+    /// Frames that could not be decoded: too long, not COBS, wrong checksum, not a message.
+    pub bad: u32,
+    /// Frames of another version of the protocol.
+    pub version: u32,
+    /// Frames that came twice, or after a newer one, or too late for their step.
+    pub late: u32,
+    /// Frames missing between two sequence numbers.
+    pub dropped: u32,
+    /// Frames of no open session.
+    pub foreign: u32,
+    /// Frames that were understood and refused.
+    pub refused: u32,
+    /// Questions that were answered a second time, for the first answer was lost.
+    pub repeated: u32,
+    /// Bytes that the receiver of the line lost.
+    pub lost: u32,
+    /// Times that the controller was late by more than the timeout.
+    pub timeouts: u32,
+    /// Ticks of the timer.
+    pub ticks: u32,
+    /// Ticks that came while the one before was still at work.
+    pub overruns: u32,
+    /// \[cycles\] of the slowest call that stepped; 0 where they are not counted.
+    pub slowest: u32,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_difference_is_named() {
+        let own = Identity { step: 1e-3, inputs: 1, outputs: 2, ..Identity::default() };
+        assert_eq!(own.mismatch(&own), None);
+        let with = |change: fn(&mut Identity)| {
+            let mut other = own.clone();
+            change(&mut other);
+            own.mismatch(&other)
+        };
+        assert_eq!(with(|other| other.scene = Name::try_from("x").unwrap()), None);
+        assert_eq!(with(|other| other.step = 2e-3), Some(Mismatch::Step));
+        assert_eq!(with(|other| other.inputs = 2), Some(Mismatch::Inputs));
+        assert_eq!(with(|other| other.outputs = 3), Some(Mismatch::Outputs));
+        assert_eq!(with(|other| other.fingerprint[13] = 1), Some(Mismatch::Model));
+        assert_eq!(with(|other| other.fingerprint[2] = 1), Some(Mismatch::Scheme));
+        let f32 = |other: &mut Identity| other.precision = Name::try_from("f32").unwrap();
+        assert_eq!(with(f32), Some(Mismatch::Precision));
+    }
+}
