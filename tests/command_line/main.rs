@@ -10,6 +10,7 @@ mod files;
 mod fmu;
 mod gltf;
 mod golden;
+mod hil;
 mod import;
 mod interactions;
 mod linearise;

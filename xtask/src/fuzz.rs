@@ -16,7 +16,7 @@ pub struct Campaign {
     /// Seconds for all targets together.
     #[arg(required_unless_present = "replay")]
     seconds: Option<f64>,
-    /// One of scene, snapshot, step and command-line, as often as wanted; all where none is named.
+    /// One of scene, snapshot, step, line and command-line, as often as wanted; all where none is named.
     #[arg(long = "target", value_name = "NAME")]
     targets: Vec<String>,
     /// What inputs are made from: the same again [default: the clock].

@@ -17,6 +17,7 @@ mod compile_times;
 mod cost;
 mod fuzz;
 mod growth;
+mod hil;
 mod instructions;
 mod libraries;
 mod packages;
@@ -136,6 +137,13 @@ enum Command {
         #[arg(default_value_t = 100_000)]
         ticks: u32,
     },
+    /// Hardware in the loop in QEMU: a plant on the chip and its controller here, and the reverse, on clean, bad and
+    /// broken lines.
+    Hil {
+        /// Breaks the line for 60 s instead of 1 s.
+        #[arg(long)]
+        long: bool,
+    },
     /// Builds the programs of a chip with its community's HAL and runs them in QEMU: hashes must be the
     /// golden ones, overruns must be counted where they are meant, and nowhere else.
     Boards {
@@ -198,6 +206,7 @@ fn main() -> ExitCode {
         Command::Precisions { scenes } => precisions::run(&scenes),
         Command::Prove { names } => prove::run(&names),
         Command::Plant { ticks } => bits::closed_loop::run(ticks),
+        Command::Hil { long } => hil::run(long),
         Command::Boards { names } => boards::run(&names),
         Command::Project => {
             setup::complete().and_then(|toolchain| project::check(&toolchain, true, &[]))

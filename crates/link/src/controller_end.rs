@@ -124,6 +124,8 @@ pub enum Unanswered {
 ///
 /// # Errors
 /// [`Unanswered`].
+// The refusal names the other model; there is no heap to put it on.
+#[allow(clippy::result_large_err)]
 pub fn ask<T>(
     end: &mut ControllerEnd,
     line: &mut impl Wait,

@@ -13,7 +13,7 @@ pub const MAX_VALUES: usize = 64;
 /// \[bytes\] of a snapshot that a message carries at most.
 pub const MAX_CHUNK: usize = 128;
 /// Changes of the inputs that an [`Outputs`] lists at most.
-pub const MAX_CHANGES: usize = 8;
+pub const MAX_CHANGES: usize = 4;
 
 /// Values of inputs or sensors, in the order of the [`Identity`]. Double precision holds those of every precision
 /// exactly.

@@ -15,6 +15,7 @@ pub mod closed_loop;
 pub mod console;
 pub mod controllers;
 pub mod hash;
+pub mod hil;
 pub mod relay;
 pub mod root;
 pub mod sample;

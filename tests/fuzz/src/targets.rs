@@ -1,6 +1,7 @@
 //! All targets by name.
 
 use crate::command_line::CommandLineTarget;
+use crate::line::LineTarget;
 use crate::planted::PlantedTarget;
 use crate::scene::SceneTarget;
 use crate::snapshot::SnapshotTarget;
@@ -8,7 +9,8 @@ use crate::stepper::StepTarget;
 use crate::target::Target;
 
 /// The targets of a campaign.
-pub const ALL: [&dyn Target; 4] = [&SceneTarget, &SnapshotTarget, &StepTarget, &CommandLineTarget];
+pub const ALL: [&dyn Target; 5] =
+    [&SceneTarget, &SnapshotTarget, &StepTarget, &LineTarget, &CommandLineTarget];
 
 /// The target of a name; the planted faults are one, too.
 #[must_use]

@@ -52,6 +52,11 @@ fn steps() {
 }
 
 #[test]
+fn lines() {
+    finds_nothing("line", 50_000);
+}
+
+#[test]
 fn command_lines() {
     finds_nothing("command-line", 200);
 }

@@ -16,6 +16,8 @@ const TIME_LIMIT: Duration = Duration::from_secs(600);
 pub const SHARED: &str = "programs";
 /// The image of controllers with their plants.
 pub const PLANT: &str = "plant";
+/// The image with one end of a line.
+const HIL: &str = "hil";
 /// Where time matters: 8 ns an instruction, 125 million in a second, about what a part of 168 MHz
 /// does; asleep it passes at once to what is due next, whatever the host does. The last of several such
 /// options holds.
@@ -26,7 +28,7 @@ const AUDIT: &str = "audit";
 pub const LIBRARIES: &str = "core,alloc";
 
 /// Programs that can be run, each with the image that holds it.
-const PROGRAMS: [(&str, &str); 13] = [
+const PROGRAMS: [(&str, &str); 14] = [
     ("board", SHARED),
     ("cost", "cost"),
     ("cost-double", "cost-double"),
@@ -34,6 +36,7 @@ const PROGRAMS: [(&str, &str); 13] = [
     ("cost-solved", "cost-solved"),
     ("guards", "guards"),
     ("hash", SHARED),
+    (HIL, HIL),
     ("plant", PLANT),
     ("relay", SHARED),
     ("root", SHARED),
@@ -76,7 +79,7 @@ pub fn build_audit(toolchain: &Toolchain) -> Result<PathBuf> {
 /// Links the images that the tests take, beside other work: silent, and what fails fails again where the image
 /// is wanted. A link takes one core for a minute.
 pub fn link_ahead(toolchain: &Toolchain) {
-    for bin in [SHARED, AUDIT, PLANT] {
+    for bin in [SHARED, AUDIT, PLANT, HIL] {
         let mut command = toolchain.cargo("build", LIBRARIES);
         let _ = output(command.args(selection(bin)).args(features(bin)));
     }
@@ -152,7 +155,7 @@ fn selection(bin: &str) -> [&str; 6] {
 /// Images that are dear to build have a feature of their name's first word.
 fn features(bin: &str) -> Vec<&str> {
     let first = bin.split('-').next().unwrap_or(bin);
-    if bin == SHARED || bin == PLANT { Vec::new() } else { vec!["--features", first] }
+    if [SHARED, PLANT, HIL].contains(&bin) { Vec::new() } else { vec!["--features", first] }
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The target: its compiler and tools, the firmware's images, the emulator that runs them.
 
 pub mod debian;
-mod emulator;
+pub mod emulator;
 pub mod firmware;
 pub mod project;
 pub mod serial;

@@ -17,7 +17,7 @@ use crate::chip::{Toolchain, firmware, project, setup, trajectory};
 use crate::command::{cargo, run as run_command, succeeds};
 use crate::steps::Steps;
 use crate::{
-    audit, boards, compile_times, cost, growth, instructions, packages, provenance, python,
+    audit, boards, compile_times, cost, growth, hil, instructions, packages, provenance, python,
 };
 
 use cases::{Case, Selection};
@@ -249,6 +249,7 @@ fn on_target(
     steps.step("runs that change machines", || relay::compare(toolchain, host()?));
     let closed = "controllers with their plants, ticked on the target";
     steps.step(closed, || closed_loop::step(toolchain, host()?, long));
+    steps.step("hardware in the loop", || hil::step(toolchain, host()?.plant(), programs, long));
     steps.step("an STM32F4 with its community's HAL", || {
         boards::check_format()?;
         boards::execute(toolchain, if long { &boards::PROGRAMS } else { &[boards::PLAIN] })

@@ -15,6 +15,10 @@ pub const TIMER1: usize = 0x4000_1000;
 pub const TIMER1_INTERRUPT: u16 = 9;
 /// UART 0 (AN386, APB peripherals; CMSDK APB UART).
 pub const UART0: usize = 0x4000_4000;
+/// Interrupt of UART 0: a byte was received (AN386, interrupt assignments).
+pub const UART0_RX_INTERRUPT: u16 = 0;
+/// Interrupt of UART 0: the transmit buffer was emptied.
+pub const UART0_TX_INTERRUPT: u16 = 1;
 /// FPGA system control and I/O (AN386, section "FPGA system control and I/O").
 pub const FPGAIO: usize = 0x4002_8000;
 
@@ -54,6 +58,16 @@ pub mod uart {
     pub const CTRL_TX_ENABLE: u32 = 1 << 0;
     /// Control: receive.
     pub const CTRL_RX_ENABLE: u32 = 1 << 1;
+    /// Control: interrupt when the transmit buffer gets empty.
+    pub const CTRL_TX_INTERRUPT: u32 = 1 << 2;
+    /// Control: interrupt when a byte was received.
+    pub const CTRL_RX_INTERRUPT: u32 = 1 << 3;
+    /// Write 1 to a bit: that interrupt is served.
+    pub const INTERRUPT_CLEAR: usize = 0xc;
+    /// The interrupt of the transmit buffer.
+    pub const INTERRUPT_TX: u32 = 1 << 0;
+    /// The interrupt of the receive buffer.
+    pub const INTERRUPT_RX: u32 = 1 << 1;
     /// Clock over bit rate, ≥ 16.
     pub const BAUD_DIVISOR: usize = 0x10;
     /// Smallest divisor.

@@ -7,6 +7,7 @@
 pub mod addresses;
 pub mod led;
 pub mod registers;
+pub mod serial;
 pub mod ticks;
 pub mod timer;
 pub mod uart;
@@ -24,5 +25,7 @@ mod take;
 #[cfg(target_os = "none")]
 pub mod tried;
 
+#[cfg(target_os = "none")]
+pub use interrupt::sleep_unless;
 #[cfg(target_os = "none")]
 pub use take::Board;

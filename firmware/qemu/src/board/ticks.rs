@@ -55,13 +55,19 @@ impl<'d, R: Registers> Ticks<'d, R> {
     /// still at work, and are left out. `sleep` returns after an interrupt at the latest.
     pub fn wait(&mut self, mut sleep: impl FnMut()) -> u32 {
         loop {
-            let ahead = self.due.load(Ordering::Relaxed).wrapping_sub(self.done);
-            if ahead > 0 {
-                self.done = self.done.wrapping_add(ahead);
-                return ahead - 1;
+            if let Some(missed) = self.take() {
+                return missed;
             }
             sleep();
         }
+    }
+
+    /// Takes the tick that is due: how many before it came while the last one was still at work, and are left
+    /// out. `None` where no tick is due.
+    pub fn take(&mut self) -> Option<u32> {
+        let ahead = self.ahead();
+        self.done = self.done.wrapping_add(ahead);
+        ahead.checked_sub(1)
     }
 
     /// Microseconds since the last tick that was due, rounded up: what was done in it takes so long,
@@ -154,5 +160,8 @@ mod tests {
         ticks.restart();
         assert_eq!((ticks.ahead(), ticks.registers.value.get()), (0, 2_499));
         assert_eq!(slept, 2);
+        assert_eq!(ticks.take(), None);
+        tick();
+        assert_eq!((ticks.take(), ticks.take()), (Some(0), None));
     }
 }

@@ -33,6 +33,12 @@ impl<R: Registers> Timer<R> {
         self.registers
     }
 
+    /// Clock ticks modulo 2³², for short durations.
+    pub fn now(&self) -> u32 {
+        // It counts downwards.
+        self.registers.read(VALUE).wrapping_neg()
+    }
+
     /// Ticks since the start. Must be asked once per 2³² ticks (172 s) or it loses them.
     pub fn ticks(&mut self) -> u64 {
         let value = self.registers.read(VALUE);
@@ -99,6 +105,13 @@ mod tests {
         assert_eq!(timer.registers.reload, u32::MAX);
         let ticks: Vec<u64> = (0..4).map(|_| timer.ticks()).collect();
         assert_eq!(ticks, [0x6000_0000, 0xc000_0000, 0x1_2000_0000, 0x1_8000_0000]);
+    }
+
+    #[test]
+    fn now_counts_upwards() {
+        let timer = timer(9);
+        let start = timer.now();
+        assert_eq!(timer.now().wrapping_sub(start), 9);
     }
 
     #[test]

@@ -36,13 +36,27 @@ impl Error for Overrun {
     }
 }
 
+/// Clock over bit rate \[1/s\].
+fn divisor(bit_rate: u32) -> u32 {
+    (CLOCK_HZ / bit_rate.max(1)).max(BAUD_DIVISOR_MIN)
+}
+
 impl<R: Registers> Uart<R> {
     /// Switches both directions on at a bit rate \[1/s\], the nearest below the clock over 16.
     pub fn new(mut registers: R, bit_rate: u32) -> Self {
-        let divisor = (CLOCK_HZ / bit_rate.max(1)).max(BAUD_DIVISOR_MIN);
-        registers.write(BAUD_DIVISOR, divisor);
+        registers.write(BAUD_DIVISOR, divisor(bit_rate));
         registers.write(CTRL, CTRL_TX_ENABLE | CTRL_RX_ENABLE);
         Self { registers }
+    }
+
+    /// Changes the bit rate \[1/s\].
+    pub fn set_bit_rate(&mut self, bit_rate: u32) {
+        self.registers.write(BAUD_DIVISOR, divisor(bit_rate));
+    }
+
+    /// Its registers, for another use.
+    pub fn release(self) -> R {
+        self.registers
     }
 
     fn state(&self, bit: u32) -> bool {
@@ -153,7 +167,10 @@ mod tests {
     fn set_up_follows_the_manual() {
         let uart = Uart::new(Loopback::default(), 115_200);
         assert_eq!((uart.registers.divisor, uart.registers.control), (217, 3));
-        assert_eq!(Uart::new(Loopback::default(), u32::MAX).registers.divisor, 16);
+        let mut uart = Uart::new(Loopback::default(), u32::MAX);
+        assert_eq!(uart.registers.divisor, 16);
+        uart.set_bit_rate(921_600);
+        assert_eq!(uart.release().divisor, 27);
     }
 
     #[test]

@@ -5,9 +5,9 @@
 
 use core::cell::RefCell;
 
-use dbd_kernel::{Leapfrog, Plant};
+use dbd_kernel::{F32, Leapfrog, Plant};
 use dbd_node::fault::{Problem, WiringError};
-use dbd_node::{BridgePin, Channel, DutyEnd, Node, SpiEnd};
+use dbd_node::{BridgePin, Channel, DutyEnd, Machine, Node, SpiEnd};
 
 use super::{Loop, LoopError, Sample};
 use crate::controllers::balance::{self, Balance};
@@ -32,25 +32,38 @@ impl Loop for CartPendulum {
             &mut dyn FnMut() -> Result<(Sample, u64), LoopError>,
         ) -> Result<(), LoopError>,
     ) -> Result<(), LoopError> {
-        let motor = RefCell::new(wiring::cart_motor());
-        let cart = RefCell::new(wiring::cart_encoder());
-        let pendulum = RefCell::new(wiring::pendulum_encoder());
         let refused = WiringError { name: "plant", problem: Problem::Parameter("the step") };
         let plant = Plant::new(&CART_PENDULUM_F32, Leapfrog, CART_PENDULUM_STEP)
             .map_err(|_| LoopError::Wiring(refused))?;
-        let mut node = Node::new(plant, (&motor, &cart, &pendulum)).map_err(LoopError::Wiring)?;
-        let mut controller = Balance::new(
-            SpiEnd::new(&cart).map_err(LoopError::Wiring)?,
-            SpiEnd::new(&pendulum).map_err(LoopError::Wiring)?,
-            DutyEnd::new(&motor, Channel::Forwards).map_err(LoopError::Wiring)?,
-            BridgePin::direction(&motor).map_err(LoopError::Wiring)?,
-            balance::Constants::IP02,
-        );
-        ticks(&mut || {
-            node.advance(STEPS).map_err(LoopError::Plant)?;
-            let seen = controller.tick().map_err(LoopError::Control)?;
-            let sample = Sample::of([seen.cart, seen.lean, seen.force]);
-            Ok((sample, node.machine().hash()))
-        })
+        balanced(plant, Plant::hash, ticks)
     }
+}
+
+/// Wires motor, encoders and controller to a machine, in this image or at the far end of a line. `hash` is that of its
+/// state.
+///
+/// # Errors
+/// [`LoopError::Wiring`], and what `ticks` returns.
+pub fn balanced<M: Machine<Real = f32, Precision = F32>>(
+    machine: M,
+    hash: impl Fn(&M) -> u64,
+    ticks: impl FnOnce(&mut dyn FnMut() -> Result<(Sample, u64), LoopError>) -> Result<(), LoopError>,
+) -> Result<(), LoopError> {
+    let motor = RefCell::new(wiring::cart_motor());
+    let cart = RefCell::new(wiring::cart_encoder());
+    let pendulum = RefCell::new(wiring::pendulum_encoder());
+    let mut node = Node::new(machine, (&motor, &cart, &pendulum)).map_err(LoopError::Wiring)?;
+    let mut controller = Balance::new(
+        SpiEnd::new(&cart).map_err(LoopError::Wiring)?,
+        SpiEnd::new(&pendulum).map_err(LoopError::Wiring)?,
+        DutyEnd::new(&motor, Channel::Forwards).map_err(LoopError::Wiring)?,
+        BridgePin::direction(&motor).map_err(LoopError::Wiring)?,
+        balance::Constants::IP02,
+    );
+    ticks(&mut || {
+        node.advance(STEPS).map_err(LoopError::Plant)?;
+        let seen = controller.tick().map_err(LoopError::Control)?;
+        let sample = Sample::of([seen.cart, seen.lean, seen.force]);
+        Ok((sample, hash(node.machine())))
+    })
 }

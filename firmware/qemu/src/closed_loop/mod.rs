@@ -14,7 +14,7 @@ mod trace;
 use dbd_node::Fault;
 use dbd_node::fault::WiringError;
 
-pub use cart_pendulum::CartPendulum;
+pub use cart_pendulum::{CartPendulum, balanced};
 pub use delta::Delta;
 pub use pace::{Pace, Unpaced};
 pub use trace::{KEPT, Sample};
