@@ -4,6 +4,7 @@
 //! into the directory and with the profile of the firmware, so that `core` and what else they share is built once.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::process::Command;
 use std::slice;
 use std::time::Duration;
@@ -70,6 +71,15 @@ pub fn execute(toolchain: &Toolchain, programs: &[&str]) -> Result<()> {
         judge(&lines, &golden).with_context(|| format!("{FOLDER}, {program}"))?;
     }
     Ok(())
+}
+
+/// The image of a program that others run, built.
+///
+/// # Errors
+/// Where it does not build.
+pub fn image(toolchain: &Toolchain, name: &str) -> Result<PathBuf> {
+    run_command(&mut cargo_in(toolchain, "build", &[name], &[]))?;
+    Ok(toolchain.images(firmware::PROFILE).join(name))
 }
 
 /// What builds these programs together.

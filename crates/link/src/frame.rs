@@ -158,7 +158,7 @@ mod tests {
             running: true,
             hash: u64::MAX,
             received: u32::MAX,
-            values: Values::from_iter([f64::NEG_INFINITY; MAX_VALUES]),
+            values: Values::from_iter([f64::MAX; MAX_VALUES]),
             changes: core::iter::repeat_n(change, MAX_CHANGES).collect(),
         })
     }
@@ -177,6 +177,7 @@ mod tests {
             Message::Saved(chunk),
             Message::Outputs(outputs),
             Message::Inputs(Inputs { step: 0, values: Values::from_iter([0.0, -0.0, 1e300]) }),
+            Message::Inputs(Inputs { step: 0, values: Values::from_iter([-0.0, f64::INFINITY]) }),
             Message::Goodbye,
         ] {
             let bytes = encoded(LAST, &message);
@@ -191,7 +192,7 @@ mod tests {
     fn a_frame_is_these_bytes() {
         let message = Message::Inputs(Inputs { step: 300, values: Values::from_iter([1.5]) });
         let bytes = encoded(Header { session: 7, sequence: 2 }, &message);
-        let content = [1, 7, 2, 3, 0xac, 2, 1, 0, 0, 0, 0, 0, 0, 0xf8, 0x3f];
+        let content = [1, 7, 2, 3, 0xac, 2, 0, 1, 0, 0, 0xc0, 0x3f];
         let mut decoded = [0; 64];
         let length = cobs::decode(&bytes[1..bytes.len() - 1], &mut decoded).unwrap();
         assert_eq!(decoded[..length - 4], content);

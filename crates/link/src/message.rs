@@ -18,6 +18,37 @@ pub const MAX_CHANGES: usize = 4;
 /// Values of inputs or sensors, in the order of the [`Identity`]. Double precision holds those of every precision
 /// exactly.
 pub type Values = Vec<f64, MAX_VALUES>;
+/// Values as they are sent: in single precision where that holds all of them exactly, else in double.
+#[derive(Serialize, Deserialize)]
+enum Packed {
+    Single(Vec<f32, MAX_VALUES>),
+    Double(Values),
+}
+
+/// How values are sent and received.
+mod packed {
+    use serde::{Deserialize as _, Deserializer, Serialize as _, Serializer};
+
+    use super::{Packed, Values};
+
+    pub fn serialize<S: Serializer>(values: &Values, serializer: S) -> Result<S::Ok, S::Error> {
+        let is_exact = |value: &f64| f64::from(*value as f32) == *value || value.is_nan();
+        let packed = if values.iter().all(is_exact) {
+            Packed::Single(values.iter().map(|value| *value as f32).collect())
+        } else {
+            Packed::Double(values.clone())
+        };
+        packed.serialize(serializer)
+    }
+
+    pub fn deserialize<'d, D: Deserializer<'d>>(deserializer: D) -> Result<Values, D::Error> {
+        Ok(match Packed::deserialize(deserializer)? {
+            Packed::Single(values) => values.into_iter().map(f64::from).collect(),
+            Packed::Double(values) => values,
+        })
+    }
+}
+
 /// A name, cut where it is longer.
 pub type Name = String<32>;
 
@@ -229,6 +260,7 @@ pub struct Inputs {
     /// The step of the outputs that they answer; in lockstep the plant's present one.
     pub step: u64,
     /// One per input.
+    #[serde(with = "packed")]
     pub values: Values,
 }
 
@@ -254,6 +286,7 @@ pub struct Outputs {
     /// The sequence number of the newest [`Inputs`] that arrived.
     pub received: u32,
     /// Values of the sensors; not a number where a sensor has none.
+    #[serde(with = "packed")]
     pub values: Values,
     /// The last changes of the inputs, oldest first.
     pub changes: Vec<Change, MAX_CHANGES>,

@@ -53,6 +53,12 @@ impl Connection {
         Ok(())
     }
 
+    /// How long the other end may take for an answer.
+    #[must_use]
+    pub const fn answer(&self) -> Duration {
+        self.answer
+    }
+
     /// Closes the port.
     pub fn close(&mut self) {
         self.port = None;

@@ -20,8 +20,9 @@ use crate::message::{
     Statistics, Values,
 };
 
-/// Questions of one kind before the line counts as dead.
+/// Questions of one kind before the line counts as dead: at least so many, and for so long.
 const TIMES: u32 = 10;
+const DEAD: Duration = Duration::from_secs(2);
 /// Inputs in real time whose answer is waited for, for their latency.
 const PENDING: usize = 1024;
 
@@ -147,9 +148,8 @@ impl Run<'_> {
         }
         self.report.plant = self.statistics();
         // A farewell that is lost is not missed.
-        _ = ask(&mut self.end, self.connection, TIMES, &Message::Goodbye, |answer| {
-            matches!(answer, Message::Farewell).then_some(())
-        });
+        _ = self
+            .asked(&Message::Goodbye, |answer| matches!(answer, Message::Farewell).then_some(()));
         Ok(())
     }
 
@@ -163,7 +163,7 @@ impl Run<'_> {
             let model = identity(self.follower)?;
             let hello = Hello { identity: model.clone(), settings: self.options.settings };
             let hello = Message::Hello(hello);
-            match ask(&mut self.end, self.connection, TIMES, &hello, welcome) {
+            match self.asked(&hello, welcome) {
                 Ok(welcome) => return self.meet(welcome.outputs),
                 Err(Unanswered::Refused(Refusal::Identity(mismatch, plant))) => {
                     let (plant, model) = (Box::new(plant), Box::new(model));
@@ -200,13 +200,16 @@ impl Run<'_> {
         self.take()
     }
 
-    /// Asks until an answer is accepted; opens the session again where the plant or the port went away.
+    /// Asks until an answer is accepted.
     fn asked<T>(
         &mut self,
         message: &Message,
         accept: impl FnMut(Message) -> Option<T>,
     ) -> Result<T, Unanswered> {
-        ask(&mut self.end, self.connection, TIMES, message, accept)
+        let times = DEAD.as_secs_f64() / self.connection.answer().as_secs_f64();
+        // The conversion saturates.
+        let times = TIMES.max(times as u32);
+        ask(&mut self.end, self.connection, times, message, accept)
     }
 
     /// The model goes on from the plant's state.
