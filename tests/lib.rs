@@ -32,6 +32,7 @@ pages! {
     extremes "docs/extremes.md"
     fmu "docs/fmu.md"
     golden "docs/golden.md"
+    hil "docs/hil.md"
     import "docs/import.md"
     joints "docs/joints.md"
     laws "docs/laws.md"

@@ -19,6 +19,7 @@ pub const MAX_CHANGES: usize = 4;
 /// exactly.
 pub type Values = Vec<f64, MAX_VALUES>;
 /// Values as they are sent: in single precision where that holds all of them exactly, else in double.
+#[allow(clippy::large_enum_variant)] // It lives for one frame.
 #[derive(Serialize, Deserialize)]
 enum Packed {
     Single(Vec<f32, MAX_VALUES>),

@@ -121,12 +121,15 @@ impl Counter {
     }
 }
 
+/// A frame, and the step and value of one with inputs.
+type Made = (Vec<u8>, Option<(u64, f64)>);
+
 struct Line {
     plant: PlantEnd<Counter, 512>,
     controller: ControllerEnd,
     settings: Settings,
-    /// Frames that were made, and the step and value of those with inputs.
-    frames: Vec<(Vec<u8>, Option<(u64, f64)>)>,
+    /// Frames that were made.
+    frames: Vec<Made>,
     /// Values that a frame with inputs carried.
     next: f64,
 }

@@ -79,7 +79,7 @@ pub enum DriveError {
     Settings,
     /// The plant refused the inputs.
     #[error("the plant refused the inputs {0:?}: they are not finite in its precision")]
-    Inputs(Values),
+    Inputs(Vec<f64>),
     /// Nobody answers.
     #[error("no answer from the plant within {0} s")]
     Silent(f64),
@@ -201,6 +201,7 @@ impl Run<'_> {
     }
 
     /// Asks until an answer is accepted.
+    #[allow(clippy::result_large_err)] // As `ask`.
     fn asked<T>(
         &mut self,
         message: &Message,
@@ -336,7 +337,7 @@ impl Run<'_> {
                         break;
                     }
                     Err(Unanswered::Refused(Refusal::Values)) => {
-                        return Err(DriveError::Inputs(values));
+                        return Err(DriveError::Inputs(values.to_vec()));
                     }
                     Err(Unanswered::Refused(Refusal::Failed)) => return Ok(()),
                     Err(Unanswered::Silent | Unanswered::Refused(_)) => {
@@ -392,7 +393,9 @@ impl Run<'_> {
                         new = Some(outputs);
                         end = Instant::now();
                     }
-                    Message::Refused(Refusal::Values) => return Err(DriveError::Inputs(values)),
+                    Message::Refused(Refusal::Values) => {
+                        return Err(DriveError::Inputs(values.to_vec()));
+                    }
                     Message::Refused(Refusal::Session) => {
                         new = None;
                         break;
