@@ -23,8 +23,8 @@ use crate::message::{
 /// Questions of one kind before the line counts as dead: at least so many, and for so long.
 const TIMES: u32 = 10;
 const DEAD: Duration = Duration::from_secs(2);
-/// Inputs in real time whose answer is waited for, for their latency.
-const PENDING: usize = 1024;
+/// Frames of inputs on their way in real time: a line that is slower than the ticks must not fill with old ones.
+const WINDOW: usize = 3;
 
 /// What a run is to do.
 #[derive(Clone, Debug)]
@@ -358,23 +358,33 @@ impl Run<'_> {
         // Frames of inputs whose answer is waited for.
         let mut pending: VecDeque<(u32, Instant)> = VecDeque::new();
         let patience = self.options.patience;
+        // Those that were sent last.
+        let mut values: Values = self.follower.model().inputs().iter().map(|_| 0.0).collect();
         loop {
             if self.be_silent(outputs.step)? {
                 *outputs = self.open()?;
                 pending.clear();
             }
-            let values = self.inputs(outputs)?;
-            let (step, sensors, inputs) = (outputs.step, &outputs.values, &values);
-            (self.look)(Sample { step, sensors, inputs, followed })?;
-            if outputs.step >= self.options.until || !outputs.running {
-                return Ok(());
-            }
-            let message = Message::Inputs(Inputs { step, values: values.clone() });
-            let sequence = self.end.send(&message, self.connection);
-            self.follower.note(sequence, &values);
-            pending.push_back((sequence, Instant::now()));
-            if pending.len() > PENDING {
+            let step = outputs.step;
+            let is_over = step >= self.options.until || !outputs.running;
+            // What was not answered in time is lost.
+            let answer = self.connection.answer();
+            while pending.front().is_some_and(|(_, sent)| sent.elapsed() > answer) {
                 pending.pop_front();
+            }
+            // The controller sees every frame, and where the line is full keeps its last values.
+            let new = self.inputs(outputs)?;
+            if pending.len() < WINDOW && !is_over {
+                let message = Message::Inputs(Inputs { step, values: new.clone() });
+                let sequence = self.end.send(&message, self.connection);
+                self.follower.note(sequence, &new);
+                pending.push_back((sequence, Instant::now()));
+                values = new;
+            }
+            let (sensors, inputs) = (&outputs.values, &values);
+            (self.look)(Sample { step, sensors, inputs, followed })?;
+            if is_over {
+                return Ok(());
             }
             // The newest outputs: those that wait already are followed, and not answered one by one.
             let mut end = Instant::now() + patience;
@@ -388,6 +398,11 @@ impl Run<'_> {
                             {
                                 self.latencies.push(sent.elapsed());
                             }
+                        }
+                        // On its way since before the model took the plant's state.
+                        if outputs.step < self.follower.model().step() {
+                            self.follower.unknown += 1;
+                            continue;
                         }
                         followed = self.follower.follow(&outputs);
                         new = Some(outputs);

@@ -19,6 +19,8 @@ use thiserror::Error;
 
 /// \[bit/s\] of a serial port where none is given.
 const BAUD: u32 = 115_200;
+/// \[bytes\] that are read at once.
+const BUFFER: usize = 4096;
 /// How often a reading thread looks whether its port was closed, and a port that does not open is tried again.
 const GLANCE: Duration = Duration::from_millis(50);
 
@@ -189,13 +191,17 @@ impl Port {
         let (sender, bytes) = channel();
         let closed = Arc::clone(&close);
         thread::spawn(move || {
-            let mut buffer = [0; 4096];
+            let mut buffer = [0; BUFFER];
+            // Nothing ends before a zero does: who waits is not woken for less.
+            let mut piece = Vec::new();
             while !closed.load(Ordering::Relaxed) {
                 use io::ErrorKind::{Interrupted, TimedOut, WouldBlock};
                 match reader.read(&mut buffer) {
                     Ok(0) => break,
                     Ok(count) => {
-                        if sender.send(buffer[..count].to_vec()).is_err() {
+                        piece.extend_from_slice(&buffer[..count]);
+                        let is_due = piece.len() > BUFFER || buffer[..count].contains(&0);
+                        if is_due && sender.send(std::mem::take(&mut piece)).is_err() {
                             break;
                         }
                     }
