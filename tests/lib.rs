@@ -31,6 +31,7 @@ pages! {
     examples "docs/examples.md"
     extremes "docs/extremes.md"
     fmu "docs/fmu.md"
+    glossary "docs/glossary.md"
     golden "docs/golden.md"
     hil "docs/hil.md"
     import "docs/import.md"

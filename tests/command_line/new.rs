@@ -54,6 +54,47 @@ fn a_new_project_is_whole_and_stands_alone() {
 }
 
 #[test]
+fn a_project_has_what_other_machines_and_editors_need() {
+    let folder = Folder::new();
+    let files = |name: &str, options: &[&str]| {
+        let done = new(&folder.path(name), options);
+        assert_eq!((done.exit, done.err.as_str()), (Exit::Done, ""), "{name}");
+        let project = folder.path(name);
+        move |path: &str| fs::read_to_string(project.join(path)).unwrap()
+    };
+    let read = files("plant", &["--git", "https://host/dbd.git", "--rev", "v1"]);
+    let manifest: toml::Table = read("Cargo.toml").parse().unwrap();
+    for (list, name) in [("dependencies", "dbd-kernel"), ("build-dependencies", "dbd-scene")] {
+        let from = &manifest[list][name];
+        assert_eq!(from["git"].as_str(), Some("https://host/dbd.git"));
+        assert_eq!(from["rev"].as_str(), Some("v1"));
+    }
+    for path in [".github/workflows/test.yml", ".gitlab-ci.yml"] {
+        assert!(read(path).contains("- sh check.sh") || read(path).contains("- run: sh check.sh"));
+    }
+    assert!(read("Dockerfile").contains(r#"CMD ["sh", "check.sh"]"#));
+    for path in
+        ["devcontainer/devcontainer", "vscode/extensions", "vscode/launch", "vscode/settings"]
+    {
+        let text = read(&format!(".{path}.json"));
+        serde_json::from_str::<serde_json::Value>(&text).unwrap_or_else(|e| panic!("{path}: {e}"));
+    }
+    let taplo: toml::Table = read(".taplo.toml").parse().unwrap();
+    let schema = read(taplo["rule"][0]["schema"]["path"].as_str().unwrap());
+    assert_eq!(schema, call(&["schema"]).out);
+    assert!(read("Embed.toml").parse::<toml::Table>().is_ok());
+    // Where the crates are in a folder of this machine, files for others say so.
+    let note = "in a folder of one machine";
+    let local = files("local", &[]);
+    for path in [".github/workflows/test.yml", ".gitlab-ci.yml", "Dockerfile", "check.sh"] {
+        assert!(!read(path).contains(note) && !read(path).contains("{{"), "{path}");
+        assert_eq!(local(path).contains(note), path != "check.sh", "{path}");
+    }
+    let both = new(&folder.path("both"), &["--git", "x", "--registry"]);
+    assert_eq!(both.exit, Exit::Refused);
+}
+
+#[test]
 fn a_project_has_the_scene_that_is_asked_for() {
     let folder = Folder::new();
     let text = "name = \"a ball\"\nduration = 1\n[[body]]\nname = \"b\"\nmass = 1\n\

@@ -8,7 +8,7 @@
 //! - [`execution`]: one input through one target, a panic caught.
 //! - [`numbers`], [`edges`], [`mutation`], [`corpus`]: numbers at the extremes; all numbers of a key; texts changed;
 //!   where they begin.
-//! - [`scene`], [`stepper`], [`snapshot`], [`line`], [`command_line`]: the targets.
+//! - [`scene`], [`stepper`], [`snapshot`], [`mod@line`], [`command_line`]: the targets.
 //! - [`planted`]: faults that must be found.
 //! - [`targets`]: all of them by name.
 //! - [`shrink`]: a finding made small.

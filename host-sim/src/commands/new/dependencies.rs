@@ -1,7 +1,34 @@
-//! Where a new project's crates come from: the sources that this program was built from while they
-//! are there, else the registry.
+//! Where a new project's crates come from: a repository, the registry, or the sources that this program was built from.
 
 use std::path::Path;
+
+use clap::Args;
+use miette::Diagnostic;
+use thiserror::Error;
+
+/// Where crates come from, as the command line names it.
+#[derive(Clone, Debug, Default, Args)]
+pub struct DependencyOptions {
+    /// Depend on the crates in a git repository, e.g. https://host/owner/name.git
+    #[arg(long, value_name = "URL", conflicts_with = "registry")]
+    pub git: Option<String>,
+    /// The commit, tag or branch there [default: the repository's default branch]
+    #[arg(long, value_name = "REV", requires = "git")]
+    pub rev: Option<String>,
+    /// Depend on the crates of this version in the registry; nothing is published yet
+    #[arg(long)]
+    pub registry: bool,
+}
+
+/// The crates of a new project are nowhere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error, Diagnostic)]
+#[error("the sources of this program are not on this machine: a new project would not build")]
+#[diagnostic(help(
+    "--git URL --rev REV names a repository that has them; --registry is for later, when version {version} is published"
+))]
+pub struct NoSources {
+    version: &'static str,
+}
 
 /// What stands behind the crates' names in `Cargo.toml`.
 pub(super) struct Dependencies {
@@ -15,45 +42,53 @@ pub(super) struct Dependencies {
     pub(super) fmu: String,
     /// Where they come from, for people.
     pub(super) origin: String,
+    /// Whether they are in a folder of this machine.
+    pub(super) is_local: bool,
 }
 
 impl Dependencies {
-    /// Those of this program's sources, or published ones of its version.
-    pub(super) fn of(registry: bool) -> Self {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
+    /// Those that are asked for, else those of this program's sources.
+    ///
+    /// # Errors
+    /// [`NoSources`] where nothing is asked for and the sources are not on this machine.
+    pub(super) fn of(options: &DependencyOptions) -> Result<Self, NoSources> {
+        Self::with(options, Path::new(env!("CARGO_MANIFEST_DIR")).parent())
+    }
+
+    fn with(options: &DependencyOptions, root: Option<&Path>) -> Result<Self, NoSources> {
+        if let Some(url) = &options.git {
+            // Quotes and backslashes are escaped in TOML as in Rust.
+            let rev = options.rev.as_ref().map(|rev| format!(", rev = {rev:?}"));
+            let of_git = format!("{{ git = {url:?}{} }}", rev.unwrap_or_default());
+            return Ok(Self::all(&of_git, format!("its crates are those of {url}")));
+        }
+        let version = env!("CARGO_PKG_VERSION");
+        if options.registry {
+            let origin = format!("its crates are those of version {version} in the registry");
+            return Ok(Self::all(&format!("{version:?}"), origin));
+        }
         let sources = root.filter(|root| {
-            !registry
-                && ["kernel", "crates/scene"]
-                    .iter()
-                    .all(|room| root.join(room).join("Cargo.toml").is_file())
+            let is_there = |room| root.join(room).join("Cargo.toml").is_file();
+            ["kernel", "crates/scene"].into_iter().all(is_there)
         });
         // A path that is no text cannot stand in a TOML file.
-        match sources.and_then(Path::to_str) {
-            Some(root) => Self {
-                kernel: in_folder(&format!("{root}/kernel")),
-                scene: in_folder(&format!("{root}/crates/scene")),
-                host_sim: in_folder(&format!("{root}/host-sim")),
-                fmu: in_folder(&format!("{root}/crates/fmu")),
-                origin: format!("its crates are those in {root}"),
-            },
-            None => {
-                let version = env!("CARGO_PKG_VERSION");
-                let published = format!("{version:?}");
-                Self {
-                    kernel: published.clone(),
-                    host_sim: published.clone(),
-                    fmu: published.clone(),
-                    scene: published,
-                    origin: format!("its crates are the published ones, version {version}"),
-                }
-            }
-        }
+        let root = sources.and_then(Path::to_str).ok_or(NoSources { version })?;
+        let in_folder = |folder: &str| format!("{{ path = {:?} }}", format!("{root}/{folder}"));
+        Ok(Self {
+            kernel: in_folder("kernel"),
+            scene: in_folder("crates/scene"),
+            host_sim: in_folder("host-sim"),
+            fmu: in_folder("crates/fmu"),
+            origin: format!("its crates are those in {root}"),
+            is_local: true,
+        })
     }
-}
 
-/// A dependency on a folder. Backslashes and quotes are escaped in TOML as in Rust.
-fn in_folder(path: &str) -> String {
-    format!("{{ path = {path:?} }}")
+    /// All crates from one place.
+    fn all(place: &str, origin: String) -> Self {
+        let [kernel, scene, host_sim, fmu] = [(); 4].map(|()| place.to_owned());
+        Self { kernel, scene, host_sim, fmu, origin, is_local: false }
+    }
 }
 
 #[cfg(test)]
@@ -62,9 +97,26 @@ mod tests {
 
     #[test]
     fn crates_are_those_of_the_sources_unless_asked_otherwise() {
-        let own = Dependencies::of(false);
+        let own = Dependencies::of(&DependencyOptions::default()).unwrap();
         assert!(own.kernel.starts_with("{ path = \"") && own.kernel.ends_with("/kernel\" }"));
-        let published = Dependencies::of(true);
+        assert!(own.is_local);
+        let registry = DependencyOptions { registry: true, ..DependencyOptions::default() };
+        let published = Dependencies::of(&registry).unwrap();
         assert_eq!(published.scene, format!("\"{}\"", env!("CARGO_PKG_VERSION")));
+        let git = Some("https://host/dbd.git".to_owned());
+        let options = DependencyOptions { git, rev: Some("v1".to_owned()), registry: false };
+        let of_git = Dependencies::of(&options).unwrap();
+        assert_eq!(of_git.fmu, "{ git = \"https://host/dbd.git\", rev = \"v1\" }");
+    }
+
+    #[test]
+    fn without_sources_nothing_is_written_that_cannot_build() {
+        let nowhere = Some(Path::new("/no/such/folder"));
+        for root in [nowhere, None] {
+            let refused = Dependencies::with(&DependencyOptions::default(), root);
+            assert!(matches!(refused, Err(NoSources { .. })));
+            let registry = DependencyOptions { registry: true, ..DependencyOptions::default() };
+            assert!(Dependencies::with(&registry, root).is_ok());
+        }
     }
 }

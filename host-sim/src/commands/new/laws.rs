@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::dependencies::Dependencies;
+use super::dependencies::{Dependencies, DependencyOptions};
 use super::{NewError, Place};
 
 /// Files of a project and what they are made from.
@@ -30,9 +30,9 @@ const TEMPLATES: &[(&str, &str)] = &[
 pub struct LawsArguments {
     /// The crate's name, or a path to its folder, which must not exist yet
     pub name: PathBuf,
-    /// Depend on published crates, even where the sources of this program are on this machine
-    #[arg(long)]
-    pub registry: bool,
+    /// Where its crates come from [default: the sources of this program]
+    #[command(flatten)]
+    pub dependencies: DependencyOptions,
 }
 
 /// Writes a crate of laws and says what to type next.
@@ -41,7 +41,7 @@ pub struct LawsArguments {
 /// [`NewError`]; nothing is written then.
 pub fn laws(arguments: &LawsArguments) -> Result<String, NewError> {
     let place = Place::of(&arguments.name)?;
-    let dependencies = Dependencies::of(arguments.registry);
+    let dependencies = Dependencies::of(&arguments.dependencies)?;
     let values: &[(&str, String)] = &[
         ("name", place.name.to_owned()),
         ("crate", place.name.replace('-', "_")),
@@ -76,7 +76,8 @@ mod tests {
     fn every_name_in_a_template_is_known() {
         let here = tempfile::tempdir().unwrap();
         let folder = here.path().join("my-laws");
-        laws(&LawsArguments { name: folder.clone(), registry: true }).unwrap();
+        let dependencies = DependencyOptions { registry: true, ..DependencyOptions::default() };
+        laws(&LawsArguments { name: folder.clone(), dependencies }).unwrap();
         for (path, _) in TEMPLATES {
             let text = std::fs::read_to_string(folder.join(path)).unwrap();
             assert!(!text.contains("{{"), "{path}: {text}");

@@ -27,11 +27,13 @@ use dbd_study::estimate::instructions;
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::commands::schema;
 use crate::help;
 use crate::terminal::Found;
 use choice::{Choice, ChoiceError, ChoiceOptions};
 use dependencies::Dependencies;
 
+pub use dependencies::{DependencyOptions, NoSources};
 pub use laws::{LawsArguments, laws};
 pub use name::NameError;
 pub use scene::{SceneArguments, scene};
@@ -60,7 +62,24 @@ const TEMPLATES: &[(&str, &str)] = &[
     ("src/main.rs", include_str!("../../../templates/firmware/main.rs.in")),
     ("src/bin/cost.rs", include_str!("../../../templates/firmware/cost.rs.in")),
     ("tests/golden.rs", include_str!("../../../templates/firmware/golden.rs.in")),
+    ("check.sh", include_str!("../../../templates/firmware/check.sh.in")),
+    (".github/workflows/test.yml", include_str!("../../../templates/firmware/github.yml.in")),
+    (".gitlab-ci.yml", include_str!("../../../templates/firmware/gitlab.yml.in")),
+    ("Dockerfile", include_str!("../../../templates/firmware/Dockerfile.in")),
+    (
+        ".devcontainer/devcontainer.json",
+        include_str!("../../../templates/firmware/devcontainer.json.in"),
+    ),
+    (".vscode/extensions.json", include_str!("../../../templates/firmware/extensions.json.in")),
+    (".vscode/launch.json", include_str!("../../../templates/firmware/launch.json.in")),
+    (".vscode/settings.json", include_str!("../../../templates/firmware/settings.json.in")),
+    (".taplo.toml", include_str!("../../../templates/firmware/taplo.toml.in")),
+    ("Embed.toml", include_str!("../../../templates/firmware/Embed.toml.in")),
 ];
+
+/// What files for other machines say where the project's crates are in a folder of this one.
+const ELSEWHERE: &str = "\n# The crates are in a folder of one machine (Cargo.toml): elsewhere name their repository there, \
+                         or write\n# the project with `host-sim new firmware --git URL --rev REV`.";
 
 /// What is new.
 #[derive(Clone, Debug, Subcommand)]
@@ -84,9 +103,9 @@ pub struct FirmwareArguments {
     /// A scene by name (see list) or a path to a .toml file; the project gets a copy
     #[arg(long, default_value = SCENE)]
     pub scene: String,
-    /// Depend on published crates, even where the sources of this program are on this machine
-    #[arg(long)]
-    pub registry: bool,
+    /// Where its crates come from [default: the sources of this program]
+    #[command(flatten)]
+    pub dependencies: DependencyOptions,
     /// How the plant steps
     #[command(flatten)]
     pub choice: ChoiceOptions,
@@ -117,6 +136,9 @@ pub enum NewError {
         /// Where.
         failure: String,
     },
+    /// Its crates are nowhere.
+    #[error(transparent)]
+    Sources(#[from] NoSources),
     /// It cannot be written.
     #[error("cannot write to {}: {reason}", path.display())]
     Write {
@@ -137,6 +159,7 @@ impl Diagnostic for NewError {
                 let help = format!("host-sim run {scene} with that method finds a step that works");
                 Some(Box::new(help))
             }
+            Self::Sources(error) => error.help(),
             Self::Write { .. } => None,
         }
     }
@@ -178,7 +201,7 @@ impl<'p> Place<'p> {
 /// [`NewError`]; nothing is written then.
 pub fn firmware(arguments: &FirmwareArguments, found: &Found) -> Result<String, NewError> {
     let place = Place::of(&arguments.name)?;
-    project(&place, found, &Dependencies::of(arguments.registry), &arguments.choice)
+    project(&place, found, &Dependencies::of(&arguments.dependencies)?, &arguments.choice)
 }
 
 fn project(
@@ -209,6 +232,7 @@ fn project(
         ("kernel", dependencies.kernel.clone()),
         ("scene_crate", dependencies.scene.clone()),
         ("origin", dependencies.origin.clone()),
+        ("elsewhere", if dependencies.is_local { ELSEWHERE } else { "" }.to_owned()),
         ("build", choice.call(&file, &own_laws(scene))),
         ("law_crates", law_crates(scene)),
         ("scene", scene.name.clone()),
@@ -222,7 +246,8 @@ fn project(
     ];
     let scene_file = (PathBuf::from(&file), found.text.clone());
     let golden_file = (PathBuf::from("tests/golden.txt"), golden);
-    place.write(TEMPLATES, values, vec![scene_file, golden_file])?;
+    let schema_file = (PathBuf::from(format!("scenes/{}", schema::FILE)), schema::text());
+    place.write(TEMPLATES, values, vec![scene_file, golden_file, schema_file])?;
     Ok(format!(
         "{0}: the scene {1} as a plant in firmware: {3}; {2}\n{4}\n  cd {0}\n  cargo test    golden bits on the \
          PC\n  cargo qemu    the same bits on a Cortex-M4F in QEMU; README.md says what to install\n  cargo \
@@ -362,7 +387,9 @@ mod tests {
         let folder = here.path().join("plant");
         let found = crate::terminal::Catalogue::default().load("gyroscope").unwrap();
         let place = Place::of(&folder).unwrap();
-        project(&place, &found, &Dependencies::of(true), &ChoiceOptions::default()).unwrap();
+        let registry = DependencyOptions { registry: true, ..DependencyOptions::default() };
+        let dependencies = Dependencies::of(&registry).unwrap();
+        project(&place, &found, &dependencies, &ChoiceOptions::default()).unwrap();
         for (path, _) in TEMPLATES {
             let text = std::fs::read_to_string(folder.join(path)).unwrap();
             assert!(!text.contains("{{"), "{path}: {text}");
