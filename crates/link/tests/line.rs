@@ -1,5 +1,6 @@
 //! Two ends over a line that does everything a line can do to frames.
 
+use std::io::Write as _;
 use std::time::Duration;
 
 use dbd_link::controller_end::ControllerEnd;
@@ -480,6 +481,38 @@ fn a_plant_that_lost_its_state_gets_it_back() {
         assert_eq!(report.different, 0);
     }
     assert_eq!(served.join().unwrap()[1].hash, alone(500));
+}
+
+/// A plant of a later version answers with frames of its own.
+#[test]
+fn another_version_is_named() {
+    let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let connect: Address = format!("tcp:{}", listener.local_addr().unwrap()).parse().unwrap();
+    let served = std::thread::spawn(move || {
+        let (mut stream, _) = listener.accept().unwrap();
+        // Version 2, three bytes, their CRC-32; the line closes with the other end.
+        let later = [0, 9, 2, 1, 1, 1, 0x77, 0x7c, 0x93, 0xe4, 0];
+        while stream.write_all(&later).is_ok() {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    });
+    let mut connection = Connection::new(connect, Duration::from_millis(20), None);
+    let (mut model, mut report) = (Follower::new(plant()), Report::default());
+    let options =
+        DriveOptions { patience: Duration::from_millis(300), ..options(Mode::Lockstep, 10) };
+    let run = drive(
+        &mut connection,
+        &mut model,
+        &mut Controller::Zero,
+        &options,
+        &mut report,
+        &mut |_| Ok(()),
+    );
+    let said = run.unwrap_err().to_string();
+    assert!(said.contains("another version of the protocol"), "{said}");
+    assert!(report.own.version > 0);
+    drop(connection);
+    served.join().unwrap();
 }
 
 #[test]

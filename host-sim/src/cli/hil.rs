@@ -24,7 +24,7 @@ use crate::terminal::{Catalogue, Console, Exit};
 #[derive(Debug, Args)]
 pub(super) struct HilArguments {
     #[command(flatten)]
-    scene: SceneArgument,
+    pub(super) scene: SceneArgument,
     /// The line to the other end: unix:PATH, unix-listen:PATH, tcp:HOST:PORT, tcp-listen:HOST:PORT,
     /// /dev/tty…[@BAUD] or COM3[@BAUD]
     #[arg(long, value_name = "PORT")]
@@ -78,9 +78,10 @@ pub(super) struct HilArguments {
     /// How long an answer may take before it is asked for again
     #[arg(long, value_name = "TIME", default_value = "200ms")]
     answer: Time,
-    /// How long a port that does not open, a plant or a controller that does not answer is waited for
-    #[arg(long, value_name = "TIME", default_value = "10s")]
-    patience: Time,
+    /// How long a port that does not open, a plant or a controller that does not answer is waited for [default: 10s, with
+    /// --serve for ever]
+    #[arg(long, value_name = "TIME")]
+    patience: Option<Time>,
     /// Damage frames in both directions, e.g. corrupt=1%,drop=1%,duplicate=1%,reorder=1%,seed=7
     #[arg(long, value_name = "FRACTIONS")]
     disturb: Option<Disturbance>,
@@ -133,6 +134,8 @@ impl FromStr for Silence {
     }
 }
 
+/// What a plant or a controller that does not answer is waited for.
+const PATIENCE: Duration = Duration::from_secs(10);
 /// Longer ones end no sooner for a user.
 const MAX_SECONDS: f64 = 1e9;
 
@@ -161,13 +164,13 @@ pub(super) fn hil_of_scene(
     let step =
         choices.step_of(&scene, &method).map_err(|error| HilError::Instance(error.into()))?;
     let plant = plant_of(&scene, &method, step)?;
-    let (answer, patience) = (duration(arguments.answer), duration(arguments.patience));
+    let (answer, patience) = (duration(arguments.answer), arguments.patience.map(duration));
     let port = arguments.port.clone();
     let mut connection = Connection::new(port, answer, arguments.disturb.clone());
     if arguments.serve {
         let options = ServeOptions {
             period: arguments.period.map(duration).filter(|period| !period.is_zero()),
-            patience: Some(patience),
+            patience,
             forever: arguments.forever,
         };
         let served = run_plant(plant, &mut connection, &options)?;
@@ -177,6 +180,7 @@ pub(super) fn hil_of_scene(
         })?;
         return Ok(Exit::Done);
     }
+    let patience = patience.unwrap_or(PATIENCE);
     if let Some(file) =
         arguments.trace.as_ref().filter(|file| file.exists() && !arguments.overwrite)
     {

@@ -351,6 +351,7 @@ mod tests {
                     | Command::Relax(RelaxArguments { scene, .. })
                     | Command::Trade(TradeArguments { scene, .. })
                     | Command::Linearise(LineariseArguments { scene, .. })
+                    | Command::Hil(HilArguments { scene, .. })
                     | Command::Advise(AdviseArguments { scene, .. })
                     | Command::Export(ExportArguments { scene, .. }) => scene.scene,
                     _ => continue,

@@ -80,6 +80,9 @@ pub enum DriveError {
     /// The plant refused the inputs.
     #[error("the plant refused the inputs {0:?}: they are not finite in its precision")]
     Inputs(Vec<f64>),
+    /// The other end is of another version.
+    #[error("the plant speaks another version of the protocol than {}", crate::message::VERSION)]
+    Version,
     /// Nobody answers.
     #[error("no answer from the plant within {0} s")]
     Silent(f64),
@@ -171,6 +174,7 @@ impl Run<'_> {
                 }
                 Err(Unanswered::Refused(Refusal::Settings)) => return Err(DriveError::Settings),
                 Err(_) if Instant::now() < end => {}
+                Err(_) if self.end.statistics().version > 0 => return Err(DriveError::Version),
                 Err(_) => return Err(DriveError::Silent(patience.as_secs_f64())),
             }
         }
