@@ -37,7 +37,7 @@ pub trait Device {
     /// Appends the values of all sensors, [`f64::NAN`] where one has none.
     fn read(&self, values: &mut Values);
 
-    /// Writes a snapshot; its length \[bytes\], `None` where there is none or it does not fit.
+    /// Writes a snapshot; its length \[bytes\], `None` where the plant has failed or it does not fit.
     fn save(&self, buffer: &mut [u8]) -> Option<usize>;
 
     /// Goes on from a snapshot; whether it was accepted. Else nothing is changed.
@@ -170,8 +170,9 @@ where
     }
 }
 
-/// Numbers of a sensor that shows nothing now.
-const fn numbers_of<P: Geometry>(sensor: &Readout<P>) -> usize {
+/// How many numbers a sensor shows.
+#[must_use]
+pub const fn numbers_of<P: Geometry>(sensor: &Readout<P>) -> usize {
     match sensor {
         Readout::Point { .. } | Readout::PointVelocity { .. } | Readout::JointForce { .. } => 3,
         Readout::Imu { .. } => 6,

@@ -56,7 +56,7 @@ pub type Name = String<32>;
 /// What comes before each message.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Header {
-    /// The session that the controller opened; 0 is none.
+    /// The session that the controller opened; 0 means that no session is open.
     pub session: u16,
     /// The sender's counter of frames.
     pub sequence: u32,

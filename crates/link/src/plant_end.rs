@@ -65,14 +65,14 @@ impl<D: Device, const N: usize> PlantEnd<D, N> {
     /// The end of a plant at the line, with a timer that ticks every `period` \[µs\]; 0 where there is none, and
     /// lockstep alone is possible.
     ///
-    /// `None` where the plant has failed, a snapshot takes more than `N` bytes, or it has more than
+    /// `None` where the plant has failed, a snapshot takes more than `N` bytes, or it has as many as
     /// [`MAX_VALUES`] inputs or sensor values.
     pub fn new(device: D, period: u32) -> Option<Self> {
         let (mut identity, mut snapshot) = (device.identity(), [0; N]);
         device.save(&mut snapshot)?;
         identity.fingerprint = *snapshot.get(4..18)?.first_chunk()?;
         let inputs = usize::from(identity.inputs);
-        if inputs > MAX_VALUES || usize::from(identity.outputs) >= MAX_VALUES {
+        if inputs >= MAX_VALUES || usize::from(identity.outputs) >= MAX_VALUES {
             return None;
         }
         Some(Self {

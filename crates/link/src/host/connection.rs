@@ -33,7 +33,8 @@ impl Connection {
             received: VecDeque::new(),
             piece: Vec::new(),
             disturbance,
-            answer,
+            // At once is never: a question would be repeated without end.
+            answer: answer.max(Duration::from_millis(1)),
             deadline: Instant::now(),
             opened: 0,
         }

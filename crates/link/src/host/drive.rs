@@ -184,12 +184,16 @@ impl Run<'_> {
     fn meet(&mut self, outputs: Outputs) -> Result<Outputs, DriveError> {
         let own = self.follower.model().step();
         let lockstep = self.options.settings.mode == Mode::Lockstep;
-        let same = outputs.step == own && outputs.hash == self.follower.model().hash();
-        if same {
+        if outputs.step == own && outputs.hash == self.follower.model().hash() {
+            return Ok(outputs);
+        }
+        if outputs.step == own && own > 0 {
+            // Nobody else drove it: what differs now is a difference, not another state to take.
+            self.follower.follow(&outputs);
             return Ok(outputs);
         }
         if outputs.step < own {
-            // It was switched off and has begun anew.
+            // It was switched off, and starts at t = 0.
             return self.give();
         }
         if lockstep && own > 0 && outputs.step == own + u64::from(self.options.settings.steps) {

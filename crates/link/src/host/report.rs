@@ -27,7 +27,7 @@ pub struct Latency {
 }
 
 impl Latency {
-    /// The percentiles of times, by the nearest rank; zeros where there are none.
+    /// The percentiles of times, by the nearest rank; zeros without times.
     #[must_use]
     pub fn of(times: &[Duration]) -> Self {
         let mut times: Vec<f64> = times.iter().map(Duration::as_secs_f64).collect();

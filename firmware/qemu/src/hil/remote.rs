@@ -11,6 +11,7 @@ use dbd_kernel::vector::Vec3;
 use dbd_kernel::{F32, Status};
 use dbd_link::ControllerEnd;
 use dbd_link::controller_end::{Unanswered, Wait, ask, outputs_at, welcome};
+use dbd_link::device::numbers_of;
 use dbd_link::message::{
     Hello, Identity, Inputs, Message, Outputs, Refusal, Settings, Statistics, Values,
 };
@@ -111,8 +112,8 @@ impl<L: Wait> dbd_node::Machine for Remote<'_, L> {
 
     fn read(&self, readout: &Readout<F32>) -> Option<Reading<f32>> {
         let place = self.sensors.iter().position(|own| own == readout)?;
-        let before = self.sensors.get(..place)?.iter().map(width).sum();
-        let numbers = self.newest.values.get(before..)?.get(..width(readout))?;
+        let before = self.sensors.get(..place)?.iter().map(numbers_of).sum();
+        let numbers = self.newest.values.get(before..)?.get(..numbers_of(readout))?;
         if numbers.iter().any(|number| number.is_nan()) {
             return None;
         }
@@ -156,15 +157,6 @@ impl<L: Wait> Drop for Remote<'_, L> {
         let farewell = |answer| matches!(answer, Message::Farewell).then_some(());
         // A plant that does not hear it notes that a new session begins.
         _ = ask(&mut self.end, self.line, FAREWELLS, &Message::Goodbye, farewell);
-    }
-}
-
-/// Numbers of a sensor.
-const fn width(sensor: &Readout<F32>) -> usize {
-    match sensor {
-        Readout::Point { .. } | Readout::PointVelocity { .. } | Readout::JointForce { .. } => 3,
-        Readout::Imu { .. } => 6,
-        _ => 1,
     }
 }
 
