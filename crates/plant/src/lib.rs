@@ -17,6 +17,7 @@
 //! - `refusal`: why there is no plant of a scene.
 //! - [`plant`](mod@plant): where the names become the kernel's types.
 //! - [`judge`]: what a state holds, and whether a run can go on from it.
+//! - [`failure`]: where a run failed, and which step works instead.
 //! - [`rounding`]: what sums in single precision lose of slow motion.
 //! - [`instance`]: a scene as a component of another tool, what goes in and out by name.
 //!
@@ -48,6 +49,7 @@
 pub mod any;
 mod budget;
 pub mod digits;
+pub mod failure;
 pub mod frequencies;
 pub mod instance;
 pub mod judge;
@@ -62,6 +64,7 @@ pub mod rounding;
 pub mod time;
 
 pub use any::AnyPlant;
+pub use failure::FailedRun;
 pub use frequencies::Frequencies;
 pub use method::{MOST_RHO, Method, MethodError};
 pub use names::{DampingName, Named, OrientationName, PrecisionName, SchemeName};

@@ -15,6 +15,12 @@ use dbd_scene::fitting::{Span, WHOLE, whole};
 /// The number of samples where no interval is given.
 const SAMPLES: u64 = 500;
 
+/// A run is looked at about this often, whatever its sampling interval.
+const LOOKS: u64 = 1000;
+
+/// Steps between two looks at most, so that progress is seen.
+const MOST_STEPS_UNSEEN: u64 = 1024;
+
 /// More steps than this are refused: at 100 ns each they take longer than a day.
 pub const MOST_STEPS: f64 = 1e12;
 
@@ -59,6 +65,13 @@ impl Plan {
     #[must_use]
     pub fn time(&self, n: u64) -> f64 {
         n as f64 * self.step
+    }
+
+    /// Steps between two looks at a run at most: some thousand looks, whatever its samples, and never so few that
+    /// no progress is seen.
+    #[must_use]
+    pub fn unseen(&self) -> u64 {
+        (self.steps / LOOKS).clamp(1, MOST_STEPS_UNSEEN)
     }
 
     /// The number of samples, t = 0 included.

@@ -12,7 +12,7 @@ use dbd_kernel::damping::Damping;
 use dbd_plant::judge::{Opening, conserves_energy};
 use dbd_plant::plan::{Request, StepRequest, plan};
 use dbd_plant::plant::check;
-use dbd_plant::{Frequencies, Method, Plan, PlanError, PlantError};
+use dbd_plant::{FailedRun, Frequencies, Method, Plan, PlanError, PlantError};
 use dbd_report::Recording;
 use dbd_report::output::file::PendingFile;
 use dbd_report::output::set::FileSet;
@@ -34,8 +34,8 @@ use crate::report::{
     trace,
 };
 use crate::simulate::{
-    Balance, Ending, EnergyLimit, EnergyStop, EnergyWatch, FailedRun, Observer, Sample,
-    SimulationError, simulate,
+    Balance, Ending, EnergyLimit, EnergyStop, EnergyWatch, Observer, Sample, SimulationError,
+    simulate,
 };
 use crate::terminal::LoadError;
 
@@ -266,7 +266,7 @@ pub fn run(
     let every = options.every.or(scene.every);
     let failure = ending.trouble.map(|trouble| {
         let mut searched = |done, all| progress(Stage::Searching, done, all);
-        FailedRun::new(scene, &options.method, &plan, every, &ending, trouble, &mut searched)
+        FailedRun::new(scene, &options.method, &plan, every, ending.steps, trouble, &mut searched)
     });
     let mut summary =
         summarise(scene, &options.method, &plan, &frequencies, &ending, &statistics, &failure);

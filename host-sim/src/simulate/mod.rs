@@ -1,19 +1,16 @@
-//! A planned run, and what there is to say where it fails.
+//! A planned run.
 //!
 //! - [`run`]: sample by sample.
 //! - [`together`]: alike runs in lockstep, with the feature `lanes`.
 //! - [`watch`]: over its energy.
 //! - [`balance`]: where its energy came from.
-//! - [`failure`]: where it failed and which step works.
 
 pub mod balance;
-pub mod failure;
 pub mod run;
 pub mod together;
 pub mod watch;
 
 pub use balance::{Balance, EnergyBalance};
-pub use failure::FailedRun;
 pub use run::{Ending, Observer, Sample, SimulationError, simulate};
 pub use together::{Member, lanes, simulate_together};
 pub use watch::{EnergyLimit, EnergyStop, EnergyWatch};

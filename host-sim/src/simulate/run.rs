@@ -16,12 +16,6 @@ use dbd_scene::{Scene, SceneModel};
 use miette::Diagnostic;
 use thiserror::Error;
 
-/// A run is looked at about this often, whatever its sampling interval.
-const LOOKS: u64 = 1000;
-
-/// Steps between two looks at most, so that progress is seen.
-const MOST_STEPS_UNSEEN: u64 = 1024;
-
 /// What is known at a sample.
 pub struct Sample<'s> {
     /// \[s\] the time.
@@ -120,11 +114,6 @@ pub fn simulate(
     Ok(course.ending(evaluations, wall, trouble))
 }
 
-/// Steps between two looks at most.
-fn unseen(plan: &Plan) -> u64 {
-    (plan.steps / LOOKS).clamp(1, MOST_STEPS_UNSEEN)
-}
-
 /// A run under way, from look to look.
 pub(super) struct Course<'c> {
     scene: &'c Scene,
@@ -152,7 +141,7 @@ impl<'c> Course<'c> {
         let plant = plant(scene, method, plan.step)?;
         let judge = Judge::new(scene, plant.as_ref());
         let rounding = RoundingWatch::new(plant.as_ref());
-        let stride = unseen(plan);
+        let stride = plan.unseen();
         let readings = Vec::new();
         Ok(Self { scene, plan, plant, judge, rounding, readings, stride, next_sample: 0 })
     }

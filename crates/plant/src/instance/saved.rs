@@ -12,6 +12,8 @@ use crate::instance::running::Instance;
 
 /// How the bytes begin; the last is the version.
 const MAGIC: &[u8; 5] = b"dbdi\x01";
+/// How those of the kernel alone begin.
+const KERNEL: &[u8; 4] = b"DBDS";
 
 impl Instance {
     /// The state, inputs and set parameters included, as bytes that an instance of the same scene and settings
@@ -33,12 +35,16 @@ impl Instance {
         Ok(bytes)
     }
 
-    /// Goes on from a saved state, bit for bit; a failure is forgotten.
+    /// Goes on from a saved state, bit for bit; a failure is forgotten. A snapshot of the kernel's, such as a firmware
+    /// takes, is one, too: it holds no parameters, those of now must be those of then.
     ///
     /// # Errors
     /// [`InstanceError::State`] where the bytes are damaged or of another scene or other settings; nothing is
     /// changed then.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), InstanceError> {
+        if bytes.starts_with(KERNEL) {
+            return self.plant.restore(bytes).map_err(InstanceError::State);
+        }
         let (set, snapshot) = parts(bytes).map_err(InstanceError::State)?;
         if set == self.set {
             return self.plant.restore(snapshot).map_err(InstanceError::State);

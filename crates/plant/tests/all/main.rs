@@ -1,5 +1,6 @@
 //! Plants by name: their bits, where runs end, components of other tools.
 
+mod failure;
 mod instance;
 mod judged;
 mod planar;

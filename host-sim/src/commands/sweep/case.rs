@@ -7,7 +7,7 @@
 use std::{io, iter};
 
 use dbd_plant::plant::{check_extents, check_inputs, check_step, check_stiffness};
-use dbd_plant::{Frequencies, Method, Plan};
+use dbd_plant::{FailedRun, Frequencies, Method, Plan};
 use dbd_scene::{BODY_COLUMNS, ENERGY_COLUMNS, Scene, SceneError};
 use dbd_study::sweep::check::{Misfit, Trial};
 use dbd_study::sweep::columns::Column;
@@ -16,9 +16,7 @@ use miette::Diagnostic;
 
 use crate::commands::run::{RunOptions, plan_within};
 use crate::report::{Figures, Statistics};
-use crate::simulate::{
-    Ending, FailedRun, Member, Observer, Sample, lanes, simulate, simulate_together,
-};
+use crate::simulate::{Ending, Member, Observer, Sample, lanes, simulate, simulate_together};
 
 /// What the cases of a sweep have in common.
 #[derive(Clone, Copy, Debug)]
@@ -124,7 +122,7 @@ impl Case {
         let Self { scene, plan, .. } = self;
         let Recorder { figures, statistics, .. } = recorder;
         let failure =
-            ending.trouble.map(|trouble| FailedRun::untried(scene, plan, ending, trouble));
+            ending.trouble.map(|trouble| FailedRun::untried(scene, plan, ending.steps, trouble));
         let time = match &failure {
             Some(failure) => failure.time,
             None => plan.duration,

@@ -7,17 +7,16 @@
 //! no more evaluations than the failed run, or `LEAST_BUDGET` where that is more.
 
 use std::fmt;
-use std::io;
 
-use dbd_plant::digits::significant;
-use dbd_plant::judge::Trouble;
-use dbd_plant::plan::{Request, StepRequest, plan};
-use dbd_plant::time::display;
-use dbd_plant::{Frequencies, Method, Plan};
+use dbd_kernel::Status;
 use dbd_scene::Scene;
 use miette::Diagnostic;
 
-use crate::simulate::run::{Ending, Observer, Sample, simulate};
+use crate::digits::significant;
+use crate::judge::{Judge, Trouble};
+use crate::plan::{Request, StepRequest, plan};
+use crate::time::display;
+use crate::{Frequencies, Method, Plan, plant};
 
 /// How often the advised step is halved.
 const HALVINGS: u32 = 4;
@@ -59,35 +58,35 @@ pub enum Remedy {
 }
 
 impl FailedRun {
-    /// Describes the failure and looks for a step that works; `every` is the sampling interval
-    /// where one was given. `progress` is given the evaluations that the search has made and may make.
+    /// Describes the failure of a run in its step `failed`, and looks for a step that works; `every` is the sampling
+    /// interval where one was given. `progress` is given the evaluations that the search has made and may make.
     #[must_use]
     pub fn new(
         scene: &Scene,
         method: &Method,
         run: &Plan,
         every: Option<f64>,
-        ending: &Ending,
+        failed: u64,
         trouble: Trouble,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Self {
-        let budget = LEAST_BUDGET.max(cost(scene, method, ending.steps));
+        let budget = LEAST_BUDGET.max(cost(scene, method, failed));
         let search = Search { scene, method, budget, spent: 0.0, progress };
         let remedy = search.remedy(run, every);
         let cause = cause(scene, method, run.step, &remedy);
-        Self { cause, remedy, ..Self::untried(scene, run, ending, trouble) }
+        Self { cause, remedy, ..Self::untried(scene, run, failed, trouble) }
     }
 
     /// Describes the failure; no step is looked for, which takes further runs.
     #[must_use]
-    pub fn untried(scene: &Scene, run: &Plan, ending: &Ending, trouble: Trouble) -> Self {
+    pub fn untried(scene: &Scene, run: &Plan, failed: u64, trouble: Trouble) -> Self {
         Self {
             cause: None,
             what: describe(scene, trouble),
-            step: ending.steps,
+            step: failed,
             steps: run.steps,
             step_size: run.step,
-            time: run.time(ending.steps),
+            time: run.time(failed),
             remedy: Remedy::Unsought,
         }
     }
@@ -219,10 +218,7 @@ impl Search<'_> {
             if self.spent + whole > self.budget {
                 return Remedy::Untried(candidate.step);
             }
-            let (scene, method) = (self.scene, self.method);
-            let mut observer = CandidateRun { search: &mut self, steps: 0 };
-            let ending = simulate(scene, method, &candidate, &mut observer);
-            if ending.is_ok_and(|ending| ending.trouble.is_none()) {
+            if self.comes_to_its_end(&candidate) {
                 return Remedy::Step(candidate.step);
             }
             tried.push(candidate.step);
@@ -231,9 +227,30 @@ impl Search<'_> {
         Remedy::NoneOf(tried)
     }
 
-    fn evaluate(&mut self, steps: u64) {
-        self.spent += cost(self.scene, self.method, steps);
-        (self.progress)(self.spent as u64, self.budget as u64);
+    /// Whether a run comes to its end, looked at where `run` looks.
+    fn comes_to_its_end(&mut self, run: &Plan) -> bool {
+        let Ok(mut plant) = plant(self.scene, self.method, run.step) else { return false };
+        let mut judge = Judge::new(self.scene, plant.as_ref());
+        let (mut done, mut sample) = (0, 0);
+        loop {
+            if judge.judge(&plant.state()).is_err() {
+                return false;
+            }
+            if done == run.steps {
+                return true;
+            }
+            if done == sample {
+                sample = run.steps.min(sample + run.stride);
+            }
+            let next = sample.min(done + run.unseen());
+            let status = plant.advance(next - done);
+            self.spent += cost(self.scene, self.method, next - done);
+            (self.progress)(self.spent as u64, self.budget as u64);
+            done = next;
+            if matches!(status, Status::Failed(_)) {
+                return false;
+            }
+        }
     }
 }
 
@@ -241,81 +258,4 @@ impl Search<'_> {
 fn cost(scene: &Scene, method: &Method, steps: u64) -> f64 {
     let parts = scene.model.bodies.len() + scene.model.tsda_count() + scene.model.torsions.len();
     steps as f64 * f64::from(method.evaluations()) * parts as f64
-}
-
-/// A run of which nothing is kept but how far it comes.
-struct CandidateRun<'r, 's> {
-    search: &'r mut Search<'s>,
-    steps: u64,
-}
-
-impl Observer for CandidateRun<'_, '_> {
-    fn sample(&mut self, _: &Sample<'_>) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn progress(&mut self, steps: u64) {
-        self.search.evaluate(steps - self.steps);
-        self.steps = steps;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use dbd_plant::judge::Trouble;
-
-    const OSCILLATOR: &str = r#"
-name = "oscillator"
-duration = 1.0
-[[body]]
-name = "block"
-mass = 1.0
-inertia = [1.0, 1.0, 1.0]
-position = [1.0, 0.0, 0.0]
-[[tsda]]
-name = "spring"
-between = ["world", "block"]
-points = [[0, 0, 0], [0, 0, 0]]
-free_length = 0.5
-stiffness = 1e6
-"#;
-
-    /// The failed run of the oscillator at a step beyond its limit, and what was heard of the search.
-    fn failed(duration: f64) -> (FailedRun, Vec<(u64, u64)>) {
-        let scene = Scene::parse(OSCILLATOR, "oscillator.toml").unwrap();
-        let method = Method::default();
-        let request = Request { step: StepRequest::Given(4e-3), duration, every: None };
-        let run = plan(&request).unwrap();
-        let ending = simulate(&scene, &method, &run, &mut Silent).unwrap();
-        let trouble: Trouble = ending.trouble.unwrap();
-        let mut heard = Vec::new();
-        let mut progress = |done, all| heard.push((done, all));
-        let failed = FailedRun::new(&scene, &method, &run, None, &ending, trouble, &mut progress);
-        (failed, heard)
-    }
-
-    struct Silent;
-
-    impl Observer for Silent {
-        fn sample(&mut self, _: &Sample<'_>) -> io::Result<()> {
-            Ok(())
-        }
-    }
-
-    #[test]
-    fn a_short_run_is_tried_with_a_shorter_step_and_the_search_is_heard_of() {
-        let (failed, heard) = failed(1.0);
-        assert!(matches!(failed.remedy, Remedy::Step(_)), "{failed:?}");
-        assert!(heard.len() > 2 && heard.is_sorted(), "{heard:?}");
-        assert!(heard.iter().all(|(done, all)| done <= all && *all == LEAST_BUDGET as u64));
-    }
-
-    /// 1e6 s would take 2e9 evaluations, the run itself failed after a few.
-    #[test]
-    fn a_search_takes_no_longer_than_the_run_or_a_few_seconds() {
-        let (failed, heard) = failed(1e6);
-        assert!(matches!(failed.remedy, Remedy::Untried(_)), "{failed:?}");
-        assert!(heard.is_empty(), "{heard:?}");
-    }
 }
