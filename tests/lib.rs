@@ -44,6 +44,7 @@ pages! {
     near_rigid "docs/near-rigid.md"
     paper "docs/paper.md"
     planar "docs/planar.md"
+    play "docs/play.md"
     precision "docs/precision.md"
     proof "docs/proof.md"
     python "docs/python.md"

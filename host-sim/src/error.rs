@@ -20,6 +20,7 @@ use crate::commands::linearise::LineariseError;
 use crate::commands::mode_table::ModeTableError;
 use crate::commands::new::NewError;
 use crate::commands::picture::PictureError;
+use crate::commands::play::PlayError;
 use crate::commands::relax::RelaxError;
 use crate::commands::reproduce::ReproduceError;
 use crate::commands::run::RunError;
@@ -61,6 +62,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Hil(#[from] HilError),
+    /// There is no page in which a scene runs.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Play(#[from] PlayError),
     /// Nothing was imported.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -144,6 +149,8 @@ impl Error {
             Self::Linearise(_) => Exit::Refused,
             Self::Hil(error) if error.is_refusal() => Exit::Refused,
             Self::Hil(_) => Exit::Failed,
+            Self::Play(PlayError::Write { .. } | PlayError::Serve { .. }) => Exit::Failed,
+            Self::Play(_) => Exit::Refused,
             Self::LongForm(WriteError::Write { .. } | WriteError::Differs)
             | Self::Relax(RelaxError::Write(WriteError::Write { .. } | WriteError::Differs)) => {
                 Exit::Failed

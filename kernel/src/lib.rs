@@ -63,7 +63,8 @@
 #![no_std]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
-#[cfg(test)]
+// For tests, and for WebAssembly's square root.
+#[cfg(any(test, target_family = "wasm"))]
 extern crate std;
 
 pub mod arctangent;

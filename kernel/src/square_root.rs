@@ -2,11 +2,14 @@
 //!
 //! IEEE 754 rounds the root correctly, so the bits are the same either way. `core` offers no
 //! root; libm's is the host's instruction on x86-64 and about a hundred instructions on a
-//! Cortex-M, where the single-precision FPU does it in one.
+//! Cortex-M, where the single-precision FPU does it in one. WebAssembly has an instruction for both, which only `std` offers.
 
-/// √x in double precision; libm's on every target.
+/// √x in double precision.
 #[inline(always)]
 pub fn sqrt_f64(x: f64) -> f64 {
+    #[cfg(target_family = "wasm")]
+    return x.sqrt();
+    #[cfg(not(target_family = "wasm"))]
     libm::sqrt(x)
 }
 
@@ -14,6 +17,9 @@ pub fn sqrt_f64(x: f64) -> f64 {
 #[cfg(not(all(target_arch = "arm", target_os = "none", target_abi = "eabihf")))]
 #[inline(always)]
 pub fn sqrt_f32(x: f32) -> f32 {
+    #[cfg(target_family = "wasm")]
+    return x.sqrt();
+    #[cfg(not(target_family = "wasm"))]
     libm::sqrtf(x)
 }
 

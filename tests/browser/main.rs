@@ -6,6 +6,7 @@
 mod animation;
 mod chromium;
 mod extras;
+mod play;
 
 use std::path::{Path, PathBuf};
 

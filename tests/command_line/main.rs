@@ -18,6 +18,7 @@ mod mode_table;
 mod modes;
 mod new;
 mod picture;
+mod play;
 mod refusal;
 mod rejects;
 mod relax;

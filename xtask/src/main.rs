@@ -21,6 +21,7 @@ mod hil;
 mod instructions;
 mod libraries;
 mod packages;
+mod playground;
 mod precisions;
 mod prove;
 mod provenance;
@@ -173,6 +174,13 @@ enum Command {
     Python,
     /// Builds the library of the FMUs for an older Linux and for Windows, and compares their bits under Wine.
     Libraries,
+    /// Builds the kernel in WebAssembly, which `host-sim play` puts on its pages, and docs/playground/index.html with all
+    /// scenes.
+    Playground {
+        /// Times steps in Chromium beside host-sim instead; writes docs/results/play.csv.
+        #[arg(long)]
+        measure: bool,
+    },
     /// Looks whether the crates that are published can be packaged, and what their metadata lacks.
     Packages,
     /// Compares the published crates' interfaces with those of a revision, by cargo-semver-checks.
@@ -216,6 +224,8 @@ fn main() -> ExitCode {
         Command::Provenance { files, stale: true } => provenance::keep(&files),
         Command::Python => python::check(),
         Command::Libraries => libraries::build(),
+        Command::Playground { measure: true } => playground::measure(),
+        Command::Playground { .. } => playground::make(),
         Command::Packages => packages::check(),
         Command::Semver { revision } => semver::run_against(&revision),
         Command::Audit => audit::run(),

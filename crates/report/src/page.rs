@@ -18,8 +18,8 @@ pub const STYLES: &[&str] = &[
     include_str!("../web/charts.css"),
 ];
 
-/// Scripts of the page, in order: those of others first.
-pub const SCRIPTS: &[&str] = &[
+/// Scripts that draw a mechanism, in order: those of others first.
+pub const STAGE: &[&str] = &[
     include_str!("../web/vendor/three.min.js"),
     include_str!("../web/vendor/uplot.min.js"),
     include_str!("../web/numbers.js"),
@@ -36,6 +36,10 @@ pub const SCRIPTS: &[&str] = &[
     include_str!("../web/camera.js"),
     include_str!("../web/labels.js"),
     include_str!("../web/stage.js"),
+];
+
+/// Scripts of the page beside [`STAGE`], in order.
+const SCRIPTS: &[&str] = &[
     include_str!("../web/controls.js"),
     include_str!("../web/chart.js"),
     include_str!("../web/sections.js"),
@@ -113,7 +117,7 @@ pub fn html(data: &Data) -> String {
         "</main>\n<script type=\"application/json\" id=\"report\">{}</script>",
         json(data)
     );
-    for script in SCRIPTS {
+    for script in STAGE.iter().chain(SCRIPTS) {
         let _ = writeln!(page, "<script>\n{script}</script>");
     }
     page.push_str("</body>\n</html>\n");
@@ -123,6 +127,12 @@ pub fn html(data: &Data) -> String {
 /// The data as JSON that ends no script: nothing in it opens a tag or a comment.
 #[must_use]
 pub fn json(data: &Data) -> String {
+    script_json(data)
+}
+
+/// Any data as such JSON.
+#[must_use]
+pub fn script_json(data: &impl serde::Serialize) -> String {
     // Of what the data are made nothing refuses.
     let text = serde_json::to_string(data).unwrap_or_else(|_| "null".into());
     text.replace('<', "\\u003c")

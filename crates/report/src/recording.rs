@@ -191,7 +191,9 @@ impl Recording {
 }
 
 /// The points that a scene reads out.
-fn traces(scene: &Scene) -> Vec<Trace> {
+/// Points of a scene whose paths are worth a look: its point read-outs.
+#[must_use]
+pub fn traces(scene: &Scene) -> Vec<Trace> {
     use crate::picture::mechanism::Place;
     use dbd_kernel::readouts::Readout;
     let trace = |readout: &dbd_scene::ReadoutInfo| match readout.readout {

@@ -70,6 +70,18 @@
       this.controls.update();
     }
 
+    // Goes on looking from where another camera did.
+    follow(other) {
+      this.chosen = other.chosen;
+      this.camera.position.copy(other.camera.position);
+      this.controls.target.copy(other.controls.target);
+      for (const key of ['near', 'far', 'aspect']) this.camera[key] = other.camera[key];
+      this.camera.updateProjectionMatrix();
+      this.controls.minDistance = other.controls.minDistance;
+      this.controls.maxDistance = other.controls.maxDistance;
+      this.controls.update();
+    }
+
     resize(aspect) {
       this.camera.aspect = aspect;
       this.camera.updateProjectionMatrix();

@@ -91,4 +91,5 @@
   }
 
   dbd.clock = new Clock();
+  dbd.clock.allSpeeds = SPEEDS;
 }(window.dbd = window.dbd || {}));

@@ -4,7 +4,7 @@
 (function (dbd) {
   'use strict';
 
-  const { element } = dbd.labels;
+  const { element, button, toggle } = dbd.labels;
   const { time: timeText, plain, withUnit } = dbd.numbers;
   const VIEWS = [['iso', 'Iso'], ['front', 'Front'], ['top', 'Top'], ['side', 'Side']];
   const KEYS = [
@@ -20,26 +20,6 @@
 
   function icon(name) {
     return `<svg viewBox="0 0 24 24" aria-hidden="true"><path d="${ICONS[name]}"/></svg>`;
-  }
-
-  function button(parent, label, content, action) {
-    const made = element('button', '', parent);
-    made.type = 'button';
-    made.setAttribute('aria-label', label);
-    made.title = label;
-    made.innerHTML = content;
-    made.addEventListener('click', action);
-    return made;
-  }
-
-  function toggle(parent, text, on, action) {
-    const label = element('label', 'toggle', parent);
-    const box = element('input', '', label);
-    box.type = 'checkbox';
-    box.checked = on;
-    label.append(text);
-    box.addEventListener('change', () => action(box.checked));
-    return box;
   }
 
   class Controls {

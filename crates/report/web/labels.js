@@ -16,6 +16,26 @@
     return made;
   }
 
+  function button(parent, label, content, action) {
+    const made = element('button', '', parent);
+    made.type = 'button';
+    made.setAttribute('aria-label', label);
+    made.title = label;
+    made.innerHTML = content;
+    made.addEventListener('click', action);
+    return made;
+  }
+
+  function toggle(parent, text, on, action) {
+    const label = element('label', 'toggle', parent);
+    const box = element('input', '', label);
+    box.type = 'checkbox';
+    box.checked = on;
+    label.append(text);
+    box.addEventListener('change', () => action(box.checked));
+    return box;
+  }
+
   // What a label says: the thing, and its numbers at this time.
   function describe(label, machine, time) {
     const { film, mechanism } = machine;
@@ -56,6 +76,10 @@
       this.names = false;
       this.values = true;
       this.pool = [];
+    }
+
+    remove() {
+      for (const part of [this.layer, this.tip, this.axes.picture.parentElement]) part.remove();
     }
 
     // Where a name stands: the middle of a body's corners, a joint's place, an arrow's tip.
@@ -160,5 +184,5 @@
     }
   }
 
-  dbd.labels = { Labels, element };
+  dbd.labels = { Labels, element, button, toggle };
 }(window.dbd = window.dbd || {}));

@@ -27,7 +27,8 @@
   class Machine {
     constructor(run, look) {
       this.mechanism = run.mechanism;
-      this.film = run.film ? new Film(run.film, run.mechanism) : null;
+      // A live view has no film that is over: what it shows instead answers the same questions.
+      this.film = run.live || (run.film ? new Film(run.film, run.mechanism) : null);
       this.look = look || {};
       this.start = initial(this.mechanism);
       this.poses = Float64Array.from(this.start);
@@ -152,6 +153,16 @@
       this.bodies.update(this.owners);
       this.springs.update(time);
       this.traces.update();
+    }
+
+    // Frees what the graphics card holds of it. Unit shapes are shared and stay.
+    dispose() {
+      this.group.traverse((object) => {
+        if (!object.isMesh) return;
+        object.material.dispose();
+        if (object.isInstancedMesh) object.dispose();
+        else object.geometry.dispose();
+      });
     }
 
     recolour() {

@@ -68,6 +68,7 @@
   }
 
   dbd.numbers = {
+    bytes,
     f32s: (text) => new Float32Array(bytes(text)),
     f64s: (text) => new Float64Array(bytes(text)),
     i16s: (text) => new Int16Array(bytes(text)),

@@ -30,14 +30,13 @@
       this.renderer = renderer(this.canvas);
       if (!this.renderer) return;
       this.scene = new T.Scene();
-      this.machines = runs.map((run, i) => new dbd.machine.Machine(run, { ghost: i > 0 }));
-      for (const machine of this.machines) this.scene.add(machine.group);
-      this.machine = this.machines[0];
+      this.machines = [];
+      // Pixels drawn per pixel of the screen along a side: less where drawing is slow.
+      this.fineness = 1;
       this.lights();
       section.append(this.view);
       this.draw = this.draw.bind(this);
-      this.camera = new dbd.camera.Camera(this.machine, this.canvas, () => this.request());
-      this.labels = new dbd.labels.Labels(this.view, this.machine);
+      this.show(runs);
       this.time = dbd.clock.time;
       this.mode = null;
       dbd.clock.onTime((time) => { this.time = time; this.stale = true; this.request(); });
@@ -48,6 +47,26 @@
       this.stale = true;
       this.resize();
       this.draw();
+    }
+
+    // Shows other runs in place of those shown; the camera may stay where it is.
+    show(runs, keepView) {
+      for (const machine of this.machines) {
+        this.scene.remove(machine.group);
+        machine.dispose();
+      }
+      this.machines = runs.map((run, i) => new dbd.machine.Machine(run, { ghost: i > 0 }));
+      for (const machine of this.machines) this.scene.add(machine.group);
+      this.machine = this.machines[0];
+      const { camera, labels } = this;
+      if (camera) camera.controls.dispose();
+      this.camera = new dbd.camera.Camera(this.machine, this.canvas, () => this.request());
+      if (camera && keepView) this.camera.follow(camera);
+      else if (camera) this.camera.resize(camera.camera.aspect);
+      if (labels) labels.remove();
+      this.labels = new dbd.labels.Labels(this.view, this.machine);
+      if (labels) Object.assign(this.labels, { names: labels.names, values: labels.values });
+      this.refresh();
     }
 
     get works() { return Boolean(this.renderer); }
@@ -62,10 +81,11 @@
     resize() {
       const [width, height] = [this.view.clientWidth, this.view.clientHeight];
       if (!width || !height) return;
-      this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+      this.renderer.setPixelRatio(this.fineness * Math.min(window.devicePixelRatio || 1, 2));
       this.renderer.setSize(width, height, false);
       this.camera.resize(width / height);
-      this.request();
+      // A canvas of another size is empty until it is drawn on.
+      this.draw();
     }
 
     request() {
@@ -95,6 +115,12 @@
 
     // What lies under a point of the view.
     under(x, y) {
+      const hit = this.hit(x, y);
+      return hit && hit.label;
+    }
+
+    // The same with its point in the world; of what is wanted only.
+    hit(x, y, wanted) {
       const ray = new T.Raycaster();
       ray.setFromCamera(new T.Vector2((x / this.view.clientWidth) * 2 - 1, 1 - (y / this.view.clientHeight) * 2),
         this.camera.camera);
@@ -107,7 +133,7 @@
       for (const hit of ray.intersectObjects(meshes, false)) {
         const { batch, label } = hit.object.userData;
         const found = batch ? batch.items[hit.instanceId].label : label;
-        if (found) return found;
+        if (found && (!wanted || wanted(found))) return { label: found, point: hit.point };
       }
       return null;
     }

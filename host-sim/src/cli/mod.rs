@@ -11,6 +11,7 @@ mod hil;
 mod linearise;
 mod modes;
 mod named;
+mod play;
 mod relax;
 mod reproduce;
 mod run;
@@ -31,6 +32,7 @@ use crate::cli::hil::{HilArguments, hil_of_scene};
 use crate::cli::linearise::linearise_scene;
 use crate::cli::modes::{ModesArguments, modes_of_scene};
 use crate::cli::named::load;
+use crate::cli::play::{PlayArguments, play_scenes};
 use crate::cli::relax::{RelaxArguments, relax_scene};
 use crate::cli::reproduce::{ReproduceArguments, reproduce_items};
 use crate::cli::run::{RunArguments, run_scene};
@@ -126,6 +128,10 @@ enum Command {
     /// bit with its own model, or is the plant (--serve); exit code 1 where a bit differs
     #[command(after_help = help::HIL)]
     Hil(HilArguments),
+    /// Writes a page in which scenes run live, with the bits of run: sliders, curves, an editor, a hand at the bodies; opens
+    /// it in a browser, or serves it (--serve)
+    #[command(after_help = help::PLAY)]
+    Play(PlayArguments),
     /// Makes a scene of MuJoCo's MJCF: each part with the line it comes from; what has no counterpart is
     /// listed with its size and refused, unless its kind is ignored
     #[command(after_help = help::IMPORT)]
@@ -176,6 +182,7 @@ where
         Command::Fmu(arguments) => write_fmu(&catalogue, &arguments, console),
         Command::Linearise(arguments) => linearise_scene(&catalogue, &arguments, console),
         Command::Hil(arguments) => hil_of_scene(&catalogue, &arguments, console),
+        Command::Play(arguments) => play_scenes(&catalogue, &arguments, console),
         Command::Import(arguments) => import_file(&arguments, console),
         Command::New(NewCommand::Firmware(arguments)) => {
             new_firmware(&catalogue, &arguments, console)

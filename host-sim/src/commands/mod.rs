@@ -20,6 +20,7 @@
 //! - [`mod@fmu`]: a scene becomes an FMU for other tools.
 //! - [`mod@linearise`]: a scene as a linear system.
 //! - [`hil`]: one end of a line to a microcontroller.
+//! - [`play`]: a page in which scenes run live.
 //! - [`mod@import`]: another program's file becomes a scene.
 //! - [`schema`]: what a scene file may hold, for editors.
 //! - [`new`]: a project with a plant in firmware, a scene to begin with.
@@ -44,6 +45,7 @@ pub mod modes;
 pub mod new;
 pub mod picture;
 pub mod planar;
+pub mod play;
 pub mod relax;
 pub mod reproduce;
 pub mod rounding;

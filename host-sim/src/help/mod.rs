@@ -38,6 +38,8 @@ pub const NEW_FIRMWARE: &str = examples!("new-firmware.txt");
 pub const NEW_LAWS: &str = examples!("new-laws.txt");
 /// Of `new scene`.
 pub const NEW_SCENE: &str = examples!("new-scene.txt");
+/// Of `play`.
+pub const PLAY: &str = examples!("play.txt");
 /// Of `relax`.
 pub const RELAX: &str = examples!("relax.txt");
 /// Of `reproduce`.

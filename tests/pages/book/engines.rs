@@ -23,12 +23,12 @@ fn memory(scheme: &str, precision: &str) -> String {
     format!("{flash} / {} kB", kilo(bytes(["plant_ram_bytes", "stack_bytes"])))
 }
 
-/// On how many builds and machines how many hashes were found equal.
+/// On how many builds and machines how many hashes, or more, were found equal.
 fn bits() -> String {
     let builds = rows("docs/results/bits.csv");
-    let hashes: Vec<&str> = builds.iter().map(|row| row.text("hashes")).collect();
-    assert!(hashes.iter().all(|count| *count == hashes[0]), "{hashes:?}");
-    format!("{} hashes equal on {} builds and machines", hashes[0], builds.len())
+    let hashes = builds.iter().map(|row| row.number("hashes"));
+    let fewest = hashes.fold(f64::INFINITY, f64::min);
+    format!("{fewest} hashes equal on {} builds and machines", builds.len())
 }
 
 fn own(name: &str, [scheme, precision]: [&str; 2], off: f64) -> Vec<String> {

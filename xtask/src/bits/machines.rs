@@ -11,8 +11,9 @@ use anyhow::{Context as _, Result, bail};
 
 use crate::bits::{host, relay};
 use crate::built::{Program, build};
-use crate::chip::{Toolchain, debian, firmware};
+use crate::chip::{Toolchain, debian, firmware, setup};
 use crate::command::{cargo, find, output, program, root};
+use crate::playground;
 use crate::steps::Steps;
 
 /// Where the outcome is kept.
@@ -21,6 +22,9 @@ const HEADER: &str = "build,byte_order,optimisation,hashes,tests,relayed";
 /// The tables of golden bits, whose rows the test `golden` compares.
 const GOLDEN: [&str; 3] =
     ["tests/bits/hashes.csv", "tests/bits/fixed.csv", "tests/bits/orientations.csv"];
+
+/// WebAssembly, as live views run it.
+const BROWSER: &str = "wasm32";
 
 /// Levels of optimisation on the host, and flags of the compiler.
 const LEVELS: [(&str, &str, &str); 6] = [
@@ -87,6 +91,12 @@ pub fn run(names: &[String]) -> Result<()> {
             Ok(())
         });
     }
+    if wanted(BROWSER) {
+        steps.step("the same bits in a browser", || {
+            rows.push(in_a_browser()?);
+            Ok(())
+        });
+    }
     println!("\n{HEADER}\n{}", rows.join("\n"));
     let written = write(&rows);
     steps.finish()?;
@@ -124,7 +134,8 @@ fn merged(present: &str, rows: &[String]) -> String {
 }
 
 fn names_of_builds() -> Vec<&'static str> {
-    LEVELS.iter().map(|level| level.0).chain(MACHINES.iter().map(|machine| machine.name)).collect()
+    let machines = MACHINES.iter().map(|machine| machine.name);
+    LEVELS.iter().map(|level| level.0).chain(machines).chain([BROWSER]).collect()
 }
 
 /// The row of a level of optimisation.
@@ -144,6 +155,23 @@ fn on_host(name: &str, level: &str, flags: &str) -> Result<String> {
         options.trim(),
         golden()?
     ))
+}
+
+/// The row of WebAssembly in Chromium, which compares all golden hashes but those of what is for comparison only.
+fn in_a_browser() -> Result<String> {
+    setup::browser()?;
+    playground::module()?;
+    let mut tests = cargo();
+    tests.args(["test", "--no-run", "--workspace", "--all-features", "--test", "browser"]);
+    let built = build(&mut tests)?;
+    let found = built.iter().find(|program| program.name == "tests::browser");
+    let found = found.context("the tests in a browser were not built")?;
+    let mut test = Command::new(&found.path);
+    test.current_dir(&found.folder).args(["--ignored", "bits_in_webassembly", "--nocapture"]);
+    let said = output(&mut test)?;
+    let count = said.lines().find_map(|line| line.strip_suffix(" golden hashes equal"));
+    let count = count.context("the browser compared no hashes")?;
+    Ok(format!("{BROWSER} in Chromium,little,opt-level = 3,{count},1,"))
 }
 
 impl Machine {

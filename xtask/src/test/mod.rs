@@ -17,7 +17,8 @@ use crate::chip::{Toolchain, firmware, project, setup, trajectory};
 use crate::command::{cargo, run as run_command, succeeds};
 use crate::steps::Steps;
 use crate::{
-    audit, boards, compile_times, cost, growth, hil, instructions, packages, provenance, python,
+    audit, boards, compile_times, cost, growth, hil, instructions, packages, playground,
+    provenance, python,
 };
 
 use cases::{Case, Selection};
@@ -161,10 +162,11 @@ fn tests(
     programs
 }
 
-/// Reports as a browser shows them.
+/// Reports and live views as a browser shows them.
 fn in_a_browser(steps: &mut Steps, programs: &[Program]) {
-    steps.step("reports in a browser", || {
+    steps.step("reports and live views in a browser", || {
         setup::browser()?;
+        playground::module()?;
         let program = programs.iter().find(|program| program.name == BROWSER);
         let program = program.with_context(|| format!("`{BROWSER}` was not built"))?;
         let mut command = Command::new(&program.path);

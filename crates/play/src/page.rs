@@ -1,0 +1,128 @@
+//! The page around the plant: one file that asks nobody for anything.
+//!
+//! `(scenes, settings, module) => HTML`. The module of WebAssembly stands in it compressed, the worker that runs it and the
+//! scripts that show it beside it; a page drops all into a browser from a disk as from any web host.
+
+use std::fmt::Write as _;
+use std::io::{self, Write as _};
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use dbd_plant::instance::Settings;
+use dbd_report::output::markup::escape;
+use dbd_report::page::{STAGE, STYLES, script_json};
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use serde::Serialize;
+
+use crate::session::Set;
+
+/// The file of the module.
+pub const MODULE: &str = "dbd_play.wasm";
+
+/// The format of the data that the scripts read.
+const FORMAT: u32 = 1;
+
+/// How a module of WebAssembly begins.
+const MAGIC: &[u8] = b"\0asm";
+
+/// The style of this page beside that of reports.
+const STYLE: &str = include_str!("../web/play.css");
+/// What the page has between its scripts.
+const BODY: &str = include_str!("../web/play.html");
+/// What runs the module.
+const WORKER: &str = include_str!("../web/worker.js");
+/// Scripts of the page beside those that draw a mechanism, in order.
+const SCRIPTS: &[&str] = &[
+    include_str!("../web/vendor/codemirror.min.js"),
+    include_str!("../web/engine.js"),
+    include_str!("../web/session.js"),
+    include_str!("../web/fields.js"),
+    include_str!("../web/live.js"),
+    include_str!("../web/trails.js"),
+    include_str!("../web/view.js"),
+    include_str!("../web/grab.js"),
+    include_str!("../web/transport.js"),
+    include_str!("../web/inputs.js"),
+    include_str!("../web/parameters.js"),
+    include_str!("../web/method.js"),
+    include_str!("../web/plot.js"),
+    include_str!("../web/curves.js"),
+    include_str!("../web/editor.js"),
+    include_str!("../web/save.js"),
+    include_str!("../web/main.js"),
+];
+
+/// A scene of a page.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct SceneText {
+    /// What a menu calls it.
+    pub name: String,
+    /// What messages call its text.
+    pub file: String,
+    /// What it is.
+    pub description: String,
+    /// The scene in TOML.
+    pub text: String,
+}
+
+/// What a page begins with.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Page {
+    /// One scene, or those of a menu; the first is shown.
+    pub scenes: Vec<SceneText>,
+    /// How they are stepped.
+    pub settings: Settings,
+    /// Numbers of the first scene given otherwise, by their paths.
+    pub set: Set,
+    /// \[1\] simulated time per time that is watched; `None` where the page chooses.
+    pub speed: Option<f64>,
+    /// Where the text of the first scene is served as it changes; `None` where nobody serves it.
+    pub reload: Option<String>,
+}
+
+/// The page as HTML.
+///
+/// # Errors
+/// Where `module` is no module of WebAssembly.
+pub fn html(page: &Page, module: &[u8]) -> io::Result<String> {
+    #[derive(Serialize)]
+    struct Data<'p> {
+        format: u32,
+        version: &'static str,
+        #[serde(flatten)]
+        page: &'p Page,
+    }
+    if !module.starts_with(MAGIC) {
+        return Err(io::Error::other("it is no module of WebAssembly"));
+    }
+    let mut packer = GzEncoder::new(Vec::new(), Compression::best());
+    packer.write_all(module)?;
+    let packed = STANDARD.encode(packer.finish()?);
+    let data = Data { format: FORMAT, version: env!("CARGO_PKG_VERSION"), page };
+    let title = match page.scenes.as_slice() {
+        [one] => escape(&one.name),
+        _ => "Playground".into(),
+    };
+    let mut text = format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n<title>{title}</title>\n"
+    );
+    for style in STYLES.iter().chain([&STYLE]) {
+        let _ = writeln!(text, "<style>\n{style}</style>");
+    }
+    let _ = writeln!(text, "</head>\n<body>\n{BODY}");
+    let _ = writeln!(
+        text,
+        "<script type=\"application/json\" id=\"play\">{}</script>",
+        script_json(&data)
+    );
+    let _ = writeln!(text, "<script type=\"text/plain\" id=\"worker\">\n{WORKER}</script>");
+    let _ = writeln!(text, "<script type=\"text/plain\" id=\"module\">{packed}</script>");
+    for script in STAGE.iter().chain(SCRIPTS) {
+        let _ = writeln!(text, "<script>\n{script}</script>");
+    }
+    text.push_str("</body>\n</html>\n");
+    Ok(text)
+}

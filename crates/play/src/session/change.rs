@@ -1,0 +1,108 @@
+//! What is asked for, and what of a running plant is kept when it is asked for otherwise.
+//!
+//! `(text, settings, changes) => plant; (old plant, new plant) => state carried over, or why not`.
+
+use dbd_plant::instance::{Instance, Settings};
+use dbd_scene::Scene;
+
+use crate::refused::Refused;
+use crate::session::{Session, Set, instance};
+
+/// A scene and how it is stepped.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Change {
+    /// What messages call the text.
+    pub file: String,
+    /// The scene in TOML.
+    pub text: String,
+    /// Scheme, damping, precision, step; what is not said is the scene's, or `run`'s.
+    pub settings: Settings,
+    /// Numbers of the scene given otherwise, by their paths.
+    pub set: Set,
+}
+
+impl Change {
+    pub(super) fn instance(&self) -> Result<Instance, Refused> {
+        if let Some((path, value)) = self.set.iter().find(|(_, value)| !value.is_finite()) {
+            return Err(Refused::new(
+                format!("the parameter `{path}` cannot be {value:?}"),
+                "a finite number",
+            ));
+        }
+        instance(&self.file, &self.text, &self.settings, &self.set)
+    }
+}
+
+impl Session {
+    /// Takes what is asked for in place of what is. State, time and inputs go on where the scene's parts and its pose at
+    /// t = 0 stay the same: stiffness, damping, mass, gravity, scheme, precision and step change in mid-run. Else the run
+    /// begins anew; the reason is returned.
+    ///
+    /// # Errors
+    /// Where the scene or the settings are refused; nothing is changed then.
+    pub fn change(&mut self, asked: Change) -> Result<Option<String>, Refused> {
+        let other = asked.instance()?;
+        match self.carried(other) {
+            Ok(instance) => {
+                let old = std::mem::replace(self, Self::of(asked, instance));
+                if old.instance.outputs() == self.instance.outputs() {
+                    self.watched = old.watched;
+                }
+                self.disturbed = true;
+                self.energy_at_start = old.energy_at_start;
+                (self.grab, self.work) = (old.grab, old.work);
+                (self.marks, self.inputs_set) = (old.marks, old.inputs_set);
+                Ok(None)
+            }
+            Err((instance, why)) => {
+                *self = Self::of(asked, *instance);
+                Ok(Some(why))
+            }
+        }
+    }
+
+    /// The other plant in this one's state.
+    fn carried(&self, mut other: Instance) -> Result<Instance, (Box<Instance>, String)> {
+        let no = |other: Instance, why: &str| Err((Box::new(other), why.to_owned()));
+        if self.trouble.is_some() {
+            return no(other, "the run had failed");
+        }
+        if let Some(why) = differs(self.instance.scene(), other.scene()) {
+            return no(other, why);
+        }
+        let mut state = self.instance.plant().state();
+        state.step = (self.instance.time() / other.step_size()).round() as u64;
+        match other.plant_mut().set_state(&state) {
+            Ok(()) => Ok(other),
+            Err(error) => {
+                other.reset();
+                let why = format!("the state does not go on: {error}");
+                Err((Box::new(other), why))
+            }
+        }
+    }
+}
+
+/// Why a state of one scene is none of the other.
+fn differs(a: &Scene, b: &Scene) -> Option<&'static str> {
+    let inputs =
+        |scene: &Scene| scene.inputs.iter().map(|input| input.name.clone()).collect::<Vec<_>>();
+    let joints =
+        |scene: &Scene| scene.joints.iter().map(|joint| joint.name.clone()).collect::<Vec<_>>();
+    if a.body_names != b.body_names || joints(a) != joints(b) {
+        return Some("it has other bodies or joints");
+    }
+    if a.torsion_names != b.torsion_names
+        || a.law_names() != b.law_names()
+        || inputs(a) != inputs(b)
+    {
+        return Some("it has other springs, interactions or inputs");
+    }
+    if a.model.initial != b.model.initial {
+        return Some("its pose at t = 0 is another");
+    }
+    if a.model.points != b.model.points || a.model.groups != b.model.groups {
+        return Some("its points are elsewhere");
+    }
+    None
+}

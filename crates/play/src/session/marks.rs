@@ -1,0 +1,106 @@
+//! A ring of states to go back to.
+//!
+//! `(state, settings, changes) => mark; mark => session as it was`.
+
+use std::collections::VecDeque;
+
+use crate::refused::Refused;
+use crate::session::{Change, Session};
+
+/// Marks that are kept; the oldest goes first.
+pub const MOST_MARKS: usize = 600;
+/// \[byte\] all of them together, at least two.
+const MOST_BYTES: usize = 64_000_000;
+
+/// A state that was kept.
+#[derive(Clone, Debug)]
+struct Mark {
+    time: f64,
+    asked: Change,
+    snapshot: Vec<u8>,
+    disturbed: bool,
+    work: f64,
+    inputs_set: usize,
+}
+
+/// Those that are kept, the oldest first.
+#[derive(Clone, Debug, Default)]
+pub struct Marks(VecDeque<Mark>);
+
+impl Session {
+    /// Keeps the present state; how many are kept, and \[s\] the times of the oldest and the newest. A failed state is not
+    /// kept.
+    pub fn mark(&mut self) -> (usize, [f64; 2]) {
+        if let Ok(snapshot) = self.instance.plant().snapshot() {
+            let newest = self.marks.0.back().map(|mark| mark.time);
+            let time = self.instance.time();
+            if newest != Some(time) && self.trouble.is_none() {
+                let room =
+                    (MOST_BYTES / (snapshot.len() + self.asked.text.len())).clamp(2, MOST_MARKS);
+                while self.marks.0.len() >= room {
+                    self.marks.0.pop_front();
+                }
+                self.marks.0.push_back(Mark {
+                    time,
+                    asked: self.asked.clone(),
+                    snapshot,
+                    disturbed: self.disturbed,
+                    work: self.work,
+                    inputs_set: self.inputs_set.len(),
+                });
+            }
+        }
+        let time = |mark: Option<&Mark>| mark.map_or(self.instance.time(), |mark| mark.time);
+        (self.marks.0.len(), [time(self.marks.0.front()), time(self.marks.0.back())])
+    }
+
+    /// Goes back to a mark, 0 the oldest, with the settings and numbers of then; later ones are dropped. A failure is
+    /// forgotten.
+    ///
+    /// # Errors
+    /// Where there is no such mark.
+    pub fn rewind(&mut self, mark: usize) -> Result<(), Refused> {
+        let count = self.marks.0.len();
+        let Some(kept) = self.marks.0.get(mark).cloned() else {
+            return Err(Refused::new(
+                format!("there is no mark {mark}"),
+                format!("{count} are kept"),
+            ));
+        };
+        if kept.asked != self.asked {
+            let instance = kept.asked.instance()?;
+            let old = std::mem::replace(self, Self::of(kept.asked, instance));
+            if old.instance.outputs() == self.instance.outputs() {
+                self.watched = old.watched;
+            }
+            (self.marks, self.inputs_set) = (old.marks, old.inputs_set);
+            self.energy_at_start = old.energy_at_start;
+        }
+        self.instance.restore(&kept.snapshot)?;
+        self.inputs_set.truncate(kept.inputs_set);
+        (self.disturbed, self.work, self.trouble, self.grab) =
+            (kept.disturbed, kept.work, None, None);
+        self.marks.0.truncate(mark + 1);
+        Ok(())
+    }
+
+    /// The state as `Plant::restore` of firmware, `dbd.Plant.restore` of Python and [`Self::restore`] take it.
+    ///
+    /// # Errors
+    /// Where the plant has failed.
+    pub fn save(&self) -> Result<Vec<u8>, Refused> {
+        let failed =
+            |error| Refused::new(format!("there is no state to keep: {error}"), "reset it first");
+        self.instance.plant().snapshot().map_err(failed)
+    }
+
+    /// Goes on from a state that was saved, on whatever machine.
+    ///
+    /// # Errors
+    /// Where it is of another scene, scheme, precision or step; nothing is changed then.
+    pub fn restore(&mut self, bytes: &[u8]) -> Result<(), Refused> {
+        self.instance.restore(bytes)?;
+        (self.disturbed, self.trouble, self.grab) = (true, None, None);
+        Ok(())
+    }
+}

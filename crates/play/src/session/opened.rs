@@ -1,0 +1,217 @@
+//! What a page needs to know of a session: names, units, choices, what is drawn.
+//!
+//! `session => description`.
+
+use dbd_plant::{
+    DampingName, Frequencies, Method, Named as _, PrecisionName, SchemeName, time::display,
+};
+use dbd_report::data::{Run, Trace};
+use dbd_report::recording::traces;
+use dbd_scene::Scene;
+use serde::Serialize;
+
+use crate::session::{Layout, Session, Set};
+
+/// Numbers of a scene that a page is told of at most; the text has the others.
+const MOST_NUMBERS: usize = 20_000;
+
+/// What a page shows of a session beside its frames.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Opened {
+    /// The scene's name.
+    pub name: String,
+    /// What it is.
+    pub description: String,
+    /// \[s\] how long `run` simulates it.
+    pub duration: f64,
+    /// \[s\] the step.
+    pub step: f64,
+    /// Steps of that run.
+    pub steps: u64,
+    /// The scheme's name.
+    pub scheme: &'static str,
+    /// The damping's.
+    pub damping: &'static str,
+    /// The precision's.
+    pub precision: &'static str,
+    /// Whether it is stepped in a plane.
+    pub planar: bool,
+    /// What is drawn, as a report has it.
+    pub run: Run,
+    /// Points whose paths are worth a look.
+    pub traces: Vec<Trace>,
+    /// What a caller drives.
+    pub inputs: Vec<Handle>,
+    /// What it shows.
+    pub outputs: Vec<Shown>,
+    /// The first output that is a read-out.
+    pub readouts: usize,
+    /// All numbers of the scene.
+    pub numbers: Vec<Number>,
+    /// Its named parameters.
+    pub parameters: Vec<Number>,
+    /// Numbers that are not told of.
+    pub numbers_left_out: usize,
+    /// What is probably not meant.
+    pub warnings: Vec<String>,
+    /// \[s\] the longest step that is stable at t = 0; `None` where any is.
+    pub limit: Option<f64>,
+    /// The same run on the command line.
+    pub command: String,
+    /// What may be chosen.
+    pub choices: Choices,
+    /// Where a frame has what.
+    pub layout: Layout,
+    /// What was changed of the scene, by path.
+    pub set: Set,
+}
+
+/// An input.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Handle {
+    /// Its name.
+    pub name: String,
+    /// Its SI unit.
+    pub unit: &'static str,
+    /// Its type.
+    pub kind: &'static str,
+    /// \[`unit`\] what it is held at.
+    pub value: Option<f64>,
+    /// Its place among the inputs.
+    pub row: usize,
+}
+
+/// An output.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Shown {
+    /// The column's name.
+    pub name: String,
+    /// Its SI unit.
+    pub unit: &'static str,
+    /// What it is.
+    pub description: String,
+}
+
+/// A number of the scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Number {
+    /// Where it is.
+    pub path: String,
+    /// \[`unit`\] what it is.
+    pub value: f64,
+    /// Its SI unit.
+    pub unit: String,
+}
+
+/// Methods by name.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Choices {
+    /// Schemes, each with its dampings, its own first.
+    pub schemes: Vec<Scheme>,
+    /// Precisions.
+    pub precisions: Vec<&'static str>,
+}
+
+/// A scheme.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Scheme {
+    /// Its name.
+    pub name: &'static str,
+    /// Ways of damping.
+    pub dampings: Vec<&'static str>,
+}
+
+impl Session {
+    /// What a page shows beside frames.
+    #[must_use]
+    pub fn opened(&self) -> Opened {
+        let instance = &self.instance;
+        let (scene, plant) = (instance.scene(), instance.plant());
+        let method = plant.method();
+        let limit = method.stability_limit() / Frequencies::of(scene).bound;
+        let outputs = instance.outputs().iter().map(|output| Shown {
+            name: output.name.clone(),
+            unit: output.unit,
+            description: output.description.clone(),
+        });
+        let inputs = instance.inputs().iter().enumerate().map(|(row, input)| Handle {
+            name: input.name.clone(),
+            unit: input.unit,
+            kind: input.kind,
+            value: instance.input_value(row),
+            row,
+        });
+        let numbers = instance.parameters().unwrap_or_default();
+        let named = scene.parameters.len();
+        let number = |number: &dbd_scene::parameters::SceneNumber| Number {
+            path: number.path.clone(),
+            value: number.value,
+            unit: number.unit.clone(),
+        };
+        Opened {
+            name: scene.name.clone(),
+            description: scene.description.clone(),
+            duration: scene.duration,
+            step: instance.step_size(),
+            steps: self.plan.steps,
+            scheme: method.scheme_name(),
+            damping: method.damping().name(),
+            precision: method.precision_name(),
+            planar: scene.planar.is_some(),
+            run: Run { mechanism: Some(self.mechanism.clone()), ..Run::default() },
+            traces: traces(scene),
+            inputs: inputs.collect(),
+            outputs: outputs.collect(),
+            readouts: readouts(scene),
+            numbers: numbers.iter().skip(named).take(MOST_NUMBERS).map(number).collect(),
+            parameters: numbers.iter().take(named).map(number).collect(),
+            numbers_left_out: numbers.len().saturating_sub(named + MOST_NUMBERS),
+            warnings: scene.warnings().iter().map(ToString::to_string).collect(),
+            limit: limit.is_finite().then_some(limit),
+            command: self.command(method),
+            choices: choices(),
+            layout: self.layout(),
+            set: self.asked.set.clone(),
+        }
+    }
+
+    fn command(&self, method: &Method) -> String {
+        let settings = &self.asked.settings;
+        let newton = settings.newton.map(|n| format!(" --newton {n}")).unwrap_or_default();
+        let rho = settings.rho.map(|rho| format!(" --rho {rho}")).unwrap_or_default();
+        let damping = settings.damping.as_ref().map(|way| format!(" --damping {way}"));
+        let (_, set) = self.scene_text();
+        format!(
+            "host-sim run {}{set} --scheme {}{newton}{rho}{} --precision {} --step {}",
+            self.asked.file,
+            method.scheme_name(),
+            damping.unwrap_or_default(),
+            method.precision_name(),
+            display(self.instance.step_size()),
+        )
+    }
+}
+
+/// The first output of a scene that is a read-out.
+pub(super) fn readouts(scene: &Scene) -> usize {
+    scene.body_names.len() * dbd_scene::BODY_COLUMNS.len() + dbd_scene::ENERGY_COLUMNS.len()
+}
+
+fn choices() -> Choices {
+    let scheme = |scheme: &SchemeName| {
+        let method = Method::new(*scheme, None, PrecisionName::F64).ok()?;
+        let own = method.damping().name();
+        let others = DampingName::ALL.iter().filter(|way| method.with_damping(**way).is_ok());
+        let others = others.map(|way| way.name()).filter(|name| *name != own);
+        Some(Scheme { name: scheme.name(), dampings: std::iter::once(own).chain(others).collect() })
+    };
+    let built = |precision: &&PrecisionName| {
+        let method = Method::new(SchemeName::default(), None, **precision);
+        method.is_ok_and(|method| method.check_built().is_ok())
+    };
+    let precisions = PrecisionName::ALL.iter().filter(built).map(|precision| precision.name());
+    Choices {
+        schemes: SchemeName::ALL.iter().filter_map(scheme).collect(),
+        precisions: precisions.collect(),
+    }
+}

@@ -1,0 +1,219 @@
+//! `host-sim play`: a page in which scenes run, with the kernel in WebAssembly.
+//!
+//! `(scenes, settings, module) => one file of HTML, or the same served on this machine`.
+
+mod serve;
+
+pub use serve::serve;
+
+use std::fmt;
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+
+use dbd_plant::instance::{InstanceError, Settings};
+use dbd_play::page::{MODULE, Page, SceneText, html};
+use dbd_play::session::{Change, MOST_TEXT, Session, Set};
+use dbd_report::output::file::PendingFile;
+use dbd_scene::file::read;
+use miette::Diagnostic;
+use thiserror::Error;
+
+use crate::error::Error;
+use crate::terminal::Catalogue;
+
+/// \[byte\] no module has this size.
+const MAX_MODULE: u64 = 1 << 28;
+
+/// Why there is no page.
+#[derive(Debug, Error)]
+pub enum PlayError {
+    /// The scene does not run as it is asked for.
+    #[error("{0}")]
+    Refused(String, Option<String>),
+    /// A change of a number is none.
+    #[error("`{0}` is no change of a number")]
+    Change(String),
+    /// A text is longer than a page takes.
+    #[error("the scene `{scene}` has {bytes} bytes of text, a page takes {MOST_TEXT}")]
+    Long {
+        /// Its name.
+        scene: String,
+        /// How many.
+        bytes: usize,
+    },
+    /// A speed is none.
+    #[error("a speed of {0} shows nothing")]
+    Speed(f64),
+    /// The kernel in WebAssembly is not there.
+    #[error("there is no module {}: {reason}", file.display())]
+    Module {
+        /// Where it was looked for.
+        file: PathBuf,
+        /// Why not.
+        reason: io::Error,
+    },
+    /// Something that changes cannot be served.
+    #[error("{0} is no file that could change")]
+    NoFile(String),
+    /// The file holds something else.
+    #[error("{} holds what is no page", file.display())]
+    Taken {
+        /// The file.
+        file: PathBuf,
+    },
+    /// The page cannot be written.
+    #[error("cannot write {}: {reason}", file.display())]
+    Write {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        reason: io::Error,
+    },
+    /// The page cannot be served.
+    #[error("cannot serve on 127.0.0.1:{port}: {reason}")]
+    Serve {
+        /// The port; 0 for any.
+        port: u16,
+        /// Why.
+        reason: String,
+    },
+}
+
+impl Diagnostic for PlayError {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        Some(match self {
+            Self::Refused(_, help) => return help.clone().map(|help| Box::new(help) as _),
+            Self::Change(_) => Box::new("PATH=NUMBER, the number in the unit of the path, in SI"),
+            Self::Long { .. } => Box::new("host-sim run takes it"),
+            Self::Speed(_) => Box::new("a number above 0; 0.1 is a tenth of real time"),
+            Self::Module { .. } => Box::new(
+                "cargo xtask playground makes it beside host-sim, in a checkout; --module takes another place",
+            ),
+            Self::NoFile(_) => Box::new(
+                "a path to a .toml file; host-sim new scene NAME --from SCENE writes a copy of a scene that is built in",
+            ),
+            Self::Taken { .. } => Box::new("--out takes another name, or remove that file"),
+            Self::Write { .. } => return None,
+            Self::Serve { .. } => {
+                Box::new("--port takes another one; without it a free one is taken")
+            }
+        })
+    }
+}
+
+/// What a page is asked to show.
+pub struct Asked<'a> {
+    /// Scenes as they were called.
+    pub called: &'a [String],
+    /// Changes of the first.
+    pub changes: &'a [String],
+    /// How they are stepped.
+    pub settings: Settings,
+    /// Simulated time per time that is watched.
+    pub speed: Option<f64>,
+}
+
+/// The page of scenes; the first must run as it is asked for.
+///
+/// # Errors
+/// Where a scene does not load, or the first does not go with the settings.
+pub fn page(catalogue: &Catalogue, asked: &Asked<'_>) -> Result<Page, Error> {
+    let mut scenes = Vec::new();
+    let mut set = Set::new();
+    for (row, called) in asked.called.iter().enumerate() {
+        let changes = if row == 0 { asked.changes } else { &[] };
+        let found = catalogue.load_with(called, changes)?;
+        if found.text.len() > MOST_TEXT {
+            let (scene, bytes) = (found.scene.name, found.text.len());
+            return Err(PlayError::Long { scene, bytes }.into());
+        }
+        let file = format!("{}.toml", found.file.stem);
+        if row == 0 {
+            set = numbers(changes)?;
+            let (text, settings) = (found.text.clone(), asked.settings.clone());
+            let change = Change { file: file.clone(), text, settings, set: set.clone() };
+            Session::open(change).map_err(|no| PlayError::Refused(no.message, no.help))?;
+        }
+        scenes.push(SceneText {
+            name: found.file.stem,
+            file,
+            description: found.scene.description,
+            text: found.text,
+        });
+    }
+    let (settings, speed) = (asked.settings.clone(), asked.speed);
+    Ok(Page { scenes, settings, set, speed, reload: None })
+}
+
+/// Changes of numbers by their paths: what a page's sliders change, too.
+fn numbers(changes: &[String]) -> Result<Set, PlayError> {
+    let number = |change: &String| {
+        let (path, value) = change.split_once('=')?;
+        Some((path.trim().to_owned(), value.trim().parse().ok()?))
+    };
+    changes
+        .iter()
+        .map(|change| number(change).ok_or_else(|| PlayError::Change(change.clone())))
+        .collect()
+}
+
+/// The module of a file; without one that beside this program.
+///
+/// # Errors
+/// Where it cannot be read.
+pub fn module(file: Option<&Path>) -> Result<Vec<u8>, PlayError> {
+    let beside = || std::env::current_exe().unwrap_or_default().with_file_name(MODULE);
+    let file = file.map_or_else(beside, Path::to_owned);
+    read(&file, MAX_MODULE).map_err(|reason| PlayError::Module { file, reason })
+}
+
+/// The page as HTML.
+///
+/// # Errors
+/// Where the module is none.
+pub fn made(page: &Page, module: &[u8]) -> Result<String, PlayError> {
+    html(page, module).map_err(|reason| PlayError::Module { file: MODULE.into(), reason })
+}
+
+/// Writes a page; the file it is in.
+///
+/// # Errors
+/// Where the file holds what is no page, or cannot be written.
+pub fn written(html: &str, out: Option<&Path>, page: &Page) -> Result<PathBuf, PlayError> {
+    let usual = || match page.scenes.as_slice() {
+        [one] => Path::new("out").join(&one.name).join("play.html"),
+        _ => PathBuf::from("out/play.html"),
+    };
+    let file = out.map_or_else(usual, Path::to_owned);
+    // A device, which looks empty, takes no other file's name either.
+    if file.exists() && !(file.is_file() && is_page(&file)) {
+        return Err(PlayError::Taken { file });
+    }
+    let write = || {
+        let name = file.file_name().and_then(|name| name.to_str());
+        let name = name.ok_or_else(|| io::Error::other("it is no file's name"))?;
+        let folder = file.parent().filter(|folder| *folder != Path::new(""));
+        let folder = folder.unwrap_or(Path::new("."));
+        std::fs::create_dir_all(folder)?;
+        let mut pending = PendingFile::create(folder, name)?;
+        pending.write_all(html.as_bytes())?;
+        pending.complete()
+    };
+    match write() {
+        Ok(()) => Ok(file),
+        Err(reason) => Err(PlayError::Write { file, reason }),
+    }
+}
+
+/// Whether a file begins as a page does; an empty one holds nothing to lose.
+fn is_page(file: &Path) -> bool {
+    let begins = |bytes: Vec<u8>| bytes.is_empty() || bytes.starts_with(b"<!doctype html>");
+    read(file, MAX_MODULE).is_ok_and(begins)
+}
+
+impl From<InstanceError> for PlayError {
+    fn from(error: InstanceError) -> Self {
+        let refused = dbd_play::refused::Refused::from(error);
+        Self::Refused(refused.message, refused.help)
+    }
+}

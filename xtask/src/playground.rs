@@ -1,0 +1,99 @@
+//! The kernel in WebAssembly, and the page with all scenes that a web host shows.
+//!
+//! `dbd-play => dbd_play.wasm beside host-sim, docs/playground/index.html`.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use anyhow::{Context as _, Result, bail};
+
+use crate::built::{build, host_sim};
+use crate::chip::{Toolchain, setup};
+use crate::command::{cargo, output, program, root, run, target_dir};
+use crate::provenance;
+
+/// What a browser runs.
+const TARGET: &str = "wasm32-unknown-unknown";
+/// The profile of the module.
+const PROFILE: &str = "web";
+const MODULE: &str = "dbd_play.wasm";
+/// What was measured.
+const FILE: &str = "docs/results/play.csv";
+const HEADER: &str = "scene,steps,native_us,browser_us";
+/// The page, which is not kept with the sources.
+const PAGE: &str = "docs/playground/index.html";
+
+/// `cargo xtask playground`.
+///
+/// # Errors
+/// Where the target's compiler is missing, or something does not build or cannot be written.
+pub fn make() -> Result<()> {
+    let module = module()?;
+    let built = build(cargo().args(["build", "--release", "--package", "host-sim"]))?;
+    let host_sim = host_sim(&built)?;
+    let beside = host_sim.with_file_name(MODULE);
+    std::fs::copy(&module, &beside).context("cannot put the module beside host-sim")?;
+    println!("{}: host-sim play finds it", beside.display());
+    let page = root().join(PAGE);
+    run(program(host_sim).args(["play", "--all", "--no-open", "--out"]).arg(page))
+}
+
+/// `cargo xtask playground --measure`: times steps in Chromium and by host-sim as released, side by side, and writes
+/// docs/results/play.csv.
+///
+/// # Errors
+/// Where something does not build, or a run fails.
+pub fn measure() -> Result<()> {
+    setup::browser()?;
+    module()?;
+    let built = build(cargo().args(["build", "--release", "--package", "host-sim"]))?;
+    let host_sim = host_sim(&built)?;
+    let mut tests = cargo();
+    tests.args(["test", "--no-run", "--workspace", "--all-features", "--test", "browser"]);
+    let built = build(&mut tests)?;
+    let found = built.iter().find(|program| program.name == "tests::browser");
+    let found = found.context("the tests in a browser were not built")?;
+    let mut test = Command::new(&found.path);
+    test.current_dir(&found.folder).env("DBD_HOST_SIM", host_sim);
+    let said = output(test.args(["--ignored", "speed_beside_host_sim", "--nocapture"]))?;
+    let rows = said.lines().filter_map(|line| line.strip_prefix("measured,"));
+    let rows: Vec<&str> = rows.collect();
+    if rows.is_empty() {
+        bail!("nothing was measured:\n{said}");
+    }
+    let text = format!(
+        "# Time of a step in Chromium, as a live view steps, beside host-sim on the same machine, one after the other;\n\
+         # written by `cargo xtask playground --measure`.\n{HEADER}\n{}\n",
+        rows.join("\n")
+    );
+    println!("{text}");
+    std::fs::write(root().join(FILE), text).with_context(|| format!("cannot write {FILE}"))?;
+    provenance::note(&[FILE])
+}
+
+/// Builds the module; where it is.
+///
+/// # Errors
+/// Where the target's compiler is missing, or it does not build.
+pub fn module() -> Result<PathBuf> {
+    let toolchain = Toolchain::find(TARGET)?;
+    println!("{}", toolchain.describe()?);
+    let mut command = toolchain.cargo("rustc", "std,panic_abort");
+    command.args([
+        "--profile",
+        PROFILE,
+        "--package",
+        "dbd-play",
+        "--lib",
+        "--crate-type",
+        "cdylib",
+    ]);
+    run(&mut command)?;
+    let folder = target_dir().join("play");
+    std::fs::create_dir_all(&folder).context("cannot make a folder for the module")?;
+    let module = folder.join(MODULE);
+    let made = toolchain.images(PROFILE).join(MODULE);
+    let size = std::fs::copy(made, &module).context("cannot copy the module")?;
+    println!("{}: {size} bytes", module.display());
+    Ok(module)
+}
