@@ -165,7 +165,9 @@ impl Browser {
 
     /// Moves the mouse to a point of the window [pixels], with the left button held where asked.
     pub fn mouse(&mut self, kind: &str, x: f64, y: f64, held: bool) {
-        let (button, buttons) = if held { ("left", 1) } else { ("none", 0) };
+        // What is let go is a button, too.
+        let button = if held || kind == "mouseReleased" { "left" } else { "none" };
+        let buttons = u8::from(held);
         let event = json!({
             "type": kind, "x": x, "y": y, "button": button, "buttons": buttons, "clickCount": u8::from(held),
         });

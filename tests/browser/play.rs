@@ -192,7 +192,8 @@ fn hand(browser: &mut Browser) {
     assert!(work != 0.0 && work.is_finite(), "the hand did {work} J");
     assert_eq!(browser.run("dbd.play.page.grab.held !== null"), true, "it holds");
     browser.mouse("mouseReleased", x + 30.0, y + 40.0, false);
-    let nothing = "(async () => { const { work } = await dbd.play.frame(); await dbd.play.advance(100);
+    let nothing =
+        "(async () => { const { work } = await dbd.play.frame(); await dbd.play.advance(100);
         return dbd.play.page.grab.held === null && (await dbd.play.frame()).work === work; })()";
     browser.wait(nothing, "released, it does nothing");
 }

@@ -86,24 +86,30 @@ pub(super) fn play_scenes(
         true => catalogue.names(),
         false => arguments.scenes.clone(),
     };
+    let mut scenes = Vec::new();
+    for (row, name) in called.iter().enumerate() {
+        let changes = if row == 0 { arguments.set.as_slice() } else { &[] };
+        scenes.push(catalogue.load_with(name, changes)?);
+    }
     let asked = Asked {
-        called: &called,
+        scenes,
         changes: &arguments.set,
         settings: arguments.settings(),
         speed: arguments.speed,
     };
     // What is wrong with a scene is said before what is wrong with the program's surroundings.
-    let begun = page(catalogue, &asked)?;
+    let begun = page(asked)?;
     let module = module(arguments.module.as_deref())?;
     let opens = console.terminal && !arguments.no_open;
     if arguments.serve {
         let file =
             catalogue.file(&called[0]).ok_or_else(|| PlayError::NoFile(called[0].clone()))?;
-        return serve(begun, &module, &file, arguments.port, &mut |url| {
-            console.print(&format!("{url}\n"))?;
+        serve(begun, &module, &file, arguments.port, &mut |url| {
+            // A reader that has gone has the page all the same.
+            let _ = console.print(&format!("{url}\n"));
             open(opens, url, console);
-            Ok(())
-        });
+        })?;
+        return Ok(Exit::Done);
     }
     let html = made(&begun, &module)?;
     let file = written(&html, arguments.out.as_deref(), &begun)?;

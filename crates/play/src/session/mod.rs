@@ -127,7 +127,7 @@ impl Session {
             }
             if let Status::Failed(failure) = self.instance.plant_mut().advance(next - done) {
                 self.trouble = Some(Trouble::Step(failure.cause));
-            } else if next % stride == 0 {
+            } else if next.is_multiple_of(stride) {
                 self.look();
             }
         }

@@ -10,7 +10,7 @@ use std::fmt;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-use dbd_plant::instance::{InstanceError, Settings};
+use dbd_plant::instance::Settings;
 use dbd_play::page::{MODULE, Page, SceneText, html};
 use dbd_play::session::{Change, MOST_TEXT, Session, Set};
 use dbd_report::output::file::PendingFile;
@@ -18,8 +18,7 @@ use dbd_scene::file::read;
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::error::Error;
-use crate::terminal::Catalogue;
+use crate::terminal::Found;
 
 /// \[byte\] no module has this size.
 const MAX_MODULE: u64 = 1 << 28;
@@ -103,8 +102,8 @@ impl Diagnostic for PlayError {
 
 /// What a page is asked to show.
 pub struct Asked<'a> {
-    /// Scenes as they were called.
-    pub called: &'a [String],
+    /// The scenes.
+    pub scenes: Vec<Found>,
     /// Changes of the first.
     pub changes: &'a [String],
     /// How they are stepped.
@@ -116,33 +115,25 @@ pub struct Asked<'a> {
 /// The page of scenes; the first must run as it is asked for.
 ///
 /// # Errors
-/// Where a scene does not load, or the first does not go with the settings.
-pub fn page(catalogue: &Catalogue, asked: &Asked<'_>) -> Result<Page, Error> {
-    let mut scenes = Vec::new();
-    let mut set = Set::new();
-    for (row, called) in asked.called.iter().enumerate() {
-        let changes = if row == 0 { asked.changes } else { &[] };
-        let found = catalogue.load_with(called, changes)?;
+/// Where a scene is too long, or the first does not go with the settings.
+pub fn page(asked: Asked<'_>) -> Result<Page, PlayError> {
+    let Asked { scenes, changes, settings, speed } = asked;
+    let set = numbers(changes)?;
+    let mut texts = Vec::new();
+    for found in scenes {
         if found.text.len() > MOST_TEXT {
-            let (scene, bytes) = (found.scene.name, found.text.len());
-            return Err(PlayError::Long { scene, bytes }.into());
+            return Err(PlayError::Long { scene: found.scene.name, bytes: found.text.len() });
         }
         let file = format!("{}.toml", found.file.stem);
-        if row == 0 {
-            set = numbers(changes)?;
-            let (text, settings) = (found.text.clone(), asked.settings.clone());
+        if texts.is_empty() {
+            let (text, settings) = (found.text.clone(), settings.clone());
             let change = Change { file: file.clone(), text, settings, set: set.clone() };
             Session::open(change).map_err(|no| PlayError::Refused(no.message, no.help))?;
         }
-        scenes.push(SceneText {
-            name: found.file.stem,
-            file,
-            description: found.scene.description,
-            text: found.text,
-        });
+        let (name, description) = (found.file.stem, found.scene.description);
+        texts.push(SceneText { name, file, description, text: found.text });
     }
-    let (settings, speed) = (asked.settings.clone(), asked.speed);
-    Ok(Page { scenes, settings, set, speed, reload: None })
+    Ok(Page { scenes: texts, settings, set, speed, reload: None })
 }
 
 /// Changes of numbers by their paths: what a page's sliders change, too.
@@ -209,11 +200,4 @@ pub fn written(html: &str, out: Option<&Path>, page: &Page) -> Result<PathBuf, P
 fn is_page(file: &Path) -> bool {
     let begins = |bytes: Vec<u8>| bytes.is_empty() || bytes.starts_with(b"<!doctype html>");
     read(file, MAX_MODULE).is_ok_and(begins)
-}
-
-impl From<InstanceError> for PlayError {
-    fn from(error: InstanceError) -> Self {
-        let refused = dbd_play::refused::Refused::from(error);
-        Self::Refused(refused.message, refused.help)
-    }
 }

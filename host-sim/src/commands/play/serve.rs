@@ -12,8 +12,7 @@ use serde_json::json;
 use tiny_http::{Header, Method, Request, Response, Server, StatusCode};
 
 use crate::commands::play::{PlayError, made};
-use crate::error::Error;
-use crate::terminal::{Exit, SceneFile};
+use crate::terminal::SceneFile;
 
 /// Serves a page until a signal ends the program; `told` hears of its URL.
 ///
@@ -24,8 +23,8 @@ pub fn serve(
     module: &[u8],
     file: &Path,
     port: Option<u16>,
-    told: &mut dyn FnMut(&str) -> Result<(), Error>,
-) -> Result<Exit, Error> {
+    told: &mut dyn FnMut(&str),
+) -> Result<(), PlayError> {
     let port = port.unwrap_or(0);
     let refused = |reason: String| PlayError::Serve { port, reason };
     let token = token().map_err(|error| refused(error.to_string()))?;
@@ -34,13 +33,13 @@ pub fn serve(
     let server = Server::http(("127.0.0.1", port)).map_err(|error| refused(error.to_string()))?;
     let bound = server.server_addr().to_ip().map_or(port, |address| address.port());
     let site = Site { html, token, port: bound };
-    told(&format!("http://127.0.0.1:{bound}/{}/", site.token))?;
+    told(&format!("http://127.0.0.1:{bound}/{}/", site.token));
     for request in server.incoming_requests() {
         let answer = site.answer(&request, file);
         // A browser that has gone needs none.
         let _ = request.respond(answer);
     }
-    Ok(Exit::Done)
+    Ok(())
 }
 
 /// 128 bits that nobody guesses, in hexadecimal digits.
