@@ -170,7 +170,13 @@ fn in_a_browser(steps: &mut Steps, programs: &[Program]) {
         let program = programs.iter().find(|program| program.name == BROWSER);
         let program = program.with_context(|| format!("`{BROWSER}` was not built"))?;
         let mut command = Command::new(&program.path);
-        run_command(command.current_dir(&program.folder).arg("--ignored"))
+        run_command(command.current_dir(&program.folder).args([
+            "--ignored",
+            "--skip",
+            "golden_hashes",
+            "--skip",
+            "speed_beside",
+        ]))
     });
 }
 
