@@ -271,12 +271,13 @@ fn large(browser: &mut Browser, folder: &Path) {
     browser.run("dbd.play.advance(20)");
     assert_eq!(frame(browser)["steps"], 20);
     // While the worker steps for long, the page hears a key.
-    browser
-        .run("window.done = false; dbd.play.advance(1000000).then(() => { window.done = true; })");
+    browser.run(
+        "window.done = false; void dbd.play.advance(100000).then(() => { window.done = true; })",
+    );
     let heard = "new Promise((heard) => { addEventListener('keydown', () => heard(!window.done), { once: true });
         dispatchEvent(new KeyboardEvent('keydown', { key: 'Shift' })); })";
     assert_eq!(browser.run(heard), true, "the page answers meanwhile");
-    assert!(frame(browser)["steps"].as_f64().unwrap() < 1e6, "and so does the worker");
+    assert!(frame(browser)["steps"].as_f64().unwrap() < 1e5, "and so does the worker");
 }
 
 #[test]

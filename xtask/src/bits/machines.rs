@@ -160,7 +160,7 @@ fn on_host(name: &str, level: &str, flags: &str) -> Result<String> {
 /// The row of WebAssembly in Chromium, which compares all golden hashes but those of what is for comparison only.
 fn in_a_browser() -> Result<String> {
     setup::browser()?;
-    playground::module()?;
+    playground::module(playground::Speed::Full)?;
     let mut tests = cargo();
     tests.args(["test", "--no-run", "--workspace", "--all-features", "--test", "browser"]);
     let built = build(&mut tests)?;

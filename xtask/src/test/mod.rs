@@ -166,7 +166,7 @@ fn tests(
 fn in_a_browser(steps: &mut Steps, programs: &[Program]) {
     steps.step("reports and live views in a browser", || {
         setup::browser()?;
-        playground::module()?;
+        playground::module(playground::Speed::Tests)?;
         let program = programs.iter().find(|program| program.name == BROWSER);
         let program = program.with_context(|| format!("`{BROWSER}` was not built"))?;
         let mut command = Command::new(&program.path);
