@@ -177,7 +177,7 @@ enum Command {
     /// Builds the kernel in WebAssembly, which `host-sim play` puts on its pages, and docs/playground/index.html with all
     /// scenes.
     Playground {
-        /// Times steps in Chromium beside host-sim instead; writes docs/results/play.csv.
+        /// Times steps in Chromium beside host-sim instead.
         #[arg(long)]
         measure: bool,
     },

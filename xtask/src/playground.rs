@@ -10,15 +10,13 @@ use anyhow::{Context as _, Result, bail};
 use crate::built::{build, host_sim};
 use crate::chip::{Toolchain, setup};
 use crate::command::{cargo, output, program, root, run, target_dir};
-use crate::provenance;
 
 /// What a browser runs.
 const TARGET: &str = "wasm32-unknown-unknown";
 /// The profile of the module.
 const PROFILE: &str = "web";
 const MODULE: &str = "dbd_play.wasm";
-/// What was measured.
-const FILE: &str = "docs/results/play.csv";
+/// What is measured: \[µs\] per step.
 const HEADER: &str = "scene,steps,native_us,browser_us";
 /// The page, which is not kept with the sources.
 const PAGE: &str = "docs/playground/index.html";
@@ -38,8 +36,7 @@ pub fn make() -> Result<()> {
     run(program(host_sim).args(["play", "--all", "--no-open", "--out"]).arg(page))
 }
 
-/// `cargo xtask playground --measure`: times steps in Chromium and by host-sim as released, side by side, and writes
-/// docs/results/play.csv.
+/// `cargo xtask playground --measure`: times steps in Chromium and by host-sim as released, one after the other.
 ///
 /// # Errors
 /// Where something does not build, or a run fails.
@@ -61,14 +58,8 @@ pub fn measure() -> Result<()> {
     if rows.is_empty() {
         bail!("nothing was measured:\n{said}");
     }
-    let text = format!(
-        "# Time of a step in Chromium, as a live view steps, beside host-sim on the same machine, one after the other;\n\
-         # written by `cargo xtask playground --measure`.\n{HEADER}\n{}\n",
-        rows.join("\n")
-    );
-    println!("{text}");
-    std::fs::write(root().join(FILE), text).with_context(|| format!("cannot write {FILE}"))?;
-    provenance::note(&[FILE])
+    println!("{HEADER}\n{}", rows.join("\n"));
+    Ok(())
 }
 
 /// How fast a module's steps are to be.
