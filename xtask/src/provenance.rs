@@ -94,16 +94,18 @@ pub fn check() -> Result<()> {
     Ok(())
 }
 
-/// `cargo xtask provenance --stale FILE…`: keeps files although what they stand on has changed; their tables say so.
+/// `cargo xtask provenance --stale FILE…`: keeps files as they are although what they stand on has changed, or only some of
+/// their rows were measured anew; their tables say so.
 ///
 /// # Errors
 /// Where one has no row, or the table cannot be written.
-pub fn keep(files: &[String]) -> Result<()> {
+pub fn keep(files: &[impl AsRef<str>]) -> Result<()> {
     let mut notes = read(&std::fs::read_to_string(root().join(FILE)).unwrap_or_default());
-    for file in files {
+    for file in files.iter().map(AsRef::as_ref) {
         let data = DATA.iter().find(|data| data.file == file);
         let data = data.with_context(|| format!("{file} is no file of data"))?;
         let note = notes.get_mut(file).with_context(|| format!("{file} was never noted"))?;
+        note.own = present(&[data.file])?;
         note.stale = present(data.stands_on)?;
     }
     write(&notes)

@@ -102,7 +102,11 @@ pub fn run(names: &[String]) -> Result<()> {
     steps.finish()?;
     written?;
     // What was not asked for is as old as it was.
-    if names.is_empty() { crate::provenance::note(&[FILE]) } else { Ok(()) }
+    if names.is_empty() {
+        crate::provenance::note(&[FILE])
+    } else {
+        crate::provenance::keep(&[FILE])
+    }
 }
 
 /// Puts rows into the file, in place of those of the same builds.
