@@ -62,7 +62,7 @@ enum Request {
 struct Answer {
     #[serde(flatten)]
     opened: Opened,
-    /// Whether the run begins anew.
+    /// Whether the run restarted at t = 0.
     restarted: bool,
     /// Why it does.
     why: Option<String>,
@@ -78,7 +78,9 @@ impl Desk {
     /// Answers a request of JSON in JSON.
     pub fn ask(&mut self, request: &str) -> String {
         let answer = serde_json::from_str(request)
-            .map_err(|error| Refused::new(format!("a request that is none: {error}"), "see ask.rs"))
+            .map_err(|error| {
+                Refused::new(format!("not a valid request: {error}"), "see dbd_play::ask")
+            })
             .and_then(|request| self.answer(request))
             .unwrap_or_else(|refused| json!({ "error": refused }));
         answer.to_string()

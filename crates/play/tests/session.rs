@@ -250,6 +250,12 @@ fn a_state_is_taken_up_elsewhere() {
     assert_eq!(plain.hash(), later);
     session.restore(&bytes).unwrap();
     assert_eq!(hash(&session), at);
+    // Inputs of before are none of the restored run.
+    let mut cart = self::session("cart-pendulum");
+    let start = cart.save().unwrap();
+    cart.set_input(0, 1.0).unwrap();
+    cart.restore(&start).unwrap();
+    assert_eq!(cart.replay(), self::asked("cart-pendulum", "f64").text);
     let mut damaged = bytes.clone();
     damaged[40] ^= 1;
     session.restore(&damaged).unwrap_err();

@@ -20,7 +20,7 @@ pub(super) struct PlayArguments {
     /// All scenes that have a name
     #[arg(long, conflicts_with = "scenes")]
     all: bool,
-    /// Changes one value of the first scene by its path, as often as wanted
+    /// Changes one number of the first scene by its path, in SI units, as often as wanted: body.cart.mass=1.2
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
     /// Time-stepping scheme

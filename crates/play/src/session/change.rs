@@ -36,7 +36,7 @@ impl Change {
 impl Session {
     /// Takes what is asked for in place of what is. State, time and inputs go on where the scene's parts and its pose at
     /// t = 0 stay the same: stiffness, damping, mass, gravity, scheme, precision and step change in mid-run. Else the run
-    /// begins anew; the reason is returned.
+    /// restarts at t = 0; the reason is returned.
     ///
     /// # Errors
     /// Where the scene or the settings are refused; nothing is changed then.
@@ -83,7 +83,7 @@ impl Session {
     }
 }
 
-/// Why a state of one scene is none of the other.
+/// Why a state of one scene does not fit another.
 fn differs(a: &Scene, b: &Scene) -> Option<&'static str> {
     let inputs =
         |scene: &Scene| scene.inputs.iter().map(|input| input.name.clone()).collect::<Vec<_>>();

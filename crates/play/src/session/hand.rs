@@ -89,7 +89,7 @@ impl Session {
         }
         let work = 0.5 * impulse.dot(before + velocity(&pulled));
         state.bodies[row] = pulled;
-        // A pull that the numbers do not hold is none.
+        // An impulse that the precision cannot represent is left out.
         if work.is_finite() && self.instance.plant_mut().set_state(&state).is_ok() {
             self.work += work;
             self.disturbed = true;

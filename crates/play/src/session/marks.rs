@@ -100,6 +100,8 @@ impl Session {
     /// Where it is of another scene, scheme, precision or step; nothing is changed then.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), Refused> {
         self.instance.restore(bytes)?;
+        // What inputs were set to before belongs to another run.
+        self.inputs_set.clear();
         (self.disturbed, self.trouble, self.grab) = (true, None, None);
         Ok(())
     }

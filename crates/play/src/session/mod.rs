@@ -254,7 +254,7 @@ fn blueprint(file: &str, text: &str, set: &Set) -> Blueprint {
 /// An instance of it.
 fn instance(file: &str, text: &str, settings: &Settings, set: &Set) -> Result<Instance, Refused> {
     Instance::new(blueprint(file, text, set), settings.clone()).map_err(|error| {
-        // A change has a place of its own, which is none in the text.
+        // The place of an error in a change is not a place in the scene's text.
         let in_text = !matches!(&error, InstanceError::Scene(error) if error.file() != file);
         let refused = Refused::from(error);
         if in_text { refused } else { Refused { line: None, column: None, ..refused } }

@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use crate::session::{Layout, Session, Set};
 
-/// Numbers of a scene that a page is told of at most; the text has the others.
+/// Most numbers of a scene that are listed; the others are only in the text.
 const MOST_NUMBERS: usize = 20_000;
 
 /// What a page shows of a session beside its frames.
@@ -50,7 +50,7 @@ pub struct Opened {
     pub numbers: Vec<Number>,
     /// Its named parameters.
     pub parameters: Vec<Number>,
-    /// Numbers that are not told of.
+    /// How many numbers are not listed.
     pub numbers_left_out: usize,
     /// What is probably not meant.
     pub warnings: Vec<String>,
