@@ -7,13 +7,13 @@ mod serve;
 pub use serve::serve;
 
 use std::fmt;
-use std::io::{self, Write as _};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use dbd_plant::instance::Settings;
 use dbd_play::page::{MODULE, Page, SceneText, html};
 use dbd_play::session::{Change, MOST_TEXT, Session, Set};
-use dbd_report::output::file::PendingFile;
+use dbd_report::output::file::write_at;
 use dbd_scene::file::read;
 use miette::Diagnostic;
 use thiserror::Error;
@@ -181,14 +181,10 @@ pub fn written(html: &str, out: Option<&Path>, page: &Page) -> Result<PathBuf, P
         return Err(PlayError::Taken { file });
     }
     let write = || {
-        let name = file.file_name().and_then(|name| name.to_str());
-        let name = name.ok_or_else(|| io::Error::other("it is no file's name"))?;
-        let folder = file.parent().filter(|folder| *folder != Path::new(""));
-        let folder = folder.unwrap_or(Path::new("."));
-        std::fs::create_dir_all(folder)?;
-        let mut pending = PendingFile::create(folder, name)?;
-        pending.write_all(html.as_bytes())?;
-        pending.complete()
+        if let Some(folder) = file.parent() {
+            std::fs::create_dir_all(folder)?;
+        }
+        write_at(&file, html)
     };
     match write() {
         Ok(()) => Ok(file),
