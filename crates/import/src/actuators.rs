@@ -154,7 +154,9 @@ fn actuator(
         omit(given, "its damping ratio is that of a tendon: state `kv`", omissions);
         return Ok(());
     };
-    let control = limits(given, &target.coordinate, control, settings, omissions)?;
+    let is_motor = law.is_none();
+    let (control, bounds) =
+        limits(given, &target.coordinate, (control, is_motor), settings, omissions)?;
     // Where no spring could hold it, a constant force is one of the input: without stiffness, and of a tendon,
     // which pulls from its length at the start.
     let constant = match target.coordinate {
@@ -186,6 +188,13 @@ fn actuator(
     if value != 0.0 {
         keys.push(format!("value = {value:?}"));
     }
+    let of_control = bounds.control.map(|bound| per_control * bound + sign * constant);
+    let of_force = bounds.force.map(|bound| sign * servo.gear() * bound);
+    let [one, other] = [of_control, of_force].map(|[a, b]| [a.min(b), a.max(b)]);
+    let range = [one[0].max(other[0]), one[1].min(other[1])];
+    if range.iter().all(|bound| bound.is_finite()) && range[0] <= range[1] {
+        keys.push(format!("range = [{:?}, {:?}]", range[0] + 0.0, range[1] + 0.0));
+    }
     let plus = if constant == 0.0 { String::new() } else { format!(" + {:?}", sign * constant) };
     let name = mechanism.signal_name(&called, &element.name, &mechanism.inputs);
     let words = format!("<{}>: {force} = {per_control:?} × its control{plus}", element.name);
@@ -210,28 +219,43 @@ fn remember(
     Ok(())
 }
 
-/// Lists what has no counterpart beside the law; the control within its range.
+/// Bounds of an actuator's control, and of its force where that is of a motor.
+struct Bounds {
+    control: [f64; 2],
+    force: [f64; 2],
+}
+
+/// Lists what has no counterpart beside the law; the control within its range, and the bounds that an input has.
 fn limits(
     given: &Attributes<'_>,
     coordinate: &Coordinate,
-    mut control: f64,
+    (mut control, is_motor): (f64, bool),
     settings: &Settings,
     omissions: &mut Omissions,
-) -> Result<f64, Fault> {
+) -> Result<(f64, Bounds), Fault> {
     let element = given.element;
     let called = element.called();
     let [force, inertia] = coordinate.units();
+    let none = [-f64::INFINITY, f64::INFINITY];
+    let mut bounds = Bounds { control: none, force: none };
     for (limited, name, unit) in
         [("ctrllimited", "ctrlrange", ""), ("forcelimited", "forcerange", force)]
     {
         if given.limited(limited, name, settings.automatic_limits)?
             && let Some(range) = given.numbers(name, 2, 2)?
         {
-            let what = format!("{called}: {name} {} to {} {unit}", range[0], range[1]);
-            omissions.add(Kind::Limit, element.place, what.trim_end());
-            if name == "ctrlrange" && range[0] <= range[1] {
-                control = control.clamp(range[0], range[1]);
+            let [from, to] = [range[0], range[1]];
+            if from <= to && (name == "ctrlrange" || is_motor) {
+                if name == "ctrlrange" {
+                    control = control.clamp(from, to);
+                    bounds.control = [from, to];
+                } else {
+                    bounds.force = [from, to];
+                }
+                continue;
             }
+            let what = format!("{called}: {name} {from} to {to} {unit}");
+            omissions.add(Kind::Limit, element.place, what.trim_end());
         }
     }
     if given.number("inheritrange")?.is_some_and(|factor| factor > 0.0) {
@@ -249,5 +273,5 @@ fn limits(
             omissions.add(Kind::Actuator, element.place, what);
         }
     }
-    Ok(control)
+    Ok((control, bounds))
 }

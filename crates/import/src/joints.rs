@@ -102,9 +102,15 @@ fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissi
             Link { name: name.clone(), kind, between, at: [at; 2], span, keys: Vec::new(), source };
         for (joint, number) in joints.iter().zip(&stage.joints) {
             let q = mechanism.pose.coordinates[*number];
-            let known = keys(joint, &link, (q, slides), mechanism.options);
+            let masses = between.into_iter().flatten();
+            let masses = masses.map(|part| mechanism.parts.parts[part].mass.mass);
+            let lightest = masses.fold(f64::INFINITY, f64::min);
+            let known = keys(joint, &link, (q, slides), (mechanism.options, lightest));
             match known {
-                Some(keys) => link.keys.extend(keys),
+                Some(keys) => {
+                    link.keys.extend(keys);
+                    mechanism.rotors.insert(*number);
+                }
                 None => unknown.push(*joint),
             }
         }
@@ -168,19 +174,23 @@ pub(crate) const RESTITUTION: f64 = 0.1;
 /// \[rad/s, m/s\]
 pub(crate) const LIMIT_SPEED: f64 = 1.0;
 
-/// Limits and friction of a joint as keys of a link; `None` where the link has none of that coordinate. `q` is the
-/// joint's coordinate where the scene begins, and whether the link's bodies are exchanged.
+/// Limits, friction and rotor of a joint as keys of a link; `None` where the link has none of that coordinate. `q` is the
+/// joint's coordinate where the scene begins, and whether the link's bodies are exchanged; `lightest` \[kg\] the lighter of
+/// its bodies.
 fn keys(
     joint: &Joint,
     link: &Link,
     (q, reversed): (f64, bool),
-    options: &Options,
+    (options, lightest): (&Options, f64),
 ) -> Option<Vec<String>> {
     let prefix = match (link.kind, joint.freedom) {
         (Type::Revolute(_), Freedom::Hinge) | (Type::Translational(_), Freedom::Slide) => "",
         (Type::Cylindrical(_), Freedom::Hinge) => "turn_",
         (Type::Cylindrical(_), Freedom::Slide) => "slide_",
-        _ => return (joint.friction == 0.0 && !joint.limited).then(Vec::new),
+        _ => {
+            let has_none = joint.friction == 0.0 && joint.armature == 0.0 && !joint.limited;
+            return has_none.then(Vec::new);
+        }
     };
     let arm = if joint.freedom == Freedom::Hinge { 0.5 * link.span } else { 1.0 };
     let stiffness = options.stiffness * arm * arm;
@@ -201,6 +211,15 @@ fn keys(
             number(rounded(stiffness)),
             number(RESTITUTION),
             number(LIMIT_SPEED),
+        ));
+    }
+    if joint.armature > 0.0 {
+        // As stiff as the joint, but not faster than it vibrates.
+        let gear = stiffness.min(joint.armature * options.stiffness / lightest);
+        keys.push(format!(
+            "{prefix}rotor = {{ inertia = {}, stiffness = {} }}",
+            number(joint.armature),
+            number(rounded(gear)),
         ));
     }
     if joint.friction > 0.0 {
@@ -267,12 +286,15 @@ fn ball(
     ));
 }
 
-/// Lists the armatures, beside what their joints move without them: whether one may be left out.
+/// Lists the armatures that no rotor of a joint has, beside what their joints move without them: whether one may be left out.
 pub(crate) fn armatures(mechanism: &Mechanism<'_>, omissions: &mut Omissions) {
     for (number, body) in mechanism.tree.bodies.iter().enumerate() {
         let Some(joint) = body.joint.as_ref().filter(|joint| joint.armature > 0.0) else {
             continue;
         };
+        if mechanism.rotors.contains(&number) {
+            continue;
+        }
         let [_, _, unit] = joint.freedom.units();
         let armature = joint.armature;
         let beside = mechanism.driven.get(&number).map_or(String::new(), |driven| {

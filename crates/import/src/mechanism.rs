@@ -197,6 +197,8 @@ pub(crate) struct Mechanism<'m> {
     pub(crate) tendons: BTreeMap<String, (Coordinate, Option<String>)>,
     /// \[kg·m², kg\] what hinges and slides have to move, by their bodies.
     pub(crate) driven: BTreeMap<usize, f64>,
+    /// The bodies whose joints have their rotors.
+    pub(crate) rotors: BTreeSet<usize>,
     /// Whether the scene is planar.
     pub(crate) planar: bool,
     /// Contacts.
@@ -232,6 +234,7 @@ impl<'m> Mechanism<'m> {
             coordinates: BTreeMap::new(),
             elements: BTreeMap::new(),
             tendons: BTreeMap::new(),
+            rotors: BTreeSet::new(),
             driven: BTreeMap::new(),
             planar: false,
             contacts: Vec::new(),

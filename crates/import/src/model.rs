@@ -113,9 +113,9 @@ impl<'m> Model<'m> {
         let mut mechanism = Mechanism::new(&tree, &parts, &pose, options);
         mechanism.planar = stages.iter().any(|stage| stage.way == Way::Plane);
         mechanism.driven = inertia::driven(&tree, &pose.first);
-        joints::armatures(&mechanism, &mut omissions);
         let (root, settings, defaults) = (self.root, &self.settings, &self.defaults);
         joints::add(&mut mechanism, &stages, settings, &mut omissions);
+        joints::armatures(&mechanism, &mut omissions);
         loops::add(&mut mechanism, root, settings, &mut omissions)?;
         tendons::add(&mut mechanism, root, settings, defaults, &mut omissions)?;
         actuators::add(&mut mechanism, root, settings, defaults, &mut omissions)?;

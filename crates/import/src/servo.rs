@@ -172,6 +172,11 @@ impl Servo {
         }
     }
 
+    /// Its gear.
+    pub(crate) fn gear(&self) -> f64 {
+        self.gear
+    }
+
     /// \[N·m, N\] its force for a control of 1.
     pub(crate) fn per_control(&self) -> f64 {
         self.gear * self.gains[0]

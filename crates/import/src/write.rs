@@ -74,6 +74,9 @@ fn top(
             RESTITUTION
         );
     }
+    if mechanism.links.iter().any(|link| link.keys.iter().any(|key| key.contains("rotor"))) {
+        out.push_str("# Rotors: armatures, behind gears as stiff as their joints.\n");
+    }
     if !mechanism.contacts.is_empty() {
         let _ = writeln!(
             out,

@@ -178,3 +178,41 @@ fn tendons_between_two_sites_are_tsdas() {
         assert!(*found == kind && what.contains(why), "{tendon}: {what}");
     }
 }
+
+/// Ranges of a control and of a motor's force bound the input; an actuator without them has none.
+#[test]
+fn ranges_of_controls_bound_inputs() {
+    let infinite = [f64::NEG_INFINITY, f64::INFINITY];
+    for (actuator, range) in [
+        ("<motor joint='h' gear='2' ctrlrange='-1 3'/>", [-2.0, 6.0]),
+        ("<motor joint='h' gear='-2' ctrlrange='-1 3'/>", [-6.0, 2.0]),
+        ("<motor joint='h' gear='2' ctrlrange='-1 3' forcerange='-1 2'/>", [-2.0, 4.0]),
+        ("<position joint='h' kp='5' ctrlrange='-0.5 1'/>", [-2.5, 5.0]),
+        ("<velocity joint='h' kv='5' ctrlrange='-0.5 1' ctrllimited='false'/>", infinite),
+        ("<motor joint='h'/>", infinite),
+    ] {
+        let text = with(&format!("<actuator>{actuator}</actuator>"));
+        let scene = loaded(&of(&text, &Options::default()));
+        assert_eq!(scene.inputs[0].range, range, "{actuator}");
+    }
+    let forced = "<actuator><position name='p' joint='h' forcerange='-1 1'/></actuator>";
+    assert_eq!(omitted(forced), [(Kind::Limit, "position `p`: forcerange -1 to 1 N·m".to_owned())]);
+}
+
+/// An armature is a rotor of its joint: it swings as slowly as MuJoCo's, whose inertia is that of both.
+#[test]
+fn an_armature_is_a_rotor() {
+    let text = with("").replace("name='h' axis", "name='h' armature='2' axis");
+    let text = text.replace("<mujoco>", "<mujoco><option gravity='0 0 0'/>");
+    let text = text.replace("</worldbody>", "</worldbody><actuator><motor joint='h'/></actuator>");
+    let scene = loaded(&of(&text, &Options::default()));
+    let names: Vec<_> = scene.interactions().into_iter().map(|law| law.law).collect();
+    assert_eq!(names, ["hinge-drive"]);
+    let mut plant = dbd_plant::plant(&scene, &dbd_plant::Method::default(), 1e-4).unwrap();
+    plant.set(dbd_kernel::InputIndex(0), 3.0, 0.0).unwrap();
+    plant.advance(2000).ok().unwrap();
+    // Bodies of 1 kg·m² each, 1 kg at 0.1 m, 2 kg at 0.5 m, and the rotor's 2 kg·m²; the slide goes free.
+    let rate = plant.state().bodies[0].angular_velocity.y;
+    let inertia = 1.0 + 1.0 + 0.01 + 2.0 * 0.25 + 2.0;
+    assert!((rate / (3.0 * 0.2 / inertia) - 1.0).abs() < 2e-2, "{rate}");
+}

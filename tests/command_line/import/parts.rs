@@ -140,10 +140,11 @@ fn weight_that_is_taken_off_is_a_load() {
     let made = of(&mujoco(&light, ""), &Options::default());
     assert!(made.scene.contains("force = [0.0, 0.0, 9.81]"), "{}", made.scene);
     let limited = body("a", "<joint actuatorfrcrange='-1 1' armature='0.01'/>", "");
-    let ignored = vec![Kind::Limit, Kind::Armature];
+    let ignored = vec![Kind::Limit];
     let made = of(&mujoco(&limited, ""), &Options { ignored, ..Options::default() });
-    assert_eq!(made.omitted.len(), 2);
-    assert!(made.scene.contains("# Left out, armature (line 2): hinge `a`: armature 0.01 kg·m²"));
+    assert_eq!(made.omitted.len(), 1);
+    assert!(made.scene.contains("# Left out, limit (line 2): hinge `a`: actuators -1 to 1 N·m"));
+    assert!(made.scene.contains("rotor = { inertia = 0.01, stiffness = "), "{}", made.scene);
 }
 
 /// What MuJoCo takes for nothing is nothing here: blank values, ranges without extent; a colour never counts.

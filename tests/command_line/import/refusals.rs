@@ -103,7 +103,7 @@ fn what_has_no_counterpart_is_listed_by_line_with_its_size() {
         "<option viscosity='0.002'/>\n\
          <tendon><spatial name='cord' stiffness='7'><site site='x'/></spatial></tendon>\n\
          <equality><joint name='mimic' joint1='h' joint2='k' polycoef='0 2 0 0 0'/></equality>\n\
-         <actuator><motor name='m' joint='h' ctrlrange='-1 1'/><intvelocity name='p' joint='h' kp='9'/></actuator>",
+         <actuator><motor name='m' joint='h' armature='0.1'/><intvelocity name='p' joint='h' kp='9'/></actuator>",
     );
     let Err(ImportError::Omitted { omissions, .. }) =
         import_text(&text, "test.xml", Path::new(""), &Options::default())
@@ -128,11 +128,6 @@ fn what_has_no_counterpart_is_listed_by_line_with_its_size() {
         ),
         (8, Kind::Contact, "geom, mesh: may touch 1 other"),
         (9, Kind::Spring, "hinge `k`: stiffness [1.0, 0.5], which is not linear"),
-        (
-            9,
-            Kind::Armature,
-            "hinge `k`: armature 0.01 kg·m² beside the 1.648e-2 that it moves: inertia of one joint, which no body has",
-        ),
         (9, Kind::Fluid, "geom, sphere, radius 0.1 m: resistance of a medium"),
         (11, Kind::Contact, "geom `floor`, plane: may touch 1 other"),
         (12, Kind::Mocap, "body `hand`, which is moved from outside, stands still"),
@@ -148,7 +143,7 @@ fn what_has_no_counterpart_is_listed_by_line_with_its_size() {
             Kind::Equality,
             "joint `mimic`: joint1 h, joint2 k, polycoef 0 2 0 0 0, which couples what a scene leaves apart",
         ),
-        (18, Kind::Limit, "motor `m`: ctrlrange -1 to 1"),
+        (18, Kind::Armature, "motor `m`: armature 0.1 kg·m²"),
         (
             18,
             Kind::Actuator,
@@ -159,7 +154,7 @@ fn what_has_no_counterpart_is_listed_by_line_with_its_size() {
     // All of them together can be left out.
     let ignored = Kind::ALL.to_vec();
     let all = Options { ignored, ..Options::default() };
-    assert_eq!(import_text(&text, "test.xml", Path::new(""), &all).unwrap().omitted.len(), 15);
+    assert_eq!(import_text(&text, "test.xml", Path::new(""), &all).unwrap().omitted.len(), 14);
 }
 
 /// What is turned off in the file is not missed.
@@ -213,17 +208,21 @@ fn the_command_refuses_lists_and_writes() {
     let (xml, toml) = (path("a.xml"), path("a.toml"));
     fs::write(
         &xml,
-        with("<body name='b'><joint name='k' armature='0.01'/><geom size='1'/></body>", "", ""),
+        with(
+            "<body name='b'><joint name='k' actuatorfrcrange='-1 1'/><geom size='1'/></body>",
+            "",
+            "",
+        ),
     )
     .unwrap();
     let (exit, out, err) = call(&[&xml, "--out", &toml]);
     assert_eq!((exit, out.as_str()), (Exit::Refused, ""));
-    assert!(err.contains("a.xml:6") && err.contains("armature 0.01 kg·m²"), "{err}");
-    assert!(err.contains("--ignore armature"), "{err}");
+    assert!(err.contains("a.xml:6") && err.contains("actuators -1 to 1 N·m"), "{err}");
+    assert!(err.contains("--ignore limit"), "{err}");
     assert!(!Path::new(&toml).exists());
     let (exit, out, _) = call(&[&xml, "--list"]);
     assert_eq!((exit, out.lines().count()), (Exit::Done, 1));
-    let (exit, out, err) = call(&[&xml, "--ignore", "armature", "--out", &toml]);
+    let (exit, out, err) = call(&[&xml, "--ignore", "limit", "--out", &toml]);
     assert_eq!((exit, out.as_str()), (Exit::Done, ""), "{err}");
     assert!(err.contains("note: left out"), "{err}");
     assert!(fs::read_to_string(&toml).unwrap().contains("name = \"a\""));
