@@ -1,4 +1,4 @@
-//! A new firmware project, as its owner meets it: written, run in QEMU, tested on the PC.
+//! A new firmware project of a scene, as its owner meets it: written, run in QEMU, tested on the PC.
 //!
 //! `host-sim new firmware => image, test`. It is built beside the firmware, with its compiler, its
 //! profile and its lock file, so that what both depend on is compiled once.
@@ -37,9 +37,16 @@ pub fn check(toolchain: &Toolchain, here: bool, programs: &[Program]) -> Result<
     checked
 }
 
+/// A mechanism with a drive, friction and stops: laws have their bits on the target, too.
+const SCENE: &str = "docs/examples/gate-opener/gate-opener.toml";
+
 /// A project in a folder, with the versions that the repository's lock file names.
 fn written(host_sim: &Path, project: &Path) -> Result<PathBuf> {
-    run(program(host_sim).args(["new", "firmware"]).arg(project))?;
+    run(program(host_sim)
+        .args(["new", "firmware"])
+        .arg(project)
+        .arg("--scene")
+        .arg(root().join(SCENE)))?;
     fs::copy(root().join("Cargo.lock"), project.join("Cargo.lock"))?;
     Ok(project.to_owned())
 }
