@@ -117,6 +117,21 @@ pub fn energy_with_extensions<M: ModelOwner>(
     sum
 }
 
+/// \[J\] the energy of the laws whose memory is no freedom of their own: what a memory's change takes from it is lost.
+pub fn of_memories<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
+    let (view, bodies) = (model.view(), state.bodies.as_ref());
+    let mut frames = model.per_body(FrameOf::<M>::default());
+    place_bodies::<M::Precision>(bodies, frames.as_mut());
+    let at = Instant { frames: frames.as_ref(), bodies, signals: state.signals.as_ref() };
+    let mut sum = RealOf::<M>::ZERO;
+    view.laws.look_at_all(&state.laws, &mut |_, law| {
+        if let (None, Some(seen)) = (law.inner(), at.seen(law.bodies())) {
+            sum = sum + law.energy(&seen);
+        }
+    });
+    sum
+}
+
 /// The largest extension \[m\] of the groups' elements, `|L − L0|`.
 pub fn largest_extension<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
     let mut largest = RealOf::<M>::ZERO;

@@ -242,7 +242,7 @@ fn visit_input<P: Geometry>(input: &Input<P>, visitor: &mut impl WordVisitor) {
     let mut integers = |kind: u64, first: u16, second: u16| {
         visitor.word(Word::U64(kind << 32 | u64::from(first) << 16 | u64::from(second)));
     };
-    let Input { kind, value, knot, knots } = input;
+    let Input { kind, value, knot, knots, range } = input;
     match kind {
         InputKind::Force { body, point, direction, frame } => {
             integers(*frame as u64, body.0, 0);
@@ -260,6 +260,7 @@ fn visit_input<P: Geometry>(input: &Input<P>, visitor: &mut impl WordVisitor) {
             }
         }
         InputKind::Actuator { group, element } => integers(5, *group, *element),
+        InputKind::Signal => integers(7, 0, 0),
         InputKind::Anchor { direction } => {
             integers(6, 0, 0);
             direction.visit(visitor);
@@ -267,4 +268,8 @@ fn visit_input<P: Geometry>(input: &Input<P>, visitor: &mut impl WordVisitor) {
     }
     visitor.word(value.word());
     visitor.word(Word::U64(u64::from(*knot) << 16 | u64::from(*knots)));
+    // Without bounds it has the words that it had before there were any.
+    if range.iter().any(|bound| bound.is_finite()) {
+        range.iter().for_each(|bound| visitor.word(bound.word()));
+    }
 }

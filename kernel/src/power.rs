@@ -10,7 +10,8 @@ use crate::forces::{
 };
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::model::{FrameOf, ModelOwner, RealOf, SpaceOf};
+use crate::laws::{Instant as LawInstant, Laws as _};
+use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, SpaceOf};
 use crate::pose::{End, Places, place_bodies};
 use crate::real::Real;
 use crate::schedule::LoadWindow;
@@ -87,8 +88,38 @@ pub fn power<M: ModelOwner>(
         }
     }
     let [whole, springs] = ground;
-    let dampers = (whole - springs) - (with - without);
-    Ok(Power { loads, inputs, ground: whole, dampers })
+    let [supplied, taken] = of_drives::<M>(&view, state, frames.as_ref());
+    let dampers = (whole - springs) - (with - without) + taken;
+    Ok(Power { loads, inputs: inputs + supplied, ground: whole, dampers })
+}
+
+/// \[W\] what drives among the laws give, and what dampers take beyond what they take from the bodies: of laws' own
+/// freedoms; less what a drive gives by its dampers.
+fn of_drives<M: ModelOwner>(
+    view: &ModelRef<'_, M::Precision, M::Terms>,
+    state: &State<M>,
+    frames: &[FrameOf<M>],
+) -> [RealOf<M>; 2] {
+    let at = LawInstant { frames, bodies: state.bodies.as_ref(), signals: state.signals.as_ref() };
+    let mut sums = [RealOf::<M>::ZERO; 2];
+    view.laws.look_at_all(&state.laws, &mut |_, law| {
+        let Some(seen) = at.seen(law.bodies()) else { return };
+        let [supplied, taken] = &mut sums;
+        *supplied = *supplied + law.supply(&seen);
+        let own = law.inner().map_or(RealOf::<M>::ZERO, |inner| inner.rate);
+        law.each_damper(&seen, &mut |_, damper| {
+            let rate = seen.rate(&damper.direction);
+            let inner = damper.inner() * own;
+            let tension = damper.tension(rate + inner);
+            if law.drives() {
+                *supplied = *supplied - tension * rate;
+                *taken = *taken - tension * rate;
+            } else {
+                *taken = *taken + tension * inner;
+            }
+        });
+    });
+    sums
 }
 
 /// What all forces of a state give to the bodies, loads apart.

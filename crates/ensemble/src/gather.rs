@@ -194,7 +194,7 @@ fn input<'m, V: Register>(
         InputKind::Torque { axis, .. } => [axis; 2],
         InputKind::JointTorque { axes, .. } => axes,
         InputKind::Anchor { direction } => [direction; 2],
-        InputKind::Actuator { .. } => [Vec3::default(); 2],
+        InputKind::Actuator { .. } | InputKind::Signal => [Vec3::default(); 2],
     };
     let (point, axis) = (vector(|i| vectors(i)[0]), vector(|i| vectors(i)[1]));
     let kind = match of(0).kind {
@@ -204,10 +204,12 @@ fn input<'m, V: Register>(
         InputKind::Torque { body, frame, .. } => InputKind::Torque { body, axis, frame },
         InputKind::JointTorque { a, b, .. } => InputKind::JointTorque { a, b, axes: [point, axis] },
         InputKind::Actuator { group, element } => InputKind::Actuator { group, element },
+        InputKind::Signal => InputKind::Signal,
         InputKind::Anchor { .. } => InputKind::Anchor { direction: axis },
     };
     let Input { knot, knots, .. } = *of(0);
-    Input { kind, value: number(|i| of(i).value), knot, knots }
+    let range = [0, 1].map(|end| number(|i| of(i).range[end]));
+    Input { kind, value: number(|i| of(i).value), knot, knots, range }
 }
 
 /// The state whose lane i is `states[i]`; all are at one step.

@@ -204,6 +204,8 @@ impl Budget {
                         most * speeds.sum::<f64>() * span
                     })
                 }
+                // What a drive gives is bounded by nothing that is seen here.
+                InputKind::Signal => f64::INFINITY,
                 InputKind::Anchor { .. } => {
                     let rates = passed.iter().map(|knot| knot.slope);
                     let rates = rates.chain(ends.map(|end| end[1]));

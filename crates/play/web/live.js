@@ -67,7 +67,7 @@
     const grow = (value, most) => (Number.isFinite(value) && Math.abs(value) > most ? Math.abs(value) : most);
     const from = film.layout;
     for (let row = 0; row < film.counts.springs; row += 1) springs.largest = grow(film.frame[from.springs + row], springs.largest);
-    mechanism.forces.forEach(({ kind }, row) => { arrows.largest[kind] = grow(film.frame[from.forces + row], arrows.largest[kind]); });
+    mechanism.forces.forEach(({ unit }, row) => { arrows.largest[unit] = grow(film.frame[from.forces + row], arrows.largest[unit]); });
     const inside = springs.ofJoints;
     if (!inside) return;
     for (let row = 0; row < film.counts.jointSprings; row += 1) inside.largest = grow(film.frame[from.jointSprings + row], inside.largest);

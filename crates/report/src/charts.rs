@@ -70,7 +70,8 @@ impl Charts {
         charts.add(Section::Energy, total, &[""]).deviation = true;
         charts.readouts(scene);
         for input in &scene.inputs {
-            let texts = [input.name.as_str(), quantity_of_input(input.kind), input.unit];
+            let texts =
+                [input.name.as_str(), quantity_of_input(input.kind, input.unit), input.unit];
             charts.add(Section::Inputs, texts, &[""]);
         }
         charts.joints(scene, mechanism);
@@ -284,16 +285,32 @@ fn quantity(kind: &str, unit: &str) -> &'static str {
         ("tsda_force", _) => "tension",
         ("joint_force", _) => "force",
         ("imu", _) => "specific force",
+        ("interaction", _) => quantity_of_unit(unit),
         _ => "input",
     }
 }
 
+/// What is measured in a unit.
+fn quantity_of_unit(unit: &str) -> &'static str {
+    match unit {
+        "N·m" => "torque",
+        "N" => "force",
+        "rad" => "angle",
+        "m" => "distance",
+        "rad/s" | "m/s" => "rate",
+        "V" => "voltage",
+        "A" => "current",
+        _ => "value",
+    }
+}
+
 /// What an input of a type gives.
-fn quantity_of_input(kind: &str) -> &'static str {
+fn quantity_of_input(kind: &str, unit: &str) -> &'static str {
     match kind {
         "torque" | "joint_torque" => "torque",
         "actuator" => "tension",
         "anchor" => "shift",
+        "drive" | "signal" => quantity_of_unit(unit),
         _ => "force",
     }
 }

@@ -6,7 +6,6 @@
 
   const T = window.THREE;
   const { between } = dbd.batch;
-  const UNITS = { force: 'N', torque: 'N\u00b7m', shift: 'm' };
 
   class Arrows {
     constructor(machine) {
@@ -15,16 +14,16 @@
       const forces = mechanism.forces;
       this.values = new Float32Array(forces.length);
       [this.shafts, this.heads, this.arcs] = ['cylinder', 'cone', 'arc'].map((kind) => machine.batch(kind, false, { above: true }));
-      this.largest = { force: 0, torque: 0, shift: 0 };
-      for (const kind of Object.keys(this.largest)) {
-        if (film) this.largest[kind] = film.largest('forces', (row) => forces[row].kind === kind);
+      this.largest = {};
+      for (const { unit } of forces) {
+        this.largest[unit] = film ? film.largest('forces', (row) => forces[row].unit === unit) : 0;
       }
       this.rows = forces.map((force, row) => {
         const name = force.input || 'load';
-        const label = { what: 'force', row, name, unit: UNITS[force.kind] };
+        const label = { what: 'force', row, name, unit: force.unit };
         const torque = force.kind === 'torque';
         return {
-          name, label, unit: UNITS[force.kind], torque, kind: force.kind,
+          name, label, unit: force.unit, torque, kind: force.kind,
           shaft: torque ? this.arcs.add(null, null, '--force', label) : this.shafts.add(null, null, '--force', label),
           head: this.heads.add(null, null, '--force', label),
           owner: machine.owner(force.at), at: force.at.point,
@@ -48,7 +47,7 @@
       const turn = new T.Quaternion();
       this.rows.forEach((row, i) => {
         const value = this.values[i];
-        const share = this.largest[row.kind] > 0 ? value / this.largest[row.kind] : 0;
+        const share = this.largest[row.unit] > 0 ? value / this.largest[row.unit] : 0;
         const batch = row.torque ? this.arcs : this.shafts;
         if (!(Math.abs(share) > 1e-3)) {
           batch.set(row.shaft, none);

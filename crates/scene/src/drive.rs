@@ -12,8 +12,8 @@ use crate::readout::ReadoutInfo;
 use crate::text::{Choice, Kind, Number, Seconds, Switch, Table, Text, Value};
 
 /// The keys that say what drives an input.
-pub(crate) const KEYS: [&str; 7] =
-    ["value", "table", "interpolate", "periodic", "jump", "over", "sine"];
+pub(crate) const KEYS: [&str; 8] =
+    ["value", "range", "table", "interpolate", "periodic", "jump", "over", "sine"];
 
 /// The keys of a sine.
 pub(crate) const SINE: &[&str] = &["amplitude", "frequency", "phase", "offset"];
@@ -40,6 +40,34 @@ pub(crate) struct Curve {
     pub(crate) knots: Vec<[f64; 2]>,
     /// Straight lines between the knots instead of steps.
     pub(crate) linear: bool,
+}
+
+/// Reads the least and the largest value in `unit` that a caller can set; infinite without `range`.
+pub(crate) fn range(
+    table: &Table<'_>,
+    drive: &Drive,
+    unit: &'static str,
+) -> Result<[f64; 2], SceneError> {
+    let Some(value) = table.value("range") else { return Ok([-f64::INFINITY, f64::INFINITY]) };
+    let expected = format!("[least, largest] in {unit}, the second not below the first");
+    let entries = value.entries(2, &expected)?;
+    let [least, most] = [&entries[0], &entries[1]].map(|entry| Number::any(unit).read(entry));
+    let (least, most) = (least?, most?);
+    if least > most {
+        return Err(value.refuse("is the wrong way round", &expected));
+    }
+    let Drive::Caller(start) = drive else {
+        let help = "it bounds what a caller sets; what the scene drives is as it is written";
+        return Err(table.refuse_key("range", "stands beside what drives the input", help));
+    };
+    if !(least..=most).contains(start) {
+        let (key, problem) = match table.has("value") {
+            true => ("value", "is beyond `range`".to_owned()),
+            false => ("range", "does not hold the value 0 at t = 0".to_owned()),
+        };
+        return Err(table.refuse_key(key, &problem, "a `value` within the range"));
+    }
+    Ok([least, most])
 }
 
 /// Reads what drives an input whose value is in `unit`.

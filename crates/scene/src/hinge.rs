@@ -6,6 +6,7 @@ use dbd_kernel::{BodyIndex, Vec3};
 use crate::JointInfo;
 use crate::assembly::Assembly;
 use crate::error::SceneError;
+use crate::joints::JointPlace;
 use crate::pair::Pair;
 use crate::target::{ElementName, Elements, Kinds, Target};
 use crate::text::{Choice, Direction, Table};
@@ -32,6 +33,8 @@ pub(crate) struct Known<'k> {
     pub(crate) elements: &'k Elements,
     /// The joints.
     pub(crate) joints: &'k [JointInfo],
+    /// Where they are.
+    pub(crate) places: &'k [JointPlace],
     /// What each interaction shows.
     pub(crate) quantities: &'k [&'static [Quantity]],
 }

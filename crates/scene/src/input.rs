@@ -11,6 +11,7 @@ use crate::assembly::NoAnchor;
 use crate::drive::{self, Drive};
 use crate::error::SceneError;
 use crate::hinge::{self, Hinge, Known};
+use crate::laws::{self, Driven};
 use crate::names::Names;
 use crate::pair::BodyName;
 use crate::points::PlaceOf;
@@ -19,7 +20,7 @@ use crate::target::{ElementName, Kinds, Target};
 use crate::text::{Choice, Direction, Kind, Table, Value};
 
 /// What is said of an input.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct InputInfo {
     /// Its name.
     pub name: String,
@@ -29,6 +30,8 @@ pub struct InputInfo {
     pub unit: &'static str,
     /// Whether a table or a sine of the scene drives it; the caller does otherwise.
     pub table: bool,
+    /// \[its unit\] the least and the largest value that the caller can set; infinite without bounds.
+    pub range: [f64; 2],
     /// Its index in the model.
     pub index: InputIndex,
 }
@@ -40,12 +43,15 @@ struct InputType {
     read: fn(&Table<'_>, &mut Known<'_>) -> Result<InputKind<F64>, SceneError>,
 }
 
-static TYPES: [InputType; 5] = [
+static TYPES: [InputType; 7] = [
     InputType { name: "force", unit: "N", keys: &["body", "point", "axis", "frame"], read: force },
     InputType { name: "torque", unit: "N·m", keys: &["body", "axis", "frame"], read: torque },
     InputType { name: "joint_torque", unit: "N·m", keys: hinge::KEYS, read: joint_torque },
     InputType { name: "actuator", unit: "N", keys: &["target"], read: actuator },
     InputType { name: "anchor", unit: "m", keys: &["target", "axis"], read: anchor },
+    // Its unit is that of its mode.
+    InputType { name: laws::DRIVE_TYPE, unit: "", keys: laws::DRIVE, read: signal },
+    InputType { name: "signal", unit: "", keys: &[], read: signal },
 ];
 
 const KEYS: &[&str] = &["name", "type"];
@@ -73,16 +79,23 @@ pub(crate) fn read_all(
         table.only(&[KEYS, &drive::KEYS, kind.keys])?;
         let name = names.read(&table, "input", ())?;
         let made = (kind.read)(&table, known)?;
-        let drive = drive::read(&table, kind.unit)?;
+        let unit = match kind.name == laws::DRIVE_TYPE {
+            true => Driven::read(&table, known.places, known.elements)?.unit(),
+            false => kind.unit,
+        };
+        let drive = drive::read(&table, unit)?;
         if drive == Drive::Over && matches!(made, InputKind::Anchor { .. }) {
             let help = "an anchor moves with its rate, which a reading at the start of a step does not \
                         tell: a `table` over time, or a `sine`";
             return Err(table.refuse_key("over", "does not go with the type \"anchor\"", help));
         }
-        let index =
-            known.assembly.add_input(made, &drive).map_err(|defect| defect.refuse(&table))?;
+        let range = drive::range(&table, &drive, unit)?;
+        let index = known
+            .assembly
+            .add_input(made, &drive, range)
+            .map_err(|defect| defect.refuse(&table))?;
         let table = !matches!(drive, Drive::Caller(_));
-        infos.push(InputInfo { name, kind: kind.name, unit: kind.unit, table, index });
+        infos.push(InputInfo { name, kind: kind.name, unit, table, range, index });
     }
     Ok(infos)
 }
@@ -177,6 +190,11 @@ fn actuator(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, 
         return Err(table.refuse_value("target", &problem, help));
     }
     Ok(InputKind::Actuator { group: group as u16, element: 0 })
+}
+
+/// The law that reads it is another part of the scene.
+fn signal(_: &Table<'_>, _: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {
+    Ok(InputKind::Signal)
 }
 
 fn anchor(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {

@@ -318,6 +318,7 @@ impl Scene {
             assembly: &mut assembly,
             elements: &elements,
             joints: &joints,
+            places: &places,
             quantities: &laws.quantities,
         };
         let inputs = input::read_all(&root, &mut known)?;
@@ -326,6 +327,7 @@ impl Scene {
             assembly: &mut assembly,
             elements: &elements,
             joints: &joints,
+            places: &places,
             quantities: &laws.quantities,
         };
         input::read_over(&root, &mut known, &inputs, &readouts)?;

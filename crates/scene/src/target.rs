@@ -38,6 +38,11 @@ impl Kinds {
         suits: |target| matches!(target, Target::Joint(_) | Target::TorsionSpring(_)),
         expected: "the name of a joint or of a torsion_spring",
     };
+    /// A joint.
+    pub(crate) const JOINT: Self = Self {
+        suits: |target| matches!(target, Target::Joint(_)),
+        expected: "the name of a joint",
+    };
     /// A TSDA.
     pub(crate) const TSDA: Self =
         Self { suits: |target| matches!(target, Target::Tsda(_)), expected: "the name of a tsda" };

@@ -11,7 +11,7 @@
 //! that with the memory after. Not seen is what happens within a step: a damper that stops a body in less.
 
 use dbd_kernel::elements::input::InputKind;
-use dbd_kernel::energy::energy;
+use dbd_kernel::energy::{energy, of_memories};
 use dbd_kernel::power::power;
 use dbd_kernel::schedule::{LoadWindow, Signal};
 use dbd_kernel::{F64, State};
@@ -159,7 +159,7 @@ impl Balance {
             [SchemeName::Leapfrog, SchemeName::GeneralizedAlpha].map(|scheme| scheme.name());
         let with = |pose: &States, laws: &States| {
             let state = State { laws: laws.laws.clone(), ..pose.clone() };
-            energy(&self.model, &state, self.plant.step_size()).law
+            of_memories(&self.model, &state)
         };
         let lost = |pose| with(pose, before) - with(pose, after);
         match at_end.contains(&self.plant.method().scheme_name()) {

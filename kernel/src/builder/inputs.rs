@@ -57,7 +57,7 @@ impl<
                 let there = known.is_some_and(|g| (*element as usize) < g.elements());
                 check(there, Quantity::Arms)?;
             }
-            InputKind::Anchor { .. } => {}
+            InputKind::Signal | InputKind::Anchor { .. } => {}
         }
         match &kind {
             InputKind::Force { point, direction, .. } => {
@@ -69,12 +69,13 @@ impl<
                 check(axes.iter().all(|axis| axis.is_finite()), Quantity::Axis)?;
             }
             InputKind::Anchor { direction } => check(direction.is_finite(), Quantity::Axis)?,
-            InputKind::Actuator { .. } => {}
+            InputKind::Actuator { .. } | InputKind::Signal => {}
         }
         check(P::Real::from_f64(value).is_finite(), Quantity::Load)?;
         room(&self.inputs, 1, Part::Inputs)?;
         let index = InputIndex(self.inputs.len() as u16);
-        let input = Input { kind, value: P::Real::from_f64(value), knot: 0, knots: 0 };
+        let range = [-f64::INFINITY, f64::INFINITY].map(P::Real::from_f64);
+        let input = Input { kind, value: P::Real::from_f64(value), knot: 0, knots: 0, range };
         let _ = self.inputs.push(input);
         Ok(index)
     }

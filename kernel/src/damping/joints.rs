@@ -26,7 +26,7 @@ pub(crate) fn sweep_joints<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: 
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     (levers, stops): (&mut [Lever<P>], u16),
-    laws: LawsKnown<'_, P, T>,
+    (states, of_laws): LawsKnown<'_, P, T>,
     bodies: &mut [BodyState<P>],
     sums: &mut [P::PassSum],
 ) {
@@ -35,7 +35,7 @@ pub(crate) fn sweep_joints<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: 
     }
     let mut moving = Moving::begin(bodies, sums, &sweep.kick);
     if REVERSE {
-        sweep_laws::<P, T, K, REVERSE>(model, sweep, laws, &mut moving);
+        sweep_laws::<P, T, K, REVERSE>(model, sweep, (&mut *states, of_laws), &mut moving);
     }
     let stops = usize::from(stops);
     for number in 0..stops {
@@ -44,7 +44,7 @@ pub(crate) fn sweep_joints<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: 
         act::<P, T, K, REVERSE>(model, sweep, &stop, levers, &mut moving);
     }
     if !REVERSE {
-        sweep_laws::<P, T, K, REVERSE>(model, sweep, laws, &mut moving);
+        sweep_laws::<P, T, K, REVERSE>(model, sweep, (states, of_laws), &mut moving);
     }
     moving.end();
 }

@@ -10,13 +10,13 @@ use crate::damping::pass::Sweep;
 use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::laws::{Body, Damper, DamperPass, End, Laws, Seen};
+use crate::laws::{Body, Damper, DamperPass, End, Inner, Laws, Seen};
 use crate::model::{ModelRef, SharesIn, StatesIn, Terms};
 use crate::real::Real as _;
 use crate::space::Linear as _;
 
 /// Memories of laws and shares of their dampers.
-pub(crate) type LawsKnown<'s, P, T> = (&'s StatesIn<P, T>, &'s SharesIn<P, T>);
+pub(crate) type LawsKnown<'s, P, T> = (&'s mut StatesIn<P, T>, &'s SharesIn<P, T>);
 
 /// The dampers of all laws, ascending, or descending with `REVERSE`.
 #[inline(always)]
@@ -52,6 +52,10 @@ struct Pass<'s, 'm, 'b, P: Geometry, T: Terms<P>, K, const REVERSE: bool> {
 impl<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool> DamperPass<P>
     for Pass<'_, '_, '_, P, T, K, REVERSE>
 {
+    fn time(&self) -> P::Real {
+        self.sweep.h
+    }
+
     fn seen(&self, [a, b]: [BodyIndex; 2]) -> Option<Seen<'_, P>> {
         let places = self.sweep.places;
         let end = |index: BodyIndex| {
@@ -64,7 +68,13 @@ impl<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool> DamperPass<P>
         Some(Seen { a, b, signals: places.signals })
     }
 
-    fn act(&mut self, bodies: [BodyIndex; 2], dampers: &[Damper<P>], shares: &[Share<P::Real>]) {
+    fn act(
+        &mut self,
+        bodies: [BodyIndex; 2],
+        dampers: &[Damper<P>],
+        shares: &[Share<P::Real>],
+        mut inner: Option<&mut Inner<P::Real>>,
+    ) {
         let idle = |damper: &Damper<P>| damper.coefficient == P::Real::ZERO;
         if P::Real::LANES == 1 && dampers.iter().all(idle) {
             return;
@@ -83,7 +93,8 @@ impl<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool> DamperPass<P>
             let bounds = damper.bounds().map(|bound| bound * sweep.h);
             let known = sweep.damper::<REVERSE>(damper.coefficient, share);
             let limits = (damper.rate, bounds, damper.brakes());
-            pair.damp_within::<P, K>(&damper.direction, known, limits);
+            let inner = inner.as_deref_mut().map(|inner| (damper.inner(), inner));
+            pair.damp_within::<P, K>(&damper.direction, known, limits, inner);
         }
         pair.store::<P>(self.moving);
     }

@@ -5,6 +5,7 @@
 use crate::damping::kick::Kick;
 use crate::damping::moving::Moving;
 use crate::geometry::Geometry;
+use crate::laws::Inner;
 use crate::model::{ModelRef, Terms};
 use crate::real::{Real, Truth as _};
 use crate::record::Direction;
@@ -165,7 +166,7 @@ impl<S: Space> Pair<S> {
         damper: Damper<S::Real>,
         idle: <S::Real as Real>::Truth,
     ) {
-        self.push::<P, K>(direction, idle, |inverse, rate, kick| {
+        self.push::<P, K>(direction, idle, None, |inverse, rate, kick| {
             let (x, impulse_per_rate) = damper.impulse_per_rate(inverse);
             let rate = if K::KNOWN { rate - kick * damper.unmet(x) } else { rate };
             impulse_per_rate * rate
@@ -182,8 +183,9 @@ impl<S: Space> Pair<S> {
         direction: &Direction<S>,
         damper: Damper<S::Real>,
         (towards, [least, most], brakes): (S::Real, [S::Real; 2], bool),
+        inner: Option<(S::Real, &mut Inner<S::Real>)>,
     ) {
-        self.push::<P, K>(direction, S::Real::truth(false), |inverse, rate, kick| {
+        self.push::<P, K>(direction, S::Real::truth(false), inner, |inverse, rate, kick| {
             let (x, impulse_per_rate) = damper.impulse_per_rate(inverse);
             let rate = if K::KNOWN { rate - kick * damper.unmet(x) } else { rate };
             let impulse = impulse_per_rate * (rate - towards);
@@ -201,7 +203,8 @@ impl<S: Space> Pair<S> {
         });
     }
 
-    /// An impulse along a direction, `(1/μ, rate, the kick's rate) => impulse`, but in lanes where it is idle.
+    /// An impulse along a direction, `(1/μ, rate, the kick's rate) => impulse`, but in lanes where it is idle; on a
+    /// part of a law's own freedom, too.
     #[inline(always)]
     fn push<
         P: Geometry<Space = S, Real = S::Real, Vector = S::Vector, Moment = S::Moment>,
@@ -210,6 +213,7 @@ impl<S: Space> Pair<S> {
         &mut self,
         direction: &Direction<S>,
         idle: <S::Real as Real>::Truth,
+        inner: Option<(S::Real, &mut Inner<S::Real>)>,
         impulse: impl FnOnce(S::Real, S::Real, S::Real) -> S::Real,
     ) {
         let Direction { along: u, moments: [moment_a, moment_b] } = *direction;
@@ -234,6 +238,13 @@ impl<S: Space> Pair<S> {
                 kick = kick - moment_a.dot(a.kick);
             }
         }
+        if let Some((part, inner)) = &inner {
+            inverse = inverse + *part * (*part * inner.inverse_inertia);
+            rate = rate + *part * inner.rate;
+            if K::KNOWN {
+                kick = kick + *part * inner.kick;
+            }
+        }
         // Without a direction (coincident points) nothing can be pushed.
         let idle = idle | inverse.equals(S::Real::ZERO);
         if idle.all() {
@@ -241,6 +252,9 @@ impl<S: Space> Pair<S> {
         }
         let impulse = impulse(inverse, rate, kick);
         self.impulse = self.impulse + (u * impulse).unless(idle);
+        if let Some((part, inner)) = inner {
+            inner.rate = inner.rate - part * (inner.inverse_inertia * impulse);
+        }
         if let Some(a) = a {
             a.turn((response_a * impulse).unless(idle));
         }

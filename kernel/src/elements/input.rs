@@ -50,6 +50,8 @@ pub enum InputKind<P: Geometry> {
         /// Its number in the group.
         element: u16,
     },
+    /// A number that laws read, see [`crate::laws::Seen::signal`]: it pushes nothing by itself.
+    Signal,
     /// A displacement \[m\] of ground points along a direction, with its rate \[m/s\]. The points
     /// are those of the elements whose body is [`BodyIndex::anchor`] of this input.
     Anchor {
@@ -69,16 +71,31 @@ pub struct Input<P: Geometry> {
     pub knot: u16,
     /// The number of its knots; 0 where the caller drives it.
     pub knots: u16,
+    /// \[as its value\] the least and the largest value that a caller can set: what is beyond is set to the nearer
+    /// one. Without bounds they are infinite.
+    pub range: [P::Real; 2],
 }
 
 impl<P: Geometry> Input<P> {
+    /// A value within its range.
+    #[inline]
+    #[must_use]
+    pub fn bounded(&self, value: P::Real) -> P::Real {
+        let [least, most] = self.range;
+        let value = P::Real::pick(most.less_than(value), most, value);
+        P::Real::pick(value.less_than(least), least, value)
+    }
+
     /// Whether the precision holds its value and its table; `knots` are those of all inputs.
     #[must_use]
     pub fn is_finite(&self, knots: &[Knot<P::Real>]) -> bool {
         let first = self.knot as usize;
         let knots = knots.get(first..first + self.knots as usize).unwrap_or(&[]);
         let mut rows = knots.iter().enumerate();
-        self.value.is_finite() && rows.all(|(i, knot)| knot.is_finite(knots.get(i + 1)))
+        let [least, most] = self.range;
+        self.value.is_finite()
+            && least <= most
+            && rows.all(|(i, knot)| knot.is_finite(knots.get(i + 1)))
     }
 
     /// The same input in another precision.
@@ -99,10 +116,12 @@ impl<P: Geometry> Input<P> {
                 InputKind::JointTorque { a, b, axes: axes.map(moment) }
             }
             InputKind::Actuator { group, element } => InputKind::Actuator { group, element },
+            InputKind::Signal => InputKind::Signal,
             InputKind::Anchor { direction } => InputKind::Anchor { direction: vector(direction) },
         };
         let value = Q::Real::from_f64(self.value.to_f64());
-        Input { kind, value, knot: self.knot, knots: self.knots }
+        let range = self.range.map(|bound| Q::Real::from_f64(bound.to_f64()));
+        Input { kind, value, knot: self.knot, knots: self.knots, range }
     }
 }
 

@@ -30,7 +30,7 @@ fn bodies_of<P: Geometry, T: Terms<P>>(
         InputKind::Actuator { group, .. } => {
             model.groups.get(group as usize).map_or([world; 2], |group| [group.a, group.b])
         }
-        InputKind::Anchor { .. } => [world; 2],
+        InputKind::Signal | InputKind::Anchor { .. } => [world; 2],
     }
 }
 
@@ -127,7 +127,7 @@ pub(crate) fn push<P: Geometry, T: Terms<P>>(
                     add(places, wrenches, bodies, &record);
                 }
             }
-            InputKind::Anchor { .. } => {}
+            InputKind::Signal | InputKind::Anchor { .. } => {}
         }
     }
 }

@@ -50,7 +50,15 @@ pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
             largest = eigenvalue;
         }
     }
-    largest.sqrt()
+    // Of a positive matrix of two blocks λ_max is at most the sum of theirs.
+    let mut own = RealOf::<M>::ZERO;
+    view.laws.look_at_all(&state.laws, &mut |_, law| {
+        let square = law.inner_square();
+        if square > own {
+            own = square;
+        }
+    });
+    (largest + own).sqrt()
 }
 
 /// The square of the bound of what is mounted to one body, 0 where there is none.

@@ -158,7 +158,14 @@ impl<P: Geometry> Seen<'_, P> {
     #[inline(always)]
     #[must_use]
     pub fn input(&self, input: InputIndex) -> P::Real {
-        self.signals.get(usize::from(input.0)).map_or(P::Real::ZERO, |signal| signal.value)
+        self.signal(input).value
+    }
+
+    /// The value \[by its unit\] and the rate of an input; 0 where the model has no such input.
+    #[inline(always)]
+    #[must_use]
+    pub fn signal(&self, input: InputIndex) -> Signal<P::Real> {
+        self.signals.get(usize::from(input.0)).copied().unwrap_or_default()
     }
 
     /// The direction along a unit vector u (world axes) between a point of A and one of B, at the ends of their

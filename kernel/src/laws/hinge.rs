@@ -12,6 +12,23 @@ use crate::words::{Word, WordSource, WordVisitor, Words};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Turns(pub i32);
 
+impl Turns {
+    /// The last one alone: with it a twist is near 0 however often it went round.
+    #[inline(always)]
+    #[must_use]
+    pub fn odd(self) -> Self {
+        Self(self.0 & 1)
+    }
+
+    /// \[rad\] a twist less that of [`Self::odd`].
+    #[inline(always)]
+    #[must_use]
+    pub fn whole<R: Real>(self) -> R {
+        let even = self.0 - (self.0 & 1);
+        R::counts(&[even]).first().map_or(R::ZERO, |count| R::from_count(*count) * (R::TWO * R::PI))
+    }
+}
+
 impl Words for Turns {
     fn visit(&self, visitor: &mut impl WordVisitor) {
         visitor.word(Word::I32(self.0));

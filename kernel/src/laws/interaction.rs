@@ -53,6 +53,8 @@ pub struct Damper<P: Geometry> {
     bounds: [P::Real; 2],
     /// Whether it takes no more than all of the rate.
     brakes: bool,
+    /// \[1\] which part of the rate of the law's own freedom belongs to its rate.
+    inner: P::Real,
 }
 
 /// Beyond any force, and its product with any step is a number in single precision.
@@ -64,7 +66,9 @@ impl<P: Geometry> Damper<P> {
     #[must_use]
     pub fn new(coefficient: P::Real, direction: Direction<P::Space>) -> Self {
         let most = P::Real::from_f64(MOST);
-        Self { coefficient, direction, rate: P::Real::ZERO, bounds: [-most, most], brakes: false }
+        let zero = P::Real::ZERO;
+        let bounds = [-most, most];
+        Self { coefficient, direction, rate: zero, bounds, brakes: false, inner: zero }
     }
 
     /// A damper that does nothing.
@@ -106,6 +110,20 @@ impl<P: Geometry> Damper<P> {
         Self { brakes: true, ..self }
     }
 
+    /// Whose rate has this part of the rate of the law's own freedom, [`Interaction::inner`].
+    #[inline(always)]
+    #[must_use]
+    pub fn with_inner(self, inner: P::Real) -> Self {
+        Self { inner, ..self }
+    }
+
+    /// \[1\] the part of the rate of the law's own freedom that belongs to its rate.
+    #[inline(always)]
+    #[must_use]
+    pub fn inner(&self) -> P::Real {
+        self.inner
+    }
+
     /// Whether it never turns the rate around.
     #[inline(always)]
     #[must_use]
@@ -122,6 +140,28 @@ impl<P: Geometry> Damper<P> {
         let tension = P::Real::pick(most.less_than(tension), most, tension);
         P::Real::pick(tension.less_than(least), least, tension)
     }
+}
+
+/// A freedom that a law has of its own, in its memory: a rotor behind a gear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inner<R> {
+    /// \[m/s, rad/s\] its rate.
+    pub rate: R,
+    /// \[m/s, rad/s\] what the kick just before gave to it.
+    pub kick: R,
+    /// \[1/kg, 1/(kg·m²)\]
+    pub inverse_inertia: R,
+}
+
+/// What a law's memory asks of a scheme, the least first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Need {
+    /// No steps back in time: it loses energy as it is settled.
+    Forward,
+    /// One evaluation per step besides: steps bring it on.
+    Steps,
+    /// Passes over dampers besides: they bring its own freedom on.
+    Passes,
 }
 
 /// A number that a law shows beside what it does: a depth, a slip.
@@ -189,7 +229,12 @@ pub trait Interaction<P: Geometry>: Constants<P> {
     /// Whether its energy falls as its memory is settled, as that of friction does: schemes with steps back in time
     /// refuse it then. A memory that only counts turns loses nothing.
     const SLIPS: bool = Self::ADVANCES;
-    /// Whether what it does depends on inputs: an input that is set costs an evaluation then.
+    /// Whether it has a freedom of its own, which passes over dampers bring on; it [`Self::ADVANCES`] then.
+    const INNER: bool = false;
+    /// Whether its dampers are those of a drive: their work counts as that of inputs.
+    const DRIVES: bool = false;
+    /// Whether [`Self::record`] depends on inputs: an input that is set costs an evaluation then. Dampers and drives may
+    /// depend on them without that.
     const DRIVEN: bool = false;
     /// What [`Self::read`] shows.
     const QUANTITIES: &'static [Quantity] = &[];
@@ -228,6 +273,38 @@ pub trait Interaction<P: Geometry>: Constants<P> {
         _state: &Self::State,
         _visit: &mut impl FnMut(Damper<P>),
     ) {
+    }
+
+    /// Gives to its own freedom what its springs give in the time `h` \[s\], before a pass; returns \[m/s, rad/s\] what
+    /// that is.
+    #[inline(always)]
+    fn kick(&self, _seen: &Seen<'_, P>, _h: P::Real, _state: &mut Self::State) -> P::Real {
+        P::Real::ZERO
+    }
+
+    /// Lets act what drives and damps its own freedom alone, for a time \[s\], told of the kick just before. The first
+    /// thing in a pass, the last in one of descending order.
+    #[inline(always)]
+    fn drive(&self, _seen: &Seen<'_, P>, _time_and_kick: [P::Real; 2], _state: &mut Self::State) {}
+
+    /// Its own freedom, with the kick that it was given.
+    #[inline(always)]
+    fn inner(&self, _state: &Self::State, kick: P::Real) -> Inner<P::Real> {
+        Inner { rate: P::Real::ZERO, kick, inverse_inertia: P::Real::ZERO }
+    }
+
+    /// Sets the rate \[m/s, rad/s\] of its own freedom.
+    #[inline(always)]
+    fn set_inner(&self, _rate: P::Real, _state: &mut Self::State) {}
+
+    /// \[rad²/s²\] the square of the highest frequency of its own freedom where its bodies are held.
+    fn inner_square(&self) -> P::Real {
+        P::Real::ZERO
+    }
+
+    /// \[W\] what drives its own freedom gives.
+    fn supply(&self, _seen: &Seen<'_, P>, _state: &Self::State) -> P::Real {
+        P::Real::ZERO
     }
 
     /// Replaces the vectors of its memory: `turn(0, v)` those in the axes of A, `turn(1, v)` those in the axes of B.

@@ -3,6 +3,7 @@
 use core::fmt::Debug;
 
 use crate::geometry::{F64, Geometry};
+use crate::index::InputIndex;
 use crate::laws::curve::Curve;
 use crate::laws::hinge::Hinge;
 use crate::real::Real as _;
@@ -30,7 +31,7 @@ pub struct Field {
 pub trait FieldSource {
     /// A number in the field's unit of the SI.
     fn number(&mut self, field: &Field) -> Option<f64>;
-    /// A whole number.
+    /// A whole number; of the kind `signal` the row of an input.
     fn count(&mut self, field: &Field) -> Option<u32>;
     /// \[m\] a point of A and a point of B, each in the axes of its body.
     fn points(&mut self, field: &Field) -> Option<[[f64; 3]; 2]>;
@@ -125,6 +126,28 @@ impl Kind for Count {
     }
     fn write_to(of: &u32, field: &Field, sink: &mut dyn FieldSink) {
         sink.count(field, *of);
+    }
+}
+
+/// An input of the model, which the law reads: [`InputIndex`].
+#[derive(Clone, Copy, Debug)]
+pub struct Signal;
+
+impl Kind for Signal {
+    type In<P: Geometry> = InputIndex;
+    const NAME: &'static str = "signal";
+
+    fn rounded<P: Geometry>(of: &InputIndex) -> InputIndex {
+        *of
+    }
+    fn visit<P: Geometry>(of: &InputIndex, visitor: &mut dyn WordVisitor) {
+        visitor.word(Word::I32(i32::from(of.0)));
+    }
+    fn read_from(field: &Field, source: &mut dyn FieldSource) -> Option<InputIndex> {
+        source.count(field).and_then(|input| u16::try_from(input).ok()).map(InputIndex)
+    }
+    fn write_to(of: &InputIndex, field: &Field, sink: &mut dyn FieldSink) {
+        sink.count(field, u32::from(of.0));
     }
 }
 

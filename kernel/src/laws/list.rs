@@ -5,7 +5,7 @@
 use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::laws::end::Instant;
-use crate::laws::interaction::{Interaction, Several, SharesOf};
+use crate::laws::interaction::{Interaction, Need, Several, SharesOf};
 use crate::laws::row::{Act, DamperPass, Row};
 use crate::laws::slice;
 use crate::record::Wrench;
@@ -49,7 +49,7 @@ pub trait Laws<P: Geometry>: Send + Sync + 'static {
     fn sweep(
         &self,
         reverse: bool,
-        states: &Self::States,
+        states: &mut Self::States,
         shares: &Self::Shares,
         pass: &mut dyn DamperPass<P>,
     );
@@ -66,8 +66,8 @@ pub trait Laws<P: Geometry>: Send + Sync + 'static {
     fn visit(states: &Self::States, visitor: &mut dyn WordVisitor);
     /// Takes them from a source.
     fn fill(states: &mut Self::States, source: &mut dyn WordSource);
-    /// The first law whose memory may lose energy, and whether steps bring it on: those come first.
-    fn memory(&self) -> Option<(&'static str, bool)>;
+    /// The first law whose memory asks most of a scheme, and what it asks.
+    fn memory(&self) -> Option<(&'static str, Need)>;
 
     /// Visits every row in order.
     fn look_at_all(&self, states: &Self::States, visit: &mut dyn FnMut(usize, &dyn Row<P>)) {
@@ -118,7 +118,7 @@ impl<P: Geometry, T: Interaction<P>, const N: usize> Laws<P> for [T; N] {
     fn sweep(
         &self,
         reverse: bool,
-        states: &Self::States,
+        states: &mut Self::States,
         shares: &Self::Shares,
         pass: &mut dyn DamperPass<P>,
     ) {
@@ -141,20 +141,18 @@ impl<P: Geometry, T: Interaction<P>, const N: usize> Laws<P> for [T; N] {
     fn fill(states: &mut Self::States, source: &mut dyn WordSource) {
         slice::fill::<P, T>(states, source);
     }
-    fn memory(&self) -> Option<(&'static str, bool)> {
+    fn memory(&self) -> Option<(&'static str, Need)> {
         slice::memory::<P, T>(self)
     }
 }
 
-/// The later of two of laws' memories that asks for more.
+/// That of two laws' memories which asks for more, the first where both ask for the same.
 fn stricter(
-    a: Option<(&'static str, bool)>,
-    b: Option<(&'static str, bool)>,
-) -> Option<(&'static str, bool)> {
-    match (a, b) {
-        (Some((_, false)), Some((_, true))) | (None, Some(_)) => b,
-        _ => a,
-    }
+    a: Option<(&'static str, Need)>,
+    b: Option<(&'static str, Need)>,
+) -> Option<(&'static str, Need)> {
+    let need = |of: Option<(&'static str, Need)>| of.map(|(_, need)| need);
+    if need(a) < need(b) { b } else { a }
 }
 
 macro_rules! list {
@@ -206,7 +204,7 @@ macro_rules! list {
             fn sweep(
                 &self,
                 reverse: bool,
-                states: &Self::States,
+                states: &mut Self::States,
                 shares: &Self::Shares,
                 pass: &mut dyn DamperPass<P>,
             ) {
@@ -215,7 +213,7 @@ macro_rules! list {
                     let table = if reverse { tables - 1 - table } else { table };
                     $(
                         if table == $i && $table::DAMPED {
-                            self.$i.sweep(reverse, &states.$i, &shares.$i, pass);
+                            self.$i.sweep(reverse, &mut states.$i, &shares.$i, pass);
                         }
                     )*
                 }
@@ -252,7 +250,7 @@ macro_rules! list {
             fn fill(states: &mut Self::States, source: &mut dyn WordSource) {
                 $($table::fill(&mut states.$i, source);)*
             }
-            fn memory(&self) -> Option<(&'static str, bool)> {
+            fn memory(&self) -> Option<(&'static str, Need)> {
                 let mut found = None;
                 $(found = stricter(found, self.$i.memory());)*
                 found

@@ -24,16 +24,22 @@ mod end;
 mod end_stop;
 mod hinge;
 mod hinge_damper;
+mod hinge_drive;
 mod hinge_friction;
+mod hinge_servo;
 mod hinge_spring;
 mod hinge_stop;
 mod interaction;
 mod kind;
 mod list;
 mod plane_contact;
+mod rotor;
 mod row;
+mod servo;
 mod slice;
+mod slide_drive;
 mod slide_friction;
+mod slide_servo;
 mod slip;
 mod stop;
 mod tabled;
@@ -47,21 +53,28 @@ pub use end::{End, Instant, Seen};
 pub use end_stop::EndStop;
 pub use hinge::{Hinge, Turns, Twisted};
 pub use hinge_damper::HingeDamper;
+pub use hinge_drive::{HingeDrive, TurnRotor};
 pub use hinge_friction::{HingeFriction, TurnSlip};
+pub use hinge_servo::HingeServo;
 pub use hinge_spring::HingeSpring;
 pub use hinge_stop::HingeStop;
 pub use interaction::{
-    Constants, Damper, Interaction, Law, Nothing, Quantity, Several, Springs, Wrong,
+    Constants, Damper, Inner, Interaction, Law, Need, Nothing, Quantity, Several, Springs, Wrong,
 };
 #[doc(hidden)]
 pub use kind::first;
-pub use kind::{Axis, Count, Field, FieldSink, FieldSource, Kind, Normal, Number, Points, Table};
+pub use kind::{
+    Axis, Count, Field, FieldSink, FieldSource, Kind, Normal, Number, Points, Signal, Table,
+};
 pub use list::Laws;
 pub use plane_contact::{Held, PlaneContact};
+pub use rotor::Rotor;
 pub use row::{Act, DamperPass, Row};
 #[doc(hidden)]
 pub use slice::{act, look, memory, shares_of, sweep};
+pub use slide_drive::SlideDrive;
 pub use slide_friction::SlideFriction;
+pub use slide_servo::SlideServo;
 pub use slip::Slip;
 
 pub use crate::record::Direction;
@@ -75,5 +88,5 @@ pub mod prelude {
     };
     pub use crate::space::{Linear as _, Moment as _, Space, Vector as _};
     pub use crate::words::{Word, WordSource, WordVisitor, Words};
-    pub use crate::{BodyIndex, F64, Geometry, Real};
+    pub use crate::{BodyIndex, F64, Geometry, InputIndex, Real};
 }

@@ -4,7 +4,7 @@ use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::laws::end::Seen;
-use crate::laws::interaction::{Damper, Quantity, Springs};
+use crate::laws::interaction::{Damper, Inner, Quantity, Springs};
 use crate::record::Record;
 use crate::words::WordVisitor;
 
@@ -21,10 +21,18 @@ pub struct Act<R> {
 
 /// A pass over dampers, which laws hand theirs to.
 pub trait DamperPass<P: Geometry> {
+    /// \[s\] for how long dampers act in it.
+    fn time(&self) -> P::Real;
     /// What a law between two bodies sees in the pass.
     fn seen(&self, bodies: [BodyIndex; 2]) -> Option<Seen<'_, P>>;
-    /// The dampers of a law act, each with its share.
-    fn act(&mut self, bodies: [BodyIndex; 2], dampers: &[Damper<P>], shares: &[Share<P::Real>]);
+    /// The dampers of a law act, each with its share, on the law's own freedom, too.
+    fn act(
+        &mut self,
+        bodies: [BodyIndex; 2],
+        dampers: &[Damper<P>],
+        shares: &[Share<P::Real>],
+        inner: Option<&mut Inner<P::Real>>,
+    );
 }
 
 /// A row of a table with its memory: what those ask who look at laws outside a step.
@@ -43,6 +51,14 @@ pub trait Row<P: Geometry> {
     fn tangent(&self, seen: &Seen<'_, P>, visit: Springs<'_, P>) -> [P::Real; 2];
     /// [`Interaction::dampers`](crate::laws::Interaction::dampers).
     fn each_damper(&self, seen: &Seen<'_, P>, visit: &mut dyn FnMut(usize, &Damper<P>));
+    /// [`Interaction::DRIVES`](crate::laws::Interaction::DRIVES).
+    fn drives(&self) -> bool;
+    /// [`Interaction::inner`](crate::laws::Interaction::inner), where it has one.
+    fn inner(&self) -> Option<Inner<P::Real>>;
+    /// [`Interaction::inner_square`](crate::laws::Interaction::inner_square).
+    fn inner_square(&self) -> P::Real;
+    /// [`Interaction::supply`](crate::laws::Interaction::supply).
+    fn supply(&self, seen: &Seen<'_, P>) -> P::Real;
     /// [`Interaction::QUANTITIES`](crate::laws::Interaction::QUANTITIES).
     fn quantities(&self) -> &'static [Quantity];
     /// [`Interaction::read`](crate::laws::Interaction::read).

@@ -4,8 +4,11 @@ use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::laws::end::{Instant, Seen};
-use crate::laws::interaction::{Damper, Interaction, Quantity, Several, SharesOf, Springs};
+use crate::laws::interaction::{
+    Damper, Inner, Interaction, Need, Quantity, Several, SharesOf, Springs,
+};
 use crate::laws::row::{Act, DamperPass, Row};
+use crate::real::Real as _;
 use crate::record::{Record, Wrench, apply};
 use crate::words::{Word, WordSource, WordVisitor, Words as _};
 
@@ -40,8 +43,13 @@ pub fn act<P: Geometry, T: Interaction<P>>(
         }
         let Some(mut record) = law.record(&seen, state) else { return Err(row) };
         if act.damped && T::Dampers::COUNT > 0 {
+            let own = if T::INNER { law.inner(state, P::Real::ZERO).rate } else { P::Real::ZERO };
             law.dampers(&seen, state, &mut |damper| {
-                let tension = damper.tension(seen.rate(&damper.direction));
+                let mut rate = seen.rate(&damper.direction);
+                if T::INNER {
+                    rate = rate + damper.inner() * own;
+                }
+                let tension = damper.tension(rate);
                 record = record.with(&seen.pull(&damper.direction, tension));
             });
         }
@@ -56,7 +64,7 @@ pub fn act<P: Geometry, T: Interaction<P>>(
 pub fn sweep<P: Geometry, T: Interaction<P>>(
     rows: &[T],
     reverse: bool,
-    states: &[T::State],
+    states: &mut [T::State],
     shares: &[SharesOf<P, T>],
     pass: &mut dyn DamperPass<P>,
 ) {
@@ -66,15 +74,21 @@ pub fn sweep<P: Geometry, T: Interaction<P>>(
     for row in 0..rows.len() {
         let row = if reverse { rows.len() - 1 - row } else { row };
         let (Some(law), Some(state), Some(shares)) =
-            (rows.get(row), states.get(row), shares.get(row))
+            (rows.get(row), states.get_mut(row), shares.get(row))
         else {
             break;
         };
         let bodies = law.bodies();
         let mut dampers = T::Dampers::of(Damper::<P>::idle());
-        let mut count = 0;
+        let (mut count, mut kick, time) = (0, P::Real::ZERO, pass.time());
         {
             let Some(seen) = pass.seen(bodies) else { continue };
+            if T::INNER {
+                kick = law.kick(&seen, time, state);
+                if !reverse {
+                    law.drive(&seen, [time, kick], state);
+                }
+            }
             law.dampers(&seen, state, &mut |damper| {
                 if let Some(place) = dampers.as_mut().get_mut(count) {
                     *place = damper;
@@ -83,7 +97,16 @@ pub fn sweep<P: Geometry, T: Interaction<P>>(
             });
         }
         let known = dampers.as_ref().get(..count).unwrap_or_default();
-        pass.act(bodies, known, shares.as_ref());
+        if !T::INNER {
+            pass.act(bodies, known, shares.as_ref(), None);
+            continue;
+        }
+        let mut inner = law.inner(state, kick);
+        pass.act(bodies, known, shares.as_ref(), Some(&mut inner));
+        law.set_inner(inner.rate, state);
+        if reverse && let Some(seen) = pass.seen(bodies) {
+            law.drive(&seen, [time, kick], state);
+        }
     }
 }
 
@@ -109,11 +132,16 @@ pub fn fill<P: Geometry, T: Interaction<P>>(states: &mut [T::State], source: &mu
     states.iter_mut().for_each(|state| state.fill(&mut Source(source)));
 }
 
-/// The law's name where its memory may lose energy, and whether steps bring it on.
+/// The law's name where its memory asks something of a scheme, and what.
 #[must_use]
-pub fn memory<P: Geometry, T: Interaction<P>>(rows: &[T]) -> Option<(&'static str, bool)> {
-    let slips = (T::SLIPS || T::ADVANCES) && !rows.is_empty();
-    slips.then_some((T::NAME, T::ADVANCES))
+pub fn memory<P: Geometry, T: Interaction<P>>(rows: &[T]) -> Option<(&'static str, Need)> {
+    let need = match (T::INNER, T::ADVANCES, T::SLIPS) {
+        (true, ..) => Need::Passes,
+        (_, true, _) => Need::Steps,
+        (.., true) => Need::Forward,
+        _ => return None,
+    };
+    (!rows.is_empty()).then_some((T::NAME, need))
 }
 
 /// A visitor known by its table of functions.
@@ -164,6 +192,18 @@ impl<P: Geometry, T: Interaction<P>> Row<P> for Known<'_, T, T::State> {
             visit(count, &damper);
             count += 1;
         });
+    }
+    fn drives(&self) -> bool {
+        T::DRIVES
+    }
+    fn inner(&self) -> Option<Inner<P::Real>> {
+        T::INNER.then(|| self.law.inner(self.state, P::Real::ZERO))
+    }
+    fn inner_square(&self) -> P::Real {
+        self.law.inner_square()
+    }
+    fn supply(&self, seen: &Seen<'_, P>) -> P::Real {
+        self.law.supply(seen, self.state)
     }
     fn quantities(&self) -> &'static [Quantity] {
         T::QUANTITIES

@@ -196,7 +196,7 @@ impl<
                     let elements = self.groups[*group as usize].elements();
                     assert!((*element as usize) < elements, "an actuator's element is there");
                 }
-                InputKind::Anchor { .. } => {}
+                InputKind::Signal | InputKind::Anchor { .. } => {}
             }
             i += 1;
         }

@@ -52,7 +52,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
             damping::sweep::<P, T, _, REVERSE>(
                 &self.model,
                 &sweep,
-                (&*self.law_states, self.law_shares),
+                (&mut *self.law_states, self.law_shares),
                 self.bodies,
                 self.sums,
             );
@@ -82,7 +82,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
             &self.model,
             &sweep,
             levers,
-            (&*self.law_states, self.law_shares),
+            (&mut *self.law_states, self.law_shares),
             self.bodies,
             self.sums,
         );
@@ -141,7 +141,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
             damping::sweep::<P, T, _, REVERSE>(
                 &self.model,
                 &sweep,
-                (&*self.law_states, self.law_shares),
+                (&mut *self.law_states, self.law_shares),
                 self.bodies,
                 self.sums,
             );

@@ -7,6 +7,7 @@
 //! changes as φ̇ = δω − ω × φ.
 
 use dbd_kernel::forces::wrenches;
+use dbd_kernel::laws::{Laws as _, Need};
 use dbd_kernel::{F64, Quaternion, State, Vec3};
 use dbd_scene::SceneModel;
 use nalgebra::{DMatrix, DVector};
@@ -56,6 +57,13 @@ impl Probe {
         }
         let step = Some(of.step_size());
         let mut instance = Instance::new(blueprint, Settings { step, ..Settings::default() })?;
+        let memory = instance.plant().model().laws.memory();
+        if let Some((law, Need::Passes)) = memory {
+            return Err(InstanceError::Linearisation {
+                what: format!("a rotor of the law `{law}` moves beside the bodies"),
+                remedy: "a drive without a rotor, its inertia added to a body",
+            });
+        }
         let set = of.set().iter().map(|(path, value)| (path.as_str(), *value));
         instance.set_parameters(set)?;
         let state = instance.plant().state();

@@ -91,6 +91,7 @@ impl Assembly {
         &mut self,
         kind: InputKind<F64>,
         drive: &Drive,
+        range: [f64; 2],
     ) -> Result<InputIndex, Defect> {
         let row = index(self.model.inputs.len(), 1, "inputs")?;
         let input = InputIndex(row);
@@ -99,7 +100,7 @@ impl Assembly {
             Drive::Table(curve) => self.add_knots(curve, curve.knots.len())?,
             _ => (0, 0),
         };
-        self.model.inputs.push(Input { kind, value, knot, knots });
+        self.model.inputs.push(Input { kind, value, knot, knots, range });
         match drive {
             Drive::Sine(sine) => {
                 index(self.model.sources.len(), 1, "sources of inputs")?;

@@ -58,7 +58,11 @@ impl<P: SourceGeometry> FieldSink for Fields<P> {
         self.push(field, &number::<P>(value));
     }
     fn count(&mut self, field: &Field, value: u32) {
-        self.push(field, &value.to_string());
+        let text = match field.kind {
+            "signal" => format!("dbd_kernel::index::InputIndex({value})"),
+            _ => value.to_string(),
+        };
+        self.push(field, &text);
     }
     fn points(&mut self, field: &Field, points: [[f64; 3]; 2]) {
         let [a, b] = points.map(|point| P::local(&P::local_from_f64(point)));

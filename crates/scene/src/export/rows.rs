@@ -131,12 +131,16 @@ pub(super) fn input<P: SourceGeometry>(input: &Input<P>) -> String {
         InputKind::Actuator { group, element } => {
             format!("Actuator {{ group: {group}, element: {element} }}")
         }
+        InputKind::Signal => "Signal".into(),
         InputKind::Anchor { direction } => {
             format!("Anchor {{ direction: {} }}", P::vector(direction))
         }
     };
     let (value, knot, knots) = (input.value.number(), input.knot, input.knots);
-    format!("Input {{ kind: InputKind::{kind}, value: {value}, knot: {knot}, knots: {knots} }}")
+    let [least, most] = input.range.map(|bound| bound.number());
+    format!(
+        "Input {{ kind: InputKind::{kind}, value: {value}, knot: {knot}, knots: {knots}, range: [{least}, {most}] }}"
+    )
 }
 
 pub(super) fn readout<P: SourceGeometry>(readout: &Readout<P>) -> String {

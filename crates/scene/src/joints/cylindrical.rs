@@ -23,6 +23,8 @@ pub(super) const TYPE: JointType = JointType {
         "span",
         "offset",
         "turn_limits",
+        "turn_rotor",
+        "slide_rotor",
         "turn_friction",
         "slide_limits",
         "slide_friction",

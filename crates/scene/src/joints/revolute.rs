@@ -25,7 +25,17 @@ pub(super) const TYPE: JointType = JointType {
     name: "revolute",
     holds: 5,
     brings: 0,
-    keys: &["axis", "reference", "span", "ring", "clearance", "realisation", "limits", "friction"],
+    keys: &[
+        "axis",
+        "reference",
+        "span",
+        "ring",
+        "clearance",
+        "realisation",
+        "limits",
+        "friction",
+        "rotor",
+    ],
     asks: (Place::Point, Turn::Axis),
     expand,
 };

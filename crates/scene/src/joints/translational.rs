@@ -19,7 +19,17 @@ pub(super) const TYPE: JointType = JointType {
     name: "translational",
     holds: 5,
     brings: 0,
-    keys: &["axis", "reference", "span", "gauge", "offset", "offsets", "limits", "friction"],
+    keys: &[
+        "axis",
+        "reference",
+        "span",
+        "gauge",
+        "offset",
+        "offsets",
+        "limits",
+        "friction",
+        "rotor",
+    ],
     asks: (Place::Line, Turn::All),
     expand,
 };

@@ -6,18 +6,43 @@ use dbd_kernel::laws::{Field, FieldSource};
 
 use crate::assembly::Assembly;
 use crate::error::SceneError;
+use crate::joints::JointPlace;
+use crate::laws::of_drives::Constants;
 use crate::laws::of_joints::OfJoint;
+use crate::nearest::nearest;
 use crate::pair::Pair;
 use crate::points::{Heading, PlaceOf};
+use crate::shortened::shortened;
 use crate::text::{Kind, Number, Table, Value};
+
+/// What a table belongs to.
+pub(super) enum Of<'a> {
+    /// To a law by itself.
+    Itself,
+    /// To a joint, which has its geometry.
+    Joint(OfJoint<'a>),
+    /// To a drive at a joint: its place, its input, its constants.
+    Drive(&'a JointPlace, usize, Constants),
+}
+
+impl Of<'_> {
+    fn place(&self) -> Option<&JointPlace> {
+        match self {
+            Of::Itself => None,
+            Of::Joint(of) => Some(of.place),
+            Of::Drive(place, ..) => Some(place),
+        }
+    }
+}
 
 /// A table as the source of a law's constants.
 pub(super) struct Reading<'a, 't> {
     table: &'a Table<'t>,
     assembly: &'a Assembly,
     pair: &'a Pair,
-    /// Where a table of a joint has its geometry.
-    of_joint: Option<OfJoint<'a>>,
+    of: Of<'a>,
+    /// The names of the inputs.
+    inputs: &'a [String],
     refused: Option<SceneError>,
 }
 
@@ -26,9 +51,10 @@ impl<'a, 't> Reading<'a, 't> {
         table: &'a Table<'t>,
         assembly: &'a Assembly,
         pair: &'a Pair,
-        of_joint: Option<OfJoint<'a>>,
+        of: Of<'a>,
+        inputs: &'a [String],
     ) -> Self {
-        Self { table, assembly, pair, of_joint, refused: None }
+        Self { table, assembly, pair, of, inputs, refused: None }
     }
 
     /// Why a constant was refused.
@@ -46,10 +72,22 @@ impl<'a, 't> Reading<'a, 't> {
         }
     }
 
+    /// The row of an input.
+    fn signal(&mut self, field: &Field) -> Option<u32> {
+        match self.of {
+            Of::Drive(_, input, _) => return u32::try_from(input).ok(),
+            // No input has this row: nothing drives it.
+            Of::Joint(_) => return Some(u16::MAX.into()),
+            Of::Itself => {}
+        }
+        let read = self.table.required(field.name, InputName(self.inputs));
+        self.keep(read)
+    }
+
     /// A direction in the axes of the first body, as a joint's axis is given.
     fn heading(&mut self, field: &Field) -> Option<dbd_kernel::Vec3<f64>> {
         let (assembly, table, a) = (self.assembly, self.table, self.pair.a);
-        if let Some(OfJoint { place, .. }) = &self.of_joint {
+        if let Some(place) = self.of.place() {
             return Some(assembly.vector_in(a, place.axis_w));
         }
         let read = table.required(field.name, Heading(assembly)).map(|written| {
@@ -68,10 +106,12 @@ fn unit(field: &Field, row: usize) -> &'static str {
 impl FieldSource for Reading<'_, '_> {
     fn number(&mut self, field: &Field) -> Option<f64> {
         let kind = Number::any(unit(field, 0));
-        let of_joint = self.of_joint.as_ref();
-        if let Some(read) =
-            of_joint.and_then(|of| of.number(self.table, field.name, unit(field, 0)))
-        {
+        let read = match &self.of {
+            Of::Itself => None,
+            Of::Joint(of) => of.number(self.table, field.name, unit(field, 0)),
+            Of::Drive(.., constants) => return constants.get(field.name).or(field.default),
+        };
+        if let Some(read) = read {
             return self.keep(read);
         }
         let read = match field.default {
@@ -85,6 +125,9 @@ impl FieldSource for Reading<'_, '_> {
 
     fn count(&mut self, field: &Field) -> Option<u32> {
         let table = self.table;
+        if field.kind == "signal" {
+            return self.signal(field);
+        }
         let read = table.required(field.name, Number::not_negative("")).and_then(|number| {
             if number.fract() == 0.0 && number <= f64::from(u32::MAX) {
                 Ok(number as u32)
@@ -98,7 +141,7 @@ impl FieldSource for Reading<'_, '_> {
 
     fn points(&mut self, field: &Field) -> Option<[[f64; 3]; 2]> {
         let (assembly, pair) = (self.assembly, self.pair);
-        if let Some(OfJoint { place, .. }) = &self.of_joint {
+        if let Some(place) = self.of.place() {
             let point = |body| assembly.point_in(body, place.at_w).to_f64();
             return Some([pair.a, pair.b].map(point));
         }
@@ -123,6 +166,29 @@ impl FieldSource for Reading<'_, '_> {
         let knots = self.keep(read)?;
         to.iter_mut().zip(&knots).for_each(|(place, knot)| *place = *knot);
         Some(knots.len())
+    }
+}
+
+/// The name of an input.
+struct InputName<'a>(&'a [String]);
+
+impl Kind for InputName<'_> {
+    type Output = u32;
+
+    fn expected(&self) -> String {
+        "the name of an input".into()
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<u32, SceneError> {
+        let name = value.get().as_str().ok_or_else(|| value.wrong_type(&self.expected()))?;
+        let row = self.0.iter().position(|known| known == name);
+        row.and_then(|row| u32::try_from(row).ok()).ok_or_else(|| {
+            let help = match nearest(name, self.0.iter().map(String::as_str)) {
+                Some(meant) => format!("did you mean \"{meant}\"?"),
+                None => "an input of the type \"signal\", or any other".into(),
+            };
+            value.refuse_with(&format!("names no input: \"{}\"", shortened(name)), help)
+        })
     }
 }
 

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use dbd_kernel::damping::Share;
 use dbd_kernel::forces::Wrench;
-use dbd_kernel::laws::{Act, DamperPass, Instant, Laws, Row};
+use dbd_kernel::laws::{Act, DamperPass, Instant, Laws, Need, Row};
 use dbd_kernel::words::{Word, WordSource, WordVisitor};
 use dbd_kernel::{BodyIndex, Geometry};
 
@@ -160,13 +160,13 @@ impl<P: Geometry> Laws<P> for LawList<P> {
     fn sweep(
         &self,
         reverse: bool,
-        states: &Vec<Word>,
+        states: &mut Vec<Word>,
         shares: &Self::Shares,
         pass: &mut dyn DamperPass<P>,
     ) {
         let tables: Vec<_> = self.each().filter(|(table, _)| table.rows.dampers() > 0).collect();
         let mut act = |(table, [_, words, first]): &(&Table<P>, [usize; 3])| {
-            if let (Some(words), Some(shares)) = (states.get(*words..), shares.get(*first..)) {
+            if let (Some(words), Some(shares)) = (states.get_mut(*words..), shares.get(*first..)) {
                 table.rows.sweep(reverse, words, shares, pass);
             }
         };
@@ -208,9 +208,8 @@ impl<P: Geometry> Laws<P> for LawList<P> {
             *word = of_bits(*word, bits);
         }
     }
-    fn memory(&self) -> Option<(&'static str, bool)> {
-        let mut memories = self.tables.iter().filter_map(|table| table.rows.memory());
-        let advancing = memories.clone().find(|(_, advances)| *advances);
-        advancing.or_else(|| memories.next())
+    fn memory(&self) -> Option<(&'static str, Need)> {
+        let memories = self.tables.iter().filter_map(|table| table.rows.memory());
+        memories.reduce(|a, b| if a.1 < b.1 { b } else { a })
     }
 }

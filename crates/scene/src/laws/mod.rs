@@ -8,6 +8,7 @@ mod info;
 mod kit;
 mod linked;
 mod list;
+mod of_drives;
 mod of_joints;
 mod rows;
 mod source;
@@ -19,8 +20,9 @@ pub use kit::{Poses, hold};
 #[doc(hidden)]
 pub use linked::LinkedLaw;
 pub use list::LawList;
+pub(crate) use of_drives::{Driven, GEAR, KEYS as DRIVE, TYPE as DRIVE_TYPE, WINDING};
 pub use of_joints::dissipation;
-pub(crate) use of_joints::{FRICTION, LIMITS};
+pub(crate) use of_joints::{FRICTION, LIMITS, ROTOR};
 pub(crate) use rows::Listed;
 pub use rows::convert_words;
 pub(crate) use source::SourceRows;
@@ -32,15 +34,15 @@ use dbd_kernel::laws::{self, Field, Law};
 use crate::assembly::Assembly;
 use crate::error::SceneError;
 use crate::joints::{self, JointPlace};
-use crate::laws::field::Reading;
+use crate::laws::field::{Of, Reading};
 use crate::laws::linked::linked_laws;
-use crate::laws::of_joints::{OF_JOINTS, OfJoint};
+use crate::laws::of_joints::{OF_JOINTS, OfJoint, keys_of};
 use crate::laws::source::Source;
 use crate::nearest::nearest;
 use crate::pair::{Between, Pair};
 use crate::shortened::shortened;
 use crate::target::{Elements, Target};
-use crate::text::{Kind, Table, Value};
+use crate::text::{Kind, Table, Text, Value};
 
 pub(crate) const KEYS: &[&str] = &["name", "law", "between"];
 
@@ -106,6 +108,10 @@ pub fn known_laws() -> Vec<KnownLaw> {
         KnownLaw::of::<laws::HingeDamper>("dbd_kernel::laws::HingeDamper"),
         KnownLaw::of::<laws::HingeFriction>("dbd_kernel::laws::HingeFriction"),
         KnownLaw::of::<laws::SlideFriction>("dbd_kernel::laws::SlideFriction"),
+        KnownLaw::of::<laws::HingeServo>("dbd_kernel::laws::HingeServo"),
+        KnownLaw::of::<laws::SlideServo>("dbd_kernel::laws::SlideServo"),
+        KnownLaw::of::<laws::HingeDrive>("dbd_kernel::laws::HingeDrive"),
+        KnownLaw::of::<laws::SlideDrive>("dbd_kernel::laws::SlideDrive"),
     ];
     let own = OWN.read().unwrap_or_else(PoisonError::into_inner);
     linked_laws().into_iter().chain(own.iter().cloned()).for_each(|law| put(&mut known, law));
@@ -171,6 +177,8 @@ struct One<'t> {
 /// The rows of each law so far.
 struct Rows<'t> {
     known: Vec<KnownLaw>,
+    /// The names of the inputs.
+    inputs: Vec<String>,
     /// A law by its place among those known, its rows, and what they are.
     laws: Vec<(usize, Box<dyn SourceRows>, Vec<One<'t>>)>,
 }
@@ -181,7 +189,7 @@ impl<'t> Rows<'t> {
         &mut self,
         law: usize,
         assembly: &Assembly,
-        (pair, of_joint): (&Pair, Option<OfJoint<'_>>),
+        (pair, of): (&Pair, Of<'_>),
         one: One<'t>,
     ) -> Result<(), SceneError> {
         let place = self.laws.iter().position(|(of, ..)| *of == law).unwrap_or_else(|| {
@@ -191,7 +199,7 @@ impl<'t> Rows<'t> {
         });
         let (_, rows, of_law) = &mut self.laws[place];
         let table = &one.table;
-        let mut reading = Reading::new(table, assembly, pair, of_joint);
+        let mut reading = Reading::new(table, assembly, pair, of, &self.inputs);
         let done = rows.add([pair.a, pair.b], &mut reading);
         if let Some(refused) = reading.into_refused() {
             return Err(refused);
@@ -216,8 +224,12 @@ pub(crate) fn read_all(
     assembly: &mut Assembly,
     elements: &mut Elements,
 ) -> Result<Read, SceneError> {
-    let mut rows = Rows { known: known_laws(), laws: Vec::new() };
+    let mut rows = Rows { known: known_laws(), inputs: Vec::new(), laws: Vec::new() };
+    for table in root.list("input")? {
+        rows.inputs.push(table.optional("name", Text::Name)?.unwrap_or_default());
+    }
     of_joints(root, joints, assembly, &mut rows)?;
+    of_drives(root, (joints, elements), assembly, &mut rows)?;
     for (number, table) in root.list("interaction")?.into_iter().enumerate() {
         let known = &rows.known;
         if !table.has("law") {
@@ -232,7 +244,7 @@ pub(crate) fn read_all(
             return Err(table.refuse_value("between", "has the ground as its second body", help));
         }
         let (label, place) = (pair.label(&table), ("interaction", number));
-        rows.add(law, assembly, (&pair, None), One { name: None, table, label, place })?;
+        rows.add(law, assembly, (&pair, Of::Itself), One { name: None, table, label, place })?;
     }
     let mut read = Read::default();
     let mut sources = Vec::new();
@@ -253,7 +265,7 @@ pub(crate) fn read_all(
     Ok(read)
 }
 
-/// Reads `limits` and `friction` of joints.
+/// Reads `limits`, `friction` and `rotor` of joints.
 fn of_joints<'t>(
     root: &Table<'t>,
     joints: &[JointPlace],
@@ -264,10 +276,7 @@ fn of_joints<'t>(
         joints::allow(&joint)?;
         for (_, key, law) in OF_JOINTS.iter().filter(|(kind, ..)| *kind == place.kind) {
             let Some(value) = joint.value(key) else { continue };
-            let table = value.table(match key.ends_with("limits") {
-                true => "{ from = …, to = …, stiffness = … }",
-                false => "{ coulomb = …, breakaway = … }",
-            })?;
+            let table = value.table(keys_of(key).1)?;
             let Some(law) = rows.known.iter().position(|known| known.name == *law) else {
                 continue;
             };
@@ -276,8 +285,33 @@ fn of_joints<'t>(
             let [a, b] = &place.pair.names;
             let label = format!("{key} `{name}` ({a}–{b})");
             let one = One { name: Some(name), table, label, place: ("joint", number) };
-            rows.add(law, assembly, (&place.pair, Some(of_joint)), one)?;
+            rows.add(law, assembly, (&place.pair, Of::Joint(of_joint)), one)?;
         }
+    }
+    Ok(())
+}
+
+/// Reads inputs of the type `drive`.
+fn of_drives<'t>(
+    root: &Table<'t>,
+    (joints, elements): (&[JointPlace], &Elements),
+    assembly: &Assembly,
+    rows: &mut Rows<'t>,
+) -> Result<(), SceneError> {
+    for (number, table) in root.list("input")?.into_iter().enumerate() {
+        if table.optional("type", Text::Any)?.as_deref() != Some(DRIVE_TYPE) {
+            continue;
+        }
+        crate::input::allow(&table)?;
+        let driven = Driven::read(&table, joints, elements)?;
+        let (law, constants) = driven.law(&table)?;
+        let Some(law) = rows.known.iter().position(|known| known.name == law) else { continue };
+        let place = driven.place;
+        let name = table.required("name", Text::Name)?;
+        let [a, b] = &place.pair.names;
+        let label = format!("drive `{name}` ({a}–{b})");
+        let one = One { name: Some(name), table, label, place: ("input", number) };
+        rows.add(law, assembly, (&place.pair, Of::Drive(place, number, constants)), one)?;
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! `limits` and `friction` of joints: laws about and along their axes.
+//! `limits`, `friction` and `rotor` of joints: laws about and along their axes.
 //!
 //! `(table of a joint, its place, key) => the constants of a law`. Angle and travel count from t = 0, where they are 0
 //! or `offset`.
@@ -11,15 +11,19 @@ use crate::joints::JointPlace;
 use crate::text::{Number, Table};
 
 /// A key of a type of joint and the law that it stands for: `("revolute", "limits", "hinge-stop")`.
-pub(super) const OF_JOINTS: [(&str, &str, &str); 8] = [
+pub(super) const OF_JOINTS: [(&str, &str, &str); 12] = [
     ("revolute", "limits", "hinge-stop"),
     ("revolute", "friction", "hinge-friction"),
+    ("revolute", "rotor", "hinge-drive"),
     ("translational", "limits", "end-stop"),
     ("translational", "friction", "slide-friction"),
+    ("translational", "rotor", "slide-drive"),
     ("cylindrical", "turn_limits", "hinge-stop"),
     ("cylindrical", "turn_friction", "hinge-friction"),
+    ("cylindrical", "turn_rotor", "hinge-drive"),
     ("cylindrical", "slide_limits", "end-stop"),
     ("cylindrical", "slide_friction", "slide-friction"),
+    ("cylindrical", "slide_rotor", "slide-drive"),
 ];
 
 /// The keys of limits.
@@ -30,14 +34,27 @@ pub(crate) const LIMITS: &[&str] =
 pub(crate) const FRICTION: &[&str] =
     &["coulomb", "breakaway", "stribeck", "give", "damping", "viscous"];
 
+/// The keys of a rotor that nothing drives.
+pub(crate) const ROTOR: &[&str] = &["inertia", "stiffness", "damping", "play"];
+
+/// The keys of a table of this key of a joint, and how it looks.
+pub(super) fn keys_of(key: &str) -> (&'static [&'static str], &'static str) {
+    match () {
+        () if key.ends_with("limits") => (LIMITS, "{ from = …, to = …, stiffness = … }"),
+        () if key.ends_with("rotor") => (ROTOR, "{ inertia = …, stiffness = … }"),
+        () => (FRICTION, "{ coulomb = …, breakaway = … }"),
+    }
+}
+
 /// Beyond any angle and travel.
 const NONE: f64 = 1e30;
 
-/// A table of `limits` or `friction` of a joint.
+/// A table of `limits`, `friction` or a `rotor` of a joint.
 pub(super) struct OfJoint<'j> {
     /// Where the joint is.
     pub(super) place: &'j JointPlace,
     is_limits: bool,
+    is_friction: bool,
     /// The constants of its law.
     fields: &'static [Field],
     /// \[1/(kg·m²), 1/kg\] of its two bodies, each free.
@@ -53,7 +70,9 @@ impl<'j> OfJoint<'j> {
         assembly: &Assembly,
     ) -> Result<Self, SceneError> {
         let is_limits = key.ends_with("limits");
-        table.only(&[if is_limits { LIMITS } else { FRICTION }])?;
+        let (keys, _) = keys_of(key);
+        let is_friction = keys == FRICTION;
+        table.only(&[keys])?;
         if is_limits && !(table.has("from") || table.has("to")) {
             return Err(table.refuse("limits nothing", "`from`, `to` or both"));
         }
@@ -61,7 +80,7 @@ impl<'j> OfJoint<'j> {
         let turns = fields.iter().any(|field| field.kind == "axis");
         let about = turns.then_some(place.axis_w);
         let mobility = assembly.mobility([place.pair.a, place.pair.b], about);
-        Ok(Self { place, is_limits, fields, mobility })
+        Ok(Self { place, is_limits, is_friction, fields, mobility })
     }
 
     /// A number that the law has and the table gives in another way; `None` where it is read as it stands.
@@ -79,10 +98,10 @@ impl<'j> OfJoint<'j> {
             "from" if self.is_limits => Some(from_zero(-NONE)),
             "to" if self.is_limits => Some(from_zero(NONE)),
             "dissipation" if self.is_limits => restituted(table, unit).transpose(),
-            "breakaway" if !table.has(key) => {
+            "breakaway" if self.is_friction && !table.has(key) => {
                 Some(table.required("coulomb", Number::not_negative(unit)))
             }
-            "damping" if !(self.is_limits || table.has(key)) => Some(self.damping(table)),
+            "damping" if self.is_friction && !table.has(key) => Some(self.damping(table)),
             _ => None,
         }
     }

@@ -2,7 +2,7 @@
 
 use dbd_kernel::damping::Share;
 use dbd_kernel::forces::Wrench;
-use dbd_kernel::laws::{self, Act, DamperPass, Instant, Interaction, Row, Several};
+use dbd_kernel::laws::{self, Act, DamperPass, Instant, Interaction, Need, Row, Several};
 use dbd_kernel::words::{Word, WordSource, WordVisitor, Words};
 use dbd_kernel::{BodyIndex, Geometry};
 
@@ -72,7 +72,7 @@ pub(crate) trait Rows<P: Geometry>: Send + Sync {
     fn dampers(&self) -> usize;
     fn is_driven(&self) -> bool;
     fn initial(&self) -> Vec<Word>;
-    fn memory(&self) -> Option<(&'static str, bool)>;
+    fn memory(&self) -> Option<(&'static str, Need)>;
     fn act(
         &self,
         at: Instant<'_, P>,
@@ -83,7 +83,7 @@ pub(crate) trait Rows<P: Geometry>: Send + Sync {
     fn sweep(
         &self,
         reverse: bool,
-        words: &[Word],
+        words: &mut [Word],
         shares: &[Share<P::Real>],
         pass: &mut dyn DamperPass<P>,
     );
@@ -118,7 +118,7 @@ impl<P: Geometry, T: Interaction<P>> Rows<P> for Of<T> {
     fn initial(&self) -> Vec<Word> {
         listed(&T::State::default()).repeat(self.0.len())
     }
-    fn memory(&self) -> Option<(&'static str, bool)> {
+    fn memory(&self) -> Option<(&'static str, Need)> {
         laws::memory::<P, T>(&self.0)
     }
     fn act(
@@ -141,7 +141,7 @@ impl<P: Geometry, T: Interaction<P>> Rows<P> for Of<T> {
     fn sweep(
         &self,
         reverse: bool,
-        words: &[Word],
+        words: &mut [Word],
         shares: &[Share<P::Real>],
         pass: &mut dyn DamperPass<P>,
     ) {
@@ -149,15 +149,18 @@ impl<P: Geometry, T: Interaction<P>> Rows<P> for Of<T> {
         for number in 0..self.0.len() {
             let number = if reverse { self.0.len() - 1 - number } else { number };
             let (Some(words), Some(known)) = (
-                words.get(number * each..(number + 1) * each),
+                words.get_mut(number * each..(number + 1) * each),
                 shares.get(number * dampers..(number + 1) * dampers),
             ) else {
                 break;
             };
             let mut shares = laws::shares_of::<P, T>(&self.0[number]);
             shares.as_mut().copy_from_slice(known);
-            let states = [state::<P, T>(words)];
-            laws::sweep::<P, T>(&self.0[number..=number], reverse, &states, &[shares], pass);
+            let mut states = [state::<P, T>(words)];
+            laws::sweep::<P, T>(&self.0[number..=number], reverse, &mut states, &[shares], pass);
+            if T::INNER {
+                states[0].visit(&mut Store(words.iter_mut()));
+            }
         }
     }
     fn look(&self, row: usize, words: &[Word], look: &mut dyn FnMut(&dyn Row<P>)) {

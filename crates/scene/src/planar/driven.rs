@@ -106,7 +106,7 @@ fn kind(
             let axis = normal(plane.of_body_inward(a.row(), axes[0]), leaves);
             InputKind::JointTorque { a, b, axes: [axis; 2] }
         }
-        InputKind::Actuator { .. } => kind,
+        InputKind::Actuator { .. } | InputKind::Signal => kind,
         InputKind::Anchor { direction } => {
             InputKind::Anchor { direction: in_plane(plane.inward(direction)) }
         }

@@ -178,7 +178,7 @@ impl Planar {
                 let outward = |body: BodyIndex, axis| self.plane.of_body_outward(body.row(), axis);
                 InputKind::JointTorque { a, b, axes: [outward(a, in_a), outward(b, in_b)] }
             }
-            InputKind::Actuator { .. } => kind,
+            InputKind::Actuator { .. } | InputKind::Signal => kind,
             InputKind::Anchor { direction } => {
                 InputKind::Anchor { direction: self.plane.outward(direction) }
             }

@@ -1,4 +1,4 @@
-//! What a value measures, as powers of metre, kilogram, second and radian.
+//! What a value measures, as powers of metre, kilogram, second, radian and ampere.
 //!
 //! `powers => the SI unit as messages show it`: `N·m/rad`. An angle counts as a dimension, so that
 //! stiffness along a line and about an axis, or Hz and rad/s, are not taken for each other.
@@ -12,6 +12,7 @@ pub struct Dimension {
     kilogram: i8,
     second: i8,
     radian: i8,
+    ampere: i8,
 }
 
 /// Beyond this power nothing is measured.
@@ -27,12 +28,21 @@ const NAMES: &[(Dimension, &str)] = &[
     (Dimension::new(2, 1, -1, -1), "N·m·s/rad"),
     (Dimension::new(2, 1, -3, 0), "W"),
     (Dimension::new(-1, 1, -2, 0), "Pa"),
+    (Dimension::new(2, 1, -3, 0).per_ampere(1), "V"),
+    (Dimension::new(2, 1, -3, 0).per_ampere(2), "ohm"),
+    (Dimension::new(2, 1, -2, 0).per_ampere(2), "H"),
+    (Dimension::new(2, 1, -2, 0).per_ampere(1), "N·m/A"),
 ];
 
 impl Dimension {
     /// Powers of metre, kilogram, second, radian.
     pub(crate) const fn new(metre: i8, kilogram: i8, second: i8, radian: i8) -> Self {
-        Self { metre, kilogram, second, radian }
+        Self { metre, kilogram, second, radian, ampere: 0 }
+    }
+
+    /// That of a quotient by a power of the ampere.
+    pub(crate) const fn per_ampere(self, power: i8) -> Self {
+        Self { ampere: self.ampere - power, ..self }
     }
 
     /// Whether it is that of a plain number.
@@ -51,14 +61,16 @@ impl Dimension {
             kilogram: sum(self.kilogram, other.kilogram)?,
             second: sum(self.second, other.second)?,
             radian: sum(self.radian, other.radian)?,
+            ampere: sum(self.ampere, other.ampere)?,
         })
     }
 
     /// That of a square root; `None` where a power is odd.
     pub(super) fn root(self) -> Option<Self> {
-        let Self { metre, kilogram, second, radian } = self;
-        let is_even = [metre, kilogram, second, radian].iter().all(|power| power % 2 == 0);
-        is_even.then(|| Self::new(metre / 2, kilogram / 2, second / 2, radian / 2))
+        let Self { metre, kilogram, second, radian, ampere } = self;
+        let is_even = [metre, kilogram, second, radian, ampere].iter().all(|power| power % 2 == 0);
+        let half = || Self::new(metre / 2, kilogram / 2, second / 2, radian / 2);
+        is_even.then(|| half().per_ampere(-ampere / 2))
     }
 
     /// Powers of an angle that another has more, where they differ in nothing else.
@@ -73,8 +85,13 @@ impl fmt::Display for Dimension {
         if let Some((_, name)) = NAMES.iter().find(|(dimension, _)| dimension == self) {
             return f.write_str(name);
         }
-        let bases =
-            [("kg", self.kilogram), ("m", self.metre), ("s", self.second), ("rad", self.radian)];
+        let bases = [
+            ("kg", self.kilogram),
+            ("m", self.metre),
+            ("s", self.second),
+            ("A", self.ampere),
+            ("rad", self.radian),
+        ];
         let powers = |sign: i8| {
             let of_sign = bases.iter().filter(|(_, power)| power.signum() == sign);
             let shown = of_sign.map(|(base, power)| format!("{base}{}", raised(power.abs())));

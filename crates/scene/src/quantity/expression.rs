@@ -326,7 +326,9 @@ impl<'t> Parser<'t> {
 
     /// What a word names.
     fn known(&self, word: &str) -> Option<Known> {
-        if let Some(unit) = unit::find(word) {
+        let is_hidden = unit::HIDDEN.contains(&word)
+            && self.scope.is_some_and(|scope| scope.row(word).is_some());
+        if let (false, Some(unit)) = (is_hidden, unit::find(word)) {
             return Some(Known::Unit(unit));
         }
         if word == scope::PI.0 {

@@ -1,14 +1,14 @@
 //! What names stand for in a value's text: the `[parameters]` of a scene.
 //!
 //! `(name, place in the file) => quantity, and whether it was asked for`. What may be a name: letters, digits and `_`,
-//! no digit first, and no unit: `m` is a metre wherever it stands.
+//! no digit first, and no unit: `m` is a metre wherever it stands. A parameter `A`, `V` or `H` hides the unit.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
 use crate::nearest::nearest;
 use crate::quantity::Quantity;
-use crate::quantity::unit::{UNITS, find};
+use crate::quantity::unit::{HIDDEN, UNITS, find};
 use crate::quantity::word::{begins_word, word};
 use crate::shortened::shortened;
 
@@ -28,7 +28,7 @@ pub(crate) enum NameFault {
 
 /// Whether a text can be a name.
 pub(crate) fn check_name(name: &str) -> Result<(), NameFault> {
-    if find(name).is_some() {
+    if find(name).is_some() && !HIDDEN.contains(&name) {
         return Err(NameFault::Unit);
     }
     if name == PI.0 {

@@ -86,6 +86,10 @@ const FORCE: Dimension = Dimension::new(1, 1, -2, 0);
 const WORK: Dimension = Dimension::new(2, 1, -2, 0);
 const POWER: Dimension = Dimension::new(2, 1, -3, 0);
 const PRESSURE: Dimension = Dimension::new(-1, 1, -2, 0);
+const CURRENT: Dimension = Dimension::new(0, 0, 0, 0).per_ampere(-1);
+const VOLTAGE: Dimension = POWER.per_ampere(1);
+const RESISTANCE: Dimension = POWER.per_ampere(2);
+const INDUCTANCE: Dimension = WORK.per_ampere(2);
 
 const fn decimal(name: &'static str, ten: i32, dimension: Dimension) -> Unit {
     other(name, ten, 1, 1, 0, dimension)
@@ -157,7 +161,23 @@ pub(super) static UNITS: &[Unit] = &[
     decimal("MPa", 6, PRESSURE),
     decimal("GPa", 9, PRESSURE),
     decimal("bar", 5, PRESSURE),
+    decimal("A", 0, CURRENT),
+    decimal("mA", -3, CURRENT),
+    decimal("V", 0, VOLTAGE),
+    decimal("mV", -3, VOLTAGE),
+    decimal("kV", 3, VOLTAGE),
+    decimal("ohm", 0, RESISTANCE),
+    decimal("mohm", -3, RESISTANCE),
+    decimal("Ω", 0, RESISTANCE),
+    decimal("mΩ", -3, RESISTANCE),
+    decimal("H", 0, INDUCTANCE),
+    decimal("mH", -3, INDUCTANCE),
+    decimal("uH", -6, INDUCTANCE),
+    decimal("µH", -6, INDUCTANCE),
 ];
+
+/// Units of one capital letter, which parameters of their names hide: a height is `H` more often than a henry.
+pub(super) const HIDDEN: [&str; 3] = ["A", "V", "H"];
 
 /// The unit of a name.
 pub(super) fn find(name: &str) -> Option<&'static Unit> {

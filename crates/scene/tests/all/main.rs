@@ -3,6 +3,7 @@
 mod assemble;
 mod authoring;
 mod driven;
+mod drives;
 mod equations;
 mod four_bar;
 mod freedoms;

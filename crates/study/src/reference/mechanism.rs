@@ -258,7 +258,7 @@ fn torsion<T: Terms<F64>>(model: &ModelRef<'_, F64, T>, row: usize) -> TorsionSp
     }
 }
 
-/// What an input pushes; `None` for an anchor, which moves points instead.
+/// What an input pushes; `None` of a number that laws read and of an anchor, which moves points instead.
 fn input_kind<T: Terms<F64>>(
     model: &ModelRef<'_, F64, T>,
     kind: &KernelInput<F64>,
@@ -277,6 +277,6 @@ fn input_kind<T: Terms<F64>>(
         KernelInput::Actuator { group, element } => {
             InputKind::Actuator(pair(model, &model.groups[usize::from(group)], element.into()))
         }
-        KernelInput::Anchor { .. } => return None,
+        KernelInput::Signal | KernelInput::Anchor { .. } => return None,
     })
 }

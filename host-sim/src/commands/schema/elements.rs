@@ -99,6 +99,11 @@ pub(super) fn of_joint(key: &str, tables: &[TableKeys]) -> Option<Key> {
             "Dry friction that sticks: { coulomb = …, breakaway = … }",
             "none",
         ),
+        "rotor" | "turn_rotor" | "slide_rotor" => Key(
+            within("rotor", tables, &["inertia", "stiffness"]),
+            "A rotor that nothing drives, behind a gear that gives: { inertia = …, stiffness = … }",
+            "none",
+        ),
         _ => return None,
     })
 }
@@ -165,8 +170,17 @@ pub(super) fn of_load(key: &str) -> Option<Key> {
 pub(super) fn of_input(key: &str, tables: &[TableKeys]) -> Option<Key> {
     Some(match key {
         "name" => Key(name(), "A name of its own among inputs", ""),
-        "type" => Key(kinds("input", tables), "What it drives, in N, N·m or m", ""),
+        "type" => Key(
+            kinds("input", tables),
+            "What it drives, in N, N·m, m or the unit of a drive's mode",
+            "",
+        ),
         "value" => Key(number(Any), "The value at t = 0, held until the caller sets it", "0"),
+        "range" => Key(
+            numbers(2, Any),
+            "[least, largest] value that the caller can set: what is beyond is set to the nearer one",
+            "none",
+        ),
         "table" => Key(
             json!({ "type": "array", "items": numbers(2, Any), "minItems": 1 }),
             "[[time in s, value], …], times ascending: the scene drives the input; with `over` [[reading, value], …]",
@@ -209,6 +223,36 @@ pub(super) fn of_input(key: &str, tables: &[TableKeys]) -> Option<Key> {
             "",
         ),
         "about" => Key(choice(&["first", "second"]), "Which axis of a universal joint", ""),
+        "freedom" => Key(choice(&["turn", "slide"]), "Which motion of a cylindrical joint", ""),
+        "mode" => Key(
+            choice(&["position", "velocity", "torque", "force", "current", "voltage"]),
+            "What the input of a drive is: rad or m, rad/s or m/s, N·m or N, A, V",
+            "",
+        ),
+        "kp" => Key(number(NotNegative), "N·m/rad or N/m: stiffness of a servo of position", ""),
+        "kd" => Key(number(Positive), "N·m·s/rad or N·s/m, > 0: damping of a servo", ""),
+        "most" => Key(number(Positive), "N·m or N, > 0: the most that drives the joint", "none"),
+        "lag" => Key(number(NotNegative), "s: time constant with which what drives follows", "0"),
+        "winding" => Key(
+            within("winding", tables, &["constant"]),
+            "Of a motor: { resistance = ohm, inductance = H, constant = N·m/A, most_current = A }",
+            "none",
+        ),
+        "rotor" => Key(
+            number(Positive),
+            "kg·m², > 0: inertia of the motor's shaft; along a slide without a `ratio` kg",
+            "none",
+        ),
+        "ratio" => Key(
+            number(Any),
+            "Turns of the rotor per turn of the joint, not 0; along a slide rad/m",
+            "1",
+        ),
+        "gear" => Key(
+            within("gear", tables, &["stiffness"]),
+            "Between rotor and joint: { stiffness = …, damping = …, play = … }",
+            "none",
+        ),
         _ => return None,
     })
 }

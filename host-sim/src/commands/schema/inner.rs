@@ -1,5 +1,5 @@
 //! What the keys of tables within tables mean and take: points, links, shapes, orientations, stiffnesses, spiders, rates, sines,
-//! limits, friction.
+//! limits, friction, gears, windings.
 //!
 //! `(table, key) => schema`, and whole tables of them.
 
@@ -21,6 +21,12 @@ pub(super) fn schema(table: &str, key: &str, tables: &[TableKeys]) -> Option<Val
         "sine" => of_sine(key),
         "limits" => of_limits(key),
         "friction" => of_friction(key),
+        "gear" => of_gear(key),
+        "rotor" if key == "inertia" => {
+            Some(Key(number(Positive), "kg·m² or kg, > 0: times the square of the ratio", ""))
+        }
+        "rotor" => of_gear(key),
+        "winding" => of_winding(key),
         _ => None,
     };
     found.map(Key::schema)
@@ -217,6 +223,25 @@ fn of_friction(key: &str) -> Option<Key> {
             "half of critical for its two bodies, each free",
         ),
         "viscous" => Key(number(NotNegative), "N·m·s/rad or N·s/m: while it slides", "0"),
+        _ => return None,
+    })
+}
+
+fn of_gear(key: &str) -> Option<Key> {
+    Some(match key {
+        "stiffness" => Key(number(Positive), "N·m/rad or N/m, > 0: at the joint", ""),
+        "damping" => Key(number(NotNegative), "N·m·s/rad or N·s/m: at the joint", "0"),
+        "play" => Key(number(NotNegative), "rad or m at the joint, from flank to flank", "0"),
+        _ => return None,
+    })
+}
+
+fn of_winding(key: &str) -> Option<Key> {
+    Some(match key {
+        "resistance" => Key(number(Positive), "ohm, > 0; not of the mode \"current\"", ""),
+        "inductance" => Key(number(NotNegative), "H; not of the mode \"current\"", "0"),
+        "constant" => Key(number(Any), "N·m/A, not 0: torque of the motor's shaft per current", ""),
+        "most_current" => Key(number(Positive), "A, > 0: the most that drives the joint", "none"),
         _ => return None,
     })
 }

@@ -17,7 +17,8 @@ pub(super) fn forces(scene: &Scene, pivots: &Pivots) -> Vec<ForceMark> {
             let size = length(vector);
             if size > 0.0 && size.is_finite() {
                 let direction = Along { body, vector: (vector * (1.0 / size)).to_f64() };
-                forces.push(ForceMark { input: None, kind, at, direction });
+                let unit = if kind == ForceKind::Torque { "N·m" } else { "N" };
+                forces.push(ForceMark { input: None, kind, unit, at, direction });
             }
         }
     }
@@ -25,7 +26,8 @@ pub(super) fn forces(scene: &Scene, pivots: &Pivots) -> Vec<ForceMark> {
         let Some(input) = scene.model.inputs.get(usize::from(info.index.0)) else { continue };
         let mut add = |kind, at, body, vector: Vec3<f64>| {
             let direction = Along { body, vector: vector.to_f64() };
-            forces.push(ForceMark { input: Some(info.name.clone()), kind, at, direction });
+            let (input, unit) = (Some(info.name.clone()), info.unit);
+            forces.push(ForceMark { input, kind, unit, at, direction });
         };
         match input.kind {
             InputKind::Force { body, point, direction, frame } => {
@@ -46,6 +48,19 @@ pub(super) fn forces(scene: &Scene, pivots: &Pivots) -> Vec<ForceMark> {
             }
             // The spring itself is marked.
             InputKind::Actuator { .. } => {}
+            InputKind::Signal => {
+                let mut laws = scene.interactions().into_iter();
+                let Some(drive) = laws.find(|law| law.name() == Some(&info.name)) else { continue };
+                let [first, second] = drive.bodies.map(row);
+                if let Some(axis) = drive.axis {
+                    let at = pivots.between(first, second);
+                    let at = at.unwrap_or(Place { body: second.or(first), point: [0.0; 3] });
+                    add(ForceKind::Torque, at, first, Vec3::from_f64(axis));
+                } else if let (Some([_, point]), Some(axis)) = (drive.points, drive.normal) {
+                    let at = Place { body: second, point };
+                    add(ForceKind::Force, at, first, Vec3::from_f64(axis));
+                }
+            }
             InputKind::Anchor { direction } => {
                 let mut seen: Vec<Place> = Vec::new();
                 for (group, point) in moved(scene, number) {

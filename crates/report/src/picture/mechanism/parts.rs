@@ -207,6 +207,8 @@ pub struct ForceMark {
     pub input: Option<String>,
     /// What it does.
     pub kind: ForceKind,
+    /// The unit of its value.
+    pub unit: &'static str,
     /// Where.
     pub at: Place,
     /// Its direction, the one of a positive value.

@@ -1,10 +1,11 @@
 use super::*;
 use dbd_kernel::laws::{
     Curve, Damper, DistanceDamper, DistanceSpring, DistanceStop, EndStop, Hinge, HingeDamper,
-    HingeFriction, HingeSpring, HingeStop, PlaneContact, SlideFriction, Springs,
+    HingeDrive, HingeFriction, HingeServo, HingeSpring, HingeStop, PlaneContact, SlideDrive,
+    SlideFriction, SlideServo, Springs,
 };
 use dbd_kernel::space::Linear as _;
-use dbd_kernel::{BodyIndex, Real as _};
+use dbd_kernel::{BodyIndex, InputIndex, Real as _};
 
 const BODIES: [BodyIndex; 2] = [BodyIndex(0), BodyIndex(1)];
 
@@ -188,4 +189,67 @@ fn a_law_that_breaks_a_rule_is_told_which() {
     let away = EndStop { points: [Vec3::ZERO, Vec3::new(0.0, 1.0, 1.0)], ..end_stop(0.0) };
     let near = Poses { reach: 1e-9, turn: 1e-9, ..Poses::default() };
     assert!(hold(&away, near).unwrap_err().contains("in no pose"));
+}
+
+#[test]
+fn drives_keep_what_laws_promise() {
+    let (poses, input, points) = (Poses::default(), InputIndex(0), end_stop(0.0).points);
+    let axis = Vec3::new(0.0, 0.6, 0.8);
+    let (servo_stiffness, servo_damping, feed, most) = (40.0, 3.0, 0.0, 5.0);
+    let turn = HingeServo {
+        bodies: BODIES,
+        axis: hinge(),
+        input,
+        servo_stiffness,
+        servo_damping,
+        feed,
+        most,
+    };
+    hold(&turn, poses).unwrap();
+    let travel = SlideServo {
+        bodies: BODIES,
+        points,
+        axis,
+        input,
+        servo_stiffness,
+        servo_damping,
+        feed,
+        most,
+    };
+    hold(&travel, poses).unwrap();
+    for (play, damping) in [(0.0, 0.0), (0.0, 0.7), (0.02, 0.7)] {
+        let turn = HingeDrive {
+            bodies: BODIES,
+            axis: hinge(),
+            input,
+            gain: 0.0,
+            servo_stiffness,
+            servo_damping,
+            feed,
+            most,
+            lag: 0.0,
+            inertia: 0.05,
+            stiffness: 2e3,
+            damping,
+            play,
+        };
+        hold(&turn, poses).unwrap();
+        let travel = SlideDrive {
+            bodies: BODIES,
+            points,
+            axis,
+            input,
+            gain: 0.0,
+            servo_stiffness,
+            servo_damping,
+            feed,
+            most,
+            lag: 0.0,
+            inertia: 0.05,
+            stiffness: 2e3,
+            damping,
+            play,
+        };
+        hold(&travel, poses).unwrap();
+    }
 }

@@ -1,0 +1,219 @@
+//! Inputs of the type `drive`: the laws that they stand for, their units, what is refused.
+
+use dbd_kernel::{Leapfrog, Plant};
+use dbd_scene::Scene;
+
+/// A slider on a guide, a lever on it and a sleeve on the lever, with drives.
+fn scene(inputs: &str) -> Result<Scene, String> {
+    let text = format!(
+        r#"
+name = "drives"
+duration = 1
+[[body]]
+name = "slider"
+mass = 2
+inertia = [0.01, 0.01, 0.01]
+position = [0, 0, 0]
+[[body]]
+name = "lever"
+mass = 1
+inertia = [0.01, 0.01, 0.01]
+position = [0, 0.3, 0]
+[[body]]
+name = "sleeve"
+mass = 1
+inertia = [0.01, 0.01, 0.01]
+position = [0, 0.5, 0]
+[[joint]]
+name = "guide"
+type = "translational"
+between = ["world", "slider"]
+at = [0, 0, 0]
+axis = [1, 0, 0]
+span = 0.1
+gauge = 0.05
+offset = 0.02
+stiffness = 1e6
+[[joint]]
+name = "pivot"
+type = "revolute"
+between = ["slider", "lever"]
+at = [0, 0, 0]
+axis = [0, 0, 1]
+span = 0.05
+stiffness = 1e6
+[[joint]]
+name = "bush"
+type = "cylindrical"
+between = ["lever", "sleeve"]
+at = [0, 0.5, 0]
+axis = [0, 1, 0]
+span = 0.05
+offset = 0.02
+stiffness = 1e6
+[[tsda]]
+name = "spring"
+between = ["slider", "lever"]
+points = [[0.1, 0, 0], [0, 0, 0]]
+stiffness = 100
+free_length = "initial"
+{inputs}
+"#
+    );
+    Scene::parse(&text, "drives.toml").map_err(|error| format!("{:?}", miette::Report::new(error)))
+}
+
+fn drive(keys: &str) -> String {
+    format!("[[input]]\nname = \"motor\"\ntype = \"drive\"\n{keys}\n")
+}
+
+#[test]
+fn a_drive_is_an_input_and_the_interaction_of_its_name() {
+    let keyed = scene(&drive(
+        "target = \"pivot\"\nmode = \"voltage\"\nwinding = { resistance = 2, inductance = \"4 mH\", \
+         constant = \"50 mNm/A\", most_current = 3 }\nrotor = \"20 kg*mm^2\"\nratio = 10\n\
+         gear = { stiffness = 500, damping = 1, play = \"1 deg\" }\nvalue = \"12 V\"",
+    ))
+    .unwrap();
+    let input = &keyed.inputs[0];
+    assert_eq!((input.name.as_str(), input.kind, input.unit), ("motor", "drive", "V"));
+    let law = &keyed.interactions()[0];
+    assert_eq!((law.law, law.name()), ("hinge-drive", Some("motor")));
+    assert_eq!(law.label, "drive `motor` (slider–lever)");
+    // The same as a law by itself: all at the output of the gear.
+    let listed = scene(
+        "[[input]]\nname = \"u\"\ntype = \"signal\"\nvalue = 12\n[[interaction]]\nlaw = \"hinge-drive\"\n\
+         between = [\"slider\", \"lever\"]\naxis = [0, 0, 1]\ninput = \"u\"\nservo_damping = 0.125\nfeed = 2\nmost = 1.5\n\
+         lag = 0.002\ninertia = 0.002\nstiffness = 500\ndamping = 1\nplay = \"1 deg\"",
+    )
+    .unwrap();
+    let of = |scene: &Scene| Plant::new(&scene.model, Leapfrog, 1e-4).unwrap().fingerprint();
+    assert_eq!(of(&keyed), of(&listed));
+}
+
+#[test]
+fn the_mode_says_the_unit() {
+    let servo = "kp = 10\nkd = 1";
+    let wound = "winding = { constant = 0.1 }\nrotor = 1e-3\ngear = { stiffness = 100 }";
+    for (target, mode, keys, unit, law) in [
+        ("target = \"pivot\"", "position", servo, "rad", "hinge-servo"),
+        ("target = \"guide\"", "position", servo, "m", "slide-servo"),
+        ("target = \"guide\"", "velocity", "kd = 1", "m/s", "slide-servo"),
+        ("target = \"pivot\"", "velocity", "kd = 1", "rad/s", "hinge-servo"),
+        (
+            "target = \"pivot\"",
+            "torque",
+            "rotor = 1\ngear = { stiffness = 1 }",
+            "N·m",
+            "hinge-drive",
+        ),
+        ("target = \"guide\"", "force", "rotor = 1\ngear = { stiffness = 1 }", "N", "slide-drive"),
+        ("target = \"pivot\"", "current", wound, "A", "hinge-drive"),
+        (
+            "target = \"bush\"\nfreedom = \"slide\"\nratio = \"1 rev/(5 mm)\"",
+            "current",
+            wound,
+            "A",
+            "slide-drive",
+        ),
+        ("target = \"bush\"\nfreedom = \"turn\"", "velocity", "kd = 1", "rad/s", "hinge-servo"),
+    ] {
+        let text = drive(&format!("{target}\nmode = \"{mode}\"\n{keys}"));
+        let scene = scene(&text).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(scene.inputs[0].unit, unit, "{target} {mode}");
+        assert_eq!(scene.interactions()[0].law, law, "{target} {mode}");
+    }
+}
+
+#[test]
+fn what_is_no_drive_is_refused_with_a_remedy() {
+    let rotor = "rotor = 1e-3\ngear = { stiffness = 100 }";
+    let pivot = "target = \"pivot\"";
+    for (keys, parts) in [
+        (format!("{pivot}\nmode = \"speed\""), ["mode", "velocity"]),
+        (
+            format!("target = \"spring\"\nmode = \"velocity\"\nkd = 1"),
+            ["tsda", "the name of a joint"],
+        ),
+        (format!("target = \"pivto\"\nmode = \"velocity\"\nkd = 1"), ["pivto", "pivot"]),
+        (
+            format!("{pivot}\nfreedom = \"turn\"\nmode = \"velocity\"\nkd = 1"),
+            ["freedom", "cylindrical"],
+        ),
+        (format!("target = \"bush\"\nmode = \"velocity\"\nkd = 1"), ["freedom", "slide"]),
+        (format!("{pivot}\nmode = \"position\"\nkp = 1"), ["kd", "missing"]),
+        (format!("{pivot}\nmode = \"position\"\nkp = -1\nkd = 1"), ["kp", "≥ 0"]),
+        (format!("{pivot}\nmode = \"position\"\nkp = 1\nkd = 0"), ["kd", "> 0"]),
+        (format!("{pivot}\nmode = \"velocity\"\nkp = 1\nkd = 1"), ["kp", "position"]),
+        (format!("{pivot}\nmode = \"torque\""), ["rotor", "joint_torque"]),
+        (format!("{pivot}\nmode = \"torque\"\nrotor = 1e-3"), ["gear", "couple"]),
+        (format!("{pivot}\nmode = \"torque\"\n{rotor}\nratio = 0"), ["ratio", "is 0"]),
+        (format!("{pivot}\nmode = \"velocity\"\nkd = 1\nratio = 3"), ["ratio", "rotor"]),
+        (
+            format!("{pivot}\nmode = \"velocity\"\nkd = 1\ngear = {{ stiffness = 1, play = 0.1 }}"),
+            ["gear", "rotor"],
+        ),
+        (format!("{pivot}\nmode = \"velocity\"\nkd = 1\nlag = \"1 ms\""), ["lag", "rotor"]),
+        (
+            format!(
+                "{pivot}\nmode = \"torque\"\nrotor = 1e-3\ngear = {{ stiffness = 1, play = -0.1 }}"
+            ),
+            ["play", "≥ 0"],
+        ),
+        (
+            format!("{pivot}\nmode = \"torque\"\nrotor = 1e-3\ngear = {{ stifness = 1 }}"),
+            ["stifness", "stiffness"],
+        ),
+        (format!("{pivot}\nmode = \"voltage\"\n{rotor}"), ["winding", "resistance"]),
+        (
+            format!(
+                "{pivot}\nmode = \"voltage\"\nwinding = {{ resistance = 1, constant = 0 }}\n{rotor}"
+            ),
+            ["constant", "is 0"],
+        ),
+        (
+            format!(
+                "{pivot}\nmode = \"current\"\nwinding = {{ resistance = 1, constant = 1 }}\n{rotor}"
+            ),
+            ["resistance", "voltage"],
+        ),
+        (
+            format!(
+                "{pivot}\nmode = \"voltage\"\nlag = 1\nwinding = {{ resistance = 1, constant = 1 }}\n{rotor}"
+            ),
+            ["lag", "inductance"],
+        ),
+        (
+            format!(
+                "target = \"guide\"\nmode = \"current\"\nwinding = {{ constant = 1 }}\n{rotor}"
+            ),
+            ["ratio", "rad/m"],
+        ),
+        (format!("{pivot}\nmode = \"torque\"\n{rotor}\nvalue = \"3 V\""), ["value", "N·m"]),
+    ] {
+        let Err(error) = scene(&drive(&keys)) else { panic!("it is read: {keys}") };
+        for part in parts {
+            assert!(error.contains(part), "{keys}: `{part}` is not in\n{error}");
+        }
+    }
+    let unknown = "[[interaction]]\nlaw = \"hinge-servo\"\nbetween = [\"slider\", \"lever\"]\naxis = [0, 0, 1]\n\
+                   input = \"u\"\nservo_damping = 1";
+    let error = scene(unknown).unwrap_err();
+    assert!(error.contains("names no input"), "{error}");
+}
+
+/// What drives it, may be a table, a sine or a table over a read-out, as of any input.
+#[test]
+fn a_drive_follows_a_table() {
+    let text = drive(
+        "target = \"pivot\"\nmode = \"position\"\nkp = 400\nkd = 40\n\
+         table = [[0, 0], [0.5, \"30 deg\"]]\ninterpolate = \"linear\"",
+    );
+    let model = scene(&text).unwrap().model;
+    let mut plant = Plant::new(&model, Leapfrog, 1e-4).unwrap();
+    plant.advance(10_000).ok().unwrap();
+    let lever = plant.state().bodies[1].orientation;
+    let slider = plant.state().bodies[0].orientation;
+    let turn = 2.0 * (lever.v.z.atan2(lever.w) - slider.v.z.atan2(slider.w));
+    assert!((turn - 30_f64.to_radians()).abs() < 2e-3, "{turn}");
+}

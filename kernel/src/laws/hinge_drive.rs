@@ -1,0 +1,190 @@
+//! A rotor behind a gear that turns one body relative to another: [`super::Rotor`] of the turn.
+
+use crate::geometry::Geometry;
+use crate::laws::coordinate::Coordinate;
+use crate::laws::end::Seen;
+use crate::laws::hinge::Turns;
+use crate::laws::interaction::{Damper, Inner, Interaction, Quantity, Springs, Wrong};
+use crate::laws::rotor::{Gear, Geared, Rotor};
+use crate::laws::servo::Effort;
+use crate::real::Real;
+use crate::record::Record;
+use crate::words::{WordSource, WordVisitor, Words};
+
+law! {
+    /// A rotation of the second body relative to the first about an axis, driven by a rotor behind a gear.
+    pub struct HingeDrive = "hinge-drive" {
+        /// Axis of rotation; the angle is 0 at t = 0 and counts whole turns.
+        axis: Axis,
+        /// Input of the drive.
+        input: Signal,
+        /// Effort per unit of the input: 1 of a torque or a force, the motor's constant of a current.
+        gain: Number = 0.0,
+        /// Stiffness of a servo of position.
+        servo_stiffness: Number("N·m/rad") = 0.0,
+        /// Damping of a servo; constant² / resistance of a winding.
+        servo_damping: Number("N·m·s/rad") = 0.0,
+        /// Rate per unit of the input at which a servo does nothing: 1 of a velocity, 1 / constant of a voltage.
+        feed: Number = 0.0,
+        /// Largest effort.
+        most: Number("N·m") = 1e30,
+        /// Time in which the effort follows what is asked for; inductance / resistance of a winding.
+        lag: Number("s") = 0.0,
+        /// Inertia of the rotor times the square of the ratio of the gear.
+        inertia: Number("kg·m²"),
+        /// Stiffness of the gear at its output.
+        stiffness: Number("N·m/rad"),
+        /// Damping of the gear at its output.
+        damping: Number("N·m·s/rad") = 0.0,
+        /// Play of the gear at its output, from one flank to the other.
+        play: Number("rad") = 0.0,
+    }
+}
+
+/// What a drive of a turn remembers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TurnRotor<R> {
+    /// Half turns.
+    pub turns: Turns,
+    /// Its rotor.
+    pub rotor: Rotor<R>,
+}
+
+impl<R: Real> Default for TurnRotor<R> {
+    fn default() -> Self {
+        Self { turns: Turns::default(), rotor: Rotor::default() }
+    }
+}
+
+impl<R: Real> Words for TurnRotor<R> {
+    fn visit(&self, visitor: &mut impl WordVisitor) {
+        self.turns.visit(visitor);
+        self.rotor.visit(visitor);
+    }
+    fn fill(&mut self, source: &mut impl WordSource) {
+        self.turns.fill(source);
+        self.rotor.fill(source);
+    }
+}
+
+impl<P: Geometry> HingeDrive<P> {
+    #[inline(always)]
+    fn effort(&self) -> Effort<P::Real> {
+        let Self { gain, servo_stiffness, servo_damping, feed, most, .. } = *self;
+        Effort { gain, stiffness: servo_stiffness, damping: servo_damping, feed, most }
+    }
+
+    #[inline(always)]
+    fn gear(&self) -> Gear<P::Real> {
+        let Self { inertia, stiffness, damping, play, lag, .. } = *self;
+        Gear { inertia, stiffness, damping, play, lag }
+    }
+
+    /// Of an angle near that of the step before: in single precision many turns leave no digits to a gear.
+    #[inline(always)]
+    fn geared(&self, seen: &Seen<'_, P>, turns: Turns) -> Option<Geared<P>> {
+        Some(Geared::new(Coordinate::turn(seen, &self.axis, turns.odd())?, self.gear()))
+    }
+}
+
+impl<P: Geometry> Interaction<P> for HingeDrive<P> {
+    type State = TurnRotor<P::Real>;
+    type Dampers = [(); 1];
+    const ADVANCES: bool = true;
+    const INNER: bool = true;
+    const QUANTITIES: &'static [Quantity] = &[
+        Quantity { name: "load", unit: "N·m" },
+        Quantity { name: "effort", unit: "N·m" },
+        Quantity { name: "ahead", unit: "rad" },
+        Quantity { name: "rate", unit: "rad/s" },
+    ];
+
+    #[inline(always)]
+    fn advance(&self, seen: &Seen<'_, P>, h: P::Real, memory: &mut TurnRotor<P::Real>) {
+        let Some(geared) = self.geared(seen, memory.turns) else { return };
+        geared.advance(h, &mut memory.rotor);
+    }
+
+    #[inline(always)]
+    fn settle(&self, seen: &Seen<'_, P>, memory: &mut TurnRotor<P::Real>) {
+        let Some(geared) = self.geared(seen, memory.turns) else { return };
+        let Some(twist) = self.axis.seen(seen) else { return };
+        twist.settle(&mut memory.turns);
+        let (next, _) = twist.angle(memory.turns.odd());
+        geared.settle(seen, next, &mut memory.rotor);
+    }
+
+    #[inline(always)]
+    fn record(&self, seen: &Seen<'_, P>, memory: &TurnRotor<P::Real>) -> Option<Record<P::Space>> {
+        Some(self.geared(seen, memory.turns)?.record(seen, &memory.rotor))
+    }
+
+    fn energy(&self, seen: &Seen<'_, P>, memory: &TurnRotor<P::Real>) -> P::Real {
+        let Some(geared) = self.geared(seen, memory.turns) else { return P::Real::ZERO };
+        geared.energy(seen, &memory.rotor)
+    }
+
+    fn tangent(
+        &self,
+        seen: &Seen<'_, P>,
+        memory: &TurnRotor<P::Real>,
+        visit: Springs<'_, P>,
+    ) -> [P::Real; 2] {
+        let Some(geared) = self.geared(seen, memory.turns) else { return [P::Real::ZERO; 2] };
+        geared.tangent(seen, &memory.rotor, visit)
+    }
+
+    #[inline(always)]
+    fn dampers(
+        &self,
+        seen: &Seen<'_, P>,
+        memory: &TurnRotor<P::Real>,
+        visit: &mut impl FnMut(Damper<P>),
+    ) {
+        let Some(geared) = self.geared(seen, memory.turns) else { return };
+        visit(geared.damper(seen, &memory.rotor));
+    }
+
+    #[inline(always)]
+    fn kick(&self, seen: &Seen<'_, P>, h: P::Real, memory: &mut TurnRotor<P::Real>) -> P::Real {
+        let Some(geared) = self.geared(seen, memory.turns) else { return P::Real::ZERO };
+        let driven = (&self.effort(), seen.signal(self.input));
+        geared.kick(driven, h, &mut memory.rotor)
+    }
+
+    #[inline(always)]
+    fn drive(&self, seen: &Seen<'_, P>, time: [P::Real; 2], memory: &mut TurnRotor<P::Real>) {
+        let Some(geared) = self.geared(seen, memory.turns) else { return };
+        let driven = (&self.effort(), seen.signal(self.input));
+        let place = geared.place(&memory.rotor) + memory.turns.whole();
+        geared.drive(driven, place, time, &mut memory.rotor);
+    }
+
+    #[inline(always)]
+    fn inner(&self, memory: &TurnRotor<P::Real>, kick: P::Real) -> Inner<P::Real> {
+        self.gear().inner(&memory.rotor, kick)
+    }
+
+    #[inline(always)]
+    fn set_inner(&self, rate: P::Real, memory: &mut TurnRotor<P::Real>) {
+        memory.rotor.rate = rate;
+    }
+
+    fn inner_square(&self) -> P::Real {
+        self.gear().square(self.servo_stiffness)
+    }
+
+    fn supply(&self, _: &Seen<'_, P>, memory: &TurnRotor<P::Real>) -> P::Real {
+        memory.rotor.supply()
+    }
+
+    fn check(&self) -> Result<(), Wrong> {
+        self.effort().check()?;
+        self.gear().check()
+    }
+
+    fn read(&self, quantity: usize, seen: &Seen<'_, P>, memory: &TurnRotor<P::Real>) -> P::Real {
+        let Some(geared) = self.geared(seen, memory.turns) else { return P::Real::ZERO };
+        geared.read(quantity, &memory.rotor)
+    }
+}

@@ -1,0 +1,88 @@
+//! A servo that turns one body relative to another: [`super::servo`] of the turn, as a damper with bounds.
+
+use crate::geometry::Geometry;
+use crate::laws::coordinate::Coordinate;
+use crate::laws::end::Seen;
+use crate::laws::hinge::Turns;
+use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
+use crate::laws::servo::{Effort, Servo};
+use crate::real::Real;
+use crate::record::Record;
+
+law! {
+    /// A rotation of the second body relative to the first about an axis, driven by a servo without a rotor.
+    pub struct HingeServo = "hinge-servo" {
+        /// Axis of rotation; the angle is 0 at t = 0 and counts whole turns.
+        axis: Axis,
+        /// Input of the servo.
+        input: Signal,
+        /// Stiffness of a servo of position.
+        servo_stiffness: Number("N·m/rad") = 0.0,
+        /// Damping of the servo.
+        servo_damping: Number("N·m·s/rad"),
+        /// Rate per unit of the input at which the servo does nothing: 1 of a velocity.
+        feed: Number = 0.0,
+        /// Largest effort.
+        most: Number("N·m") = 1e30,
+    }
+}
+
+impl<P: Geometry> HingeServo<P> {
+    #[inline(always)]
+    fn effort(&self) -> Effort<P::Real> {
+        let Self { servo_stiffness, servo_damping, feed, most, .. } = *self;
+        let gain = P::Real::ZERO;
+        Effort { gain, stiffness: servo_stiffness, damping: servo_damping, feed, most }
+    }
+
+    #[inline(always)]
+    fn servo(&self, seen: &Seen<'_, P>, turns: Turns) -> Option<Servo<P>> {
+        let turn = Coordinate::turn(seen, &self.axis, turns)?;
+        Some(Servo::new(turn, self.effort(), seen.signal(self.input)))
+    }
+}
+
+impl<P: Geometry> Interaction<P> for HingeServo<P> {
+    type State = Turns;
+    type Dampers = [(); 1];
+    const DRIVES: bool = true;
+    const QUANTITIES: &'static [Quantity] = &[Quantity { name: "effort", unit: "N·m" }];
+
+    #[inline(always)]
+    fn settle(&self, seen: &Seen<'_, P>, turns: &mut Turns) {
+        if let Some(twist) = self.axis.seen(seen) {
+            twist.settle(turns);
+        }
+    }
+
+    #[inline(always)]
+    fn record(&self, seen: &Seen<'_, P>, turns: &Turns) -> Option<Record<P::Space>> {
+        self.servo(seen, *turns).map(|_| Record::ZERO)
+    }
+
+    fn energy(&self, _: &Seen<'_, P>, _: &Turns) -> P::Real {
+        P::Real::ZERO
+    }
+
+    fn tangent(&self, seen: &Seen<'_, P>, turns: &Turns, visit: Springs<'_, P>) -> [P::Real; 2] {
+        let Some(servo) = self.servo(seen, *turns) else { return [P::Real::ZERO; 2] };
+        servo.tangent(seen, visit)
+    }
+
+    #[inline(always)]
+    fn dampers(&self, seen: &Seen<'_, P>, turns: &Turns, visit: &mut impl FnMut(Damper<P>)) {
+        let Some(servo) = self.servo(seen, *turns) else { return };
+        visit(servo.damper(seen));
+    }
+
+    fn check(&self) -> Result<(), Wrong> {
+        let drives = self.servo_damping > P::Real::ZERO;
+        Wrong::unless(drives, "servo_damping", "is not positive", "a number > 0")?;
+        self.effort().check()
+    }
+
+    fn read(&self, _: usize, seen: &Seen<'_, P>, turns: &Turns) -> P::Real {
+        let Some(servo) = self.servo(seen, *turns) else { return P::Real::ZERO };
+        servo.effort(seen)
+    }
+}
