@@ -40,6 +40,8 @@ pub struct Variable {
     pub unit: String,
     /// \[`unit`\] its first value; `None` where that is computed.
     pub start: Option<f64>,
+    /// \[`unit`\] the least and the largest value that it takes; infinite without bounds.
+    pub range: [f64; 2],
     /// What it is, in a few words.
     pub description: String,
 }
@@ -75,7 +77,8 @@ impl Description {
         for (place, input) in instance.inputs().iter().enumerate() {
             let what = format!("input of the type {}, held until it is set again", input.kind);
             let role = Role::Input(place);
-            listed.push(self::listed(&input.name, role, input.unit, Some(input.start), what));
+            let variable = self::listed(&input.name, role, input.unit, Some(input.start), what);
+            listed.push(Variable { range: input.range, ..variable });
         }
         let states = scene.body_names.len() * BODY_COLUMNS.len();
         for (place, output) in instance.outputs().iter().enumerate() {
@@ -104,7 +107,8 @@ impl Description {
 }
 
 fn listed(name: &str, role: Role, unit: &str, start: Option<f64>, description: String) -> Variable {
-    Variable { name: name.into(), role, unit: unit.into(), start, description }
+    let range = [f64::NEG_INFINITY, f64::INFINITY];
+    Variable { name: name.into(), role, unit: unit.into(), start, range, description }
 }
 
 /// Gives each variable a name of its own; whether all are structured.

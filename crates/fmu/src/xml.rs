@@ -112,7 +112,7 @@ fn units(of: &Description) -> String {
 }
 
 fn variable_of(variable: &Variable, reference: usize, fmi: Fmi) -> String {
-    let Variable { name, role, unit, start, description } = variable;
+    let Variable { name, role, unit, start, range, description } = variable;
     let (name, description) = (escaped(name), escaped(description));
     let kind = match role {
         Role::Time => "causality=\"independent\" variability=\"continuous\"",
@@ -128,6 +128,11 @@ fn variable_of(variable: &Variable, reference: usize, fmi: Fmi) -> String {
     let mut number = String::new();
     if !unit.is_empty() {
         let _ = write!(number, " unit=\"{}\"", escaped(&modelica(unit)));
+    }
+    for (word, bound) in
+        ["min", "max"].into_iter().zip(range).filter(|(_, bound)| bound.is_finite())
+    {
+        let _ = write!(number, " {word}=\"{bound:?}\"");
     }
     if let Some(start) = start {
         let _ = write!(number, " start=\"{start:?}\"");
@@ -161,5 +166,28 @@ fn structure(of: &Description, fmi: Fmi) -> String {
             "    <Outputs>\n{outputs}    </Outputs>\n    <InitialUnknowns>\n{initial}    </InitialUnknowns>\n"
         ),
         Fmi::Three => outputs + &initial,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_range_is_min_and_max() {
+        let variable = |range| Variable {
+            name: "motor".into(),
+            role: Role::Input(0),
+            unit: "V".into(),
+            start: Some(0.0),
+            range,
+            description: String::new(),
+        };
+        for fmi in [Fmi::Two, Fmi::Three] {
+            let bounded = variable_of(&variable([-24.0, 24.0]), 1, fmi);
+            assert!(bounded.contains(" min=\"-24.0\" max=\"24.0\" start=\"0.0\""), "{bounded}");
+            let free = variable_of(&variable([f64::NEG_INFINITY, f64::INFINITY]), 1, fmi);
+            assert!(!free.contains("min=") && !free.contains("max="), "{free}");
+        }
     }
 }

@@ -16,6 +16,8 @@ pub struct Input {
     pub kind: &'static str,
     /// \[`unit`\] what it is at t = 0.
     pub start: f64,
+    /// \[`unit`\] the least and the largest value that it takes; infinite without bounds.
+    pub range: [f64; 2],
     /// In the model.
     pub(crate) index: InputIndex,
     /// Whether it is the rate of the displacement, which dampers feel.
@@ -64,11 +66,13 @@ pub(crate) fn inputs(scene: &Scene, start: impl Fn(InputIndex) -> [f64; 2]) -> V
             unit: info.unit,
             kind: info.kind,
             start: value,
+            range: info.range,
             index: info.index,
             is_rate: false,
         };
         let name = format!("{}.rate", info.name);
-        let rated = Input { name, unit: "m/s", start: rate, is_rate: true, ..input.clone() };
+        let range = [f64::NEG_INFINITY, f64::INFINITY];
+        let rated = Input { name, unit: "m/s", start: rate, range, is_rate: true, ..input.clone() };
         inputs.push(input);
         if info.kind == "anchor" {
             inputs.push(rated);

@@ -132,15 +132,15 @@ fn what_is_no_drive_is_refused_with_a_remedy() {
     for (keys, parts) in [
         (format!("{pivot}\nmode = \"speed\""), ["mode", "velocity"]),
         (
-            format!("target = \"spring\"\nmode = \"velocity\"\nkd = 1"),
+            "target = \"spring\"\nmode = \"velocity\"\nkd = 1".to_owned(),
             ["tsda", "the name of a joint"],
         ),
-        (format!("target = \"pivto\"\nmode = \"velocity\"\nkd = 1"), ["pivto", "pivot"]),
+        ("target = \"pivto\"\nmode = \"velocity\"\nkd = 1".to_owned(), ["pivto", "pivot"]),
         (
             format!("{pivot}\nfreedom = \"turn\"\nmode = \"velocity\"\nkd = 1"),
             ["freedom", "cylindrical"],
         ),
-        (format!("target = \"bush\"\nmode = \"velocity\"\nkd = 1"), ["freedom", "slide"]),
+        ("target = \"bush\"\nmode = \"velocity\"\nkd = 1".to_owned(), ["freedom", "slide"]),
         (format!("{pivot}\nmode = \"position\"\nkp = 1"), ["kd", "missing"]),
         (format!("{pivot}\nmode = \"position\"\nkp = -1\nkd = 1"), ["kp", "≥ 0"]),
         (format!("{pivot}\nmode = \"position\"\nkp = 1\nkd = 0"), ["kd", "> 0"]),
@@ -216,4 +216,43 @@ fn a_drive_follows_a_table() {
     let slider = plant.state().bodies[0].orientation;
     let turn = 2.0 * (lever.v.z.atan2(lever.w) - slider.v.z.atan2(slider.w));
     assert!((turn - 30_f64.to_radians()).abs() < 2e-3, "{turn}");
+}
+
+/// What a caller sets beyond the range of an input is the nearer bound; a scene's own value, table or sine is refused.
+#[test]
+fn a_range_bounds_what_a_caller_sets() {
+    let text =
+        |more: &str| drive(&format!("target = \"pivot\"\nmode = \"velocity\"\nkd = 1\n{more}"));
+    let scene_of = |more: &str| scene(&text(more));
+    let bounded = scene_of("range = [\"-2 rad/s\", \"30 rpm\"]").unwrap();
+    let most = 30.0 * std::f64::consts::TAU / 60.0;
+    assert_eq!(bounded.inputs[0].range, [-2.0, most]);
+    let input = bounded.inputs[0].index;
+    let single: dbd_scene::SceneModel<dbd_kernel::F32> = bounded.model.convert();
+    let mut double = Plant::new(&bounded.model, Leapfrog, 1e-4).unwrap();
+    let mut single = Plant::new(&single, Leapfrog, 1e-4).unwrap();
+    for (asked, set) in [(1.0, 1.0), (99.0, most), (-99.0, -2.0)] {
+        double.set_input(input, asked).unwrap();
+        single.set_input(input, asked).unwrap();
+        assert_eq!(double.state().signals[0].value, set);
+        assert_eq!(single.state().signals[0].value, set as f32);
+    }
+    assert!(double.set_input(input, f64::NAN).is_err());
+    let free = scene_of("").unwrap();
+    assert_eq!(free.inputs[0].range, [f64::NEG_INFINITY, f64::INFINITY]);
+    // Other ranges make another model; none makes the one that there was before ranges.
+    let of = |scene: &Scene| Plant::new(&scene.model, Leapfrog, 1e-4).unwrap().fingerprint();
+    assert_ne!(of(&bounded), of(&free));
+    for (more, part) in [
+        ("range = [1, -1]\nvalue = 0", "wrong way round"),
+        ("range = [1, 2]", "does not hold the value 0"),
+        ("range = [1, 2]\nvalue = 3", "beyond `range`"),
+        ("range = [1]", "range"),
+        ("range = [-1, 1]\ntable = [[0, 0], [1, 0.5]]", "stands beside"),
+        ("range = [-1, 1]\nsine = { amplitude = 0.5, frequency = 1 }", "stands beside"),
+        ("range = [\"-1 m\", 1]", "rad/s"),
+    ] {
+        let Err(error) = scene_of(more) else { panic!("it is read: {more}") };
+        assert!(error.contains(part), "{more}: `{part}` is not in\n{error}");
+    }
 }

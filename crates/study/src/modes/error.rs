@@ -30,6 +30,13 @@ pub enum ModesError {
     #[error("there are no modes about this pose: a twist is undefined ({0:?})")]
     #[diagnostic(help("another pose: one in which every torsion spring has a twist"))]
     Pose(Cause),
+    /// A law has a freedom of its own.
+    #[error("a rotor of the law `{law}` moves beside the bodies, whose modes these would be")]
+    #[diagnostic(help("a drive without a rotor, its inertia added to a body"))]
+    Rotor {
+        /// The law.
+        law: &'static str,
+    },
     /// A stiffness beyond the range of numbers.
     #[error(
         "there are no modes about this pose: its stiffness over its masses is beyond all numbers"

@@ -7,6 +7,7 @@ use std::collections::BTreeSet;
 
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::forces::{Wrench, wrenches};
+use dbd_kernel::laws::{Laws as _, Need};
 use dbd_kernel::{BodyIndex, F64, Quaternion, State, Vec3};
 use dbd_scene::SceneModel;
 
@@ -144,11 +145,14 @@ fn scaled(
 /// `M⁻½·K·M⁻½` \[1/s²\].
 ///
 /// # Errors
-/// Where a twist is undefined, or an entry beyond the range of numbers.
+/// Where a law has a rotor, a twist is undefined, or an entry beyond the range of numbers.
 pub(super) fn stiffness(
     model: &SceneModel<F64>,
     state: &State<SceneModel<F64>>,
 ) -> Result<Vec<Entry>, ModesError> {
+    if let Some((law, Need::Passes)) = model.laws.memory() {
+        return Err(ModesError::Rotor { law });
+    }
     scaled(model, state, move_body)
 }
 
