@@ -27,6 +27,7 @@ pages! {
     command_line "docs/command-line.md"
     compare "docs/compare.md"
     development "docs/development.md"
+    elements "docs/elements.md"
     ensembles "docs/ensembles.md"
     examples "docs/examples.md"
     extremes "docs/extremes.md"

@@ -1,7 +1,9 @@
 //! Drives: rotor, gear, play, winding, servos, against closed forms and references of their own.
 
 use dbd_kernel::Status;
+use dbd_plant::PlantError;
 use dbd_plant::instance::{Blueprint, Instance, Settings};
+use dbd_scene::Scene;
 
 use crate::{instance, reference, value};
 
@@ -427,6 +429,13 @@ fn schemes_without_passes_over_dampers_refuse_a_rotor() {
             damping: damping.map(str::to_owned),
             ..Settings::default()
         };
+        // Before anything is written, too.
+        let scene = Scene::parse(&wheel(drive, ""), "drives.toml").unwrap();
+        let refused = dbd_plant::plant::check(&scene, &settings.method().unwrap(), 1e-4);
+        assert!(
+            matches!(refused, Err(PlantError::Memory { law: "hinge-drive", .. })),
+            "{refused:?}"
+        );
         let refused = Instance::new(Blueprint::new("drives.toml", wheel(drive, "")), settings);
         let Err(error) = refused else { panic!("{scheme} takes a rotor") };
         assert!(error.to_string().contains("`hinge-drive`"), "{scheme}: {error}");
@@ -438,4 +447,20 @@ fn schemes_without_passes_over_dampers_refuse_a_rotor() {
     };
     let joint_wise = Instance::new(Blueprint::new("drives.toml", wheel(drive, "")), settings);
     joint_wise.unwrap().advance(100).unwrap();
+}
+
+/// A precision without laws is refused by `check`, before anything is written.
+#[test]
+fn precisions_for_comparison_have_no_laws() {
+    let drive = "mode = \"velocity\"\nkd = 1";
+    let scene = Scene::parse(&wheel(drive, ""), "drives.toml").unwrap();
+    let method = |precision: &str| {
+        let precision = Some(precision.to_owned());
+        Settings { precision, ..Settings::default() }.method().unwrap()
+    };
+    for precision in ["f64", "f32", "fixed"] {
+        dbd_plant::plant::check(&scene, &method(precision), 1e-4).unwrap();
+    }
+    let refused = dbd_plant::plant::check(&scene, &method("f32-micromath"), 1e-4);
+    assert!(matches!(refused, Err(PlantError::Laws { .. })), "{refused:?}");
 }

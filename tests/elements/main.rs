@@ -2,6 +2,7 @@
 //! drives. The page `docs/elements.md` has the values.
 
 mod drives;
+mod examples;
 mod values;
 
 use dbd_plant::instance::{Blueprint, Instance, Settings};

@@ -13,6 +13,7 @@ use dbd_kernel::euler::{EulerF32, EulerF64};
 use dbd_kernel::frequency::bound;
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::keep::Keep as _;
+use dbd_kernel::laws::Laws as _;
 #[cfg(feature = "comparison")]
 use dbd_kernel::loose::Loose32;
 use dbd_kernel::plant::{self as kernel, InputError, Plant, StateError};
@@ -147,12 +148,30 @@ pub fn plant_of_model(
 /// and displacements, and its matrix bears the stiffness.
 ///
 /// # Errors
-/// Those of [`check_step`], [`check_inputs`], [`check_extents`] and [`check_stiffness`], in this order.
+/// Those of [`check_step`], [`check_laws`], [`check_inputs`], [`check_extents`] and [`check_stiffness`], in this order.
 pub fn check(scene: &Scene, method: &Method, step: f64) -> Result<(), PlantError> {
     check_step(method, step)?;
+    check_laws(scene, method)?;
     check_inputs(scene, method)?;
     check_extents(scene, method, step)?;
     check_stiffness(scene, method, step)
+}
+
+/// Whether a method's precision has a scene's interactions, and its scheme brings their memories on.
+///
+/// # Errors
+/// [`PlantError::Laws`], [`PlantError::Memory`].
+pub fn check_laws(scene: &Scene, method: &Method) -> Result<(), PlantError> {
+    let laws = &scene.model.laws;
+    if !(laws.is_empty() || method.has_laws()) {
+        return Err(PlantError::Laws { precision: method.precision_name() });
+    }
+    match laws.memory() {
+        Some((law, need)) if !method.bears(need) => {
+            Err(PlantError::Memory { law, scheme: method.scheme_name() })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Whether a step is positive and finite once it is rounded to a method's precision.

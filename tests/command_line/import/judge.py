@@ -6,7 +6,7 @@
 
 `record` writes a table of 0.5 s: time, then x, y, z of each group of bodies that are rigid with each other, by
 the name of its first. `distance` prints how far a trace of host-sim is from MuJoCo's, body by body. What a scene
-has no counterpart for is off: contact but of spheres, capsules and boxes with planes, limits, armature, dry friction, equalities of joints, tendons that are not
+has no counterpart for is off: contact but of spheres, capsules and boxes with planes, limits, dry friction, equalities of joints, tendons that are not
 between two sites, actuators that are no linear law or act at neither a joint nor a tendon. Controls are the keyframe's.
 """
 
@@ -34,7 +34,6 @@ def load(file, step):
     model.geom_solref[:], model.geom_solimp[:] = (4 * step, 1), (0.9999, 0.9999, 0.001, 0.5, 2)
     model.opt.impratio = 100
     model.opt.disableflags |= off.mjDSBL_REFSAFE
-    model.dof_armature[:] = 0
     site = mujoco.mjtWrap.mjWRAP_SITE
     for tendon in range(model.ntendon):
         first = model.tendon_adr[tendon]

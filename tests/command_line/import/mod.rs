@@ -110,3 +110,18 @@ fn the_scene_begins_where_mujoco_does() {
         }
     }
 }
+
+/// Rotors, servos and a motor at the end of its range, from a keyframe: off by what joints and gears give, as 1/k.
+#[test]
+fn rotors_and_servos_come_to_mujocos_motion() {
+    let mut last = f64::INFINITY;
+    for stiffness in [1e5, 1e6, 1e7] {
+        let keyframe = Some("start".to_owned());
+        let options = Options { stiffness, duration: 0.5, keyframe, ..Options::default() };
+        let scene = loaded(&imported("driven.xml", &options));
+        let worst = worst(&distances(&scene, "tests/command_line/import/driven.csv"));
+        assert!(worst < last / 5.0, "{stiffness}: {worst:e} after {last:e} m");
+        last = worst;
+    }
+    assert!(last < 2e-5, "{last:e} m");
+}

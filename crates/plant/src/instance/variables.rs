@@ -8,7 +8,7 @@ use dbd_scene::{BODY_COLUMNS, ENERGY_COLUMNS, Scene};
 /// What a caller drives. Inputs that a table of the scene drives are none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Input {
-    /// Its name in the scene; that of an anchor's rate has `.rate` behind it.
+    /// Its name in the scene; that of the rate of an anchor or of a drive's place has `.rate` behind it.
     pub name: String,
     /// The SI unit.
     pub unit: &'static str,
@@ -20,7 +20,7 @@ pub struct Input {
     pub range: [f64; 2],
     /// In the model.
     pub(crate) index: InputIndex,
-    /// Whether it is the rate of the displacement, which dampers feel.
+    /// Whether it is the rate of the displacement, which dampers and servos follow.
     pub(crate) is_rate: bool,
 }
 
@@ -72,9 +72,11 @@ pub(crate) fn inputs(scene: &Scene, start: impl Fn(InputIndex) -> [f64; 2]) -> V
         };
         let name = format!("{}.rate", info.name);
         let range = [f64::NEG_INFINITY, f64::INFINITY];
-        let rated = Input { name, unit: "m/s", start: rate, range, is_rate: true, ..input.clone() };
+        let unit = if info.unit == "rad" { "rad/s" } else { "m/s" };
+        let rated = Input { name, unit, start: rate, range, is_rate: true, ..input.clone() };
         inputs.push(input);
-        if info.kind == "anchor" {
+        let is_place = info.kind == "drive" && ["rad", "m"].contains(&info.unit);
+        if info.kind == "anchor" || is_place {
             inputs.push(rated);
         }
     }

@@ -9,6 +9,7 @@ mod error;
 pub use error::MethodError;
 
 use dbd_kernel::damping::Damping;
+use dbd_kernel::laws::Need;
 use dbd_kernel::real::Constant;
 use dbd_kernel::schemes::{
     BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Leapfrog, Pefrl, Rk4,
@@ -205,6 +206,22 @@ impl Method {
         }
     }
 
+    /// Whether its precision has interactions: those that exist for comparison alone have none.
+    pub(crate) fn has_laws(&self) -> bool {
+        let quaternions = self.orientation == OrientationName::Quaternion;
+        quaternions && self.precision != PrecisionName::F32Micromath
+    }
+
+    /// Whether its scheme gives to memories of laws what they need, as the kernel asks.
+    pub(crate) fn bears(&self, need: Need) -> bool {
+        let Traits { settles, advances, damping, .. } = self.traits();
+        match need {
+            Need::Forward => settles,
+            Need::Steps => advances,
+            Need::Passes => advances && damping != Damping::Explicit,
+        }
+    }
+
     /// The refusal of a method that this build does not hold.
     pub(crate) fn not_built(&self) -> MethodError {
         let quaternions = self.orientation == OrientationName::Quaternion;
@@ -330,6 +347,8 @@ struct Traits {
     orders: [u32; 2],
     stability_limit: f64,
     most_vibration: Option<Constant>,
+    settles: bool,
+    advances: bool,
     evaluations: u32,
 }
 
@@ -340,6 +359,8 @@ impl Traits {
             damping: S::DAMPING,
             orders: [S::ORDER, S::ORDER_DAMPED],
             most_vibration: S::MOST_VIBRATION,
+            settles: S::SETTLES,
+            advances: S::ADVANCES,
             stability_limit: scheme.stability_limit(),
             evaluations: scheme.evaluations(),
         }

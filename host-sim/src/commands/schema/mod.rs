@@ -76,6 +76,8 @@ fn required_of(table: &str, kind: &str) -> Vec<&'static str> {
         ("joint", "fixed") => &["at", "axis", "span", "arm"],
         ("input", "force" | "torque") => &["body", "axis"],
         ("input", "anchor") => &["target", "axis"],
+        ("input", "drive") => &["target", "mode"],
+        ("input", "signal") => &[],
         ("input", _) => &["target"],
         ("interaction", law) => return interactions::required(law),
         ("readout", "interaction") => &["target", "quantity"],

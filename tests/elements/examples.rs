@@ -1,0 +1,59 @@
+//! The scenes of `docs/examples` that use these elements do what they say.
+
+use dbd_tests::results::path;
+
+use crate::{instance, value};
+
+fn example(name: &str) -> String {
+    std::fs::read_to_string(path(&format!("docs/examples/{name}/{name}.toml"))).unwrap()
+}
+
+#[test]
+fn a_gate_opens_to_its_stop_and_closes() {
+    for precision in ["f64", "f32", "fixed"] {
+        let mut gate = instance(&example("gate-opener"), 2e-3, precision);
+        gate.advance_to(4.0).unwrap();
+        let degrees = |gate: &_| value(gate, "angle").to_degrees();
+        assert!((degrees(&gate) - 37.7).abs() < 1.0, "{precision}: {}", degrees(&gate));
+        gate.advance_to(14.2).unwrap();
+        assert!(value(&gate, "depth") > 1e-3, "{precision}: the stop is not met");
+        gate.advance_to(16.0).unwrap();
+        assert!((degrees(&gate) - 90.0).abs() < 0.3, "{precision}: {}", degrees(&gate));
+        gate.advance_to(32.0).unwrap();
+        assert!(degrees(&gate).abs() < 0.5, "{precision}: {}", degrees(&gate));
+    }
+}
+
+#[test]
+fn a_trolley_goes_as_far_as_its_table_says() {
+    let mut crane = instance(&example("crane"), 1e-3, "f64");
+    let mut widest: f64 = 0.0;
+    for tenth in 1..=200 {
+        crane.advance_to(f64::from(tenth) * 0.1).unwrap();
+        let swing = value(&crane, "load.x") - value(&crane, "trolley.x");
+        widest = widest.max(swing.abs());
+    }
+    // The area under the table: 6 m, less what the load pulls it about.
+    let place = value(&crane, "trolley.x");
+    assert!((place - 6.0).abs() < 0.1, "{place}");
+    // The load swings by some a·l/g twice over, with 2/3 m/s² on 6 m.
+    assert!((0.3..1.0).contains(&widest), "{widest}");
+}
+
+#[test]
+fn a_wheel_leaves_the_plate_and_the_strut_meets_its_rubber() {
+    for precision in ["f64", "f32"] {
+        let mut car = instance(&example("quarter-car"), 2e-4, precision);
+        let (mut off, mut hardest) = (0, 0.0_f64);
+        for ms in 1..=3000 {
+            car.advance_to(f64::from(ms) * 1e-3).unwrap();
+            off += u32::from(value(&car, "tyre_force") == 0.0);
+            hardest = hardest.min(value(&car, "bump_stop_force"));
+        }
+        assert!((20..60).contains(&off), "{precision}: {off} ms without contact");
+        assert!((-12e3..-5e3).contains(&hardest), "{precision}: {hardest} N");
+        // At rest under its weight: 372 kg.
+        let weight = value(&car, "tyre_force");
+        assert!((weight + 372.0 * 9.81).abs() < 5.0, "{precision}: {weight} N");
+    }
+}
