@@ -141,7 +141,7 @@ fn what_is_no_drive_is_refused_with_a_remedy() {
             ["freedom", "cylindrical"],
         ),
         ("target = \"bush\"\nmode = \"velocity\"\nkd = 1".to_owned(), ["freedom", "slide"]),
-        (format!("{pivot}\nmode = \"position\"\nkp = 1"), ["kd", "missing"]),
+        (format!("{pivot}\nmode = \"position\"\nkp = 1"), ["kd", "add"]),
         (format!("{pivot}\nmode = \"position\"\nkp = -1\nkd = 1"), ["kp", "≥ 0"]),
         (format!("{pivot}\nmode = \"position\"\nkp = 1\nkd = 0"), ["kd", "> 0"]),
         (format!("{pivot}\nmode = \"velocity\"\nkp = 1\nkd = 1"), ["kp", "position"]),
@@ -225,7 +225,7 @@ fn a_range_bounds_what_a_caller_sets() {
         |more: &str| drive(&format!("target = \"pivot\"\nmode = \"velocity\"\nkd = 1\n{more}"));
     let scene_of = |more: &str| scene(&text(more));
     let bounded = scene_of("range = [\"-2 rad/s\", \"30 rpm\"]").unwrap();
-    let most = 30.0 * std::f64::consts::TAU / 60.0;
+    let most = std::f64::consts::PI;
     assert_eq!(bounded.inputs[0].range, [-2.0, most]);
     let input = bounded.inputs[0].index;
     let single: dbd_scene::SceneModel<dbd_kernel::F32> = bounded.model.convert();
