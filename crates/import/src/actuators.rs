@@ -184,15 +184,16 @@ fn actuator(
     }
     let (kind, mut keys, sign) = target.coordinate.drive(mechanism, &line.unwrap_or_default());
     let per_control = sign * servo.per_control();
-    let value = per_control * control + sign * constant;
+    let of_control = bounds.control.map(|bound| per_control * bound + sign * constant);
+    let of_force = bounds.force.map(|bound| sign * servo.gear() * bound);
+    let [of_control, [least, most]] = [of_control, of_force].map(|[a, b]| [a.min(b), a.max(b)]);
+    // The force of any control is held to that of the motor: a range beyond it is a single value.
+    let range = of_control.map(|bound| bound.clamp(least, most));
+    let value = (per_control * control + sign * constant).clamp(least, most);
     if value != 0.0 {
         keys.push(format!("value = {value:?}"));
     }
-    let of_control = bounds.control.map(|bound| per_control * bound + sign * constant);
-    let of_force = bounds.force.map(|bound| sign * servo.gear() * bound);
-    let [one, other] = [of_control, of_force].map(|[a, b]| [a.min(b), a.max(b)]);
-    let range = [one[0].max(other[0]), one[1].min(other[1])];
-    if range.iter().all(|bound| bound.is_finite()) && range[0] <= range[1] {
+    if range.iter().all(|bound| bound.is_finite()) {
         keys.push(format!("range = [{:?}, {:?}]", range[0] + 0.0, range[1] + 0.0));
     }
     let plus = if constant == 0.0 { String::new() } else { format!(" + {:?}", sign * constant) };

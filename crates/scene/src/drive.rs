@@ -58,7 +58,8 @@ pub(crate) fn range(
     }
     let Drive::Caller(start) = drive else {
         let help = "it bounds what a caller sets; what the scene drives is as it is written";
-        return Err(table.refuse_key("range", "stands beside what drives the input", help));
+        let other = if table.has("sine") { "sine" } else { "table" };
+        return Err(table.refuse_key("range", &format!("contradicts `{other}`"), help));
     };
     if !(least..=most).contains(start) {
         let (key, problem) = match table.has("value") {

@@ -3,7 +3,6 @@
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
-
 use crate::laws::interaction::{Damper, Interaction, Nothing, Quantity, Springs, Wrong};
 use crate::laws::servo::{Effort, Servo};
 use crate::real::Real;

@@ -187,6 +187,8 @@ fn ranges_of_controls_bound_inputs() {
         ("<motor joint='h' gear='2' ctrlrange='-1 3'/>", [-2.0, 6.0]),
         ("<motor joint='h' gear='-2' ctrlrange='-1 3'/>", [-6.0, 2.0]),
         ("<motor joint='h' gear='2' ctrlrange='-1 3' forcerange='-1 2'/>", [-2.0, 4.0]),
+        ("<motor joint='h' forcerange='-1 2'/>", [-1.0, 2.0]),
+        ("<motor joint='h' ctrlrange='2 3' forcerange='-1 1'/>", [1.0, 1.0]),
         ("<position joint='h' kp='5' ctrlrange='-0.5 1'/>", [-2.5, 5.0]),
         ("<velocity joint='h' kv='5' ctrlrange='-0.5 1' ctrllimited='false'/>", infinite),
         ("<motor joint='h'/>", infinite),
@@ -194,6 +196,13 @@ fn ranges_of_controls_bound_inputs() {
         let text = with(&format!("<actuator>{actuator}</actuator>"));
         let scene = loaded(&of(&text, &Options::default()));
         assert_eq!(scene.inputs[0].range, range, "{actuator}");
+        // A control beyond the range is one at its end, as in MuJoCo.
+        let key = "<keyframe><key name='k' ctrl='9'/></keyframe>";
+        let text = with(&format!("<actuator>{actuator}</actuator>{key}"));
+        let options = Options { keyframe: Some("k".into()), ..Options::default() };
+        let value = loaded(&of(&text, &options)).model.inputs[0].value;
+        assert!(range[0] <= value && value <= range[1], "{actuator}: {value}");
+        assert!(range == infinite || value == range[1] || value == range[0], "{actuator}: {value}");
     }
     let forced = "<actuator><position name='p' joint='h' forcerange='-1 1'/></actuator>";
     assert_eq!(omitted(forced), [(Kind::Limit, "position `p`: forcerange -1 to 1 N·m".to_owned())]);

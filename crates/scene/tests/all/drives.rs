@@ -248,8 +248,8 @@ fn a_range_bounds_what_a_caller_sets() {
         ("range = [1, 2]", "does not hold the value 0"),
         ("range = [1, 2]\nvalue = 3", "beyond `range`"),
         ("range = [1]", "range"),
-        ("range = [-1, 1]\ntable = [[0, 0], [1, 0.5]]", "stands beside"),
-        ("range = [-1, 1]\nsine = { amplitude = 0.5, frequency = 1 }", "stands beside"),
+        ("range = [-1, 1]\ntable = [[0, 0], [1, 0.5]]", "contradicts `table`"),
+        ("range = [-1, 1]\nsine = { amplitude = 0.5, frequency = 1 }", "contradicts `sine`"),
         ("range = [\"-1 m\", 1]", "rad/s"),
     ] {
         let Err(error) = scene_of(more) else { panic!("it is read: {more}") };
