@@ -16,7 +16,7 @@ use crate::geometry::Geometry;
 use crate::guards::{first_beyond, first_fault};
 use crate::index::{BodyIndex, InputIndex};
 use crate::keep::{Keep, Kept};
-use crate::laws::{Laws as _, Need};
+use crate::laws::Laws as _;
 use crate::model::{FrameOf, LawShares, LawsIn, ModelOwner, ModelRef, RealOf, SpaceOf, Terms};
 use crate::pose::{Places, place_bodies};
 use crate::real::Real;
@@ -125,7 +125,7 @@ where
         let mut shares = owner.per_damper(Share::ALONE);
         let mut law_shares = view.laws.shares();
         match view.laws.memory() {
-            Some((law, need)) if !bears::<S>(need) => return Err(PlantError::Memory(law)),
+            Some((law, need)) if !S::bears(need) => return Err(PlantError::Memory(law)),
             _ => {}
         }
         if S::Keeps::MATRIX && !is_planned(owner) {
@@ -537,15 +537,6 @@ where
     /// FNV-1a 64 over the state's words.
     pub fn hash(&self) -> u64 {
         self.state.hash()
-    }
-}
-
-/// Whether a scheme gives to memories of laws what they need.
-fn bears<S: Scheme>(need: Need) -> bool {
-    match need {
-        Need::Forward => S::SETTLES,
-        Need::Steps => S::ADVANCES,
-        Need::Passes => S::ADVANCES && S::DAMPING != Damping::Explicit,
     }
 }
 

@@ -2,8 +2,9 @@
 
 use dbd_kernel::Status;
 use dbd_plant::PlantError;
-use dbd_plant::instance::{Blueprint, Instance, Settings};
+use dbd_plant::instance::{Blueprint, Instance, LinearOptions, Settings};
 use dbd_scene::Scene;
+use dbd_study::modes::ModesError;
 
 use crate::{instance, reference, value};
 
@@ -463,4 +464,26 @@ fn precisions_for_comparison_have_no_laws() {
     }
     let refused = dbd_plant::plant::check(&scene, &method("f32-micromath"), 1e-4);
     assert!(matches!(refused, Err(PlantError::Laws { .. })), "{refused:?}");
+}
+
+/// What looks at the bodies alone refuses a rotor; a servo without one it takes as the spring and damper that it is.
+#[test]
+fn modes_and_linear_systems_refuse_a_rotor() {
+    let with = |more: &str| {
+        let drive = format!("mode = \"position\"\nkp = 40\nkd = 0.1\n{more}");
+        instance(&wheel(&drive, ""), 1e-4, "f64")
+    };
+    let modes_of = |instance: &Instance| {
+        let plant = instance.plant();
+        dbd_study::modes::modes(plant.model(), &plant.state())
+    };
+    let geared = with("rotor = 0.01\ngear = { stiffness = 300 }");
+    assert!(matches!(modes_of(&geared), Err(ModesError::Rotor { law: "hinge-drive" })));
+    let refused = geared.linearise(&LinearOptions::default()).unwrap_err().to_string();
+    assert!(refused.contains("`hinge-drive`"), "{refused}");
+    let direct = with("");
+    let slowest = modes_of(&direct).unwrap().frequencies[0];
+    let exact = (40.0_f64 / 0.02).sqrt() / std::f64::consts::TAU;
+    assert!((slowest / exact - 1.0).abs() < 1e-6, "{slowest} Hz");
+    direct.linearise(&LinearOptions::default()).unwrap();
 }

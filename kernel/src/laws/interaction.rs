@@ -282,8 +282,8 @@ pub trait Interaction<P: Geometry>: Constants<P> {
         P::Real::ZERO
     }
 
-    /// Lets act what drives and damps its own freedom alone, for a time \[s\], told of the kick just before. The first
-    /// thing in a pass, the last in one of descending order.
+    /// Drives and damps its own freedom by itself, `[time, kick]`: for a time \[s\], after a kick that gave it so much
+    /// \[m/s, rad/s\]. It comes first in a pass, last in one of descending order.
     #[inline(always)]
     fn drive(&self, _seen: &Seen<'_, P>, _time_and_kick: [P::Real; 2], _state: &mut Self::State) {}
 

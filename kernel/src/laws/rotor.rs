@@ -207,7 +207,7 @@ impl<P: Geometry> Geared<P> {
         kick
     }
 
-    /// What damps and drives the rotor acts for the time `h` \[s\], told of the kick just before: the flow of
+    /// Drives and damps the rotor for the time `h` \[s\] after the kick that is part of the same motion: the flow of
     /// `m·v̇ = m·kick/h + τ`. `place` is that of the rotor.
     #[inline(always)]
     pub(super) fn drive(

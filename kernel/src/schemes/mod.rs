@@ -28,6 +28,7 @@ pub use semi_implicit_euler::SemiImplicitEuler;
 use crate::damping::Damping;
 use crate::geometry::Geometry;
 use crate::keep::Keep;
+use crate::laws::Need;
 use crate::model::Terms;
 use crate::real::{Constant, Real};
 use crate::solve::Pencil;
@@ -68,6 +69,16 @@ pub trait Scheme: Copy {
 
     /// Largest stable `ω_max·h` of an undamped oscillator; all smaller ones are stable, too.
     fn stability_limit(&self) -> f64;
+
+    /// Whether it gives to memories of laws what they need.
+    #[must_use]
+    fn bears(need: Need) -> bool {
+        match need {
+            Need::Forward => Self::SETTLES,
+            Need::Steps => Self::ADVANCES,
+            Need::Passes => Self::ADVANCES && Self::DAMPING != Damping::Explicit,
+        }
+    }
 
     /// Hands its parameters to the visitor, as far as [`Self::evaluations`] does not tell them.
     fn visit_parameters(&self, _visitor: &mut impl WordVisitor) {}

@@ -212,14 +212,9 @@ impl Method {
         quaternions && self.precision != PrecisionName::F32Micromath
     }
 
-    /// Whether its scheme gives to memories of laws what they need, as the kernel asks.
+    /// [`Scheme::bears`].
     pub(crate) fn bears(&self, need: Need) -> bool {
-        let Traits { settles, advances, damping, .. } = self.traits();
-        match need {
-            Need::Forward => settles,
-            Need::Steps => advances,
-            Need::Passes => advances && damping != Damping::Explicit,
-        }
+        (self.traits().bears)(need)
     }
 
     /// The refusal of a method that this build does not hold.
@@ -347,8 +342,7 @@ struct Traits {
     orders: [u32; 2],
     stability_limit: f64,
     most_vibration: Option<Constant>,
-    settles: bool,
-    advances: bool,
+    bears: fn(Need) -> bool,
     evaluations: u32,
 }
 
@@ -359,8 +353,7 @@ impl Traits {
             damping: S::DAMPING,
             orders: [S::ORDER, S::ORDER_DAMPED],
             most_vibration: S::MOST_VIBRATION,
-            settles: S::SETTLES,
-            advances: S::ADVANCES,
+            bears: S::bears,
             stability_limit: scheme.stability_limit(),
             evaluations: scheme.evaluations(),
         }
