@@ -91,8 +91,9 @@ impl Creep {
         let stiffnesses = model.tsdas.iter().map(|tsda| tsda.stiffness);
         let stiffnesses = stiffnesses.chain(model.bushings.iter().map(|b| b.stiffness));
         let dampers: Vec<f64> = stiffnesses.map(|k| k * per_stiffness).collect();
-        assert_eq!(dampers.len(), model.dampers.len());
-        model.dampers = dampers;
+        // Those of bushings have rows for their levers behind their coefficients.
+        model.dampers.fill(0.0);
+        model.dampers[..dampers.len()].copy_from_slice(&dampers);
         model.convert()
     }
 

@@ -111,7 +111,7 @@ impl<
         check(finite(points.as_flattened()), Quantity::Point)?;
         room(&self.groups, 1, Part::Groups)?;
         room(&self.points, 2, Part::Points)?;
-        let damper = self.add_dampers(damping, 1)?;
+        let damper = self.add_dampers(damping, law, 1)?;
         let _ = self.groups.push(Group {
             law,
             a: between[0],

@@ -255,11 +255,12 @@ impl<
         } else {
             room(&self.tsdas, elements, Part::Tsdas)?;
         }
-        let damper = self.add_dampers(stars.damping, elements)?;
+        let law = if bushing { Law::PointBushing } else { Law::Tsda };
+        let damper = self.add_dampers(stars.damping, law, elements)?;
         let clearance = self.add_clearance(stars.clearance)?;
         let element = if bushing { self.bushings.len() } else { self.tsdas.len() } as u16;
         let group = Group {
-            law: if bushing { Law::PointBushing } else { Law::Tsda },
+            law,
             a: stars.between[0],
             b: stars.between[1],
             stars: count as u8,
@@ -314,7 +315,7 @@ impl<
         room(&self.groups, 1, Part::Groups)?;
         room(&self.points, 1 + points.len(), Part::Points)?;
         room(&self.lines, points.len(), Part::Lines)?;
-        let damper = self.add_dampers(law.damping, points.len())?;
+        let damper = self.add_dampers(law.damping, Law::PointOnLine, points.len())?;
         let clearance = self.add_clearance(law.clearance)?;
         let group = Group {
             law: Law::PointOnLine,
@@ -365,7 +366,7 @@ impl<
         };
         let [a, b] = between;
         let reference = orientation(b).conjugate().product(orientation(a));
-        let damper = self.add_dampers(damping, 1)?;
+        let damper = self.add_dampers(damping, Law::Tsda, 1)?;
         let _ = self.torsions.push(TorsionSpring {
             a,
             b,
@@ -414,13 +415,21 @@ impl<
         Ok(index)
     }
 
-    fn add_dampers(&mut self, damping: f64, count: usize) -> Result<DamperIndex, BuildError> {
+    /// The dampers of so many elements of a law.
+    fn add_dampers(
+        &mut self,
+        damping: f64,
+        law: Law,
+        elements: usize,
+    ) -> Result<DamperIndex, BuildError> {
         if damping == 0.0 {
             return Ok(DamperIndex::NONE);
         }
-        room(&self.dampers, count, Part::Dampers)?;
+        let rows = law.damper_rows(elements, P::Space::PLANAR);
+        room(&self.dampers, rows, Part::Dampers)?;
         let first = DamperIndex(self.dampers.len() as u16);
-        for _ in 0..count {
+        for row in 0..rows {
+            let damping = if row < elements { damping } else { 0.0 };
             let _ = self.dampers.push(P::Real::from_f64(damping));
         }
         Ok(first)

@@ -3,8 +3,8 @@
 //! `(pose, wrenches, velocities, levers) => velocities`. As the sweeps of [`crate::damping`], with a
 //! joint's levers in place of its dampers; the damper of a raw spring and of a torsion spring is one
 //! lever that turns. What a pose makes of a lever, and what the lever is told of the kick, serves the
-//! sweep before a step's end and the one at the start of the next. Bushings and what has a clearance
-//! are swept damper by damper.
+//! sweep before a step's end and the one at the start of the next. Universal joints of bushings and what has a
+//! clearance are swept damper by damper.
 
 use core::sync::atomic::{Ordering, compiler_fence};
 

@@ -35,6 +35,10 @@ pub(super) fn fixed<P: Geometry, T: Terms<P>>(group: &Group) -> Option<[BodyInde
         }
         // Along its line the second body slides with its points.
         Law::PointOnLine if T::LINES && !b.is_world() && elements >= all => Some([b, a]),
+        // A universal joint of bushings turns about an axis of either body: no body sees that at rest.
+        Law::PointBushing if T::BUSHINGS => Some(seen(a, b)),
+        Law::Revolute if T::REVOLUTES => Some(seen(a, b)),
+        Law::Universal if T::UNIVERSALS && P::Space::PLANAR => Some(seen(a, b)),
         _ => None,
     }
 }
@@ -73,7 +77,7 @@ fn seen(a: BodyIndex, b: BodyIndex) -> [BodyIndex; 2] {
 
 /// The levers of a joint.
 pub(super) fn held<'l, P: Geometry>(group: &Group, levers: &'l [Lever<P>]) -> &'l [Lever<P>] {
-    let levers = levers.get(rows(group)).unwrap_or_default();
+    let levers = levers.get(rows::<P>(group)).unwrap_or_default();
     let count = levers.iter().take_while(|lever| lever.rate > P::Real::ZERO).count();
     levers.get(..count).unwrap_or_default()
 }
@@ -86,7 +90,8 @@ pub(crate) fn weigh<P: Geometry, T: Terms<P>>(
     levers: &mut [Lever<P>],
 ) {
     for group in model.groups {
-        if let (Some(levers), Some(shares)) = (levers.get_mut(rows(group)), shares.get(rows(group)))
+        if let (Some(levers), Some(shares)) =
+            (levers.get_mut(rows::<P>(group)), shares.get(rows::<P>(group)))
             && fixed::<P, T>(group).is_some()
         {
             let held = levers.iter_mut().take_while(|lever| lever.rate > P::Real::ZERO);
@@ -99,9 +104,9 @@ pub(crate) fn weigh<P: Geometry, T: Terms<P>>(
 
 /// The rows of a group's levers.
 #[inline(always)]
-pub(super) fn rows(group: &Group) -> core::ops::Range<usize> {
+pub(super) fn rows<P: Geometry>(group: &Group) -> core::ops::Range<usize> {
     let first = group.damper.row().unwrap_or(0);
-    first..first + group.elements()
+    first..first + group.law.damper_rows(group.elements(), P::Space::PLANAR)
 }
 
 /// Joints that are further apart in the model share no levers: the search stays short.
@@ -118,12 +123,12 @@ pub(crate) fn find<P: Geometry, T: Terms<P>>(
     for (row, group) in model.groups.iter().enumerate() {
         let Some(ends) = fixed::<P, T>(group) else { continue };
         let metric = Metric::new(model, ends);
-        let own = rows(group);
+        let own = rows::<P>(group);
         let Some((before, here)) = levers.split_at_mut_checked(own.start) else { continue };
         let Some(here) = here.get_mut(..own.len()) else { continue };
         let near = model.groups.get(row.saturating_sub(NEAR)..row).unwrap_or_default();
         let head = near.iter().find(|other| fixed::<P, T>(other) == Some(ends));
-        let shared = head.map(rows).and_then(|rows| before.get_mut(rows)).unwrap_or_default();
+        let shared = head.map(rows::<P>).and_then(|rows| before.get_mut(rows)).unwrap_or_default();
         for i in 0..group.elements() {
             let (Some(element), Some(&coefficient)) =
                 (placed(model, places, (0, group), i), model.dampers.get(own.start + i))

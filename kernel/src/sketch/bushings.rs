@@ -91,6 +91,11 @@ impl Sketch {
         self.points = self.points.push(point(points[0])).push(point(points[1]));
         if damping > 0.0 {
             self.dampers = self.dampers.push(damping);
+            let mut row = 1;
+            while row < law.damper_rows(1, false) {
+                self.dampers = self.dampers.push(0.0);
+                row += 1;
+            }
         }
         self
     }

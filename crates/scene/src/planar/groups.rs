@@ -149,6 +149,7 @@ fn add(model: &mut SceneModel<F64>, states: &[BodyState<F64>], of: &Group, reduc
     };
     if damper != DamperIndex::NONE {
         model.dampers.extend(arms.iter().map(|arm| arm.damping));
+        model.dampers.resize(usize::from(damper.0) + law.damper_rows(arms.len(), true), 0.0);
     }
     let own = match *clearance > 0.0 {
         true => ClearanceIndex(model.clearances.len() as u16),
