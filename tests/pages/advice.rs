@@ -80,7 +80,11 @@ fn advice_is_as_it_was_held() {
         "any".into(),
         "any".into(),
         "any".into(),
-        format!("yes in {}", sum(&|row| row.text("stable") == "yes")),
+        format!(
+            "yes in {}; {} of them come apart later",
+            sum(&|row| row.text("stable") == "yes"),
+            sum(&|row| !row.text("ends_s").is_empty()),
+        ),
     ]);
     let head = [
         "scene",

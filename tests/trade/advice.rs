@@ -5,18 +5,15 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dbd_plant::judge::Judge;
-use dbd_plant::{DampingName, Method, Named as _, PrecisionName, SchemeName, plant};
+use dbd_plant::{DampingName, Frequencies, Method, Named as _, PrecisionName, SchemeName, plant};
 use dbd_scene::Scene;
-use dbd_study::recommend::{Limit, Mcu, Recommendation, Request, recommend};
+use dbd_study::recommend::{Ends, FURTHER, Limit, Mcu, Recommendation, Request, recommend};
 use dbd_study::reference::State;
 use dbd_study::reference::fine::states;
 use dbd_study::reference::truth::Opinion;
 use dbd_study::variants::distance;
 use dbd_tests::mechanisms::{JOINTS, Kind, mechanism};
 use dbd_tests::{results, scene, scene_names};
-
-/// An advised way goes so many times as far as its scene.
-const FURTHER: u64 = 10;
 
 /// Of so many steps at most.
 const MOST_STEPS: u64 = 2_000_000;
@@ -35,7 +32,7 @@ const FILE: &str = "docs/results/advice.csv";
 
 /// Its columns.
 const HEAD: &str = "scene,model,scheme,damping,precision,step_s,share_of_stable,limit,accuracy_m,error_m,\
-                    error_elsewhere_m,steps,stable,load_168mhz,instructions\n";
+                    error_elsewhere_m,steps,stable,ends_s,load_168mhz,instructions\n";
 
 const KIND: Kind =
     Kind { planar: false, joints: JOINTS, damping: [0.0, 0.2], driven: true, loose: false };
@@ -46,6 +43,8 @@ struct Held {
     /// Steps that went well, and whether all did.
     steps: u64,
     stable: bool,
+    /// Whether the scene comes to the end that it is said to have.
+    ends: bool,
     /// \[m\] the error against the other truth; of nothing where there is none.
     elsewhere: Option<f64>,
 }
@@ -76,14 +75,38 @@ fn held(scene: &Scene, window: Option<f64>) -> Result<Held, String> {
     let (model, method) = taken(scene, &advice);
     let step = advice.way.step;
     let mut plant = plant(&model, &method, step).unwrap();
-    let all = ((FURTHER as f64 * scene.duration / step).round() as u64).min(MOST_STEPS);
+    let over = if advice.ends.is_some() { 1.0 } else { FURTHER };
+    let all = ((over * scene.duration / step).round() as u64).min(MOST_STEPS);
     let mut judge = Judge::new(&model, plant.as_ref());
     let mut stable = true;
     while stable && plant.steps() < all {
         let some = (all / 500).max(1).min(all - plant.steps());
         stable = plant.advance(some).is_running() && judge.judge(&plant.state()).is_ok();
     }
-    Ok(Held { steps: plant.steps(), stable, elsewhere: elsewhere(scene, &advice), advice })
+    let ends = advice.ends.as_ref().is_none_or(|ends| comes_apart(scene, ends));
+    Ok(Held { steps: plant.steps(), stable, ends, elsewhere: elsewhere(scene, &advice), advice })
+}
+
+/// Whether a scene fails or comes apart within ten times its duration by another scheme in still shorter steps.
+fn comes_apart(scene: &Scene, ends: &Ends) -> bool {
+    let method = Method::new(SchemeName::SemiImplicitEuler, None, PrecisionName::F64).unwrap();
+    let step = Frequencies::of(scene).default_limit(&Method::default(), scene.duration) / 24.0;
+    let mut plant = plant(scene, &method, step).unwrap();
+    let mut judge = Judge::new(scene, plant.as_ref());
+    while plant.time() < FURTHER * scene.duration {
+        if !plant.advance(50).is_running() || judge.judge(&plant.state()).is_err() {
+            return true;
+        }
+        let open = |joint: &String| {
+            let row = scene.joints.iter().position(|other| other.name == *joint).unwrap();
+            let opening = &judge.openings()[row];
+            opening.extension > opening.free_length
+        };
+        if ends.joint.as_ref().is_some_and(open) {
+            return true;
+        }
+    }
+    false
 }
 
 /// \[m\] how far the advised way is from the second opinion, at other times than it was judged by.
@@ -116,6 +139,7 @@ impl Held {
         match self.advice.limit {
             Limit::Vibration { .. } => "vibration",
             Limit::Spin { .. } => "spin",
+            Limit::Motion { .. } => "motion",
             Limit::Accuracy => "accuracy",
             Limit::Period => "period",
         }
@@ -129,7 +153,7 @@ impl Held {
 
     /// What does not hold.
     fn faults(&self) -> Vec<String> {
-        let Self { advice, steps, stable, elsewhere } = self;
+        let Self { advice, steps, stable, ends, elsewhere } = self;
         let mut faults = Vec::new();
         let mut holds = |good: bool, what: String| {
             if !good {
@@ -137,6 +161,7 @@ impl Held {
             }
         };
         holds(*stable, format!("fails after {steps} steps"));
+        holds(*ends, format!("goes beyond its end, {:?}", advice.ends));
         let error = advice.way.error;
         holds(!advice.meets || error <= advice.accuracy, format!("off by {error:e} m"));
         if let Some(share) = self.share() {
@@ -155,7 +180,7 @@ impl Held {
         let way = &advice.way;
         let text = |number: Option<f64>| number.map_or_else(String::new, |n| format!("{n:.3e}"));
         format!(
-            "{},{},{},{},{},{:?},{},{},{:.3e},{:.3e},{},{},{},{:.4},{}\n",
+            "{},{},{},{},{},{:?},{},{},{:.3e},{:.3e},{},{},{},{},{:.4},{}\n",
             advice.scene,
             way.model,
             way.scheme,
@@ -169,6 +194,7 @@ impl Held {
             text(*elsewhere),
             steps,
             if *stable { "yes" } else { "no" },
+            text(advice.ends.as_ref().map(|ends| ends.time)),
             way.load,
             if way.counted { "counted" } else { "estimated" },
         )

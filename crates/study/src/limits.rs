@@ -3,9 +3,8 @@
 //! `(scene, ways) => per way the largest stable step and the largest advised one`. Stable is what the
 //! linear limit bears at the highest frequency of the pose at t = 0, preloads included, and what
 //! [`crate::stability`] finds by running, dampers included and out of the plane of a planar motion,
-//! too. Advised is what keeps [`MARGIN`] below that and what a run accepts without a warning: no
-//! body turns too far, and the bound of the frequency allows it. Explicit references with dampers
-//! are judged by the kernel's explicit step.
+//! too. Advised is what keeps [`MARGIN`] below that, and in which no body turns too far: a run takes it
+//! without a warning. Explicit references with dampers are judged by the kernel's explicit step.
 
 use dbd_kernel::State;
 use dbd_plant::{DampingName, Frequencies, Method, OrientationName, PrecisionName, SchemeName};
@@ -31,8 +30,7 @@ pub struct Limits {
 pub struct Limit {
     /// \[s\] the largest stable step; 0 where none is, infinite where all are.
     pub stable: f64,
-    /// \[s\] the largest that is advised: below it by [`MARGIN`], or shorter where a body spins fast or the
-    /// bound of the frequency asks for it.
+    /// \[s\] the largest that is advised: below it by [`MARGIN`], or shorter where a body spins fast.
     pub advised: f64,
 }
 
@@ -122,9 +120,6 @@ impl Limits {
             Way::Kernel(_) => self.frequencies.longest_turn(),
             _ => f64::INFINITY,
         };
-        // What the bound allows is stable without a doubt: a run says nothing of it.
-        let bound = self.frequencies.bound;
-        let sure = if bound > 0.0 { way.stability_limit() / bound } else { f64::INFINITY };
-        Limit { stable, advised: ((1.0 - MARGIN) * stable).min(turn).min(sure) }
+        Limit { stable, advised: ((1.0 - MARGIN) * stable).min(turn) }
     }
 }

@@ -104,6 +104,10 @@ fn because(found: &Recommendation) -> String {
             format!("vibration at {} Hz{stable}{element}", significant(*frequency_hz, 3))
         }
         Limit::Spin { body } => format!("body `{body}` turns fast: 0.1 rad in a step at most"),
+        Limit::Motion { fails } => format!(
+            "the motion: a longer step, stable at t = 0, fails at t = {}",
+            approximate(*fails)
+        ),
         Limit::Accuracy => "the accuracy: a longer step is stable, and further off".into(),
         Limit::Period => {
             let whose = match found.rate {
@@ -159,7 +163,12 @@ pub fn rows(scene: &Scene, called: &str, found: &Recommendation) -> Vec<(&'stati
             length(found.uncertainty),
         ),
     ));
-    let basis = if way.counted { "counted in an emulator" } else { "estimated by elements" };
+    let basis = match (way.counted, way.scheme) {
+        (true, _) => "counted in an emulator",
+        // Its matrix fills as the mechanism has it.
+        (false, "generalized-alpha") => "estimated by elements, within a factor of 2",
+        (false, _) => "estimated by elements",
+    };
     let verdict = if way.load <= 1.0 {
         format!("in real time with a margin of {}", times(1.0 / way.load))
     } else {
@@ -178,7 +187,15 @@ pub fn rows(scene: &Scene, called: &str, found: &Recommendation) -> Vec<(&'stati
     ));
     rows.push(("limited by", because(found)));
     let (steps, time) = found.verified;
-    rows.push(("verified", format!("{steps} steps to {} without trouble", approximate(time))));
+    let ends = found.ends.as_ref().map_or_else(String::new, |ends| {
+        let what = ends.joint.as_ref().map_or_else(
+            || "the scene as it is fails in any step: `host-sim run` says why".to_owned(),
+            |joint| format!("joint `{joint}` opens by more than its own size in any step"),
+        );
+        format!("; no further, for at t = {} {what}", approximate(ends.time))
+    });
+    let went = format!("{steps} steps to {} without trouble{ends}", approximate(time));
+    rows.push(("verified", went));
     if let Some(error) = found.error_in_f64.filter(|_| way.precision != "f64") {
         let text = format!("in f64 the same is off by {}", length(error));
         rows.push(("rounding", text));

@@ -10,6 +10,7 @@ use dbd_plant::time::{display, rounded};
 use dbd_plant::{Frequencies, Method, Named as _, OrientationName, SchemeName};
 use dbd_scene::default_step::LARGEST_TURN;
 use dbd_scene::{ElementDamping, Facts, OneSided, Scene, Severity};
+use dbd_study::limits::Limits;
 
 use crate::commands::rounding::{self, COMPOSED, named};
 use crate::compliance::{Stretch, stretches};
@@ -19,6 +20,10 @@ use crate::compliance::{Stretch, stretches};
 /// docs/schemes.md.
 const STRONGEST_CROSSED: f64 = 2.5;
 const STRONGEST_COMPOSED: f64 = 0.3;
+
+/// Bodies up to which the highest frequency is solved for where its bound would warn and its estimate does not: in a
+/// tenth of a second.
+const SOLVED: usize = 60;
 
 /// What is probably not meant in the scene itself.
 #[must_use]
@@ -73,7 +78,12 @@ pub fn of_step(
     whose: &str,
 ) -> Vec<String> {
     let limit = method.stability_limit();
-    let [least, most] = [frequencies.estimate * step, frequencies.bound * step];
+    let least = frequencies.estimate * step;
+    let mut highest = frequencies.bound;
+    if least <= limit && limit < highest * step && scene.model.bodies.len() <= SOLVED {
+        highest = highest.min(Limits::of(scene).highest());
+    }
+    let most = highest * step;
     let mut warnings = Vec::new();
     if most > limit {
         // The estimate is never above the truth. A run may yet look well: exact planar motion, for
@@ -89,7 +99,7 @@ pub fn of_step(
             method.scheme_name(),
             significant(z, 3),
             significant(limit, 4),
-            approximate(limit / frequencies.bound),
+            approximate(limit / highest),
         ));
     }
     warnings.extend(of_damping(scene, method, step, whose));

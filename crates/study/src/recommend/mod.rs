@@ -2,17 +2,16 @@
 //!
 //! `(scene, microcontroller, rate, accuracy) => model, method, step; what limits it; what would help`. Ways are tried from
 //! the least cost that they can have upwards, each with its longest step first, and held against the truth;
-//! what cannot be cheaper than the best is never run. The best is run over the whole scene before it is recommended.
+//! what cannot be cheaper than the best is never run. The best is run over ten times the scene before it is
+//! recommended; where that fails, shorter steps and other ways are.
 
 mod changes;
 mod mcu;
 mod request;
 mod search;
+mod verify;
 
-use std::collections::BTreeSet;
-
-use dbd_plant::judge::Judge;
-use dbd_plant::{Frequencies, Method, PlantError, plant};
+use dbd_plant::{Frequencies, PlantError};
 use dbd_scene::Scene;
 use miette::Diagnostic;
 use serde::Serialize;
@@ -28,18 +27,13 @@ pub use changes::Change;
 pub use mcu::{MCUS, Mcu};
 pub use request::{Limit, Request, Way};
 use search::{Search, Trial};
+pub use verify::{Ends, FURTHER};
 
 /// \[1\] The accuracy where none is asked for: a share of how far the bodies go.
 const SHARE: f64 = 0.01;
 
-/// Steps × bodies of the run that verifies, at most: about a minute.
-const AFFORDABLE: f64 = 3e8;
-
 /// Models of a mechanism have steps that are longer by at most about this factor.
 const SLOWER: f64 = 10.0;
-
-/// Looks at the run that verifies.
-const LOOKS: u64 = 200;
 
 /// A recommendation.
 #[derive(Clone, Debug, Serialize)]
@@ -75,8 +69,11 @@ pub struct Recommendation {
     pub stable_step: Option<f64>,
     /// \[m\] the same way in double precision: what rounding costs is the difference.
     pub error_in_f64: Option<f64>,
-    /// How far the run that verified it went: steps and \[s\].
+    /// How far the run that verified it went: steps and \[s\]; [`FURTHER`] times the scene where that is affordable.
     pub verified: (u64, f64),
+    /// How the scene as it is comes to an end in any step: it is verified over its duration alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ends: Option<Ends>,
     /// Ways that were run, and all that there are.
     pub tried: (usize, usize),
     /// Changes of the scene that would help most.
@@ -169,16 +166,7 @@ pub fn recommend(
         return Err(AdviseError::Uncounted { why });
     }
     let accuracy = request.accuracy.unwrap_or_else(|| (SHARE * search.travel()).max(known));
-    // What fails over the whole scene is not recommended, nor tried again.
-    let mut broken = BTreeSet::new();
-    let mut verified = |search: &mut Search<'_>, accuracy: f64| loop {
-        let Some(trial) = search.cheapest(accuracy, &broken) else { return Ok(None) };
-        match run_whole(search.model(&trial), &trial.method, trial.step)? {
-            Some(steps) => return Ok::<_, AdviseError>(Some((trial, steps))),
-            None => broken.insert(trial.candidate),
-        };
-    };
-    let found = verified(&mut search, accuracy)?;
+    let found = search.verified(accuracy)?;
     let real_time = |trial: &Trial| search::load(request, trial) <= 1.0;
     let mut shortfall = None;
     let mut fastest = None;
@@ -186,7 +174,7 @@ pub fn recommend(
         Some((trial, steps)) if real_time(&trial) => (trial, steps),
         found => {
             let travel = search.travel();
-            let quick = verified(&mut search, travel)?;
+            let quick = search.verified(travel)?;
             let best = search.most_accurate();
             let window = head.grid.window();
             shortfall = Some(match (&found, &best, &quick) {
@@ -202,10 +190,10 @@ pub fn recommend(
             fastest = quick.as_ref().map(|(quick, _)| search.way(quick));
             let taken = match found {
                 Some(found) => Some(found),
-                None => best.and_then(|best| {
-                    let steps = run_whole(search.model(&best), &best.method, best.step).ok()??;
-                    Some((best, steps))
-                }),
+                None => match best {
+                    Some(best) => search.carried(&best)?.map(|steps| (best, steps)),
+                    None => None,
+                },
             };
             taken.or(quick).ok_or(AdviseError::None { window })?
         }
@@ -232,30 +220,13 @@ pub fn recommend(
         stable_step: search.stable(&trial),
         error_in_f64: search.in_double(&trial),
         verified: (steps, steps as f64 * trial.step),
+        ends: search.ends().cloned(),
         tried: search.counts(),
         changes,
         set: search.set(&trial),
         fastest,
         way: search.way(&trial),
     })
-}
-
-/// Runs a way over the whole scene, as far as is affordable; how many steps, `None` where it fails.
-fn run_whole(scene: &Scene, method: &Method, step: f64) -> Result<Option<u64>, AdviseError> {
-    let mut plant = plant(scene, method, step)?;
-    let bodies = scene.body_names.len().max(1) as f64;
-    let steps = (scene.duration / step).round().min(AFFORDABLE / bodies).max(1.0) as u64;
-    let mut judge = Judge::new(scene, plant.as_ref());
-    let stride = steps.div_ceil(LOOKS);
-    let mut done = 0;
-    while done < steps {
-        let some = stride.min(steps - done);
-        if !plant.advance(some).is_running() || judge.judge(&plant.state()).is_err() {
-            return Ok(None);
-        }
-        done += some;
-    }
-    Ok(Some(done))
 }
 
 #[cfg(test)]

@@ -42,6 +42,11 @@ pub enum Limit {
     },
     /// The accuracy asked for.
     Accuracy,
+    /// Frequencies and speeds rise along the motion: a longer step, stable at t = 0, fails later.
+    Motion {
+        /// \[s\] when it failed.
+        fails: f64,
+    },
     /// The step is a whole part of the controller's period, or of what duration and sampling interval are multiples of.
     Period,
 }
@@ -77,6 +82,5 @@ pub(super) fn ceiling(frequencies: &Frequencies, method: &Method) -> f64 {
     let limit = |frequency: f64| {
         if frequency > 0.0 { method.stability_limit() / frequency } else { f64::INFINITY }
     };
-    let stable = (1.0 - MARGIN) * limit(frequencies.estimate);
-    stable.min(limit(frequencies.bound)).min(frequencies.longest_turn())
+    ((1.0 - MARGIN) * limit(frequencies.estimate)).min(frequencies.longest_turn())
 }

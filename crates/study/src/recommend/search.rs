@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use dbd_plant::digits::significant;
 use dbd_plant::judge::Judge;
 use dbd_plant::time::display;
-use dbd_plant::{Frequencies, Method, PrecisionName, plant};
+use dbd_plant::{Frequencies, Method, PlantError, PrecisionName, plant};
 use dbd_scene::Scene;
 
 use crate::cache::Head;
@@ -13,6 +13,7 @@ use crate::costs::Costs;
 use crate::estimate;
 use crate::limits::{Limit as Bounds, Limits};
 use crate::recommend::request::{Limit, Request, Way, ceiling};
+use crate::recommend::verify::{Ends, FURTHER, Followed, ends, follow};
 use crate::reference::Mechanism;
 use crate::reference::State;
 use crate::reference::metric::Metric;
@@ -38,12 +39,29 @@ const FITS: f64 = 1.1;
 /// Steps × bodies of a run for accuracy, at most: a way that needs more costs a chip more than it has.
 const AFFORDABLE: f64 = 1e8;
 
+/// A step that failed later is followed by one that is shorter by this factor.
+const SHORTER: f64 = 0.7;
+
+/// A way whose step would be shorter than the largest advised one by more than this factor is given up.
+const LEAST: f64 = 1.0 / 64.0;
+
 /// A model of the mechanism and what bounds its steps.
 pub(super) struct Model {
     pub(super) name: &'static str,
     pub(super) scene: Scene,
     limits: Limits,
     frequencies: Frequencies,
+    /// How it comes to an end in short steps, too, where that was looked at.
+    ends: Option<Option<Ends>>,
+}
+
+/// What failed beyond the window of comparison.
+#[derive(Clone, Copy, Debug)]
+struct Failed {
+    /// \[s\] no step of it is longer.
+    most: f64,
+    /// \[s\] when a longer one failed.
+    at: f64,
 }
 
 /// A way of stepping a model.
@@ -88,6 +106,8 @@ pub(super) struct Search<'s> {
     pub(super) candidates: Vec<Candidate>,
     bounds: BTreeMap<(usize, String), Bounds>,
     errors: BTreeMap<(usize, u64), Option<f64>>,
+    /// By candidates.
+    failed: BTreeMap<usize, Failed>,
 }
 
 impl<'s> Search<'s> {
@@ -103,6 +123,7 @@ impl<'s> Search<'s> {
             limits: Limits::of(&scene),
             frequencies: Frequencies::of(&scene),
             scene,
+            ends: None,
         };
         let models: Vec<Model> = [own].into_iter().chain(variants(scene)).map(model).collect();
         let metric = Metric::of(&Mechanism::of(scene).0);
@@ -118,6 +139,7 @@ impl<'s> Search<'s> {
             candidates: Vec::new(),
             bounds: BTreeMap::new(),
             errors: BTreeMap::new(),
+            failed: BTreeMap::new(),
         };
         search.candidates = search.all();
         search
@@ -224,10 +246,50 @@ impl<'s> Search<'s> {
         Some(states)
     }
 
-    /// The cheapest way that is at most so far off \[m\], of candidates that are not `broken`.
-    pub(super) fn cheapest(&mut self, accuracy: f64, broken: &BTreeSet<usize>) -> Option<Trial> {
+    /// The cheapest way that is at most so far off \[m\] and was carried as far as it has to be, and its steps.
+    pub(super) fn verified(&mut self, accuracy: f64) -> Result<Option<(Trial, u64)>, PlantError> {
+        while let Some(trial) = self.cheapest(accuracy) {
+            if let Some(steps) = self.carried(&trial)? {
+                return Ok(Some((trial, steps)));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Runs a trial over [`FURTHER`] times the scene's duration, or over that alone where the scene itself goes no
+    /// further; how many steps. Where it fails, `None`: no step of it will be as long again.
+    pub(super) fn carried(&mut self, trial: &Trial) -> Result<Option<u64>, PlantError> {
+        let (duration, row) = (self.scene.duration, self.candidates[trial.candidate].model);
+        let until = if self.ends().is_some() { duration } else { FURTHER * duration };
+        let Followed { steps, fails } =
+            follow(self.model(trial), &trial.method, trial.step, until)?;
+        let Some(at) = fails else { return Ok(Some(steps)) };
+        for row in [0, row] {
+            let Model { scene, ends: known, .. } = &mut self.models[row];
+            known.get_or_insert_with(|| ends(scene, FURTHER * duration));
+        }
+        if self.ends().is_some() && at > duration {
+            // As far as the scene goes, it may do.
+            return self.carried(trial);
+        }
+        let own = self.models[row].ends.as_ref().and_then(Option::as_ref);
+        let hopeless = own.is_some_and(|ends| ends.joint.is_none() && ends.time <= until);
+        let shorter = SHORTER * trial.step;
+        let least = LEAST * self.bounds(self.candidates[trial.candidate]).advised;
+        let most = if hopeless || shorter < least { 0.0 } else { shorter };
+        self.failed.insert(trial.candidate, Failed { most, at });
+        Ok(None)
+    }
+
+    /// How the scene as it is comes to an end in any step, where that was found.
+    pub(super) fn ends(&self) -> Option<&Ends> {
+        self.models[0].ends.as_ref()?.as_ref()
+    }
+
+    /// The cheapest way that is at most so far off \[m\].
+    fn cheapest(&mut self, accuracy: f64) -> Option<Trial> {
         let mut best: Option<Trial> = None;
-        for row in (0..self.candidates.len()).filter(|row| !broken.contains(row)) {
+        for row in 0..self.candidates.len() {
             let candidate = self.candidates[row];
             let cost = best.map_or(f64::INFINITY, |best| best.cost());
             if candidate.instructions / candidate.ceiling >= cost {
@@ -244,7 +306,8 @@ impl<'s> Search<'s> {
     pub(super) fn longest(&mut self, row: usize, accuracy: f64, cost: f64) -> Option<Trial> {
         let candidate = self.candidates[row];
         let Candidate { method, instructions, .. } = candidate;
-        let longest = self.bounds(candidate).advised.min(self.head.grid.unit());
+        let most = self.failed.get(&row).map_or(f64::INFINITY, |failed| failed.most);
+        let longest = self.bounds(candidate).advised.min(self.head.grid.unit()).min(most);
         if longest <= 0.0 {
             return None;
         }
@@ -301,6 +364,9 @@ impl<'s> Search<'s> {
         let Model { frequencies, scene, .. } = &self.models[candidate.model];
         if !trial.longest {
             return Limit::Accuracy;
+        }
+        if let Some(failed) = self.failed.get(&trial.candidate) {
+            return Limit::Motion { fails: failed.at };
         }
         if bounds.advised >= FITS * trial.step {
             return Limit::Period;

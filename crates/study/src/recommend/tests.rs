@@ -1,4 +1,4 @@
-use dbd_plant::PrecisionName;
+use dbd_plant::{Method, PrecisionName};
 
 use super::*;
 use crate::stability::MARGIN;
@@ -64,16 +64,13 @@ fn nothing_that_was_not_run_is_cheaper() {
     let mut search = search(&scene, &request);
     let (count, mut run) = (search.candidates.len(), Vec::new());
     for accuracy in [1e-3, 1e-5] {
-        let best = search.cheapest(accuracy, &BTreeSet::new()).unwrap();
+        let (best, _) = search.verified(accuracy).unwrap().unwrap();
         assert!(best.error <= accuracy);
         run.push(search.counts().0);
         let of = |row| search.longest(row, accuracy, f64::INFINITY);
         let all: Vec<Trial> = (0..count).filter_map(of).collect();
         let cheapest = all.iter().map(Trial::cost).fold(f64::INFINITY, f64::min);
         assert_eq!(best.cost(), cheapest, "{accuracy:e}");
-        // A broken way is passed over.
-        let next = search.cheapest(accuracy, &[best.candidate].into()).unwrap();
-        assert!(next.candidate != best.candidate && next.cost() >= best.cost());
     }
     assert!(run[0] < count / 2, "{run:?} of {count}");
 }
@@ -121,7 +118,44 @@ fn accuracy_is_paid_for() {
     assert!(coarse.meets && coarse.way.error <= 1e-5, "{coarse:#?}");
     assert!(fine.meets && fine.way.error <= 1e-8 && fine.limit == Limit::Accuracy, "{fine:#?}");
     assert!(fine.way.load > coarse.way.load);
-    assert_eq!(fine.verified.0, (0.2 / fine.way.step).round() as u64);
+    assert_eq!(fine.verified.0, (FURTHER * 0.2 / fine.way.step).round() as u64);
     let beyond = recommend(&arm(), &request(Some(1e-20)), &mut |_| ());
     assert!(matches!(beyond, Err(AdviseError::Accuracy { .. })));
+}
+
+/// A disc of 1 kg about its axle, driven by a torque that lasts.
+fn driven_disc(stiffness: f64, torque: f64) -> Scene {
+    let text = format!(
+        "name = \"disc\"\nduration = 0.2\n[[body]]\nname = \"disc\"\nmass = 1\ninertia = [0.01, 0.01, 0.01]\n\
+         position = [0, 0, 0]\n[[joint]]\nname = \"axle\"\ntype = \"revolute\"\nbetween = [\"world\", \"disc\"]\n\
+         at = [0, 0, 0]\naxis = [0, 0, 1]\nspan = 0.05\nstiffness = {stiffness:e}\n[[load]]\nbody = \"disc\"\n\
+         torque = [0, 0, {torque:?}]\n"
+    );
+    Scene::parse(&text, "disc.toml").unwrap()
+}
+
+/// A step that turns the disc too far only long after the scene's end is not advised.
+#[test]
+fn what_fails_later_is_not_advised() {
+    let asked = Request { window: Some(0.2), ..request(Some(0.05)) };
+    let found = recommend(&driven_disc(1e5, 10.0), &asked, &mut |_| ()).unwrap();
+    let Limit::Motion { fails } = found.limit else { panic!("{found:#?}") };
+    assert!(fails > 0.2 && fails < FURTHER * 0.2 + 1e-9, "{fails}");
+    assert!(found.meets && found.ends.is_none(), "{found:#?}");
+    assert!((found.verified.1 - FURTHER * 0.2).abs() < 1e-9, "{found:#?}");
+    // At the end it turns at 2000 rad/s.
+    assert!(found.way.step < 1.01 / 2000.0 && found.way.step > 0.25 / 2000.0, "{found:#?}");
+}
+
+/// A scene that no step carries further is verified over its own duration, and the end is told.
+#[test]
+fn a_scene_that_ends_is_verified_up_to_its_duration() {
+    let asked = Request { window: Some(0.2), ..request(None) };
+    let arm = ARM.replace("[[tsda]]", "[[load]]\nbody = \"arm\"\ntorque = [0, 0, 60]\n[[tsda]]");
+    let arm = Scene::parse(&arm, "arm.toml").unwrap();
+    let found = recommend(&arm, &asked, &mut |_| ()).unwrap();
+    let ends = found.ends.as_ref().unwrap();
+    assert_eq!(ends.joint.as_deref(), Some("pivot"), "{found:#?}");
+    assert!(ends.time > 0.2 && ends.time < FURTHER * 0.2, "{found:#?}");
+    assert!(found.meets && (found.verified.1 - 0.2).abs() < 1e-9, "{found:#?}");
 }

@@ -18,6 +18,7 @@ use thiserror::Error;
 
 use crate::reference::equations::{Equations, pack, unpack};
 use crate::reference::mechanism::Mechanism;
+use crate::reference::spectrum::eigenfrequencies;
 use crate::reference::state::State;
 
 /// Relative and absolute tolerance of a step of DOP853, SI units.
@@ -26,6 +27,10 @@ pub const TOLERANCE: f64 = 1e-12;
 /// Tolerances of the second opinion, whose measure of an error is the largest component, not the mean:
 /// at 1e-12 the rounding of light bodies' accelerations would drive its step.
 pub const SECOND_TOLERANCE: f64 = 1e-11;
+
+/// Steps of an integrator, at most: so many, and so many per radian of the highest frequency at the start. A mechanism
+/// that runs into a pose in which a direction is undefined has no truth beyond it, however short the steps.
+const MOST_STEPS: [f64; 2] = [2e5, 100.0];
 
 /// Which integrator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,9 +63,12 @@ pub fn integrate(
     times: &[f64],
 ) -> Result<Vec<State>, NoTruth> {
     let bodies = mechanism.bodies.len();
-    let mut piece = Piece { y: pack(start, 0.0), time: 0.0, step: 0.0 };
     let mut states = Vec::with_capacity(times.len());
     let end = times.last().copied().unwrap_or_default();
+    let highest = eigenfrequencies(mechanism, start, 0.0).last().map_or(0.0, |rate| rate.max(0.0));
+    let [least, each] = MOST_STEPS;
+    let left = (least + each * highest * end) as usize;
+    let mut piece = Piece { y: pack(start, 0.0), time: 0.0, step: 0.0, left };
     let mut jumps = mechanism.jumps([0.0, end]).into_iter().peekable();
     for &time in times {
         while let Some(jump) = jumps.next_if(|jump| *jump < time) {
@@ -78,6 +86,8 @@ struct Piece {
     time: f64,
     /// \[s\] a step that was accepted, 0 before the first.
     step: f64,
+    /// Steps that may still be taken.
+    left: usize,
 }
 
 impl Piece {
@@ -93,6 +103,7 @@ impl Piece {
         let equations = Equations::new(mechanism, [self.time, end]);
         let (steps, y) = self.solve(opinion, &equations, end)?;
         self.step = steps.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+        self.left = self.left.saturating_sub(steps.len());
         self.y = y;
         self.time = end;
         Ok(())
@@ -110,18 +121,21 @@ impl Piece {
         let solution = match opinion {
             Opinion::Dop853 => {
                 let method = ExplicitRungeKutta::dop853().rtol(TOLERANCE).atol(TOLERANCE);
-                problem.method(method.h0(first).max_steps(usize::MAX)).solve()
+                problem.method(method.h0(first).max_steps(self.left)).solve()
             }
             Opinion::Verner98 => {
                 let method = ExplicitRungeKutta::rkv988e();
                 let method = method.rtol(SECOND_TOLERANCE).atol(SECOND_TOLERANCE);
-                problem.method(method.h0(first).max_steps(usize::MAX)).solve()
+                problem.method(method.h0(first).max_steps(self.left)).solve()
             }
         };
         match solution {
             Ok(mut solution) => self.finite(solution.y.pop()).map(|y| (solution.t, y)),
             Err(Error::StepSize { t, .. } | Error::Stiffness { t, .. }) => {
                 Err(NoTruth { time: t, reason: "no step is short enough".into() })
+            }
+            Err(Error::MaxSteps { t, .. }) => {
+                Err(NoTruth { time: t, reason: "steps become ever shorter".into() })
             }
             Err(_) => Err(NoTruth { time: self.time, reason: "no solution".into() }),
         }

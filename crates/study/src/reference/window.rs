@@ -4,7 +4,8 @@
 //! state [perturbed](crate::reference::perturbed) by 1e-9 m and 1e-9 rad per body. The growth is the
 //! distance of the two at a sample over that at t = 0, each the root mean square over bodies. The
 //! window ends with the last sample before the growth first exceeds the factor: beyond it an
-//! error of the state, of a step or of rounding says more of the mechanism than of the scheme.
+//! error of the state, of a step or of rounding says more of the mechanism than of the scheme. Where an integrator gives
+//! up, it ends with the last sample before that.
 
 use dbd_scene::Scene;
 
@@ -32,17 +33,28 @@ pub struct Window {
 /// The window of a scene, `longest` \[s\] at most, looked at in `samples` equal intervals.
 ///
 /// # Errors
-/// Where an integrator gives up.
+/// Where an integrator gives up within the first interval.
 pub fn before_chaos(
     scene: &Scene,
     longest: f64,
     samples: u32,
     factor: f64,
 ) -> Result<Window, NoTruth> {
-    let times = sample_times(longest, samples);
-    let [truth, other] =
-        [false, true].map(|perturbed| states(Opinion::Dop853, scene, perturbed, &times));
-    let (truth, other) = (truth?, other?);
+    let mut times = sample_times(longest, samples);
+    let [truth, other] = loop {
+        let both = [false, true].map(|perturbed| states(Opinion::Dop853, scene, perturbed, &times));
+        match both {
+            [Ok(truth), Ok(other)] => break [truth, other],
+            [Err(why), _] | [_, Err(why)] => {
+                let reached = times.iter().filter(|time| **time < why.time).count();
+                // At least one interval, and fewer than there were.
+                if reached < 2 || reached == times.len() {
+                    return Err(why);
+                }
+                times.truncate(reached);
+            }
+        }
+    };
     let apart = |(a, b): (&State, &State)| distance(&a.positions(), &b.positions());
     let distances: Vec<f64> = truth.iter().zip(&other).map(apart).collect();
     let growth: Vec<f64> = distances.iter().map(|d| d / distances[0]).collect();

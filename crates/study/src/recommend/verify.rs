@@ -1,0 +1,96 @@
+//! The runs that a recommendation has to pass before it is given.
+//!
+//! `(model, method, step, time) => steps that went well, when it failed`. A step that is stable at t = 0 may fail later, as
+//! frequencies and speeds rise along the motion; a mechanism may also come apart by itself, whatever the step.
+
+use dbd_plant::judge::{Judge, Opening};
+use dbd_plant::{Frequencies, Method, PlantError, plant};
+use dbd_scene::Scene;
+use serde::Serialize;
+
+/// A recommendation is run over so many times the scene's duration.
+pub const FURTHER: f64 = 10.0;
+
+/// Steps × bodies of a run, at most: about a minute.
+const AFFORDABLE: f64 = 3e8;
+
+/// Looks at a run.
+const LOOKS: u64 = 500;
+
+/// A model that so many steps in a default step of leapfrog in double precision do not carry is carried by none.
+const FINER: f64 = 16.0;
+
+/// How far a run came.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Followed {
+    /// Steps that went well.
+    pub(super) steps: u64,
+    /// \[s\] when it failed, within one look; `None` where it did not.
+    pub(super) fails: Option<f64>,
+}
+
+/// When and how a scene comes to an end of its own.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Ends {
+    /// \[s\] about when.
+    pub time: f64,
+    /// The joint that opens by more than its own size; where no such joint is, a step fails, however short it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint: Option<String>,
+}
+
+/// Runs a model over a time \[s\], or as far as is affordable.
+///
+/// # Errors
+/// [`PlantError`] where the method cannot step it.
+pub(super) fn follow(
+    model: &Scene,
+    method: &Method,
+    step: f64,
+    until: f64,
+) -> Result<Followed, PlantError> {
+    look(model, method, step, until, &mut |_, _| false)
+}
+
+/// How a model comes to an end over a time \[s\] in short steps, which is its own doing; `None` where they carry it.
+pub(super) fn ends(model: &Scene, until: f64) -> Option<Ends> {
+    let method = Method::default();
+    let step = Frequencies::of(model).default_limit(&method, model.duration) / FINER;
+    let mut apart = None;
+    let followed = look(model, &method, step, until, &mut |judge, time| {
+        let is_open = |opening: &&Opening| opening.extension > opening.free_length;
+        let open = judge.openings().iter().find(is_open);
+        let joint = open.and_then(|opening| model.joints.get(opening.joint));
+        apart = joint.map(|joint| Ends { time, joint: Some(joint.name.clone()) });
+        apart.is_some()
+    });
+    let fails = followed.ok()?.fails;
+    apart.or_else(|| fails.map(|time| Ends { time, joint: None }))
+}
+
+/// Runs a model until a look at it says so.
+fn look(
+    model: &Scene,
+    method: &Method,
+    step: f64,
+    until: f64,
+    enough: &mut dyn FnMut(&Judge, f64) -> bool,
+) -> Result<Followed, PlantError> {
+    let mut plant = plant(model, method, step)?;
+    let bodies = model.body_names.len().max(1) as f64;
+    let steps = (until / step).round().min(AFFORDABLE / bodies).max(1.0) as u64;
+    let mut judge = Judge::new(model, plant.as_ref());
+    let stride = steps.div_ceil(LOOKS);
+    let mut done = 0;
+    while done < steps {
+        let some = stride.min(steps - done);
+        if !plant.advance(some).is_running() || judge.judge(&plant.state()).is_err() {
+            return Ok(Followed { steps: done, fails: Some(plant.time()) });
+        }
+        done += some;
+        if enough(&judge, plant.time()) {
+            break;
+        }
+    }
+    Ok(Followed { steps: done, fails: None })
+}
