@@ -1,7 +1,7 @@
 //! The developer's commands, `cargo xtask COMMAND`.
 //!
 //! `sources => steps => verdict`. Host parts go through the cargo that runs this program, target
-//! parts through the compiler that [`toolchain`] finds.
+//! parts through the compiler that [`chip::toolchain`] finds.
 
 mod attended;
 mod audit;
