@@ -61,6 +61,27 @@ fn solids_on_a_slope_move_as_in_mujoco() {
     }
 }
 
+/// What comes to its limit, sticks, stays and slides on: off by what stops give way, and by what friction gives before
+/// it is whole, whatever the joints' stiffness.
+#[test]
+fn limits_and_dry_friction_act_as_in_mujoco() {
+    let trajectory = "tests/command_line/import/stops.csv";
+    let of =
+        |stiffness: f64| distances(&loaded(&imported("stops.xml", &start(stiffness))), trajectory);
+    let (soft, stiff) = (of(1e6), of(1e7));
+    let most = [3e-5, 3e-5, 3e-3, 4e-4, 1e-4, 4e-4, 7e-4];
+    for ((found, soft), most) in stiff.iter().zip(&soft).zip(most) {
+        assert!(found.1 < most && found.1 < soft.1, "{found:?} {soft:?}");
+    }
+    let rows = [("1e6", &soft), ("1e7", &stiff)].map(|(k, distances)| {
+        let figures = distances.iter().map(|(_, distance)| figure(distance * 1e3, 2));
+        std::iter::once(k.to_owned()).chain(figures).collect::<Vec<_>>()
+    });
+    let names = stiff.iter().map(|(name, _)| name.as_str());
+    let head: Vec<&str> = std::iter::once("k [N/m]").chain(names).collect();
+    block("docs/import.md", "stops", &table(&head, &rows));
+}
+
 /// A body with these joints; where `parent` holds, on another that hangs at a hinge.
 fn body(joints: &str, parent: bool) -> String {
     let own = format!(

@@ -6,7 +6,7 @@
 
 `record` writes a table of 0.5 s: time, then x, y, z of each group of bodies that are rigid with each other, by
 the name of its first. `distance` prints how far a trace of host-sim is from MuJoCo's, body by body. What a scene
-has no counterpart for is off: contact but of spheres, capsules and boxes with planes, limits, dry friction, equalities of joints, tendons that are not
+has no counterpart for is off: contact but of spheres, capsules and boxes with planes, equalities of joints, tendons that are not
 between two sites, actuators that are no linear law or act at neither a joint nor a tendon. Controls are the keyframe's.
 """
 
@@ -28,10 +28,15 @@ def load(file, step):
             spec.delete(one)
     model = spec.compile()
     off = mujoco.mjtDisableBit
-    model.opt.disableflags |= off.mjDSBL_LIMIT | off.mjDSBL_FRICTIONLOSS
     if not touches_planes_alone(model):
         model.opt.disableflags |= off.mjDSBL_CONTACT
-    model.geom_solref[:], model.geom_solimp[:] = (4 * step, 1), (0.9999, 0.9999, 0.001, 0.5, 2)
+    # Contacts, limits and loops as stiff as the step bears: an error halves in a few steps, and the force is the
+    # constraint's.
+    stiff, whole = (4 * step, 1), (0.9999, 0.9999, 0.001, 0.5, 2)
+    model.geom_solref[:], model.geom_solimp[:] = stiff, whole
+    model.jnt_solref[:], model.jnt_solimp[:] = stiff, whole
+    model.dof_solref[:], model.dof_solimp[:] = stiff, whole
+    model.eq_solref[:], model.eq_solimp[:] = stiff, whole
     model.opt.impratio = 100
     model.opt.disableflags |= off.mjDSBL_REFSAFE
     site = mujoco.mjtWrap.mjWRAP_SITE
@@ -45,9 +50,6 @@ def load(file, step):
     model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4
     model.opt.timestep = step
     model.opt.iterations, model.opt.tolerance = 200, 0
-    # Loops as stiff as the step bears: an error halves in a few steps, and the force is the constraint's.
-    model.eq_solref[:] = (4 * step, 1)
-    model.eq_solimp[:] = (0.9999, 0.9999, 0.001, 0.5, 2)
     return model
 
 
