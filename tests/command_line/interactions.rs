@@ -166,6 +166,46 @@ fn the_balance_states_what_a_contact_takes() {
     }
 }
 
+/// A ball falls 50 mm onto a stop and bounces: the times between bounces and depths are those of free fall and of a
+/// spring; another stop is never met, and no word is said of it.
+#[test]
+fn a_run_states_what_stops_did() {
+    let folder = Folder::new();
+    let stop = |name: &str, at: f64| {
+        format!(
+            "[[interaction]]\nname = \"{name}\"\nlaw = \"end-stop\"\nbetween = [\"world\", \"ball\"]\n\
+             points = [[0, 0, {at:?}], [0, 0, 0]]\nnormal = [0, 0, 1]\nstiffness = 1e5\ndissipation = 0\n"
+        )
+    };
+    let file = folder.scene(&format!(
+        "name = \"scene\"\nduration = 0.45\nstep = \"20us\"\nevery = \"50 ms\"\ngravity = [0, 0, -9.81]\n[[body]]\n\
+         name = \"ball\"\nmass = 1\ninertia = [1e-3, 1e-3, 1e-3]\nposition = [0, 0, 0.05]\n{}{}",
+        stop("floor", 0.0),
+        stop("cellar", -1.0),
+    ));
+    let summary = folder.summary(&file, &[]);
+    let all = summary["engagements"].as_array().unwrap();
+    assert_eq!(all.len(), 1, "{all:?}");
+    let of = |key: &str| all[0][key].as_f64().unwrap_or_else(|| panic!("{key} of {all:?}"));
+    assert_eq!(all[0]["interaction"], "interaction `floor` (world–ball)");
+    assert_eq!((&all[0]["unit"], &all[0]["times"]), (&Value::from("m"), &Value::from(2)));
+    // Free fall, and half a period of ω = √(k/m) on the stop.
+    let fall = (2.0 * 0.05 / 9.81_f64).sqrt();
+    let speed = 9.81 * fall;
+    let depth = 9.81 / 1e5 + ((9.81_f64 / 1e5).powi(2) + speed * speed / 1e5).sqrt();
+    assert!((of("first") - fall).abs() < 1e-3, "{all:?}");
+    assert!((of("depth") / depth - 1.0).abs() < 0.02, "{depth:e} of {all:?}");
+    let half = std::f64::consts::PI / 1e5_f64.sqrt();
+    assert!((of("share") - 2.0 * half / 0.45).abs() < 0.01, "{all:?}");
+    assert!((of("free_since") - (3.0 * fall + 2.0 * half)).abs() < 2e-3, "{all:?}");
+    let rows = folder.run(&file, &[]).out;
+    let row = rows.lines().find(|line| line.starts_with("engaged ")).unwrap();
+    assert!(row.contains("`floor` (world–ball): 2 times, first at t = 0.1"), "{row}");
+    // A run without stops has no word of them.
+    let none = folder.summary("spring-ball", &["--duration", "0.01"]);
+    assert_eq!(none.get("engagements"), None);
+}
+
 /// A law of another program is no error of the scene's text; a wrong key of a law that is known is one.
 #[test]
 fn the_schema_takes_laws_of_other_programs() {

@@ -415,6 +415,7 @@ fn summarise(
         golden: None,
         modes: None,
         widest_joint: widest(scene, &ending.openings),
+        engagements: ending.engagements.clone(),
         warnings,
         readouts,
     }

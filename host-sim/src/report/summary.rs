@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::report::golden::GoldenOutcome;
 use crate::report::statistics::ReadoutFigures;
-use crate::simulate::EnergyBalance;
 use crate::simulate::watch::{EnergyStop, EnergyWatch, Watched};
+use crate::simulate::{EnergyBalance, Engagement};
 use crate::terminal::SceneFile;
 use crate::terminal::text::json;
 
@@ -105,6 +105,9 @@ pub struct Summary {
     pub settled: Option<String>,
     /// The joint that opened by the largest share of its free length; `None` where none has one.
     pub widest_joint: Option<JointOpening>,
+    /// What stops, ropes and contacts did, of those that were engaged.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub engagements: Vec<Engagement>,
     /// Where the energy came from and went, of a run that came to its end: of a scene with loads, inputs, or
     /// interactions with dampers or memories.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -300,6 +303,7 @@ impl Summary {
         rows.extend(self.assembled.iter().map(|moved| ("assembled", moved.clone())));
         rows.extend(self.settled.iter().map(|moved| ("settled", moved.clone())));
         rows.extend(self.readouts.iter().map(|figures| ("read-out", readout(figures))));
+        rows.extend(self.engagements.iter().map(|engagement| ("engaged", engagement.words())));
         rows.extend(self.set.iter().map(|value| ("set", value.text())));
         rows.push(("status", self.status.clone()));
         rows.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));

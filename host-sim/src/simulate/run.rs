@@ -16,6 +16,8 @@ use dbd_scene::{Scene, SceneModel};
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::simulate::engaged::{Engagement, Engagements};
+
 /// What is known at a sample.
 pub struct Sample<'s> {
     /// \[s\] the time.
@@ -74,6 +76,8 @@ pub struct Ending {
     pub losses: Vec<Loss>,
     /// The springs named as what acts on one side, and whether they acted on the other, seen likewise.
     pub reversals: Vec<Reversal>,
+    /// What stops, ropes and contacts did, seen likewise.
+    pub engagements: Vec<Engagement>,
 }
 
 /// Why a run could not be carried out.
@@ -122,6 +126,7 @@ pub(super) struct Course<'c> {
     pub(super) plant: Box<dyn AnyPlant>,
     judge: Judge,
     rounding: Option<RoundingWatch>,
+    engagements: Engagements,
     readings: Vec<f64>,
     /// Steps between two looks at most.
     stride: u64,
@@ -141,9 +146,20 @@ impl<'c> Course<'c> {
         let plant = plant(scene, method, plan.step)?;
         let judge = Judge::new(scene, plant.as_ref());
         let rounding = RoundingWatch::new(plant.as_ref());
+        let engagements = Engagements::new(scene);
         let stride = plan.unseen();
         let readings = Vec::new();
-        Ok(Self { scene, plan, plant, judge, rounding, readings, stride, next_sample: 0 })
+        Ok(Self {
+            scene,
+            plan,
+            plant,
+            judge,
+            rounding,
+            engagements,
+            readings,
+            stride,
+            next_sample: 0,
+        })
     }
 
     /// Steps, one by one where rounding is watched. `wall` grows by the time spent stepping.
@@ -181,6 +197,7 @@ impl<'c> Course<'c> {
             Err(trouble) => return Ok(Err(trouble)),
         };
         let done = state.step;
+        self.engagements.look(self.plant.as_ref());
         observer.progress(done);
         if done == self.next_sample {
             read(self.scene, self.plant.as_ref(), &mut self.readings);
@@ -213,6 +230,7 @@ impl<'c> Course<'c> {
             turning: self.judge.turning(),
             losses: self.rounding.as_ref().map(RoundingWatch::losses).unwrap_or_default(),
             reversals: self.judge.reversals().to_vec(),
+            engagements: self.engagements.found(),
         }
     }
 }

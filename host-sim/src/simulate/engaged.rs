@@ -1,0 +1,137 @@
+//! What stops, ropes and contacts did in a run.
+//!
+//! `(scene; plant at each look) => engagements`. An interaction is engaged while its quantity `depth` is above 0. What
+//! happens between two looks is not seen.
+
+use dbd_kernel::index::LawIndex;
+use dbd_kernel::laws::Laws as _;
+use dbd_kernel::readouts::{Reading, Readout};
+use dbd_plant::AnyPlant;
+use dbd_plant::digits::significant;
+use dbd_plant::time::{display, rounded};
+use dbd_scene::Scene;
+use serde::Serialize;
+
+/// What an interaction with a depth did, seen at the samples and about a thousand times over the run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Engagement {
+    /// What messages call it: ``interaction `hinge.limits` (world–leaf)``.
+    pub interaction: String,
+    /// \[s\] when it was first engaged.
+    pub first: f64,
+    /// How often it came to be engaged, the start included.
+    pub times: u32,
+    /// \[1\] the share of the looks at which it was engaged.
+    pub share: f64,
+    /// \[`unit`\] the largest depth.
+    pub depth: f64,
+    /// `m` or `rad`.
+    pub unit: &'static str,
+    /// \[s\] when it was deepest.
+    pub time: f64,
+    /// \[s\] since when it is free; `None` where it is engaged at the end.
+    pub free_since: Option<f64>,
+}
+
+impl Engagement {
+    /// What people read.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let time = |time: f64| display(rounded(time, 6));
+        let times = match self.times {
+            1 => format!("once, at t = {}", time(self.first)),
+            times => format!("{times} times, first at t = {}", time(self.first)),
+        };
+        let free = self.free_since.map_or_else(
+            || "engaged at the end".to_owned(),
+            |since| format!("free since t = {}", time(since)),
+        );
+        format!(
+            "{}: {times}, for {} % of the run, up to {} {} deep at t = {}; {free}",
+            self.interaction,
+            significant(100.0 * self.share, 3),
+            significant(self.depth, 4),
+            self.unit,
+            time(self.time),
+        )
+    }
+}
+
+/// Watches over the depths of a scene's interactions.
+pub(super) struct Engagements {
+    watched: Vec<Watched>,
+    looks: u32,
+}
+
+struct Watched {
+    readout: Readout<dbd_kernel::F64>,
+    interaction: String,
+    unit: &'static str,
+    looks: u32,
+    engaged: bool,
+    seen: Option<Engagement>,
+}
+
+impl Engagements {
+    /// Those of a scene, before its run.
+    pub(super) fn new(scene: &Scene) -> Self {
+        let mut depths = Vec::new();
+        let laws = &scene.stepped().laws;
+        laws.look_at_all(&laws.states(), &mut |row, law| {
+            let mut quantities = law.quantities().iter();
+            let place = quantities.position(|quantity| quantity.name == "depth");
+            depths.extend(place.map(|place| (row, place, law.quantities()[place].unit)));
+        });
+        let labels = scene.interactions();
+        let watched = depths.into_iter().map(|(row, place, unit)| Watched {
+            readout: Readout::Law { law: LawIndex(row as u16), quantity: place as u8 },
+            interaction: labels.get(row).map(|info| info.label.clone()).unwrap_or_default(),
+            unit,
+            looks: 0,
+            engaged: false,
+            seen: None,
+        });
+        Self { watched: watched.collect(), looks: 0 }
+    }
+
+    /// Takes note of a look at the plant.
+    pub(super) fn look(&mut self, plant: &dyn AnyPlant) {
+        self.looks += 1;
+        let time = plant.time();
+        for one in &mut self.watched {
+            let Some(Reading::Scalar(depth)) = plant.read(&one.readout) else { continue };
+            let engaged = depth > 0.0;
+            if engaged {
+                one.looks += 1;
+                let seen = one.seen.get_or_insert_with(|| Engagement {
+                    interaction: one.interaction.clone(),
+                    first: time,
+                    times: 0,
+                    share: 0.0,
+                    depth,
+                    unit: one.unit,
+                    time,
+                    free_since: None,
+                });
+                seen.times += u32::from(!one.engaged);
+                seen.free_since = None;
+                if depth > seen.depth {
+                    (seen.depth, seen.time) = (depth, time);
+                }
+            } else if let (true, Some(seen)) = (one.engaged, &mut one.seen) {
+                seen.free_since = Some(time);
+            }
+            one.engaged = engaged;
+        }
+    }
+
+    /// What they did, of those that were engaged at all, in the order of the scene.
+    pub(super) fn found(&self) -> Vec<Engagement> {
+        let looks = f64::from(self.looks.max(1));
+        let of = |one: &Watched| {
+            let share = f64::from(one.looks) / looks;
+            one.seen.clone().map(|seen| Engagement { share, ..seen })
+        };
+        self.watched.iter().filter_map(of).collect()
+    }
+}
