@@ -152,9 +152,12 @@ fn every_key_of_a_summary_is_in_the_reference() {
     let done = folder.run(&folder.scene(&open), &["--json"]);
     let summary: Value = serde_json::from_str(&done.out).unwrap();
     written.extend(summary.as_object().unwrap().keys().cloned());
-    // And of one that a load drives.
+    // And of one that a load drives, and that a stop, of next to no stiffness, holds.
     let loaded =
         PENDULUM.replacen("[[body]]", "[[load]]\nbody = \"bob\"\nforce = [1, 0, 0]\n[[body]]", 1);
+    let loaded = loaded
+        + "[[interaction]]\nlaw = \"end-stop\"\nbetween = [\"world\", \"bob\"]\nnormal = [0, 1, 0]\n\
+           points = [[0, 10, 0], [0, 0, 0]]\nstiffness = 1e-3\ndissipation = 0\n";
     let done = folder.run(&folder.scene(&loaded), &["--json"]);
     let summary: Value = serde_json::from_str(&done.out).unwrap();
     written.extend(summary.as_object().unwrap().keys().cloned());
