@@ -38,7 +38,7 @@ fn method(scheme: &str, precision: &str) -> Option<Method> {
 }
 
 /// Leapfrog in f32, of which most scenes were counted, is estimated within 10 %; what is taken as a multiple of it
-/// within 35 %, but for the solve of generalized-alpha, whose matrix fills as the mechanism has it.
+/// within 35 %, that of generalized-alpha, whose matrix fills as the mechanism has it, within a factor of 2.
 #[test]
 fn estimates_are_near_what_was_counted() {
     let costs = Costs::shipped();
@@ -69,7 +69,8 @@ fn estimates_are_near_what_was_counted() {
     println!("{near} of {all} within 10 %");
     for ((scheme, precision), (off, name)) in worst {
         println!("{scheme} {precision}: {:+.1} % at {name}", 100.0 * off);
-        assert!(off.abs() < 0.35 || scheme == "generalized-alpha", "{scheme} {precision} {name}");
+        let within = if scheme == "generalized-alpha" { -0.5..1.0 } else { -0.35..0.35 };
+        assert!(within.contains(&off), "{scheme} {precision} {name}");
     }
 }
 
@@ -94,6 +95,6 @@ fn damped_variants_are_estimated_as_they_were_counted() {
         let method = method.with_damping(damping).unwrap();
         let off = instructions(&scene, &method, &Costs::shipped()).unwrap() / count - 1.0;
         println!("{name} {changes:?} {}: {off:+.3}", damping.name());
-        assert!(off.abs() < 0.15, "{name} {changes:?} {}: {off:+.3}", damping.name());
+        assert!(off.abs() < 0.1, "{name} {changes:?} {}: {off:+.3}", damping.name());
     }
 }

@@ -78,7 +78,7 @@ const IN_PLANE: Share = Share {
     revolute: 29.0,
     universal: 29.0,
     torsion: 80.0,
-    dampers: [620.0, 460.0, 670.0],
+    dampers: [620.0, 500.0, 670.0],
     torsion_damper: [450.0, 345.0],
     levers: [130.0, 260.0],
     swept: 1100.0,
@@ -148,20 +148,21 @@ impl Share {
     fn damped(&self, group: &Group, joint_wise: bool, planar: bool) -> f64 {
         let elements = group.elements();
         // Levers that it has joint-wise, and directions in which its elements damp.
+        let of_bushings = group.law.damper_rows(elements, planar);
         let (levers, directions) = match (group.law, planar) {
             (Law::Tsda, false) => ([0, 1, 0, 3, 0, 0, 5].get(elements).copied().unwrap_or(6), 1),
             (Law::Tsda, true) => ([0, 1, 2].get(elements).copied().unwrap_or(3), 1),
             (Law::PointOnLine, false) => (if elements < 6 { 0 } else { 5 }, 1),
             (Law::PointOnLine, true) => (if elements < 3 { 0 } else { 2 }, 1),
-            (Law::PointBushing, false) => ([0, 3, 5].get(elements).copied().unwrap_or(6), 3),
-            (Law::Revolute, false) => (5, 5),
+            (Law::PointBushing, false) => (of_bushings, 3),
+            (Law::Revolute, false) => (of_bushings, 5),
             (Law::Universal, false) => (0, 4),
-            (_, true) => (if elements == 1 { 2 } else { 3 }, 2),
+            (Law::PointBushing | Law::Revolute | Law::Universal, true) => (of_bushings, 2),
         };
         if joint_wise && levers > 0 && group.clearance.row().is_none() {
             let grounded = [group.a, group.b].iter().any(|body| body.is_world());
             let [ground, between] = self.levers;
-            return f64::from(levers) * if grounded { ground } else { between };
+            return levers as f64 * if grounded { ground } else { between };
         }
         let [tsda, bushing, line] = self.dampers;
         let each = match group.law {

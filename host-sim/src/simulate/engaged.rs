@@ -3,6 +3,7 @@
 //! `(scene; plant at each look) => engagements`. An interaction is engaged while its quantity `depth` is above 0. What
 //! happens between two looks is not seen.
 
+use dbd_kernel::F64;
 use dbd_kernel::index::LawIndex;
 use dbd_kernel::laws::Laws as _;
 use dbd_kernel::readouts::{Reading, Readout};
@@ -15,7 +16,7 @@ use serde::Serialize;
 /// What an interaction with a depth did, seen at the samples and about a thousand times over the run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Engagement {
-    /// What messages call it: ``interaction `hinge.limits` (world–leaf)``.
+    /// What messages call it: ``limits `hinge.limits` (world–leaf)``.
     pub interaction: String,
     /// \[s\] when it was first engaged.
     pub first: f64,
@@ -64,74 +65,70 @@ pub(super) struct Engagements {
 }
 
 struct Watched {
-    readout: Readout<dbd_kernel::F64>,
-    interaction: String,
-    unit: &'static str,
+    readout: Readout<F64>,
     looks: u32,
     engaged: bool,
-    seen: Option<Engagement>,
+    /// What it did so far: 0 times where nothing.
+    seen: Engagement,
 }
 
 impl Engagements {
     /// Those of a scene, before its run.
     pub(super) fn new(scene: &Scene) -> Self {
-        let mut depths = Vec::new();
+        let labels = scene.interactions();
+        let mut watched = Vec::new();
         let laws = &scene.stepped().laws;
         laws.look_at_all(&laws.states(), &mut |row, law| {
-            let mut quantities = law.quantities().iter();
-            let place = quantities.position(|quantity| quantity.name == "depth");
-            depths.extend(place.map(|place| (row, place, law.quantities()[place].unit)));
+            let mut quantities = law.quantities().iter().enumerate();
+            let depth = quantities.find(|(_, quantity)| quantity.name == "depth");
+            watched.extend(depth.map(|(place, quantity)| Watched {
+                readout: Readout::Law { law: LawIndex(row as u16), quantity: place as u8 },
+                looks: 0,
+                engaged: false,
+                seen: Engagement {
+                    interaction: labels.get(row).map(|info| info.label.clone()).unwrap_or_default(),
+                    first: 0.0,
+                    times: 0,
+                    share: 0.0,
+                    depth: 0.0,
+                    unit: quantity.unit,
+                    time: 0.0,
+                    free_since: None,
+                },
+            }));
         });
-        let labels = scene.interactions();
-        let watched = depths.into_iter().map(|(row, place, unit)| Watched {
-            readout: Readout::Law { law: LawIndex(row as u16), quantity: place as u8 },
-            interaction: labels.get(row).map(|info| info.label.clone()).unwrap_or_default(),
-            unit,
-            looks: 0,
-            engaged: false,
-            seen: None,
-        });
-        Self { watched: watched.collect(), looks: 0 }
+        Self { watched, looks: 0 }
     }
 
     /// Takes note of a look at the plant.
     pub(super) fn look(&mut self, plant: &dyn AnyPlant) {
         self.looks += 1;
         let time = plant.time();
-        for one in &mut self.watched {
-            let Some(Reading::Scalar(depth)) = plant.read(&one.readout) else { continue };
-            let engaged = depth > 0.0;
-            if engaged {
-                one.looks += 1;
-                let seen = one.seen.get_or_insert_with(|| Engagement {
-                    interaction: one.interaction.clone(),
-                    first: time,
-                    times: 0,
-                    share: 0.0,
-                    depth,
-                    unit: one.unit,
-                    time,
-                    free_since: None,
-                });
-                seen.times += u32::from(!one.engaged);
-                seen.free_since = None;
+        for Watched { readout, looks, engaged, seen } in &mut self.watched {
+            let Some(Reading::Scalar(depth)) = plant.read(readout) else { continue };
+            let before = std::mem::replace(engaged, depth > 0.0);
+            if *engaged {
+                *looks += 1;
+                if seen.times == 0 {
+                    seen.first = time;
+                }
+                if !before {
+                    seen.times += 1;
+                    seen.free_since = None;
+                }
                 if depth > seen.depth {
                     (seen.depth, seen.time) = (depth, time);
                 }
-            } else if let (true, Some(seen)) = (one.engaged, &mut one.seen) {
+            } else if before {
                 seen.free_since = Some(time);
             }
-            one.engaged = engaged;
         }
     }
 
     /// What they did, of those that were engaged at all, in the order of the scene.
     pub(super) fn found(&self) -> Vec<Engagement> {
-        let looks = f64::from(self.looks.max(1));
-        let of = |one: &Watched| {
-            let share = f64::from(one.looks) / looks;
-            one.seen.clone().map(|seen| Engagement { share, ..seen })
-        };
-        self.watched.iter().filter_map(of).collect()
+        let engaged = self.watched.iter().filter(|one| one.seen.times > 0);
+        let share = |looks: u32| f64::from(looks) / f64::from(self.looks);
+        engaged.map(|one| Engagement { share: share(one.looks), ..one.seen.clone() }).collect()
     }
 }

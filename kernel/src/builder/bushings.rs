@@ -6,6 +6,7 @@ use crate::elements::universal::Universal;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, ClearanceIndex};
 use crate::model::{Group, Law};
+use crate::space::Space as _;
 
 /// What bushings have in common.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,7 +112,7 @@ impl<
         check(finite(points.as_flattened()), Quantity::Point)?;
         room(&self.groups, 1, Part::Groups)?;
         room(&self.points, 2, Part::Points)?;
-        let damper = self.add_dampers(damping, law, 1)?;
+        let damper = self.add_dampers(damping, 1, law.damper_rows(1, P::Space::PLANAR))?;
         let _ = self.groups.push(Group {
             law,
             a: between[0],

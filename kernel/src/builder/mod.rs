@@ -256,7 +256,8 @@ impl<
             room(&self.tsdas, elements, Part::Tsdas)?;
         }
         let law = if bushing { Law::PointBushing } else { Law::Tsda };
-        let damper = self.add_dampers(stars.damping, law, elements)?;
+        let rows = law.damper_rows(elements, P::Space::PLANAR);
+        let damper = self.add_dampers(stars.damping, elements, rows)?;
         let clearance = self.add_clearance(stars.clearance)?;
         let element = if bushing { self.bushings.len() } else { self.tsdas.len() } as u16;
         let group = Group {
@@ -315,7 +316,7 @@ impl<
         room(&self.groups, 1, Part::Groups)?;
         room(&self.points, 1 + points.len(), Part::Points)?;
         room(&self.lines, points.len(), Part::Lines)?;
-        let damper = self.add_dampers(law.damping, Law::PointOnLine, points.len())?;
+        let damper = self.add_dampers(law.damping, points.len(), points.len())?;
         let clearance = self.add_clearance(law.clearance)?;
         let group = Group {
             law: Law::PointOnLine,
@@ -366,7 +367,7 @@ impl<
         };
         let [a, b] = between;
         let reference = orientation(b).conjugate().product(orientation(a));
-        let damper = self.add_dampers(damping, Law::Tsda, 1)?;
+        let damper = self.add_dampers(damping, 1, 1)?;
         let _ = self.torsions.push(TorsionSpring {
             a,
             b,
@@ -415,17 +416,16 @@ impl<
         Ok(index)
     }
 
-    /// The dampers of so many elements of a law.
+    /// The coefficient of each element, and zeros up to so many rows; none where it is 0.
     fn add_dampers(
         &mut self,
         damping: f64,
-        law: Law,
         elements: usize,
+        rows: usize,
     ) -> Result<DamperIndex, BuildError> {
         if damping == 0.0 {
             return Ok(DamperIndex::NONE);
         }
-        let rows = law.damper_rows(elements, P::Space::PLANAR);
         room(&self.dampers, rows, Part::Dampers)?;
         let first = DamperIndex(self.dampers.len() as u16);
         for row in 0..rows {

@@ -35,10 +35,9 @@ pub(super) fn fixed<P: Geometry, T: Terms<P>>(group: &Group) -> Option<[BodyInde
         }
         // Along its line the second body slides with its points.
         Law::PointOnLine if T::LINES && !b.is_world() && elements >= all => Some([b, a]),
-        // A universal joint of bushings turns about an axis of either body: no body sees that at rest.
+        // The damper about the normal of a universal joint's axes stands still in neither body.
         Law::PointBushing if T::BUSHINGS => Some(seen(a, b)),
-        Law::Revolute if T::REVOLUTES => Some(seen(a, b)),
-        Law::Universal if T::UNIVERSALS && P::Space::PLANAR => Some(seen(a, b)),
+        Law::Revolute if T::REVOLUTES && !P::Space::PLANAR => Some(seen(a, b)),
         _ => None,
     }
 }

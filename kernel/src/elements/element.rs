@@ -29,17 +29,17 @@ pub enum Law {
 }
 
 impl Law {
-    /// Rows among the model's dampers of a damped group of so many elements, in a plane or in space: one per element, and
-    /// where bushings damp in more directions than they are, as many as these have levers when they act joint by joint;
-    /// the coefficients beyond those of the elements are 0.
+    /// How many rows a damped group of so many elements has among the model's dampers, in a plane or in space: one per
+    /// element, and of bushings at least as many as their dampers have levers (see [`crate::damping`]). The
+    /// coefficients beyond those of the elements are 0.
     #[must_use]
     pub const fn damper_rows(self, elements: usize, planar: bool) -> usize {
         let levers = match (self, planar, elements) {
-            (Law::PointBushing | Law::Revolute | Law::Universal, true, 1) => 2,
+            (Law::PointBushing, true, 1) => 2,
             (Law::PointBushing, true, _) => 3,
             (Law::PointBushing, false, 1) => 3,
-            (Law::Revolute, false, 1) => 5,
             (Law::PointBushing, false, _) => 6,
+            (Law::Revolute, false, _) => 5,
             _ => 1,
         };
         if levers > elements { levers } else { elements }

@@ -288,7 +288,9 @@ impl Assembly {
             return Err(Defect::OutOfRange);
         }
         let point = index(self.model.points.len(), all().count(), "points")?;
-        let damper = self.add_dampers(spring.damping, law, points.elements())?;
+        let elements = points.elements();
+        let rows = law.damper_rows(elements, false);
+        let damper = self.add_dampers(spring.damping, elements, rows)?;
         let (stars, arms) = (points.centres.len() as u8, points.arms() as u8);
         let (a, b, shared) = (pair.a, pair.b, points.shared);
         let clearance = self.add_clearance(spring.clearance)?;
@@ -304,17 +306,16 @@ impl Assembly {
         coordinates.as_flattened().iter().all(|c| c.abs() <= GREATEST_LENGTH)
     }
 
-    /// One coefficient per element, and what else a law has rows for; none where it is 0.
+    /// The coefficient of each element, and zeros up to so many rows; none where it is 0.
     fn add_dampers(
         &mut self,
         damping: f64,
-        law: Law,
         elements: usize,
+        rows: usize,
     ) -> Result<DamperIndex, Defect> {
         if damping == 0.0 {
             return Ok(DamperIndex::NONE);
         }
-        let rows = law.damper_rows(elements, false);
         let first = index(self.model.dampers.len(), rows, "dampers")?;
         self.model.dampers.extend(std::iter::repeat_n(damping, elements));
         self.model.dampers.resize(usize::from(first) + rows, 0.0);
@@ -343,7 +344,7 @@ impl Assembly {
         let orientation = |body| self.state(body).map(|state| &state.orientation);
         let relative = Quaternion::relative(orientation(pair.a), orientation(pair.b));
         let axis = self.vector_in(pair.a, axis_w);
-        let damper = self.add_dampers(spring.damping, Law::Tsda, 1)?;
+        let damper = self.add_dampers(spring.damping, 1, 1)?;
         let between = self.torsions_between.entry([pair.a.0, pair.b.0]).or_default();
         between.push(self.model.torsions.len());
         self.model.torsions.push(TorsionSpring {

@@ -1,6 +1,6 @@
 //! The ways of stepping a scene, cheapest first, each run only where it may be the best.
 
-mod told;
+mod outcome;
 
 use std::collections::BTreeMap;
 
@@ -20,7 +20,7 @@ use crate::reference::metric::Metric;
 use crate::variants::{AS_IT_IS, Variant, counted_as, distance, variants};
 use crate::ways::{Way as Stepped, ways};
 
-pub(super) use told::load;
+pub(super) use outcome::load;
 
 /// Steps of a way that are tried at most.
 const TRIES: usize = 6;

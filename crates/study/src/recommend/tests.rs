@@ -147,7 +147,7 @@ fn what_fails_later_is_not_advised() {
     assert!(found.way.step < 1.01 / 2000.0 && found.way.step > 0.25 / 2000.0, "{found:#?}");
 }
 
-/// A scene that no step carries further is verified over its own duration, and the end is told.
+/// A scene that no step carries further is verified over its own duration, and the recommendation states its end.
 #[test]
 fn a_scene_that_ends_is_verified_up_to_its_duration() {
     let asked = Request { window: Some(0.2), ..request(None) };

@@ -41,11 +41,14 @@ pub fn before_chaos(
     factor: f64,
 ) -> Result<Window, NoTruth> {
     let mut times = sample_times(longest, samples);
-    let [truth, other] = loop {
-        let both = [false, true].map(|perturbed| states(Opinion::Dop853, scene, perturbed, &times));
-        match both {
-            [Ok(truth), Ok(other)] => break [truth, other],
-            [Err(why), _] | [_, Err(why)] => {
+    let both = |times: &[f64]| -> Result<_, NoTruth> {
+        let of = |perturbed| states(Opinion::Dop853, scene, perturbed, times);
+        Ok((of(false)?, of(true)?))
+    };
+    let (truth, other) = loop {
+        match both(&times) {
+            Ok(both) => break both,
+            Err(why) => {
                 let reached = times.iter().filter(|time| **time < why.time).count();
                 // At least one interval, and fewer than there were.
                 if reached < 2 || reached == times.len() {

@@ -1,4 +1,4 @@
-//! What is told of a trial: what limits it, what it costs, why it does not do.
+//! What a recommendation states of a trial: what limits its step, its load, why it does not meet the request.
 //!
 //! `(search, trial) => limit, way, words`.
 
