@@ -5,6 +5,7 @@ use dbd_plant::instance::InstanceError;
 use dbd_plant::{MethodError, PlantError};
 use dbd_scene::Restless;
 use dbd_study::SurveyError;
+use dbd_study::ideal::IdealError;
 use dbd_study::modes::ModesError;
 use dbd_study::recommend::AdviseError;
 use miette::Diagnostic;
@@ -102,6 +103,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Trade(#[from] TradeError),
+    /// Joints cannot be ideal.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Ideal(#[from] IdealError),
     /// What advice is asked for cannot be read.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -189,7 +194,8 @@ impl Error {
             },
             Self::Reproduce(ReproduceError::Write { .. }) => Exit::Failed,
             Self::Reproduce(_) => Exit::Refused,
-            Self::Asked(_) => Exit::Refused,
+            Self::Ideal(IdealError::NoJoint { .. }) | Self::Asked(_) => Exit::Refused,
+            Self::Ideal(IdealError::NotReached { .. }) => Exit::Failed,
             Self::Advise(AdviseError::NoTruth(_) | AdviseError::None { .. }) => Exit::Failed,
             Self::Advise(_) => Exit::Refused,
             Self::Trade(error) => match error {

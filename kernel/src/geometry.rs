@@ -182,6 +182,16 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     fn velocity(stored: &Self::Velocity) -> Self::Vector;
     /// The value of a stored angular velocity.
     fn spin(stored: &Self::Spin) -> Self::Moment;
+    /// `to − from` of stored velocities.
+    #[inline(always)]
+    fn velocity_change(from: &Self::Velocity, to: &Self::Velocity) -> Self::Vector {
+        Self::velocity(to) - Self::velocity(from)
+    }
+    /// `to − from` of stored angular velocities.
+    #[inline(always)]
+    fn spin_change(from: &Self::Spin, to: &Self::Spin) -> Self::Moment {
+        Self::spin(to) - Self::spin(from)
+    }
     /// Adds an increment to a stored velocity.
     fn accelerate(stored: &mut Self::Velocity, increment: Self::Vector);
     /// Whether gravity acts on velocities and not by weights. The forces on a body add up to multiples of the last

@@ -12,10 +12,14 @@ use crate::space::{BlockOf, Space};
 pub trait Keep {
     /// Whether there is a matrix, which takes a model with a plan.
     const MATRIX: bool = false;
+    /// Whether there is one of half a step, too.
+    const HALVES: bool = false;
     /// Memory for a model's levers.
     type Levers<M: ModelOwner>: AsRef<[Lever<M::Precision>]> + AsMut<[Lever<M::Precision>]>;
     /// Memory for joints held as a point and an axis.
     type Seats<M: ModelOwner>: AsRef<[Seat<SpaceOf<M>>]> + AsMut<[Seat<SpaceOf<M>>]>;
+    /// The same for half a step.
+    type HalfSeats<M: ModelOwner>: AsRef<[Seat<SpaceOf<M>>]> + AsMut<[Seat<SpaceOf<M>>]>;
     /// Memory for the blocks of bodies.
     type Bodies<M: ModelOwner>: AsMut<[BlockOf<SpaceOf<M>>]>;
     /// Memory for the blocks of pairs of bodies.
@@ -29,6 +33,7 @@ pub trait Keep {
 pub struct Kept<K: Keep + ?Sized, M: ModelOwner> {
     pub(crate) levers: K::Levers<M>,
     pub(crate) seats: K::Seats<M>,
+    pub(crate) half_seats: K::HalfSeats<M>,
     pub(crate) bodies: K::Bodies<M>,
     pub(crate) pairs: K::Pairs<M>,
 }
@@ -40,12 +45,13 @@ pub struct Nothing;
 impl Keep for Nothing {
     type Levers<M: ModelOwner> = [Lever<M::Precision>; 0];
     type Seats<M: ModelOwner> = [Seat<SpaceOf<M>>; 0];
+    type HalfSeats<M: ModelOwner> = [Seat<SpaceOf<M>>; 0];
     type Bodies<M: ModelOwner> = [BlockOf<SpaceOf<M>>; 0];
     type Pairs<M: ModelOwner> = [BlockOf<SpaceOf<M>>; 0];
 
     #[inline]
     fn memory<M: ModelOwner>(_: &M) -> Kept<Self, M> {
-        Kept { levers: [], seats: [], bodies: [], pairs: [] }
+        Kept { levers: [], seats: [], half_seats: [], bodies: [], pairs: [] }
     }
 }
 
@@ -56,12 +62,19 @@ pub struct Levers;
 impl Keep for Levers {
     type Levers<M: ModelOwner> = M::PerDamper<Lever<M::Precision>>;
     type Seats<M: ModelOwner> = [Seat<SpaceOf<M>>; 0];
+    type HalfSeats<M: ModelOwner> = [Seat<SpaceOf<M>>; 0];
     type Bodies<M: ModelOwner> = [BlockOf<SpaceOf<M>>; 0];
     type Pairs<M: ModelOwner> = [BlockOf<SpaceOf<M>>; 0];
 
     #[inline]
     fn memory<M: ModelOwner>(model: &M) -> Kept<Self, M> {
-        Kept { levers: model.per_damper(Lever::default()), seats: [], bodies: [], pairs: [] }
+        Kept {
+            levers: model.per_damper(Lever::default()),
+            seats: [],
+            half_seats: [],
+            bodies: [],
+            pairs: [],
+        }
     }
 }
 
@@ -73,6 +86,7 @@ impl Keep for Matrix {
     const MATRIX: bool = true;
     type Levers<M: ModelOwner> = [Lever<M::Precision>; 0];
     type Seats<M: ModelOwner> = M::PerHome<Seat<SpaceOf<M>>>;
+    type HalfSeats<M: ModelOwner> = [Seat<SpaceOf<M>>; 0];
     type Bodies<M: ModelOwner> = M::PerBody<BlockOf<SpaceOf<M>>>;
     type Pairs<M: ModelOwner> = M::PerPair<BlockOf<SpaceOf<M>>>;
 
@@ -80,6 +94,28 @@ impl Keep for Matrix {
     fn memory<M: ModelOwner>(model: &M) -> Kept<Self, M> {
         let empty = <SpaceOf<M> as Space>::Row::EMPTY;
         let (bodies, pairs) = (model.per_body(empty), model.per_pair(empty));
-        Kept { levers: [], seats: model.per_home(Seat::default()), bodies, pairs }
+        let seats = model.per_home(Seat::default());
+        Kept { levers: [], seats, half_seats: [], bodies, pairs }
+    }
+}
+
+/// The matrices of a step and of half a step, in the memory of one.
+#[derive(Clone, Copy, Debug)]
+pub struct Matrices;
+
+impl Keep for Matrices {
+    const MATRIX: bool = true;
+    const HALVES: bool = true;
+    type Levers<M: ModelOwner> = [Lever<M::Precision>; 0];
+    type Seats<M: ModelOwner> = M::PerHome<Seat<SpaceOf<M>>>;
+    type HalfSeats<M: ModelOwner> = M::PerHome<Seat<SpaceOf<M>>>;
+    type Bodies<M: ModelOwner> = M::PerBody<BlockOf<SpaceOf<M>>>;
+    type Pairs<M: ModelOwner> = M::PerPair<BlockOf<SpaceOf<M>>>;
+
+    #[inline]
+    fn memory<M: ModelOwner>(model: &M) -> Kept<Self, M> {
+        let Kept { seats, bodies, pairs, .. } = Matrix::memory(model);
+        let half_seats = model.per_home(Seat::default());
+        Kept { levers: [], seats, half_seats, bodies, pairs }
     }
 }

@@ -141,8 +141,8 @@ pub use planar::{Planar32, Planar64};
 pub use plant::Plant;
 pub use real::Real;
 pub use schemes::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Leapfrog, Pefrl, Rk4,
-    Scheme, SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, GeneralizedAlpha3, JointWise,
+    Leapfrog, Pefrl, Rk4, Scheme, SemiImplicitEuler,
 };
 pub use state::State;
 pub use status::{Failure, Status};

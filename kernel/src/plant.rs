@@ -160,6 +160,10 @@ where
                 }
             }
             solve::find(&view, places, scheme.pencil(h), kept.seats.as_mut());
+            if S::Keeps::HALVES {
+                let pencil = scheme.pencil(RealOf::<H::Target>::HALF * h);
+                solve::find(&view, places, pencil, kept.half_seats.as_mut());
+            }
         }
         let wrenches = owner.per_body(Wrench::default());
         let unpushed = owner.per_input([Wrench::default(); 2]);
@@ -292,6 +296,7 @@ where
             levers: self.kept.levers.as_mut(),
             plan: self.model.plan(),
             seats: self.kept.seats.as_ref(),
+            half_seats: self.kept.half_seats.as_ref(),
             blocks: self.kept.bodies.as_mut(),
             pair_blocks: self.kept.pairs.as_mut(),
             windows: self.windows.as_ref(),

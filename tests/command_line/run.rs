@@ -266,6 +266,7 @@ fn every_scheme_counts_its_evaluations() {
         ("blanes-moan-s6", 3000),
         ("rk4", 2000),
         ("generalized-alpha", 500),
+        ("generalized-alpha-3", 1500),
     ];
     for (scheme, evaluations) in counts {
         let summary = folder.summary(&scene, &["--scheme", scheme, "--step", "1ms"]);
@@ -273,6 +274,40 @@ fn every_scheme_counts_its_evaluations() {
         assert_eq!((&summary["steps"], &summary["status"]), (&500.into(), &"ok".into()));
         assert_eq!(summary["force_evaluations"], evaluations, "{scheme}");
         assert_eq!(summary["newton"].is_number(), scheme.starts_with("dbd"));
+    }
+}
+
+/// What `--ideal` chooses it says as options, and these alone do the same.
+#[test]
+fn ideal_joints_are_chosen_and_said() {
+    let folder = Folder::new();
+    let chosen = folder.run("four-bar", &["--ideal", "0.1mm", "--duration", "0.1s", "--json"]);
+    let note = chosen.err.lines().find(|line| line.contains("ideal joints to")).unwrap();
+    let (_, options) = note.split_once("): ").unwrap();
+    let words: Vec<&str> = options.split_whitespace().collect();
+    assert!(words.contains(&"--scheme") && words.contains(&"--step"), "{note}");
+    let hash = |json: &str| {
+        let summary: serde_json::Value = serde_json::from_str(json).unwrap();
+        assert_eq!(summary["status"], "ok");
+        summary["state_hash"].clone()
+    };
+    let words = [&words[..], &["--duration", "0.1s", "--json"]].concat();
+    let again = folder.run("four-bar", &words);
+    assert_eq!(hash(&chosen.out), hash(&again.out), "{}", again.err);
+}
+
+#[test]
+fn ideal_joints_are_refused_where_there_are_none_or_the_method_is_given() {
+    let folder = Folder::new();
+    for (scene, words, said) in [
+        ("spring-ball", &["--ideal", "0.1mm"][..], "no joint that could be ideal"),
+        ("four-bar", &["--ideal", "soon"], "--ideal cannot be soon"),
+        ("four-bar", &["--ideal", "0"], "--ideal cannot be 0"),
+        ("four-bar", &["--ideal", "0.1mm", "--step", "1ms"], "cannot be used with"),
+        ("four-bar", &["--ideal", "1e-15", "--duration", "0.05s"], "are not reached"),
+    ] {
+        let refused = folder.run(scene, words);
+        assert!(refused.err.contains(said), "{words:?}: {}", refused.err);
     }
 }
 

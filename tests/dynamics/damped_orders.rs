@@ -1,8 +1,12 @@
 //! The order of generalized-alpha where joints are damped, from undamped to far beyond critical damping.
 
-use dbd_kernel::{BodyState, F64, Fixed, GeneralizedAlpha, Geometry, Planar64, Plant};
+use dbd_kernel::{
+    BodyState, F64, Fixed, GeneralizedAlpha, GeneralizedAlpha3, Geometry, Planar64, Plant, Scheme,
+};
 use dbd_scene::{Scene, SceneModel};
 use dbd_tests::page::{block, table};
+
+const SCHEME: GeneralizedAlpha = GeneralizedAlpha::DEFAULT;
 
 /// \[s\] the run.
 const TIME: f64 = 0.2;
@@ -55,8 +59,7 @@ fn hung_with(joint: &str, realisation: &str, damping: f64, more: &str) -> Scene 
 }
 
 /// \[m\] positions at the end.
-fn end<P: Geometry>(model: &SceneModel<P>, rho: f64, step: f64) -> Vec<[f64; 3]> {
-    let scheme = GeneralizedAlpha::new(rho).unwrap();
+fn end<P: Geometry, S: Scheme>(model: &SceneModel<P>, scheme: S, step: f64) -> Vec<[f64; 3]> {
     let mut plant = Plant::new(model, scheme, step).unwrap();
     plant.advance((TIME / step).round() as u64).ok().unwrap();
     let bodies: &[BodyState<P>] = &plant.state().bodies;
@@ -64,8 +67,8 @@ fn end<P: Geometry>(model: &SceneModel<P>, rho: f64, step: f64) -> Vec<[f64; 3]>
 }
 
 /// \[m\] how far apart the ends of a step and its half are, and those of its half and its quarter.
-fn apart<P: Geometry>(model: &SceneModel<P>, rho: f64, step: f64) -> [f64; 2] {
-    let [coarse, middle, fine] = [1.0, 0.5, 0.25].map(|part| end(model, rho, step * part));
+fn apart<P: Geometry, S: Scheme>(model: &SceneModel<P>, scheme: S, step: f64) -> [f64; 2] {
+    let [coarse, middle, fine] = [1.0, 0.5, 0.25].map(|part| end(model, scheme, step * part));
     [(&coarse, &middle), (&middle, &fine)].map(|(a, b)| {
         let pairs = a.iter().flatten().zip(b.iter().flatten());
         pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
@@ -73,8 +76,8 @@ fn apart<P: Geometry>(model: &SceneModel<P>, rho: f64, step: f64) -> [f64; 2] {
 }
 
 /// The order between a step, its half and its quarter.
-fn order<P: Geometry>(model: &SceneModel<P>, rho: f64, step: f64) -> f64 {
-    let [long, short] = apart(model, rho, step);
+fn order<P: Geometry, S: Scheme>(model: &SceneModel<P>, scheme: S, step: f64) -> f64 {
+    let [long, short] = apart(model, scheme, step);
     (long / short).log2()
 }
 
@@ -99,7 +102,7 @@ fn it_is_of_order_2_whatever_the_damping() {
             let mut row = vec![format!("{joint}, {what}"), format!("{rho}")];
             for damping in DAMPING {
                 let model: SceneModel<F64> = hung(joint, realisation, damping).model.planned();
-                let found = order(&model, rho, longest(damping));
+                let found = order(&model, GeneralizedAlpha::new(rho).unwrap(), longest(damping));
                 row.push(format!("{found:.2}"));
                 // Between two coefficients of h², see `sliders_reach_order_2_at_shorter_steps`.
                 let slides = matches!(joint, "cylindrical" | "translational");
@@ -128,7 +131,7 @@ fn sliders_reach_order_2_at_shorter_steps() {
         for damping in [100.0, 1_000.0, 10_000.0] {
             let model: SceneModel<F64> = hung(joint, "", damping).model.planned();
             let steps = [4e-4, 1e-4, 2.5e-5, 1.25e-5];
-            let found = steps.map(|step| (step, apart(&model, 0.5, step)));
+            let found = steps.map(|step| (step, apart(&model, SCHEME, step)));
             let orders = found.map(|(_, [long, short])| (long / short).log2());
             println!("{joint} {damping} {orders:?}");
             let transition = damping == 1_000.0;
@@ -161,7 +164,7 @@ fn an_anchor_that_jumps_keeps_the_order() {
         for damping in DAMPING {
             let scene = hung_with(joint, realisation, damping, anchor);
             let model: SceneModel<F64> = scene.model.planned();
-            let found = order(&model, 0.5, longest(damping));
+            let found = order(&model, SCHEME, longest(damping));
             println!("{joint} {realisation} {damping}: {found}");
             // A jump sets on what strong dampers stop at once; an error of first order would show as 1.
             let least = if damping >= 1_000.0 { 1.3 } else { 1.8 };
@@ -181,13 +184,45 @@ fn it_is_of_order_2_in_the_plane_and_in_fixed_point() {
             let scene = hung("revolute", realisation, damping);
             let planar = scene.with("planar=true").unwrap().planar.unwrap();
             let flat: SceneModel<Planar64> = planar.model.planned().convert();
-            let found = order(&flat, 0.5, longest(damping));
+            let found = order(&flat, SCHEME, longest(damping));
             assert!((found - 2.0).abs() < 0.2, "planar, {realisation}, {damping}: {found}");
             if damping > 0.0 {
                 let fixed: SceneModel<Fixed> = scene.model.planned().convert();
-                let found = order(&fixed, 0.5, 4e-4);
+                let found = order(&fixed, SCHEME, 4e-4);
                 assert!((found - 2.0).abs() < 0.2, "fixed, {realisation}, {damping}: {found}");
             }
         }
     }
+}
+
+/// The scheme of third order, where a step resolves what dampers do, in space and in the plane; beyond
+/// that of second order at least, in steps that are short enough.
+#[test]
+fn generalized_alpha_3_is_of_order_3_where_dampers_are_resolved() {
+    let mut off = Vec::new();
+    for (joint, realisation) in [
+        ("revolute", "tsda"),
+        ("revolute", "bushing"),
+        ("spherical", "tsda"),
+        ("universal", "bushing"),
+        ("fixed", "tsda"),
+        ("translational", ""),
+    ] {
+        for damping in DAMPING {
+            let model: SceneModel<F64> = hung(joint, realisation, damping).model.planned();
+            let found = order(&model, GeneralizedAlpha3, longest(damping));
+            println!("{joint} {realisation} {damping}: {found}");
+            let least = if damping > 100.0 { 1.6 } else { 2.8 };
+            if !(least..3.3).contains(&found) {
+                off.push(format!("{joint} {realisation} {damping}: {found}"));
+            }
+        }
+    }
+    let scene = hung("revolute", "tsda", 10.0);
+    let planar = scene.with("planar=true").unwrap().planar.unwrap();
+    let flat: SceneModel<Planar64> = planar.model.planned().convert();
+    let found = order(&flat, GeneralizedAlpha3, 1e-4);
+    println!("planar: {found:?}");
+    assert!((2.8..3.2).contains(&found), "{found:?}");
+    assert!(off.is_empty(), "{off:#?}");
 }

@@ -1,11 +1,12 @@
-//! The scheme generalized-alpha: the reference's steps, its order with joints that are all but rigid, what
+//! The schemes generalized-alpha and generalized-alpha-3: the reference's steps, its order with joints that are all but rigid, what
 //! it survives, what it remembers and what it refuses.
 
 use dbd_kernel::plant::PlantError;
 use dbd_kernel::snapshot::SnapshotError;
 use dbd_kernel::status::{Cause, Failure, Status};
 use dbd_kernel::{
-    BodyState, F32, F64, Fixed, GeneralizedAlpha, Geometry, Leapfrog, ModelOwner, Planar64, Plant,
+    BodyState, F32, F64, Fixed, GeneralizedAlpha, GeneralizedAlpha3, Geometry, Leapfrog,
+    ModelOwner, Planar64, Plant, Scheme,
 };
 use dbd_scene::{Eliminated, Scene, SceneModel};
 use dbd_study::reference::Mechanism;
@@ -20,9 +21,14 @@ fn with_stiffness(name: &str, stiffness: &str) -> Scene {
 }
 
 /// \[m\] positions after `time` \[s\] in a precision.
-fn positions<P: Geometry>(model: &SceneModel<F64>, step: f64, time: f64) -> Vec<[f64; 3]> {
+fn positions<P: Geometry>(
+    model: &SceneModel<F64>,
+    scheme: impl Scheme,
+    step: f64,
+    time: f64,
+) -> Vec<[f64; 3]> {
     let model: SceneModel<P> = model.clone().planned().convert();
-    let mut plant = Plant::new(&model, SCHEME, step).unwrap();
+    let mut plant = Plant::new(&model, scheme, step).unwrap();
     plant.advance((time / step).round() as u64).ok().unwrap();
     let bodies: &[BodyState<P>] = &plant.state().bodies;
     bodies.iter().map(|body| P::position_to_f64(&body.position)).collect()
@@ -66,12 +72,19 @@ fn single_precision_and_fixed_point_follow_it() {
         ("hexagon", "9e6", 1e-6, 1e-7),
     ] {
         let model = with_stiffness(name, stiffness).model;
-        let truth = positions::<F64>(&model, 1e-3, 0.1);
-        let off = [
-            apart(&positions::<F32>(&model, 1e-3, 0.1), &truth),
-            apart(&positions::<Fixed>(&model, 1e-3, 0.1), &truth),
-        ];
-        assert!(off[0] < single && off[1] < fixed, "{name}: {off:?}");
+        macro_rules! check {
+            ($scheme:expr) => {{
+                let truth = positions::<F64>(&model, $scheme, 1e-3, 0.1);
+                let off = [
+                    apart(&positions::<F32>(&model, $scheme, 1e-3, 0.1), &truth),
+                    apart(&positions::<Fixed>(&model, $scheme, 1e-3, 0.1), &truth),
+                ];
+                println!("{name}: {off:?}");
+                assert!(off[0] < single && off[1] < fixed, "{name}: {off:?}");
+            }};
+        }
+        check!(SCHEME);
+        check!(GeneralizedAlpha3);
     }
 }
 
@@ -85,6 +98,8 @@ fn a_minute_with_joints_all_but_rigid() {
         let model = with_stiffness(name, "9e8").model.planned();
         let mut plant = Plant::new(&model, SCHEME, 1e-3).unwrap();
         assert_eq!(plant.advance(60_000), Status::Running, "{name}");
+        let mut third = Plant::new(&model, GeneralizedAlpha3, 1e-3).unwrap();
+        assert_eq!(third.advance(20_000), Status::Running, "{name}");
         // Leapfrog does not take ten steps of it.
         let mut explicit = Plant::new(&model, Leapfrog, 1e-3).unwrap();
         assert!(!explicit.advance(200).is_running(), "{name}");
@@ -106,7 +121,7 @@ fn a_plane_is_a_part_of_space() {
             let mut state = dbd_scene::widen(&end);
             planar.states_outward(&mut state.bodies);
             let own: Vec<[f64; 3]> = state.bodies.iter().map(|b| b.position.to_f64()).collect();
-            apart(&own, &positions::<F64>(&with_stiffness(name, "9e8").model, step, 0.1))
+            apart(&own, &positions::<F64>(&with_stiffness(name, "9e8").model, SCHEME, step, 0.1))
         };
         let found = [5e-4, 2e-4].map(off);
         println!("{name} {found:?}");
@@ -136,31 +151,46 @@ type = "force"
 body = "weight"
 axis = [0, 1, 0]
 "#;
-    let model = Scene::parse(text, "pushed.toml").unwrap().model.planned();
-    let mut plant = Plant::new(&model, SCHEME, 0.01).unwrap();
-    for step in 0..50 {
-        let on = (10..30).contains(&step);
-        plant.set_input(dbd_kernel::index::InputIndex(0), if on { 4.0 } else { 0.0 }).unwrap();
-        plant.step().ok().unwrap();
+    fn check(scheme: impl Scheme, text: &str) {
+        let model = Scene::parse(text, "pushed.toml").unwrap().model.planned();
+        let mut plant = Plant::new(&model, scheme, 0.01).unwrap();
+        for step in 0..50 {
+            let on = (10..30).contains(&step);
+            plant.set_input(dbd_kernel::index::InputIndex(0), if on { 4.0 } else { 0.0 }).unwrap();
+            plant.step().ok().unwrap();
+        }
+        // ½·2 m/s²·(0.2 s)², then 0.4 m/s for 0.2 s.
+        let [x, y, _] = plant.state().bodies[0].position.to_f64();
+        assert!((x - 0.12).abs() < 1e-12 && (y - 0.12).abs() < 1e-12, "{x} {y}");
     }
-    // ½·2 m/s²·(0.2 s)², then 0.4 m/s for 0.2 s.
-    let [x, y, _] = plant.state().bodies[0].position.to_f64();
-    assert!((x - 0.12).abs() < 1e-12 && (y - 0.12).abs() < 1e-12, "{x} {y}");
+    check(SCHEME, text);
+    check(GeneralizedAlpha3, text);
 }
 
-fn plant_of<M: ModelOwner>(model: &M, rho: f64) -> Plant<&M, GeneralizedAlpha> {
-    Plant::new(model, GeneralizedAlpha::new(rho).unwrap(), 1e-3).unwrap()
+fn plant_of<M: ModelOwner, S: Scheme>(model: &M, scheme: S) -> Plant<&M, S> {
+    Plant::new(model, scheme, 1e-3).unwrap()
 }
 
 #[test]
 fn a_snapshot_holds_what_it_remembers() {
     let model = scene("gripper").model.planned();
-    let mut plant = plant_of(&model, 0.5);
+    is_restored(&model, SCHEME);
+    is_restored(&model, GeneralizedAlpha3);
+    let plant = plant_of(&model, SCHEME);
+    let mut bytes = vec![0; plant.snapshot_size()];
+    plant.snapshot(&mut bytes).unwrap();
+    let other = GeneralizedAlpha::new(0.4).unwrap();
+    assert_eq!(plant_of(&model, other).restore(&bytes), Err(SnapshotError::Scheme));
+    assert_eq!(plant_of(&model, GeneralizedAlpha3).restore(&bytes), Err(SnapshotError::Scheme));
+}
+
+fn is_restored<S: Scheme>(model: &SceneModel<F64>, scheme: S) {
+    let mut plant = plant_of(model, scheme);
     plant.advance(70).ok().unwrap();
     let mut bytes = vec![0; plant.snapshot_size()];
     plant.snapshot(&mut bytes).unwrap();
     plant.advance(50).ok().unwrap();
-    let mut other = plant_of(&model, 0.5);
+    let mut other = plant_of(model, scheme);
     let mut first = vec![0; other.snapshot_size()];
     assert_eq!(other.snapshot(&mut first), Ok(bytes.len()));
     other.restore(&bytes).unwrap();
@@ -176,7 +206,6 @@ fn a_snapshot_holds_what_it_remembers() {
     other.restore(&first).unwrap();
     other.advance(120).ok().unwrap();
     assert_eq!(other.hash(), plant.hash());
-    assert_eq!(plant_of(&model, 0.4).restore(&bytes), Err(SnapshotError::Scheme));
 }
 
 #[test]

@@ -6,8 +6,8 @@ use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::energy::energy;
 use dbd_kernel::{
     BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F32, F64, GeneralizedAlpha,
-    Geometry, JointWise, Leapfrog, LoadFrame, ModelOwner, Pefrl, Plant, Rk4, Scheme,
-    SemiImplicitEuler, State, Vec3,
+    GeneralizedAlpha3, Geometry, JointWise, Leapfrog, LoadFrame, ModelOwner, Pefrl, Plant, Rk4,
+    Scheme, SemiImplicitEuler, State, Vec3,
 };
 use dbd_tests::page::{block, table};
 use dbd_tests::{Bench, at, free_ring, hung_ring, momenta};
@@ -406,6 +406,15 @@ fn the_page_says_what_the_schemes_state() {
             [
                 "nothing; takes the energy of what vibrates within a few steps",
                 "all but rigid joints at steps of milliseconds: [when](near-rigid.md)",
+            ],
+        ),
+        row(
+            |_| GeneralizedAlpha3,
+            false,
+            [
+                "nothing; takes the energy of what vibrates, gains some where a body turns by a tenth of a radian \
+                 in a step",
+                "the same to 1e-5 m and better: [how](near-rigid.md#third-order)",
             ],
         ),
     ];

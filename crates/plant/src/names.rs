@@ -77,6 +77,8 @@ named! {
         Rk4 = "rk4",
         /// One linear solve: order 2, any stiffness, damps what the step does not resolve.
         GeneralizedAlpha = "generalized-alpha",
+        /// The same extrapolated: order 3, three linear solves, any stiffness.
+        GeneralizedAlpha3 = "generalized-alpha-3",
     }
 }
 

@@ -110,6 +110,7 @@ macro_rules! with_scheme {
             SchemeChoice::BlanesMoanS6($scheme) => $body,
             SchemeChoice::Rk4($scheme) => $body,
             SchemeChoice::GeneralizedAlpha($scheme) => $body,
+            SchemeChoice::GeneralizedAlpha3($scheme) => $body,
         }
     };
 }

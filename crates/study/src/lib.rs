@@ -25,6 +25,7 @@
 //! - [`advice`]: what to choose, in sentences.
 //! - [`recommend`](mod@recommend): one way of stepping a scene on a microcontroller.
 //! - [`precisions`]: what rounding costs on the target, in a sentence.
+//! - [`ideal`](mod@ideal): how stiff joints are that are meant to be ideal, and how to step them.
 //! - [`variants_table`]: the scene beside its variants, as a table.
 //! - [`front_table`]: what nothing beats, as a table.
 //! - [`command`]: how to run it.
@@ -42,6 +43,7 @@ pub mod files;
 pub mod frame;
 pub mod front_table;
 pub mod grid;
+pub mod ideal;
 pub mod limits;
 pub mod measure;
 pub mod modes;

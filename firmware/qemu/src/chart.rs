@@ -179,6 +179,7 @@ pub fn for_each_solved(visitor: &mut impl Visitor) {
     solved!(show);
     solved_double!(show);
     solved_fixed!(show);
+    models::extrapolated(visitor, STEPS);
 }
 
 #[cfg(test)]

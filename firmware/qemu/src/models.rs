@@ -8,8 +8,8 @@
 
 use dbd_kernel::model::ModelOwner;
 use dbd_kernel::{
-    BlanesMoanS6, Dbd, DbdP1, GeneralizedAlpha, JointWise, Leapfrog, Pefrl, Rk4, Scheme,
-    SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, GeneralizedAlpha, GeneralizedAlpha3, JointWise, Leapfrog, Pefrl, Rk4,
+    Scheme, SemiImplicitEuler,
 };
 
 include!(concat!(env!("OUT_DIR"), "/models.rs"));
@@ -166,6 +166,29 @@ pub fn for_each_solved(visitor: &mut impl Visitor) {
     solved_fixed!(visit);
     let of = (&four_bar_solved::FOUR_BAR_PLANNED_F64, size_of::<four_bar_solved::FourBarF64>());
     solved_by_one(visitor, "four-bar", of, four_bar_solved::FOUR_BAR_STEP, 20);
+    extrapolated(visitor, SHORT);
+}
+
+/// Shows models of every precision and of the plane with the scheme that solves three times; that in double precision
+/// for few steps.
+pub(crate) fn extrapolated(visitor: &mut impl Visitor, steps: u64) {
+    macro_rules! visit {
+        ($($module:ident $scene:literal $step:ident, $constant:ident: $base:ident, $steps:expr;)*) => {
+            $({
+                let beside = size_of::<$module::$base>();
+                let (scheme, variant) = (GeneralizedAlpha3, "");
+                let (scene, model) = ($scene, &$module::$constant);
+                let (step, steps) = ($module::$step, $steps);
+                visitor.visit(Shipped { scene, model, beside, scheme, variant, step, steps });
+            })*
+        };
+    }
+    visit! {
+        _3ruu_solved "3ruu" _3RUU_STEP, _3RUU_PLANNED_F32: _3ruuF32, steps;
+        six_bar_planar_solved "six-bar-planar" SIX_BAR_STEP, SIX_BAR_PLANNED_F32: SixBarF32, steps;
+        six_bar_solved "six-bar" SIX_BAR_STEP, SIX_BAR_PLANNED_FIXED: SixBarFixed, steps;
+        four_bar_solved "four-bar" FOUR_BAR_STEP, FOUR_BAR_PLANNED_F64: FourBarF64, steps.min(20);
+    }
 }
 
 /// Shows a model with the scheme that solves.

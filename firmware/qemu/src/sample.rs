@@ -5,8 +5,8 @@
 //! with its scheme: the counts do not depend on what else an image holds.
 
 use dbd_kernel::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Leapfrog, Pefrl, Rk4,
-    SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, GeneralizedAlpha3, JointWise,
+    Leapfrog, Pefrl, Rk4, SemiImplicitEuler,
 };
 
 use crate::alone::Alone;
@@ -65,5 +65,7 @@ pub fn for_each_sampled(visitor: &mut impl Visitor) {
             GeneralizedAlpha::DEFAULT => GeneralizedAlpha, "";
         "double-wishbone" double_wishbone_solved::DOUBLE_WISHBONE_PLANNED_F64: DoubleWishbonePlannedF64
             DOUBLE_WISHBONE_STEP, GeneralizedAlpha::DEFAULT => GeneralizedAlpha, "";
+        "six-bar-planar" six_bar_planar_solved::SIX_BAR_PLANNED_F32: SixBarPlannedF32 SIX_BAR_STEP,
+            GeneralizedAlpha3 => GeneralizedAlpha3, "";
     }
 }

@@ -4,11 +4,14 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
 use dbd_golden::{BandList, Blessing};
-use dbd_plant::time::Time;
+use dbd_plant::time::{Time, display};
 use dbd_plant::{DampingName, Method, Named as _, OrientationName, PrecisionName, SchemeName};
+use dbd_scene::Scene;
+use dbd_study::ideal::{Ideal, ideal};
 
 use crate::arguments::{SceneArgument, names};
 use crate::cli::named::{ResultsArguments, damped, leaving, load};
+use crate::commands::advise::positive;
 use crate::commands::golden::GoldenOptions;
 use crate::commands::run::{Outcome, RunOptions, Stage, run};
 use crate::error::Error;
@@ -32,6 +35,11 @@ pub(super) struct RunArguments {
     /// How dampers act [default: the scheme's own]
     #[arg(long, value_parser = names::<DampingName>())]
     damping: Option<DampingName>,
+    /// Ideal joints: makes them so stiff, and takes such a model, scheme and step, that the motion is off by at most
+    /// this, e.g. 0.1mm, root mean square over bodies and time
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true,
+        conflicts_with_all = ["scheme", "newton", "rho", "damping", "step", "precision", "orientation"])]
+    ideal: Option<String>,
     /// Step, e.g. 20us [default: the scene's, else the advised one, shortened to fit]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     step: Option<Time>,
@@ -87,9 +95,17 @@ pub(super) fn run_scene(
     let method = damped(method, arguments.damping)?.with_orientation(arguments.orientation);
     method.check_built()?;
     let Found { scene, file, .. } = load(catalogue, &arguments.scene)?;
+    let given = arguments.step.map(Time::seconds);
+    let (scene, method, step) = match &arguments.ideal {
+        None => (scene, method, given),
+        Some(text) => {
+            let found = ideally(&scene, arguments, text, console)?;
+            (found.scene, found.method, Some(found.step))
+        }
+    };
     let options = RunOptions {
         method,
-        step: arguments.step.map(Time::seconds),
+        step,
         duration: arguments.duration.map(Time::seconds),
         every: arguments.every.map(Time::seconds),
         watch_energy: arguments.watch_energy,
@@ -141,6 +157,48 @@ pub(super) fn run_scene(
     }
     printed?;
     Ok(if ended_by.is_some() { Exit::Failed } else { Exit::Done })
+}
+
+/// The scene with joints as good as ideal, and how it is stepped; says what was chosen.
+fn ideally(
+    scene: &Scene,
+    arguments: &RunArguments,
+    text: &str,
+    console: &mut Console<'_>,
+) -> Result<Ideal, Error> {
+    let tolerance = positive("ideal", "m", "0.1mm", text)?;
+    let duration = arguments.duration.map_or(scene.duration, Time::seconds);
+    let shown = console.terminal && !arguments.quiet;
+    let mut progress = Progress::of(shown, "runs", &mut *console.err);
+    let mut runs = 0;
+    let found = ideal(scene, tolerance, duration, &mut || {
+        runs += 1;
+        progress.update(runs, runs + 1);
+    });
+    progress.finish();
+    let found = found?;
+    if !arguments.quiet {
+        console.note(&chosen(&found));
+    }
+    Ok(found)
+}
+
+/// What was chosen, and how far each part of it leads off.
+fn chosen(found: &Ideal) -> String {
+    let set: String = found.set.iter().map(|set| format!(" --set {set}")).collect();
+    let model = match found.by_model > 0.0 {
+        true => format!(", the model `{}` {:.1e} m", found.model, found.by_model),
+        false => String::new(),
+    };
+    format!(
+        "ideal joints to {:.1e} m (the step {:.1e} m, the joints' {:.0e} N/m {:.1e} m{model}):{set} --scheme {} --step {}",
+        found.off(),
+        found.by_step,
+        found.stiffness,
+        found.by_joints,
+        found.method.scheme_name(),
+        display(found.step),
+    )
 }
 
 fn summary_table(outcome: &Outcome, options: &RunOptions, look: Look) -> String {

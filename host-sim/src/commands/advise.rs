@@ -166,7 +166,9 @@ pub fn rows(scene: &Scene, called: &str, found: &Recommendation) -> Vec<(&'stati
     let basis = match (way.counted, way.scheme) {
         (true, _) => "counted in an emulator",
         // Its matrix fills as the mechanism has it.
-        (false, "generalized-alpha") => "estimated by elements, within a factor of 2",
+        (false, "generalized-alpha" | "generalized-alpha-3") => {
+            "estimated by elements, within a factor of 2"
+        }
         (false, _) => "estimated by elements",
     };
     let verdict = if way.load <= 1.0 {

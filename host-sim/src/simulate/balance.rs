@@ -153,10 +153,11 @@ impl Balance {
             return 0.0;
         }
         // The energy with the memory before less that with the memory after. The others settle memories at the beginning
-        // of a step. These two settle them at its end, and forces of settled memories alone act: the work of their
+        // of a step. These settle them at its end, and forces of settled memories alone act: the work of their
         // mean over a step is the mean of both poses.
         let at_end =
-            [SchemeName::Leapfrog, SchemeName::GeneralizedAlpha].map(|scheme| scheme.name());
+            [SchemeName::Leapfrog, SchemeName::GeneralizedAlpha, SchemeName::GeneralizedAlpha3]
+                .map(|scheme| scheme.name());
         let with = |pose: &States, laws: &States| {
             let state = State { laws: laws.laws.clone(), ..pose.clone() };
             of_memories(&self.model, &state)

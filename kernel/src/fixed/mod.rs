@@ -195,6 +195,14 @@ impl Geometry for Fixed {
         stored.sum
     }
     #[inline(always)]
+    fn velocity_change(from: &FixedVelocity, to: &FixedVelocity) -> Vec3<f32> {
+        to.since(from)
+    }
+    #[inline(always)]
+    fn spin_change(from: &FixedVelocity, to: &FixedVelocity) -> Vec3<f32> {
+        to.since(from)
+    }
+    #[inline(always)]
     fn accelerate(stored: &mut FixedVelocity, increment: Vec3<f32>) {
         stored.add_to_both(increment);
     }

@@ -54,6 +54,12 @@ impl FixedVelocity {
         [joined(sum.x, lost.x), joined(sum.y, lost.y), joined(sum.z, lost.z)]
     }
 
+    /// `self − before`: what both words say of a small difference.
+    #[inline(always)]
+    pub(crate) fn since(&self, before: &Self) -> Vec3<f32> {
+        (self.sum - before.sum) - (self.lost - before.lost)
+    }
+
     /// Adds to both words.
     #[inline(always)]
     pub(crate) fn add_to_both(&mut self, increment: Vec3<f32>) {

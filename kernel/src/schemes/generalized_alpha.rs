@@ -28,7 +28,7 @@
 //! without it, and it is added to them as it is where a step begins. Ground that jumps by a table throws what it holds:
 //! the step begins as a first one.
 
-use crate::body::{Body, Increment};
+use crate::body::{Body, BodyState, Increment};
 use crate::damping::Damping;
 use crate::forces::{At, ExplicitDampers, Wrench};
 use crate::geometry::Geometry;
@@ -142,6 +142,34 @@ pub struct GeneralizedAlphaMemory<P: Geometry> {
     real: Increment<P::Space>,
 }
 
+/// A scheme's memory per body that holds that of [`GeneralizedAlpha`].
+pub trait Remembers<P: Geometry> {
+    /// What the step that is taken remembers.
+    fn accelerations(&mut self) -> &mut GeneralizedAlphaMemory<P>;
+}
+
+impl<P: Geometry> Remembers<P> for GeneralizedAlphaMemory<P> {
+    #[inline(always)]
+    fn accelerations(&mut self) -> &mut Self {
+        self
+    }
+}
+
+/// A step of [`GeneralizedAlpha`] as part of one of the plant's.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part<R> {
+    /// \[s\] how long it is.
+    pub(super) h: R,
+    /// \[1\] what has passed of the plant's step at its end.
+    pub(super) end: R,
+    /// Whether it is half of the plant's step.
+    pub(super) half: bool,
+    /// Whether what is remembered is of no use.
+    pub(super) begins: bool,
+    /// Of its evaluation.
+    pub(super) at: At,
+}
+
 impl Scheme for GeneralizedAlpha {
     const NAME: &'static str = "generalized-alpha";
     const ORDER: u32 = 2;
@@ -196,48 +224,9 @@ impl Scheme for GeneralizedAlpha {
     ) -> Result<(), Cause> {
         // What is remembered is of no use where the ground jumps.
         let begins = !stepper.ledger.begun || stepper.ground_jumps();
-        if begins {
-            stepper.memory.iter_mut().for_each(|memory| *memory = Default::default());
-        } else if stepper.is_pushed() {
-            stepper.place_all();
-            stepper.push();
-            stepper.each_pushed(P::Real::ONE);
-        }
-        let constant = P::Real::constant;
-        let h = stepper.h;
-        // With dampers the remembered a predicts the whole step, without them the part of it that is known.
-        let predicted = stepper.has_dampers();
-        let (near, far) = if predicted {
-            (h * P::Real::HALF, h)
-        } else {
-            (h * constant(self.rest_of_beta), h * constant(self.rest_of_gamma))
-        };
-        let drift = if begins { h * constant(self.first) } else { h };
-        let rows = stepper.workspace.bodies.iter_mut().zip(stepper.memory.iter());
-        for (state, memory) in rows {
-            let Increment { linear, angular } = memory.algorithmic;
-            let velocity = P::velocity(&state.velocity) + linear * near;
-            let spin = P::spin(&state.angular_velocity) + angular * near;
-            P::translate(&mut state.position, velocity * drift);
-            rotation::turn_by::<P>(&mut state.orientation, spin * (P::Real::HALF * drift));
-            P::accelerate(&mut state.velocity, linear * far);
-            P::spin_up(&mut state.angular_velocity, angular * far);
-        }
-        stepper.sample_inputs(P::Real::ONE);
-        stepper.evaluate_once::<ExplicitDampers>(At::Boundary, false)?;
-        let pencil = self.pencil(h);
-        self.right_sides(stepper, pencil, predicted);
-        stepper.solve(pencil)?;
-        if begins {
-            self.end_first(stepper);
-        } else {
-            self.end(stepper, pencil, predicted);
-        }
+        let (h, end) = (stepper.h, P::Real::ONE);
+        self.advance(stepper, Part { h, end, half: false, begins, at: At::Boundary })?;
         stepper.ledger.begun = true;
-        if stepper.is_pushed() {
-            stepper.push();
-            stepper.each_pushed(-P::Real::ONE);
-        }
         Ok(())
     }
 }
@@ -253,15 +242,70 @@ const fn root(x: f64) -> f64 {
 }
 
 impl GeneralizedAlpha {
+    /// One step of it.
+    #[inline(always)]
+    pub(super) fn advance<P: Geometry, T: Terms<P>, S: Remembers<P>>(
+        &self,
+        stepper: &mut Stepper<'_, '_, P, T, S>,
+        part: Part<P::Real>,
+    ) -> Result<(), Cause> {
+        let Part { h, begins, .. } = part;
+        if begins {
+            stepper
+                .memory
+                .iter_mut()
+                .for_each(|memory| *memory.accelerations() = Default::default());
+        } else if stepper.is_pushed() {
+            stepper.place_all();
+            stepper.push();
+            stepper.each_pushed(P::Real::ONE);
+        }
+        let constant = P::Real::constant;
+        // With dampers the remembered a predicts the whole step, without them the part of it that is known.
+        let predicted = stepper.has_dampers();
+        let (near, far) = if predicted {
+            (h * P::Real::HALF, h)
+        } else {
+            (h * constant(self.rest_of_beta), h * constant(self.rest_of_gamma))
+        };
+        let drift = if begins { h * constant(self.first) } else { h };
+        let rows = stepper.workspace.bodies.iter_mut().zip(stepper.memory.iter_mut());
+        for (state, memory) in rows {
+            let Increment { linear, angular } = memory.accelerations().algorithmic;
+            let velocity = P::velocity(&state.velocity) + linear * near;
+            let spin = P::spin(&state.angular_velocity) + angular * near;
+            P::translate(&mut state.position, velocity * drift);
+            rotation::turn_by::<P>(&mut state.orientation, spin * (P::Real::HALF * drift));
+            P::accelerate(&mut state.velocity, linear * far);
+            P::spin_up(&mut state.angular_velocity, angular * far);
+        }
+        stepper.sample_inputs(part.end);
+        stepper.evaluate_once::<ExplicitDampers>(part.at, false)?;
+        let pencil = self.pencil(h);
+        self.right_sides(stepper, pencil, predicted);
+        stepper.solve(pencil, part.half)?;
+        if begins {
+            self.end_first(stepper, h);
+        } else {
+            self.end(stepper, pencil, predicted);
+        }
+        if stepper.is_pushed() {
+            stepper.push();
+            stepper.each_pushed(-P::Real::ONE);
+        }
+        Ok(())
+    }
+
     /// A step from the solution on.
     #[inline(always)]
-    fn end<P: Geometry, T: Terms<P>>(
+    fn end<P: Geometry, T: Terms<P>, S: Remembers<P>>(
         &self,
-        stepper: &mut Stepper<'_, '_, P, T, GeneralizedAlphaMemory<P>>,
+        stepper: &mut Stepper<'_, '_, P, T, S>,
         Pencil { mass, damping: change, stiffness: reach }: Pencil<P::Real>,
         predicted: bool,
     ) {
         stepper.correct(|state, memory, mut next| {
+            let memory = memory.accelerations();
             let known = self.known::<P>(memory);
             P::translate(&mut state.position, next.linear * reach);
             let half = next.angular * (P::Real::HALF * reach);
@@ -281,12 +325,13 @@ impl GeneralizedAlpha {
     }
 
     /// A first step from the solution on: the rest of the way, at one acceleration.
-    fn end_first<P: Geometry, T: Terms<P>>(
+    fn end_first<P: Geometry, T: Terms<P>, S: Remembers<P>>(
         &self,
-        stepper: &mut Stepper<'_, '_, P, T, GeneralizedAlphaMemory<P>>,
+        stepper: &mut Stepper<'_, '_, P, T, S>,
+        h: P::Real,
     ) {
         let constant = P::Real::constant;
-        let (h, mass, half) = (stepper.h, constant(self.mass), P::Real::HALF);
+        let (mass, half) = (constant(self.mass), P::Real::HALF);
         let (rest, reach) = (h * constant(self.rest_of_first), half * h * h);
         stepper.correct(|state, memory, next| {
             let a = Increment { linear: next.linear * mass, angular: next.angular * mass };
@@ -296,7 +341,7 @@ impl GeneralizedAlpha {
             rotation::turn_by::<P>(&mut state.orientation, turn * half);
             P::accelerate(&mut state.velocity, a.linear * h);
             P::spin_up(&mut state.angular_velocity, a.angular * h);
-            *memory = GeneralizedAlphaMemory { algorithmic: a, real: a };
+            *memory.accelerations() = GeneralizedAlphaMemory { algorithmic: a, real: a };
         });
     }
 
@@ -313,9 +358,9 @@ impl GeneralizedAlpha {
 
     /// `F + M·s` in place of the wrenches, `F + M·(s − μ·a)` where a predicts the step, torques in world axes.
     #[inline(always)]
-    fn right_sides<P: Geometry, T: Terms<P>>(
+    fn right_sides<P: Geometry, T: Terms<P>, S: Remembers<P>>(
         &self,
-        stepper: &mut Stepper<'_, '_, P, T, GeneralizedAlphaMemory<P>>,
+        stepper: &mut Stepper<'_, '_, P, T, S>,
         Pencil { mass, damping: change, .. }: Pencil<P::Real>,
         predicted: bool,
     ) {
@@ -323,7 +368,8 @@ impl GeneralizedAlpha {
         let field = workspace.field();
         let rows = workspace.bodies.iter().zip(workspace.model.bodies);
         let rows = rows.zip(workspace.frames.iter()).zip(workspace.wrenches.iter_mut());
-        for ((((state, body), frame), wrench), memory) in rows.zip(memory.iter()) {
+        for ((((state, body), frame), wrench), memory) in rows.zip(memory.iter_mut()) {
+            let memory = memory.accelerations();
             let mut known = self.known::<P>(memory);
             let mut w = P::spin(&state.angular_velocity);
             if predicted {
@@ -343,16 +389,12 @@ impl GeneralizedAlpha {
     }
 }
 
-impl<P: Geometry, T: Terms<P>> Stepper<'_, '_, P, T, GeneralizedAlphaMemory<P>> {
+impl<P: Geometry, T: Terms<P>, S: Remembers<P>> Stepper<'_, '_, P, T, S> {
     /// Visits every body with its solution, torques of which are in world axes.
     #[inline(always)]
-    fn correct(
+    pub(super) fn correct(
         &mut self,
-        mut visit: impl FnMut(
-            &mut crate::body::BodyState<P>,
-            &mut GeneralizedAlphaMemory<P>,
-            Increment<P::Space>,
-        ),
+        mut visit: impl FnMut(&mut BodyState<P>, &mut S, Increment<P::Space>),
     ) {
         let Stepper { workspace, memory } = self;
         let rows = workspace.bodies.iter_mut().zip(memory.iter_mut());
@@ -370,6 +412,7 @@ impl<P: Geometry, T: Terms<P>> Stepper<'_, '_, P, T, GeneralizedAlphaMemory<P>> 
         let rows = workspace.wrenches.iter().zip(workspace.model.bodies);
         for ((wrench, body), memory) in rows.zip(memory.iter_mut()) {
             let more = pushed_by(wrench, body, sign);
+            let memory = memory.accelerations();
             for own in [&mut memory.algorithmic, &mut memory.real] {
                 own.linear = own.linear + more.linear;
                 own.angular = own.angular + more.angular;

@@ -98,6 +98,8 @@ pub struct Workspace<'s, 'm, P: Geometry, T: Terms<P>> {
     /// The plan of the matrix, its joints and its blocks; none where the scheme has no matrix.
     pub(crate) plan: Plan<'m>,
     pub(crate) seats: &'s [Seat<P::Space>],
+    /// The same for half a step, none where the scheme takes none.
+    pub(crate) half_seats: &'s [Seat<P::Space>],
     pub(crate) blocks: &'s mut [BlockOf<P::Space>],
     pub(crate) pair_blocks: &'s mut [BlockOf<P::Space>],
     /// The loads' windows.

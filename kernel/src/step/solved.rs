@@ -40,19 +40,27 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     }
 
     /// Solves `(μ·M + χ·C + κ·K)·x = wrenches` at the pose of the frames, torques and x in world
-    /// axes, in place of the wrenches.
+    /// axes, in place of the wrenches; `half` where the weights are those of half a step.
     ///
     /// # Errors
     /// [`Cause::Pivot`] names the body at which the matrix is not positive definite.
     #[inline(always)]
-    pub(crate) fn solve(&mut self, pencil: Pencil<P::Real>) -> Result<(), Cause> {
+    pub(crate) fn solve(&mut self, pencil: Pencil<P::Real>, half: bool) -> Result<(), Cause> {
         let plan = self.plan;
         let mut system = System { plan, diagonal: self.blocks, pairs: self.pair_blocks };
         let places = Places { frames: &*self.frames, signals: &*self.signals };
-        let known = (pencil, self.seats);
+        let known = (pencil, if half { self.half_seats } else { self.seats });
         assemble(&self.model, places, self.bodies, known, self.law_states, &mut system);
         system.factor().map_err(|body| Cause::Pivot { body })?;
         system.substitute(self.wrenches);
         Ok(())
+    }
+
+    /// Solves with the matrix of the last [`Self::solve`] once more.
+    #[inline(always)]
+    pub(crate) fn solve_again(&mut self) {
+        let plan = self.plan;
+        let system = System { plan, diagonal: self.blocks, pairs: self.pair_blocks };
+        system.substitute(self.wrenches);
     }
 }

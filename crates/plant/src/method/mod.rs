@@ -12,8 +12,8 @@ use dbd_kernel::damping::Damping;
 use dbd_kernel::laws::Need;
 use dbd_kernel::real::Constant;
 use dbd_kernel::schemes::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Leapfrog, Pefrl, Rk4,
-    Scheme, SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, GeneralizedAlpha3, JointWise,
+    Leapfrog, Pefrl, Rk4, Scheme, SemiImplicitEuler,
 };
 
 use crate::names::{DampingName, Named as _, OrientationName, PrecisionName, SchemeName};
@@ -40,6 +40,7 @@ pub(crate) enum SchemeChoice {
     BlanesMoanS6(BlanesMoanS6),
     Rk4(Rk4),
     GeneralizedAlpha(GeneralizedAlpha),
+    GeneralizedAlpha3(GeneralizedAlpha3),
 }
 
 /// A scheme with its parameters, in a precision, with a way of storing orientations.
@@ -74,6 +75,7 @@ impl Method {
             SchemeName::GeneralizedAlpha => {
                 SchemeChoice::GeneralizedAlpha(GeneralizedAlpha::default())
             }
+            SchemeName::GeneralizedAlpha3 => SchemeChoice::GeneralizedAlpha3(GeneralizedAlpha3),
         };
         let method = Self { scheme, precision, orientation: OrientationName::default() };
         if newton.is_some() && method.newton().is_none() {
@@ -247,6 +249,7 @@ impl Method {
             SchemeChoice::BlanesMoanS6(scheme) => Traits::of(scheme),
             SchemeChoice::Rk4(scheme) => Traits::of(scheme),
             SchemeChoice::GeneralizedAlpha(scheme) => Traits::of(scheme),
+            SchemeChoice::GeneralizedAlpha3(scheme) => Traits::of(scheme),
         }
     }
 

@@ -6,8 +6,8 @@ use dbd_kernel::damping::Damping;
 use dbd_kernel::keep::Keep as _;
 use dbd_kernel::real::Constant;
 use dbd_kernel::schemes::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, JointWise, Kicked, Leapfrog,
-    Pefrl, Rk4, Scheme, SemiImplicitEuler,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, GeneralizedAlpha3, JointWise,
+    Kicked, Leapfrog, Pefrl, Rk4, Scheme, SemiImplicitEuler,
 };
 
 use super::ExportPrecision;
@@ -19,7 +19,7 @@ use crate::nearest::nearest;
 pub const MOST_ITERATIONS: u32 = 8;
 
 /// All names, for messages.
-const NAMES: [&str; 9] = [
+const NAMES: [&str; 10] = [
     Dbd::NAME,
     DbdP1::NAME,
     DbdP2::NAME,
@@ -29,6 +29,7 @@ const NAMES: [&str; 9] = [
     BlanesMoanS6::NAME,
     Rk4::NAME,
     GeneralizedAlpha::NAME,
+    GeneralizedAlpha3::NAME,
 ];
 
 /// A scheme with its parameters, as source.
@@ -109,6 +110,7 @@ impl ExportScheme {
             BlanesMoanS6::NAME => Self::plain(BlanesMoanS6, "BlanesMoanS6"),
             Rk4::NAME => Self::plain(Rk4, "Rk4"),
             GeneralizedAlpha::NAME => Self::solved(GeneralizedAlpha::DEFAULT),
+            GeneralizedAlpha3::NAME => Self::plain(GeneralizedAlpha3, "GeneralizedAlpha3"),
             _ => {
                 let meant = nearest(name, NAMES);
                 let meant = meant.map(|name| format!("did you mean {name}? ")).unwrap_or_default();

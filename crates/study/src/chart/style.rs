@@ -68,7 +68,7 @@ const GREY: (&str, &str) = ("#9aa1ab", "#6b737e");
 
 /// Colour and mark of the schemes known, so that charts of several scenes agree: rows of `COLOURS`
 /// (none: black) and of `SHAPES`.
-const KNOWN: [(&str, Option<usize>, usize); 9] = [
+const KNOWN: [(&str, Option<usize>, usize); 10] = [
     ("dbd", None, 0),
     ("leapfrog", Some(0), 1),
     ("pefrl", Some(1), 2),
@@ -78,6 +78,7 @@ const KNOWN: [(&str, Option<usize>, usize); 9] = [
     ("dbd-p1", Some(4), 5),
     ("dbd-p2", Some(4), 7),
     ("generalized-alpha", Some(3), 8),
+    ("generalized-alpha-3", Some(3), 9),
 ];
 
 impl Style {

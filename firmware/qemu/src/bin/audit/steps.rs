@@ -5,8 +5,8 @@
 
 use dbd_kernel::model::Planned;
 use dbd_kernel::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Fixed, GeneralizedAlpha, JointWise,
-    Leapfrog, Model, Pefrl, Plant, Rk4, SemiImplicitEuler, Status,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Fixed, GeneralizedAlpha,
+    GeneralizedAlpha3, JointWise, Leapfrog, Model, Pefrl, Plant, Rk4, SemiImplicitEuler, Status,
 };
 use firmware::alone::Alone;
 use firmware::models::{self, four_bar::FourBarF32, four_bar::FourBarF64};
@@ -81,9 +81,23 @@ pub fn keep(keep: Keep) {
         };
     }
     firmware::solved!(solved);
-    step!(keep, "every-kind" EveryKindPlanned<F32>, "generalized-alpha" GeneralizedAlpha, "f32");
-    step!(keep, "every-kind" EveryKindPlanned<F64>, "generalized-alpha" GeneralizedAlpha, "f64");
-    step!(keep, "every-kind" EveryKindPlanned<Fixed>, "generalized-alpha" GeneralizedAlpha, "fixed");
+    macro_rules! every_kind_solved {
+        ($($name:literal $scheme:ty;)*) => {
+            $(
+                step!(keep, "every-kind" EveryKindPlanned<F32>, $name $scheme, "f32");
+                step!(keep, "every-kind" EveryKindPlanned<F64>, $name $scheme, "f64");
+                step!(keep, "every-kind" EveryKindPlanned<Fixed>, $name $scheme, "fixed");
+            )*
+        };
+    }
+    every_kind_solved! {
+        "generalized-alpha" GeneralizedAlpha;
+        "generalized-alpha-3" GeneralizedAlpha3;
+    }
+    step!(keep, "3ruu" models::_3ruu_solved::_3ruuPlannedF32,
+        "generalized-alpha-3" GeneralizedAlpha3, "f32");
+    step!(keep, "six-bar-planar" models::six_bar_planar_solved::SixBarPlannedF32,
+        "generalized-alpha-3" GeneralizedAlpha3, "f32");
     // What a controller drives, without the scene's tables.
     step!(keep, "delta-pick-and-place" models::delta_pick_and_place::DeltaPickAndPlaceF32,
         "leapfrog" Leapfrog, "f32");
