@@ -281,6 +281,11 @@ fn every_scheme_counts_its_evaluations() {
 #[test]
 fn ideal_joints_are_chosen_and_said() {
     let folder = Folder::new();
+    let whole = folder.run("four-bar", &["--ideal", "0.1mm", "--json"]);
+    assert!(whole.out.contains("\"status\": \"ok\""), "{} {}", whole.out, whole.err);
+    let often = ["--ideal", "1mm", "--duration", "0.09s", "--every", "0.3ms", "--json"];
+    let often = folder.run("four-bar", &often);
+    assert!(often.out.contains("\"status\": \"ok\""), "{} {}", often.out, often.err);
     let chosen = folder.run("four-bar", &["--ideal", "0.1mm", "--duration", "0.1s", "--json"]);
     let note = chosen.err.lines().find(|line| line.contains("ideal joints to")).unwrap();
     let (_, options) = note.split_once("): ").unwrap();

@@ -109,7 +109,7 @@ fn a_double_pendulum_is_as_near_to_rigid_joints_as_is_asked() {
     let (scene, truth) = (pendulum(), truth(50));
     let mut rows = Vec::new();
     for tolerance in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
-        let found = ideal(&scene, tolerance, TIME, &mut || ()).unwrap();
+        let found = ideal(&scene, tolerance, (TIME, None), &mut || ()).unwrap();
         let off = off(&found, &truth);
         println!("{tolerance:e}: {off:e} {found:?}", found = (found.off(), found.step, &found.set));
         assert!(found.off() <= tolerance && off <= tolerance, "{tolerance:e}: {off:e}");
@@ -139,8 +139,8 @@ fn a_double_pendulum_is_as_near_to_rigid_joints_as_is_asked() {
 
 #[test]
 fn what_cannot_be_ideal_is_refused() {
-    let none = ideal(&scene("spring-ball"), 1e-4, 0.1, &mut || ());
+    let none = ideal(&scene("spring-ball"), 1e-4, (0.1, None), &mut || ());
     assert!(matches!(none, Err(IdealError::NoJoint { .. })), "{none:?}");
-    let far = ideal(&pendulum(), 1e-14, 0.1, &mut || ());
+    let far = ideal(&pendulum(), 1e-14, (0.1, None), &mut || ());
     assert!(matches!(far, Err(IdealError::NotReached { .. })), "{far:?}");
 }

@@ -21,7 +21,7 @@ use thiserror::Error;
 use crate::reference::State;
 use crate::variants::{AS_IT_IS, SPATIAL, distance, variants};
 
-/// Samples at which runs are compared.
+/// About how many samples are compared.
 const SAMPLES: u64 = 50;
 /// \[s\] a step longer than this is not looked at.
 const LONGEST: f64 = 5e-3;
@@ -95,7 +95,7 @@ pub enum IdealError {
     },
 }
 
-/// A run in so many steps per sample, and how far its step leads off.
+/// A run in so many steps per unit, and how far its step leads off.
 struct Run {
     steps: u64,
     off: f64,
@@ -105,26 +105,44 @@ struct Run {
 
 /// What is run.
 struct Frame {
-    duration: f64,
+    /// \[s\] what steps are whole parts of.
+    unit: f64,
+    /// Units between samples.
+    between: u64,
+    samples: u64,
     third: f64,
 }
 
 impl Frame {
+    /// Whole parts of the sampling interval, where there is one.
+    fn new(duration: f64, every: Option<f64>, third: f64) -> Self {
+        let Some(every) = every.filter(|every| *every < duration) else {
+            return Self { unit: duration / SAMPLES as f64, between: 1, samples: SAMPLES, third };
+        };
+        let units = (duration / every).round().max(1.0) as u64;
+        let between = units.div_ceil(SAMPLES);
+        Self { unit: every, between, samples: units / between, third }
+    }
+
     fn step(&self, steps: u64) -> f64 {
-        self.duration / (SAMPLES * steps) as f64
+        self.unit / steps as f64
+    }
+
+    /// Steps of a run times bodies.
+    fn work(&self, scene: &Scene, steps: u64) -> f64 {
+        (self.samples * self.between * steps) as f64 * scene.model.bodies.len() as f64
     }
 
     /// The states at the samples; `None` where the run fails or is too long.
     fn motion(&self, scene: &Scene, scheme: SchemeName, steps: u64) -> Option<Vec<State>> {
-        let work = (SAMPLES * steps) as f64 * scene.model.bodies.len() as f64;
-        if work > MOST {
+        if self.work(scene, steps) > MOST {
             return None;
         }
         let method = Method::new(scheme, None, PrecisionName::F64).ok()?;
         let mut plant = plant(scene, &method, self.step(steps)).ok()?;
         let mut states = vec![State::of(&plant.state())];
-        for _ in 0..SAMPLES {
-            if !plant.advance(steps).is_running() {
+        for _ in 0..self.samples {
+            if !plant.advance(self.between * steps).is_running() {
                 return None;
             }
             states.push(State::of(&plant.state()));
@@ -132,14 +150,13 @@ impl Frame {
         Some(states)
     }
 
-    /// The fewest steps per sample, from `least` on, whose errors are a third of the tolerance.
+    /// The fewest steps per unit, from `least` on, whose errors are a third of the tolerance.
     fn resolved(&self, scene: &Scene, least: u64) -> Result<Run, String> {
         let scheme = SchemeName::GeneralizedAlpha3;
         let (mut steps, mut best) = (least, f64::INFINITY);
         let mut coarse = self.motion(scene, scheme, steps);
         loop {
-            let work = (2 * SAMPLES * steps) as f64 * scene.model.bodies.len() as f64;
-            if work > MOST {
+            if self.work(scene, 2 * steps) > MOST {
                 return Err(match best.is_finite() {
                     true => format!("halving the step still changes the motion by {best:.1e} m"),
                     false => "no run comes to its end".into(),
@@ -158,21 +175,22 @@ impl Frame {
     }
 }
 
-/// How to run a scene whose joints are to lead off by at most `tolerance` \[m\] over `duration` \[s\].
+/// How to run a scene whose joints are to lead off by at most `tolerance` \[m\] over `duration` \[s\], in steps that
+/// are whole parts of `every` \[s\].
 ///
 /// # Errors
 /// [`IdealError`].
 pub fn ideal(
     scene: &Scene,
     tolerance: f64,
-    duration: f64,
+    (duration, every): (f64, Option<f64>),
     progress: &mut dyn FnMut(),
 ) -> Result<Ideal, IdealError> {
     let names = ideal_joints(scene);
     if names.is_empty() {
         return Err(IdealError::NoJoint { scene: scene.name.clone() });
     }
-    let frame = Frame { duration, third: tolerance / 3.0 };
+    let frame = Frame::new(duration, every, tolerance / 3.0);
     let refuse = |what: String| IdealError::NotReached { asked: tolerance, duration, what };
     let frequencies = Frequencies::of(scene);
     let longest = LONGEST.min(frequencies.longest_turn()).min(frequencies.period / 40.0);

@@ -171,7 +171,8 @@ fn ideally(
     let shown = console.terminal && !arguments.quiet;
     let mut progress = Progress::of(shown, "runs", &mut *console.err);
     let mut runs = 0;
-    let found = ideal(scene, tolerance, duration, &mut || {
+    let every = arguments.every.map(Time::seconds).or(scene.every);
+    let found = ideal(scene, tolerance, (duration, every), &mut || {
         runs += 1;
         progress.update(runs, runs + 1);
     });
