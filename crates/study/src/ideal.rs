@@ -27,6 +27,8 @@ const SAMPLES: u64 = 50;
 const LONGEST: f64 = 5e-3;
 /// Steps of one run, times bodies, beyond which the search ends.
 const MOST: f64 = 4e6;
+/// \[m\] what is asked for at least.
+const LEAST: f64 = 1e-10;
 /// Steps of the ladder of stiffness.
 const STIFFER: f64 = 10.0;
 /// \[N/m\] the stiffest joints that are looked at: rounding moves the bodies beyond it.
@@ -192,6 +194,9 @@ pub fn ideal(
     }
     let frame = Frame::new(duration, every, tolerance / 3.0);
     let refuse = |what: String| IdealError::NotReached { asked: tolerance, duration, what };
+    if tolerance < LEAST {
+        return Err(refuse("rounding moves bodies by as much".into()));
+    }
     let frequencies = Frequencies::of(scene);
     let longest = LONGEST.min(frequencies.longest_turn()).min(frequencies.period / 40.0);
     // Halves of round steps are round.
