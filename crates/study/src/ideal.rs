@@ -6,7 +6,7 @@
 //! - the step is halved until two runs agree, by [`SchemeName::GeneralizedAlpha3`], whose step no stiffness bounds;
 //! - joints are made ten times as stiff until that changes the motion no more: what they give way falls as 1/k, so
 //!   that ten ninths of the change is all of it;
-//! - `generalized-alpha`, whose steps cost a third, and the cheapest model of the mechanism are taken where they
+//! - `generalized-alpha`, whose steps cost about a quarter, and the cheapest model of the mechanism are taken where they
 //!   lead to the same.
 //!
 //! Distances are root mean squares over bodies and samples ([`Metric`](crate::reference::metric::Metric)), as
