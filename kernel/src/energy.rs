@@ -17,7 +17,7 @@ use crate::state::State;
 
 /// Energies \[J\] by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Energy<R> {
     /// \[J\] `½·m·v² + ½·ω·I·ω` of all bodies.
     pub kinetic: R,

@@ -11,7 +11,7 @@ use crate::real::Real as _;
 
 /// A part of a model that a precision cannot hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Excess {
     /// Which part.
     pub part: Part,
@@ -23,7 +23,7 @@ pub struct Excess {
 
 /// What may go too far.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Part {
     /// The centre of mass of this body, from the origin, along an axis.
     Body(BodyIndex),

@@ -19,7 +19,7 @@ use crate::words::Words;
 
 /// How far what a precision stores may go: of fixed point, for what floats has no end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Limits {
     /// \[m\] a centre of mass or a point of the ground from the origin, along each axis.
     pub extent: f64,
@@ -270,7 +270,7 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
 
 /// Floating-point geometry: everything is stored in the `Real` itself, orientations as `A`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Float<R, A = Quaternion<R>>(PhantomData<(R, A)>);
 
 /// Double precision throughout.
@@ -280,7 +280,7 @@ pub type F32 = Float<f32>;
 
 /// The pose of a body in floating-point geometry.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Pose<R> {
     pub(crate) position: Vec3<R>,
     pub(crate) rotation: Rotation<R>,

@@ -3,22 +3,22 @@
 
 /// The index of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct InputIndex(pub u16);
 
 /// The index of a torsion spring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct TorsionIndex(pub u16);
 
 /// The index of a law's row, over all tables of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct LawIndex(pub u16);
 
 /// The index of a body, or the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct BodyIndex(pub u16);
 
 impl BodyIndex {
@@ -65,7 +65,7 @@ impl BodyIndex {
 
 /// The index of the first damping coefficient of a group or spring, or none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct DamperIndex(pub u16);
 
 impl DamperIndex {
@@ -82,7 +82,7 @@ impl DamperIndex {
 
 /// The index of a group's clearance, or none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct ClearanceIndex(pub u16);
 
 impl ClearanceIndex {

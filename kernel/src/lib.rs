@@ -56,7 +56,7 @@
 //!
 //! | feature | brings |
 //! |---|---|
-//! | `defmt` | `defmt::Format` on every public type |
+//! | `defmt` | on a microcontroller, `defmt::Format` on every public type |
 //! | `heapless` | [`builder`]: models of fixed capacity, assembled at run time |
 //! | `nalgebra` | `From` and `Into` between the vectors and quaternions of both |
 //! | `micromath` | [`loose`]: single precision with micromath's square root, for comparison |
@@ -83,7 +83,7 @@ pub mod extents;
 pub mod fingerprint;
 pub mod fixed;
 pub mod forces;
-#[cfg(feature = "defmt")]
+#[cfg(all(feature = "defmt", target_os = "none"))]
 mod format;
 pub mod freedoms;
 pub mod frequency;

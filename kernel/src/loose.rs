@@ -14,7 +14,7 @@ use crate::words::{Word, WordSource};
 
 /// A number of single precision whose square root is an approximation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 #[repr(transparent)]
 pub struct Loose(pub f32);
 

@@ -14,7 +14,7 @@ use crate::space::Linear as _;
 
 /// Floating-point geometry of the plane: everything is stored in the `Real` itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Planar<R>(PhantomData<R>);
 
 /// Double precision in the plane.
@@ -24,7 +24,7 @@ pub type Planar32 = Planar<f32>;
 
 /// The pose of a body in the plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct PlanarPose<R> {
     position: Vec2<R>,
     cosine: R,

@@ -13,7 +13,7 @@ use crate::words::{WordSource, WordVisitor, Words};
 
 /// The plane over a number: three freedoms per body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Plane<R>(core::marker::PhantomData<R>);
 
 impl<R: Real> Space for Plane<R> {
@@ -68,7 +68,7 @@ pub struct Filler;
 
 /// A vector in the plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Vec2<R> {
     /// First component.
     pub x: R,
@@ -85,7 +85,7 @@ impl<R> Vec2<R> {
 
 /// A moment, an angular velocity or an inertia about z.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Axial<R> {
     /// About z.
     pub z: R,
@@ -284,7 +284,7 @@ impl<R: Real> Moment for Axial<R> {
 
 /// A turn about z: the quaternion of unit length `w + z·k`, cosine and sine of the half angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Heading<R> {
     /// Cosine of the half angle.
     pub w: R,

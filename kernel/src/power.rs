@@ -21,7 +21,7 @@ use crate::status::Cause;
 
 /// Powers \[W\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Power<R> {
     /// \[W\] what loads give to the bodies.
     pub loads: R,

@@ -123,7 +123,7 @@ impl<P: Geometry> Readout<P> {
 
 /// What a read-out shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Reading<R> {
     /// An angle, a rate, a tension or the value of an input.
     Scalar(R),

@@ -8,7 +8,7 @@ use crate::index::{BodyIndex, InputIndex};
 
 /// Why a plant could not be made.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum PlantError {
     /// The step is not a positive finite number in the model's precision.
     Step(f64),
@@ -49,7 +49,7 @@ impl core::error::Error for PlantError {}
 
 /// Why an input could not be set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum InputError {
     /// The model has no such input.
     Unknown(InputIndex),
@@ -80,7 +80,7 @@ impl core::error::Error for InputError {}
 
 /// Why a plant could not take a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum StateError {
     /// It has another number of bodies, torsion springs or inputs than the model.
     Count,

@@ -15,7 +15,7 @@ use crate::words::{WordSource, WordVisitor, Words};
 
 /// The steps during which a load acts: `first ≤ n < end`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct LoadWindow {
     /// First step.
     pub first: u64,
@@ -65,7 +65,7 @@ pub(crate) fn first_step(time: f64, step: f64) -> u64 {
 
 /// Where a knot lies among a plant's steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct KnotStep<R> {
     /// The first step that starts at or after the knot's time.
     pub first: u64,
@@ -84,7 +84,7 @@ impl<R: Real> KnotStep<R> {
 
 /// The present value of an input and its rate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Signal<R> {
     /// \[N, N·m or m\] by the kind of its input.
     pub value: R,

@@ -23,7 +23,7 @@ const CHECKSUM: usize = 4;
 
 /// Why a snapshot was not taken, or refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum SnapshotError {
     /// The buffer is shorter than this many bytes.
     Buffer(usize),

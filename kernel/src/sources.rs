@@ -17,7 +17,7 @@ use crate::schedule::{KnotStep, Signal, StageTime};
 
 /// A source among a plant's steps, in units of 2⁻⁶⁴ of its period.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct SourceStep {
     /// Where it is at t = 0.
     pub phase: u64,

@@ -5,7 +5,7 @@ use crate::index::{BodyIndex, LawIndex, TorsionIndex};
 /// The status of a plant after a step.
 #[must_use = "a failed step leaves the plant where it failed"]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Status {
     /// All is well.
     #[default]
@@ -16,7 +16,7 @@ pub enum Status {
 
 /// Why and where a plant failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Failure {
     /// What went wrong, and with which body or element.
     pub cause: Cause,
@@ -26,7 +26,7 @@ pub struct Failure {
 
 /// What went wrong, and with which body or element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Cause {
     /// A number of this body's state is infinite or not a number.
     NonFinite {

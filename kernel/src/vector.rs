@@ -10,7 +10,7 @@ use crate::words::{WordSource, WordVisitor, Words};
 
 /// A vector in space.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Vec3<R> {
     /// First component.
     pub x: R,
@@ -163,7 +163,7 @@ impl<R: Real> Words for Vec3<R> {
 
 /// A rotation matrix, rows in world axes, columns in body axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Rotation<R> {
     /// First row.
     pub x: Vec3<R>,
@@ -200,7 +200,7 @@ impl<R: Real> Rotation<R> {
 
 /// A quaternion, scalar first; unit wherever it stands for an orientation (body → world).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Quaternion<R> {
     /// Scalar part.
     pub w: R,

@@ -26,7 +26,7 @@ const GROWTH: f64 = 1.2;
 
 /// Looks at a plant from time to time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Watch<R> {
     /// The body that the next look takes.
     next: usize,

@@ -5,7 +5,7 @@
 
 /// One stored word of a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Word {
     /// A single-precision number.
     F32(f32),
@@ -75,7 +75,7 @@ pub trait Words {
 
 /// FNV-1a 64 over the little-endian bytes of words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Fnv1a(u64);
 
 impl Fnv1a {

@@ -62,7 +62,7 @@ fn nothing_is_written_where_something_is_wrong() {
         assert!(done.err.contains(words), "{}", done.err);
         assert!(!file.exists());
     };
-    refused(&[], "cargo rustc --release -p dbd-fmu --lib --crate-type cdylib");
+    refused(&[], "cargo build --release -p dbd-fmu");
     fs::write(&given, b"\x7fELF and something else").unwrap();
     refused(&[], "is no library of dbd-fmu");
     let mut other = library();

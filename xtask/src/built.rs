@@ -1,4 +1,4 @@
-//! Programs as cargo builds them for the host.
+//! Programs and libraries of C as cargo builds them for the host.
 //!
 //! `cargo's arguments => programs, with their tests or without`. What compiles is shown as it comes.
 
@@ -52,16 +52,38 @@ pub fn host_sim(programs: &[Program]) -> Result<PathBuf> {
     Ok(found.path.clone())
 }
 
+/// The library that an FMU holds: that of the programs that were built, else it is built.
+///
+/// # Errors
+/// Where it does not build.
+pub fn fmu_library(programs: &[Program]) -> Result<PathBuf> {
+    let is_it = |program: &&Program| program.name == "fmu" && !program.tests;
+    if let Some(library) = programs.iter().find(is_it) {
+        return Ok(library.path.clone());
+    }
+    let built = build(cargo().args(["build", "--package", "dbd-fmu", "--lib"]))?;
+    Ok(built.iter().find(is_it).context("`dbd-fmu` was not built")?.path.clone())
+}
+
 /// The programs in cargo's messages.
 fn programs(messages: &str) -> Result<Vec<Program>> {
     let mut programs = Vec::new();
     for line in messages.lines().filter(|line| line.starts_with('{')) {
         let message: Value = serde_json::from_str(line).context("cargo printed no JSON")?;
-        let Some(path) = message["executable"].as_str() else { continue };
+        let Some(path) = message["executable"].as_str().or_else(|| library(&message)) else {
+            continue;
+        };
         let program = program(&message, path);
         programs.push(program.with_context(|| format!("cargo's message lacks a part: {line}"))?);
     }
     Ok(programs)
+}
+
+/// The shared library among a target's files.
+fn library(message: &Value) -> Option<&str> {
+    let own = message["target"]["crate_types"].as_array()?.iter().any(|kind| kind == "cdylib");
+    let mut files = message["filenames"].as_array()?.iter().filter_map(Value::as_str);
+    files.find(|file| own && file.ends_with(".so"))
 }
 
 fn program(message: &Value, path: &str) -> Option<Program> {
@@ -87,6 +109,7 @@ mod tests {
 {"reason":"compiler-artifact","manifest_path":"/r/kernel/Cargo.toml","target":{"kind":["lib"],"name":"dbd_kernel"},"profile":{"test":true},"executable":"/t/dbd_kernel-1"}
 {"reason":"compiler-artifact","manifest_path":"/r/tests/Cargo.toml","target":{"kind":["test"],"name":"golden"},"profile":{"test":true},"executable":"/t/golden-2"}
 {"reason":"compiler-artifact","manifest_path":"/r/firmware/Cargo.toml","target":{"kind":["bin"],"name":"programs"},"profile":{"test":false},"executable":"/t/programs"}
+{"reason":"compiler-artifact","manifest_path":"/r/fmu/Cargo.toml","target":{"kind":["lib","cdylib"],"crate_types":["lib","cdylib"],"name":"dbd_fmu"},"profile":{"test":false},"filenames":["/t/libdbd_fmu.rlib","/t/libdbd_fmu.so"],"executable":null}
 {"reason":"build-finished","success":true}
 "#;
 
@@ -97,8 +120,14 @@ mod tests {
             programs.iter().map(|program| (program.name.as_str(), program.tests)).collect();
         assert_eq!(
             names,
-            [("kernel", true), ("tests::golden", true), ("firmware::programs", false)]
+            [
+                ("kernel", true),
+                ("tests::golden", true),
+                ("firmware::programs", false),
+                ("fmu", false)
+            ]
         );
+        assert_eq!(fmu_library(&programs).unwrap(), Path::new("/t/libdbd_fmu.so"));
         assert_eq!(programs[1].folder, Path::new("/r/tests"));
         assert_eq!(programs[1].path, Path::new("/t/golden-2"));
     }

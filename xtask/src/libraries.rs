@@ -52,7 +52,7 @@ pub fn build() -> Result<()> {
 /// What is handed to others holds no lines and no names of ours.
 fn bare(command: &mut Command) -> &mut Command {
     command
-        .args(["--release", "--package", "dbd-fmu", "--lib", "--crate-type", "cdylib"])
+        .args(["--release", "--package", "dbd-fmu", "--lib"])
         .env("CARGO_PROFILE_RELEASE_DEBUG", "0")
         .env("CARGO_PROFILE_RELEASE_STRIP", "symbols")
 }

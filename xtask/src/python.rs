@@ -7,11 +7,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, bail};
 
-use crate::built::{Program, host_sim};
+use crate::built::{Program, fmu_library, host_sim};
 use crate::chip::debian;
-use crate::command::{cargo, find, output, program, root, run, succeeds, target_dir};
+use crate::command::{find, output, program, root, run, succeeds};
 use crate::steps::Steps;
 
+/// The package's crate.
+pub const CRATE: &str = "dbd-python";
 /// The oldest Python of which the package is.
 const OLDEST: &str = "import sys; sys.exit(sys.version_info < (3, 10))";
 const PACKAGES: [&str; 2] = ["python3", "python3-venv"];
@@ -90,11 +92,8 @@ fn shown(folder: &Path) -> String {
 
 fn in_importers(python: &Path, programs: &[Program]) -> Result<()> {
     let host_sim = host_sim(programs)?;
-    // With no feature of the kernel's: names that defmt gives to what it logs are none that a library may export.
-    // The tests without features have built what it stands on.
-    run(cargo().args(["rustc", "--package", "dbd-fmu", "--lib", "--crate-type", "cdylib"]))?;
     // Without its symbols it is packed into dozens of archives in a fraction of the time.
-    let (built, library) = (target_dir().join("debug/libdbd_fmu.so"), root().join(LIBRARY));
+    let (built, library) = (fmu_library(programs)?, root().join(LIBRARY));
     output(program("strip").arg("-o").arg(&library).arg(&built)).context("binutils are missing")?;
     let mut tests = program(python);
     tests.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "crates/fmu/importers"]);
@@ -102,9 +101,8 @@ fn in_importers(python: &Path, programs: &[Program]) -> Result<()> {
     run(tests.env_remove("PYTHONPATH"))
 }
 
-/// Builds the wheel as it is published but for the level of optimisation, installs it and runs its tests.
+/// Builds the wheel as it is published, installs it and runs its tests. [`CRATE`] is among what was built as released.
 fn package_tests(python: &Path, programs: &[Program]) -> Result<()> {
-    run(cargo().args(["fmt", "--check", "--manifest-path", "python/Cargo.toml"]))?;
     let host_sim = host_sim(programs)?;
     let wheels = root().join("target/python/wheels");
     if wheels.exists() {
@@ -113,11 +111,6 @@ fn package_tests(python: &Path, programs: &[Program]) -> Result<()> {
     let mut maturin = program(python);
     maturin.args(["-m", "maturin", "build", "--release", "--locked", "--manifest-path"]);
     maturin.arg("python/Cargo.toml").arg("--interpreter").arg(python).arg("--out").arg(&wheels);
-    maturin.env("CARGO_TARGET_DIR", root().join("target/python/cargo"));
-    // Its tests step little, and the bits are the same.
-    maturin
-        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1")
-        .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "4");
     run(&mut maturin)?;
     let wheel = std::fs::read_dir(&wheels)?.filter_map(Result::ok).map(|entry| entry.path());
     let wheel = wheel.into_iter().find(|path| path.extension().is_some_and(|end| end == "whl"));

@@ -42,7 +42,7 @@ pub enum ArchiveError {
     Instance(#[from] InstanceError),
     /// A file is no library of this version.
     #[error("{file} is no library of dbd-fmu {}: {reason}", env!("CARGO_PKG_VERSION"))]
-    #[diagnostic(help("cargo rustc --release -p dbd-fmu --lib --crate-type cdylib"))]
+    #[diagnostic(help("cargo build --release -p dbd-fmu"))]
     Library {
         /// The file.
         file: String,

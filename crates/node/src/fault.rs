@@ -8,7 +8,7 @@ use dbd_kernel::plant::InputError;
 
 /// A sensor or an actuator is wired to nothing, or to the wrong thing.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct WiringError {
     /// The name that the program gave.
     pub name: &'static str,
@@ -18,7 +18,7 @@ pub struct WiringError {
 
 /// What is wrong with a wire.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Problem {
     /// The input cannot be set: the model has none, or a table of the scene drives it.
     Input(InputError),
@@ -65,7 +65,7 @@ impl core::error::Error for WiringError {}
 
 /// Why a driver's call failed, or a node stands still.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Fault {
     /// The plant failed: it diverged, or its steps are at an end.
     Plant(Failure),

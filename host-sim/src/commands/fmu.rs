@@ -103,8 +103,7 @@ impl Diagnostic for FmuError {
         match self {
             Self::Archive(error) => error.help(),
             Self::Library { .. } => Some(Box::new(
-                "cargo rustc --release -p dbd-fmu --lib --crate-type cdylib makes it beside host-sim; --library takes another \
-                 place",
+                "cargo build --release -p dbd-fmu makes it beside host-sim; --library takes another place",
             )),
             Self::Taken { .. } => Some(Box::new("--out takes another name, or remove that file")),
             Self::Write { .. } => None,
@@ -157,9 +156,16 @@ pub fn fmu(found: &Found, arguments: &FmuArguments) -> Result<String, FmuError> 
 /// \[byte\] no library of an FMU has this size.
 const MAX_LIBRARY: u64 = 1 << 30;
 
+/// The library beside this program, or where cargo leaves it with what the program is built from.
+fn beside() -> PathBuf {
+    let program = std::env::current_exe().unwrap_or_default();
+    let built = program.with_file_name("deps").join(LIBRARY);
+    let installed = program.with_file_name(LIBRARY);
+    if built.is_file() && !installed.is_file() { built } else { installed }
+}
+
 /// The libraries of these files; without any the one beside this program.
 fn libraries(files: &[PathBuf]) -> Result<Vec<Library>, FmuError> {
-    let beside = || std::env::current_exe().unwrap_or_default().with_file_name(LIBRARY);
     let files = if files.is_empty() { vec![beside()] } else { files.to_vec() };
     let read = |file: PathBuf| match read(&file, MAX_LIBRARY) {
         Ok(bytes) => Ok(Library::new(file.display().to_string(), bytes)?),

@@ -10,7 +10,7 @@ use crate::space::Space as _;
 
 /// What bushings have in common.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct BushingLaw {
     /// \[N/m\] stiffness, ≥ 0; of a revolute joint that across its axis.
     pub stiffness: f64,

@@ -4,7 +4,7 @@ use crate::index::BodyIndex;
 
 /// Why an element could not be added; the builder is then as it was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum BuildError {
     /// The capacity for this part is used up.
     Full(Part),
@@ -18,7 +18,7 @@ pub enum BuildError {
 
 /// What a builder has room for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Part {
     /// Bodies.
     Bodies,
@@ -50,7 +50,7 @@ pub enum Part {
 
 /// What can be out of range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Quantity {
     /// Mass: positive.
     Mass,

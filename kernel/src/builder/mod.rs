@@ -33,7 +33,7 @@ use crate::vector::Quaternion;
 
 /// Stars of TSDAs between two bodies: what a joint expands into.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Stars<'p> {
     /// First and second body.
     pub between: [BodyIndex; 2],
@@ -54,7 +54,7 @@ pub struct Stars<'p> {
 
 /// How a point is held to a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct LineLaw {
     /// \[N/m\] stiffness normal to the line, ≥ 0.
     pub stiffness: f64,

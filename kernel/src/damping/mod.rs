@@ -66,7 +66,7 @@ use crate::space::{Linear as _, Vector as _};
 
 /// How a scheme treats dampers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Damping {
     /// A sweep of half a step after each half kick, or around a composition: of this module.
     Sweeps,

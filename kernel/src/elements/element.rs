@@ -13,7 +13,7 @@ use crate::space::Space;
 
 /// The law that a group's elements follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Law {
     /// Stars of TSDAs with free lengths.
     Tsda,

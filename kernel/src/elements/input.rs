@@ -127,7 +127,7 @@ impl<P: Geometry> Input<P> {
 
 /// A knot of an input's table.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Knot<R> {
     /// \[s\] from when it holds.
     pub time: f64,

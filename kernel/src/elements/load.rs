@@ -10,7 +10,7 @@ use crate::space::{Linear as _, Space};
 
 /// The axes in which a load is given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum LoadFrame {
     /// World axes.
     #[default]

@@ -11,7 +11,7 @@ use crate::space::{Linear, Vector};
 
 /// The constants of a point bushing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct PointBushing<R> {
     /// \[N/m\] stiffness in every direction, ≥ 0.
     pub stiffness: R,

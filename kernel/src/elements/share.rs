@@ -6,7 +6,7 @@ use crate::real::Real;
 
 /// The share of one damper in what it bears together with others.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Share<R> {
     /// \[1\] its own, above 0, 1 at most.
     pub own: R,

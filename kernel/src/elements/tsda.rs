@@ -25,7 +25,7 @@ fn length<V: Linear>(d: V) -> V::Real {
 
 /// The constants of a TSDA with a free length.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Tsda<R> {
     /// \[N/m\] axial stiffness, ≥ 0.
     pub stiffness: R,

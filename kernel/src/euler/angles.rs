@@ -28,7 +28,7 @@ impl Trigonometric for f32 {
 
 /// A sequence of turns about body axes, the first angle about z.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Sequence {
     /// 3-2-1: yaw about z, pitch about y, roll about x.
     #[default]
@@ -40,7 +40,7 @@ pub enum Sequence {
 /// An orientation as three angles \[rad\] in a sequence. First and last lie within ±2π, so that
 /// half of them gives the sign of the quaternion, too, which winding springs need.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct EulerAngles<R> {
     /// \[rad\] first, middle and last angle.
     pub angles: Vec3<R>,

@@ -17,7 +17,7 @@ const ALL: u32 = (1 << LOST) - 1;
 
 /// What the entries of a matrix have lost, row by row \[2^-59\].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub(super) struct Carry {
     lost: [[u32; 3]; 3],
 }

@@ -36,7 +36,7 @@ use crate::vector::Vec3;
 
 /// Fixed-point geometry with forces in single precision.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Fixed;
 
 /// Bits after the point of a short way, metres: 32 bits hold it below 1/4 m.

@@ -21,7 +21,7 @@ const LOST: i64 = 1 << (PLACE + 5);
 
 /// Where something is, metres to 2^-57.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct FixedPlace {
     /// \[2^-57 m\] world axes.
     pub at: [i64; 3],
@@ -29,7 +29,7 @@ pub struct FixedPlace {
 
 /// A point of a body or of the ground, metres to 2^-27.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct FixedPoint {
     /// \[2^-27 m\] of a body within 32 bits.
     pub at: [i64; 3],

@@ -8,7 +8,7 @@ use crate::vector::Rotation;
 
 /// The pose of a body in fixed point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct FixedPose {
     pub(super) position: [i64; 3],
     /// \[2^-30\] rows in world axes.

@@ -25,7 +25,7 @@ const MOST: f32 = 0.25;
 
 /// A unit quaternion, 62 bits after the point, scalar first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct FixedTurn {
     /// Scalar part.
     pub w: i64,

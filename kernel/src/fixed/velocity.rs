@@ -7,7 +7,7 @@ use crate::words::{WordSource, WordVisitor, Words};
 
 /// A linear or angular velocity whose value is `sum − lost`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct FixedVelocity {
     /// \[m/s, rad/s\] the sum of the increments, rounded.
     pub sum: Vec3<f32>,

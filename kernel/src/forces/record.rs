@@ -46,7 +46,7 @@ impl Dampers for DampersOfJoints {
 
 /// Where in a step an evaluation stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum At {
     /// Near a step's boundary, at least once per step: turn counts are settled.
     Boundary,

@@ -45,7 +45,7 @@ use crate::sources::SourceStep;
 /// Its points lie together from `point` on: the first body's, one per star, then the second
 /// body's, `arms` for each star, or once where the stars share them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Group {
     /// The law of its elements.
     pub law: Law,

@@ -5,7 +5,7 @@
 
 /// Where the matrix of a model has blocks, and in which order its bodies are eliminated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Plan<'m> {
     /// Every body once, with the number of pairs that are eliminated with it.
     pub order: &'m [[u16; 2]],

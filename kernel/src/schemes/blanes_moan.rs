@@ -18,7 +18,7 @@ use crate::step::Stepper;
 
 /// Seven drifts around six kicks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct BlanesMoanS6;
 
 impl Scheme for BlanesMoanS6 {

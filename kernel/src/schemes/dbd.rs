@@ -28,7 +28,7 @@ use crate::step::Stepper;
 /// - positions: `q = q_n ∘ h·v`
 /// - each iteration: `v ← v_n + (h·D⁻¹)·Q`, `q ← q_n ∘ (h·v_n + (h²·D⁻¹)·Q)`
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Dbd {
     /// Newton iterations with the two-diagonal inverse Jacobian.
     pub newton: u32,

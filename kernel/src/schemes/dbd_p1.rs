@@ -23,7 +23,7 @@ const LIMITS: [f64; 9] = [1.414, 1.414, 1.242, 1.242, 1.178, 1.178, 1.143, 1.143
 
 /// Predict–evaluate–correct of positions and velocities, then Newton iterations, 0 by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct DbdP1 {
     /// Newton iterations with the two-diagonal inverse Jacobian.
     pub newton: u32,

@@ -21,7 +21,7 @@ use crate::step::Stepper;
 /// Predict–evaluate–correct–evaluate of positions and velocities, then Newton iterations, 0 by
 /// default.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct DbdP2 {
     /// Newton iterations with the two-diagonal inverse Jacobian.
     pub newton: u32,

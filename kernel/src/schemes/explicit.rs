@@ -32,7 +32,7 @@ pub trait Kicked: Scheme {
 
 /// A scheme with explicit dampers in place of its sweeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Explicit<S>(pub S);
 
 impl<S: Kicked> Scheme for Explicit<S> {

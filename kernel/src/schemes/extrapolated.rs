@@ -38,7 +38,7 @@ use crate::words::{WordSource, WordVisitor, Words as _};
 
 /// Generalised-α of third order, three linear solves per step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct GeneralizedAlpha3;
 
 /// What is extrapolated. Vibration decays with ρ∞ from 0.47 to 0.62 alone.

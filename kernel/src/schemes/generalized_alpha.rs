@@ -67,7 +67,7 @@ pub struct GeneralizedAlpha {
 
 /// Why there is no such scheme: ρ∞ is not from 0 to [`GeneralizedAlpha::MOST_RHO`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct RhoError(
     /// \[1\] what was asked for.
     pub f64,

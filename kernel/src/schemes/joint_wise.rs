@@ -17,7 +17,7 @@ use crate::step::Stepper;
 
 /// A scheme whose dampers act joint by joint in place of its sweeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct JointWise<S>(pub S);
 
 impl<S: Kicked> Scheme for JointWise<S> {

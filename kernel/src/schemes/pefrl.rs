@@ -20,7 +20,7 @@ use crate::step::Stepper;
 
 /// Five drifts around four kicks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Pefrl;
 
 impl Scheme for Pefrl {

@@ -23,7 +23,7 @@ use crate::step::Stepper;
 
 /// Four stages at the start, twice the middle and the end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Rk4;
 
 /// What a step of [`Rk4`] remembers of one body.

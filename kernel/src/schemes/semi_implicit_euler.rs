@@ -20,7 +20,7 @@ use crate::step::Stepper;
 
 /// Kick, then drift.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct SemiImplicitEuler;
 
 impl Scheme for SemiImplicitEuler {

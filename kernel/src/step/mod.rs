@@ -33,7 +33,7 @@ use crate::status::Cause;
 /// What a plant knows of its evaluations. Never part of the state: evaluating anew gives the same
 /// bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub(crate) struct Ledger {
     /// Force evaluations performed since t = 0.
     pub(crate) evaluations: u64,

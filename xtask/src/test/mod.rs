@@ -2,7 +2,7 @@
 //!
 //! `sources => steps => verdict, the slowest tests`. On the host every crate is built once, with all
 //! features, checked and optimised as the dev profile says, and once more for the documentation's
-//! and the linter's eyes. The release profile builds what a release must prove: the golden bits.
+//! and the linter's eyes. The release profile builds what a release must prove: the golden bits, and Python's module.
 
 mod cases;
 mod times;
@@ -61,7 +61,7 @@ pub fn run(long: bool, write_times: bool) -> Result<()> {
         // Of two cores these steps take hardly more than one, and so does linking an image.
         scope.spawn(|| firmware::link_ahead(&toolchain));
         bare(&mut steps);
-        let host = release(&mut steps, &mut cases);
+        let host = release(&mut steps, &mut cases, &programs);
         other_targets(&mut steps);
         python::add_steps(&mut steps, &programs);
         host
@@ -194,17 +194,19 @@ fn bare(steps: &mut Steps) {
 }
 
 /// Golden bits as released; the programs whose bits the target is compared with.
-fn release(steps: &mut Steps, cases: &mut Vec<Case>) -> Option<Host> {
+fn release(steps: &mut Steps, cases: &mut Vec<Case>, tested: &[Program]) -> Option<Host> {
     let (mut host, mut golden, mut counted) = (None, None, Vec::new());
-    steps.step("the host's programs are built, optimised as released and not at all", || {
+    steps.step("programs and libraries as released", || {
         let mut command = cargo();
         command.args(["build", "--release", "--package", GOLDEN, "--test", "golden"]);
         command.args(["--package", "firmware", "--bin", firmware::SHARED]);
         command.args(["--bin", firmware::PLANT]).args(instructions::BUILD);
+        // What stands below Python's module is compiled once with the rest.
+        command.args(["--package", python::CRATE, "--lib"]);
         let built = build(&mut command)?;
         golden = built.iter().find(|program| program.tests).cloned();
         counted = built.clone();
-        host = Some(Host::new(&built)?);
+        host = Some(Host::new(&built, tested)?);
         Ok(())
     });
     steps.step("golden bits in release", || {
