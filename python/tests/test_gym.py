@@ -24,6 +24,8 @@ def force(seen: np.ndarray) -> np.ndarray:
 def test_gymnasium_has_nothing_against_it() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
+        # Where the tests run there may be no screen.
+        warnings.filterwarnings("ignore", message=".*no window here")
         check_env(gymnasium.make("dbd/CartPendulum-v0").unwrapped)
 
 
@@ -87,6 +89,32 @@ def test_an_episode_of_many_is_cut_off() -> None:
             many.reset(seed=seed)
     with pytest.raises(ValueError, match="one at least"):
         dbd.gym.CartPendulumVector(0)
+
+
+def test_pictures_show_the_state() -> None:
+    one = gymnasium.make("dbd/CartPendulum-v0", render_mode="rgb_array")
+    many = gymnasium.make_vec("dbd/CartPendulum-v0", num_envs=2, render_mode="rgb_array")
+    one.reset(seed=3)
+    many.reset(seed=3)
+    first = one.render()
+    assert first.shape == (400, 600, 3) and first.dtype == np.uint8
+    both = many.render()
+    assert np.array_equal(both[0], first) and not np.array_equal(both[1], first)
+    # Pushed to the right, the cart's blue goes to the right.
+    place = [np.argwhere(first[..., 2] > first[..., 0].astype(int) + 80)[:, 1].mean()]
+    for _ in range(5):
+        one.step(np.ones(1, dtype=np.float32))
+        shown = one.render()
+        place.append(np.argwhere(shown[..., 2] > shown[..., 0].astype(int) + 80)[:, 1].mean())
+    assert all(before < after for before, after in zip(place, place[1:], strict=False))
+    one.close()
+    for mode in ("ansi", "human"):
+        with pytest.raises(ValueError, match="there are 'rgb_array'"):
+            dbd.gym.CartPendulumVector(1, render_mode=mode)
+    with pytest.raises(ValueError, match="'human', 'rgb_array'"):
+        dbd.gym.CartPendulum("ansi")
+    with pytest.warns(UserWarning, match="without a render_mode"):
+        assert dbd.gym.CartPendulum().render() is None
 
 
 def test_an_action_that_is_no_number_is_refused() -> None:

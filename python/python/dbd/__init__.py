@@ -1,6 +1,6 @@
 """Discrete Body Dynamics: multibody plants with the bits of the firmware.
 
-A `Plant` is a scene that is stepped. Numbers are in SI units; arrays are numpy's, a row per time or per body.
+A `Plant` is a scene that is stepped, a `Recording` what it shows meanwhile. Numbers are in SI units; arrays are numpy's, a row per time or per body.
 
 >>> import dbd
 >>> plant = dbd.Plant.from_text(dbd.CART_PENDULUM)
@@ -26,6 +26,7 @@ from ._errors import (
     UnknownName,
 )
 from ._linear import Linear
+from ._recording import Recording
 from ._state import State
 
 __all__ = [
@@ -37,6 +38,7 @@ __all__ = [
     "LinearisationError",
     "MethodError",
     "Plant",
+    "Recording",
     "SceneError",
     "State",
     "StateError",

@@ -11,7 +11,8 @@ number of the state within 0.05 of rest at the rail's middle (m, rad, m/s, rad/s
 over 20 N, of shape (1,) within -1 and 1, held for 20 ms. The observation is the cart's place [m], the pendulum's angle
 from upright [rad] and their rates [m/s, rad/s], of shape (4,). The reward is 1 for every action. An episode
 ends where the cart is more than 0.4 m from the middle or the pendulum more than 0.2 rad from upright; it is cut
-off after 500 actions.
+off after 500 actions. `render_mode="rgb_array"` makes `render()` return a picture of shape (400, 600, 3), of many a
+tuple of them; `"human"`, of one, opens a window that follows. Both need matplotlib.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from ._dbd import CART_PENDULUM, Plant, rollouts
+from ._picture import FRAMES, Picture
 
 FORCE = 20.0
 """[N] what an action of 1 is."""
@@ -75,6 +77,16 @@ def _upright(seen: NDArray[np.float64]) -> NDArray[np.float32]:
     return (seen + np.array([0.0, _LEAN, 0.0, 0.0])).astype(np.float32)
 
 
+def _picture(window: bool) -> Picture:
+    return Picture(window, (FARTHEST, STEEPEST), 2.0 * _HEIGHT)
+
+
+def _checked(render_mode: str | None, known: list[str]) -> str | None:
+    if render_mode is not None and render_mode not in known:
+        raise ValueError(f"render_mode={render_mode!r}; there are {', '.join(map(repr, known))}")
+    return render_mode
+
+
 def _forces(action: Any) -> NDArray[np.float64]:
     return FORCE * np.clip(np.asarray(action, dtype=np.float64), -1.0, 1.0)
 
@@ -86,9 +98,11 @@ def _over(seen: NDArray[np.float32]) -> Any:
 class CartPendulum(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     """One cart with its pendulum; see the module."""
 
-    metadata: dict[str, Any] = {"render_modes": []}
+    metadata: dict[str, Any] = {"render_modes": ["human", "rgb_array"], "render_fps": FRAMES}
 
-    def __init__(self) -> None:
+    def __init__(self, render_mode: str | None = None) -> None:
+        self.render_mode = _checked(render_mode, self.metadata["render_modes"])
+        self._shown: Picture | None = None
         self.plant = _plant()
         """The plant itself."""
         self.observation_space, self.action_space = _spaces()
@@ -100,6 +114,7 @@ class CartPendulum(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         """Upright near rest. The same seed gives the same bits."""
         super().reset(seed=seed)
         _place(self.plant, self.np_random)
+        self._follow()
         return _upright(self.plant.read(_SEEN)), {}
 
     def step(
@@ -108,7 +123,32 @@ class CartPendulum(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         """Holds a force for 20 ms. Raises `dbd.InputError` where the action is not a number."""
         seen = self.plant.rollout(_forces(action).reshape(1, 1), self._every, _SEEN)
         observation = _upright(seen[0])
+        self._follow()
         return observation, 1.0, bool(_over(observation)), False, {}
+
+    def render(self) -> NDArray[np.uint8] | None:  # type: ignore[override]
+        """The present state as a picture, height x width x 3; `None` where a window shows it, or no mode is set."""
+        if self.render_mode is None:
+            gymnasium.logger.warn("render() shows nothing without a render_mode: 'human' or 'rgb_array'")
+            return None
+        picture = self._draw()
+        return picture.pixels() if self.render_mode == "rgb_array" else None
+
+    def close(self) -> None:
+        """Closes the window."""
+        if self._shown is not None:
+            self._shown.close()
+            self._shown = None
+
+    def _follow(self) -> None:
+        if self.render_mode == "human":
+            self._draw()
+
+    def _draw(self) -> Picture:
+        if self._shown is None:
+            self._shown = _picture(self.render_mode == "human")
+        self._shown.draw(_upright(self.plant.read(_SEEN)), self.plant.time)
+        return self._shown
 
 
 class CartPendulumVector(VectorEnv[NDArray[np.float32], NDArray[np.float32], NDArray[Any]]):
@@ -120,16 +160,24 @@ class CartPendulumVector(VectorEnv[NDArray[np.float32], NDArray[np.float32], NDA
         num_envs: How many.
         max_episode_steps: Actions after which an episode is cut off; `None` for never.
         threads: How many; as many as the machine runs at once if not said.
+        render_mode: `"rgb_array"` for pictures, or `None`.
     """
 
-    metadata: dict[str, Any] = {"render_modes": [], "autoreset_mode": AutoresetMode.NEXT_STEP}
+    metadata: dict[str, Any] = {
+        "render_modes": ["rgb_array"],
+        "render_fps": FRAMES,
+        "autoreset_mode": AutoresetMode.NEXT_STEP,
+    }
 
     def __init__(
         self,
         num_envs: int = 1,
         max_episode_steps: int | None = None,
         threads: int | None = None,
+        render_mode: str | None = None,
     ) -> None:
+        self.render_mode = _checked(render_mode, self.metadata["render_modes"])
+        self._shown: Picture | None = None
         if num_envs < 1:
             raise ValueError(f"there are no {num_envs} environments; one at least")
         self.num_envs = num_envs
@@ -186,6 +234,19 @@ class CartPendulumVector(VectorEnv[NDArray[np.float32], NDArray[np.float32], NDA
         rewards[on] = 1.0
         self._ended = terminated | truncated
         return self._seen.copy(), rewards, terminated, truncated, {}
+
+    def render(self) -> tuple[NDArray[np.uint8], ...] | None:  # type: ignore[override]
+        """The present states as pictures, each height x width x 3."""
+        if self.render_mode is None:
+            gymnasium.logger.warn("render() shows nothing without render_mode='rgb_array'")
+            return None
+        if self._shown is None:
+            self._shown = _picture(False)
+        pictures = []
+        for seen, plant in zip(self._seen, self.plants, strict=True):
+            self._shown.draw(seen, plant.time)
+            pictures.append(self._shown.pixels())
+        return tuple(pictures)
 
     def _begin(self, row: int) -> None:
         _place(self.plants[row], self._randoms[row])

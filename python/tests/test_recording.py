@@ -1,0 +1,95 @@
+"""A recording has what the plant shows and what its inputs are held at, row by row."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import dbd
+
+SEEN = ["cart_point.x", "angle"]
+
+
+def driven(names: list[str] | None = None) -> dbd.Recording:
+    """A tenth of a second with a force that changes sides each 10 ms."""
+    plant = dbd.Plant.from_text(dbd.CART_PENDULUM)
+    recording = dbd.Recording(plant, names)
+    for tick in range(10):
+        plant["drive"] = 2.0 if tick % 2 == 0 else -1.0
+        recording.advance(round(0.01 / plant.step_size))
+    return recording
+
+
+def test_rows_are_those_of_a_rollout_and_inputs_as_they_were_held() -> None:
+    recording = driven([*SEEN, "drive"])
+    other = dbd.Plant.from_text(dbd.CART_PENDULUM)
+    forces = np.tile([2.0, -1.0], 5)
+    expected = other.rollout(forces, round(0.01 / other.step_size), ["time", *SEEN])
+    assert recording.columns == ["time", *SEEN, "drive"]
+    assert recording.units == {"time": "s", "cart_point.x": "m", "angle": "rad", "drive": "N"}
+    assert len(recording) == 11 and np.array_equal(recording.rows[1:, :3], expected)
+    assert recording["drive"].tolist() == [*forces, -1.0]
+    assert recording.plant.hash == other.hash
+
+
+def test_all_columns_are_recorded_where_none_is_named() -> None:
+    recording = driven()
+    assert recording.columns == ["time", *recording.plant.outputs, "drive"]
+    assert recording.rows.shape == (11, len(recording.columns))
+
+
+def test_a_name_that_is_none_is_refused() -> None:
+    plant = dbd.Plant.from_text(dbd.CART_PENDULUM)
+    with pytest.raises(dbd.UnknownName, match="did you mean `angle`"):
+        dbd.Recording(plant, ["angel"])
+    recording = dbd.Recording(plant, SEEN)
+    for refused in (lambda: recording["rate"], lambda: recording.plot(["rate"])):
+        with pytest.raises(dbd.UnknownName, match="cart_point.x, angle"):
+            refused()
+
+
+def test_a_reset_or_an_older_state_drops_the_rows_after_it() -> None:
+    recording = driven(SEEN)
+    plant = recording.plant
+    saved = plant.save()
+    recording.advance(100)
+    plant.restore(saved)
+    recording.sample()
+    assert len(recording) == 11 and recording["time"][-1] == plant.time
+    plant.reset()
+    recording.sample()
+    assert recording["time"].tolist() == [0.0]
+
+
+def test_a_failed_step_leaves_the_row_before_it() -> None:
+    plant = dbd.Plant.from_text(dbd.CART_PENDULUM, scheme="rk4", step=0.05)
+    recording = dbd.Recording(plant, SEEN)
+    with pytest.raises(dbd.StepFailed):
+        for _ in range(1000):
+            recording.advance(1)
+    assert len(recording) >= 1 and np.isfinite(recording["time"]).all()
+
+
+def test_a_table_has_the_same_numbers(tmp_path: Path) -> None:
+    recording = driven()
+    file = tmp_path / "run.csv"
+    recording.write_csv(file)
+    columns, *rows = csv.reader(file.read_text().splitlines())
+    assert columns == recording.columns
+    values = [[float(cell) if cell else np.nan for cell in row] for row in rows]
+    assert np.array_equal(np.array(values), recording.rows, equal_nan=True)
+
+
+def test_a_plot_has_a_line_per_column_and_axes_per_unit(tmp_path: Path) -> None:
+    recording = driven([*SEEN, "rate", "drive", "cart.x"])
+    figure = recording.plot()
+    lines = {one.get_ylabel(): [line.get_label() for line in one.get_lines()] for one in figure.axes}
+    assert lines == {"[m]": ["cart_point.x", "cart.x"], "[rad]": ["angle"], "[rad/s]": ["rate"], "[N]": ["drive"]}
+    drive = figure.axes[-1].get_lines()[0]
+    assert np.array_equal(drive.get_ydata(), recording["drive"]) and drive.get_drawstyle() == "steps-post"
+    figure.savefig(tmp_path / "run.png")
+    assert (tmp_path / "run.png").stat().st_size > 1000
+    assert len(recording.plot(["angle"]).axes) == 1
