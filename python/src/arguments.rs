@@ -4,6 +4,7 @@
 
 use dbd_plant::instance::{Instance, InstanceError};
 use dbd_scene::TIME_COLUMN;
+use dbd_scene::time;
 use numpy::{
     AllowTypeChange, PyArray1, PyArray2, PyArrayLikeDyn, PyArrayMethods as _,
     PyUntypedArrayMethods as _,
@@ -11,8 +12,23 @@ use numpy::{
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::error::raise;
+use crate::error::{Refusal, raise};
 use crate::rollout::Course;
+
+/// A time \[s\]: a number, or a text as a scene has it, `250us`.
+#[derive(Clone, Copy)]
+pub(crate) struct Seconds(pub(crate) f64);
+
+impl<'py> FromPyObject<'_, 'py> for Seconds {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let Ok(text) = given.extract::<String>() else { return given.extract().map(Self) };
+        time::seconds(&text).map(Self).map_err(|error| {
+            Refusal::new("TimeError", format!("`{text}`: {error}")).raised(given.py())
+        })
+    }
+}
 
 /// What inputs are held at in a run.
 pub(crate) enum Held<'py> {

@@ -12,7 +12,7 @@ use numpy::{
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple};
 
-use crate::arguments::{self, Held};
+use crate::arguments::{self, Held, Seconds};
 use crate::error::{Refusal, raise};
 use crate::plant::Plant;
 use crate::rollout::{Watch, read};
@@ -51,13 +51,14 @@ impl Plant {
         self.advanced(py, |_| Ok(steps))
     }
 
-    /// On to a time [s], within a hundredth of a step a whole number of steps. Other threads run meanwhile.
+    /// On to a time [s], or a text with a unit as ``"20ms"``, within a hundredth of a step a whole number of steps.
+    /// Other threads run meanwhile.
     ///
     /// Raises:
-    ///     TimeError: It is no whole number of steps, has passed, or is not finite; nothing is changed then.
+    ///     TimeError: It is no time, no whole number of steps, has passed, or is not finite; nothing is changed then.
     ///     StepFailed: A step failed, or one has before.
-    fn advance_to(&self, py: Python<'_>, time: f64) -> PyResult<()> {
-        self.advanced(py, |instance| instance.steps_to(time))
+    fn advance_to(&self, py: Python<'_>, time: Seconds) -> PyResult<()> {
+        self.advanced(py, |instance| instance.steps_to(time.0))
     }
 
     /// Back to t = 0 with the parameters as they are; inputs have their first values.

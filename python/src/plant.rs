@@ -9,6 +9,7 @@ use dbd_plant::instance::{Blueprint, Instance, Settings};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyMappingProxy, PyTuple};
 
+use crate::arguments::Seconds;
 use crate::error::{Refusal, raise};
 
 /// A scene's plant: a multibody system that is stepped with the bits of the firmware.
@@ -20,7 +21,7 @@ use crate::error::{Refusal, raise};
 ///     rho: What ``generalized-alpha`` leaves per step of a vibration it does not resolve, 0 to 0.8.
 ///     damping: How dampers are stepped, as ``host-sim run --damping``.
 ///     precision: ``f64``, ``f32``, ``fixed``, as ``host-sim run --precision``; ``f64`` if not said.
-///     step: [s] the step; the scene's if not said, else the advised one.
+///     step: [s] the step, or a text with a unit, ``"250us"``; the scene's if not said, else the advised one.
 ///     changes: Changes of the scene's values, each ``"PATH=VALUE"`` as of ``host-sim run --set``.
 ///
 /// A plant begins at t = 0. It may be used from any thread, by one at a time.
@@ -28,6 +29,7 @@ use crate::error::{Refusal, raise};
 /// Raises:
 ///     SceneError: The scene cannot be read or is refused.
 ///     MethodError: There is no such scheme, damping or precision, or it does not go with the scene.
+///     TimeError: The step's text is no time.
 #[pyclass(frozen, subclass, module = "dbd")]
 pub(crate) struct Plant {
     pub(crate) instance: Mutex<Instance>,
@@ -63,10 +65,11 @@ impl Plant {
         rho: Option<f64>,
         damping: Option<String>,
         precision: Option<String>,
-        step: Option<f64>,
+        step: Option<Seconds>,
         changes: Vec<String>,
     ) -> PyResult<Self> {
         let blueprint = Blueprint::load(scene).map_err(|error| raise(py)(error.into()))?;
+        let step = step.map(|step| step.0);
         let settings = Settings { scheme, newton, rho, damping, precision, step };
         Self::of(py, Blueprint { changes, ..blueprint }, settings)
     }
@@ -90,9 +93,10 @@ impl Plant {
         rho: Option<f64>,
         damping: Option<String>,
         precision: Option<String>,
-        step: Option<f64>,
+        step: Option<Seconds>,
         changes: Vec<String>,
     ) -> PyResult<Self> {
+        let step = step.map(|step| step.0);
         let settings = Settings { scheme, newton, rho, damping, precision, step };
         Self::of(py, Blueprint { changes, ..Blueprint::new(name, text) }, settings)
     }

@@ -244,6 +244,9 @@ REFUSED = [
     (lambda: cart(newton=2), dbd.MethodError, "ewton"),
     (lambda: cart(step=float("nan")), dbd.MethodError, "step"),
     (lambda: cart(step=-1.0), dbd.MethodError, "step"),
+    (lambda: cart(step="1 m"), dbd.TimeError, "`1 m`: a time is"),
+    (lambda: cart(step=[1.0]), TypeError, "list"),
+    (lambda: cart().advance_to("soon"), dbd.TimeError, "`soon`: a time is"),
     (lambda: cart(changes=["body.cat.mass=1"]), dbd.SceneError, "cart"),
     (lambda: cart().set("drivr", 1.0), dbd.UnknownName, "did you mean `drive`"),
     (lambda: cart()["angl"], dbd.UnknownName, "did you mean `angle`"),
@@ -282,6 +285,13 @@ def test_bad_input_is_an_exception_with_words(act, error, words: str) -> None:  
     if isinstance(told.value, dbd.Error):
         assert isinstance(told.value, ValueError | KeyError)
         assert not str(told.value).startswith("'")
+
+
+def test_times_are_numbers_or_texts() -> None:
+    one, other = cart(step=2e-4), cart(step="200us")
+    one.advance_to(0.02)
+    other.advance_to("20 ms")
+    assert (one.step_size, one.hash) == (other.step_size, other.hash)
 
 
 def test_a_refusal_changes_nothing() -> None:

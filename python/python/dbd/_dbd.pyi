@@ -26,10 +26,10 @@ class Plant:
         rho: float | None = None,
         damping: str | None = None,
         precision: str | None = None,
-        step: float | None = None,
+        step: float | str | None = None,
         changes: Sequence[str] = (),
     ) -> None:
-        """A plant from a scene file; `step` in s, `changes` as of `host-sim run --set`."""
+        """A plant from a scene file; `step` in s or as text, `"250us"`, `changes` as of `host-sim run --set`."""
 
     @staticmethod
     def from_text(
@@ -41,7 +41,7 @@ class Plant:
         rho: float | None = None,
         damping: str | None = None,
         precision: str | None = None,
-        step: float | None = None,
+        step: float | str | None = None,
         changes: Sequence[str] = (),
     ) -> Plant:
         """A plant from a scene's text; `name` is what messages call it."""
@@ -95,8 +95,8 @@ class Plant:
         """One step."""
     def advance(self, steps: int) -> None:
         """So many steps with held inputs."""
-    def advance_to(self, time: float) -> None:
-        """On to a time [s], a whole number of steps."""
+    def advance_to(self, time: float | str) -> None:
+        """On to a time [s], or a text as `"20ms"`, a whole number of steps."""
     def reset(self) -> None:
         """Back to t = 0."""
     def set(self, name: str, value: float) -> None:

@@ -30,7 +30,7 @@ class InputError(Error, ValueError):
 
 
 class TimeError(Error, ValueError):
-    """A time that no whole number of steps leads to, or that has passed."""
+    """A time that no whole number of steps leads to, or that has passed, or a text that is no time."""
 
 
 class StateError(Error, ValueError):
