@@ -30,6 +30,8 @@ const MECHANICS: &str = "dbd-mechanics";
 /// What firmwares compare trajectories with.
 const TRAJECTORIES: &str = "dbd-golden";
 const PROOF: &str = "dbd-proof";
+/// What stands on scene and plant alone.
+const FMU: &str = "dbd-fmu";
 /// What every build of the host's takes: one set of features, so that nothing is built twice.
 const EVERYTHING: [&str; 2] = ["--workspace", "--all-features"];
 /// Targets that the kernel is checked for beside the firmware's: without an FPU, without
@@ -190,6 +192,10 @@ fn documentation_tests(steps: &mut Steps) {
 fn bare(steps: &mut Steps) {
     steps.step("tests of the kernel without features", || {
         run_command(cargo().args(["test", "--quiet", "--lib", "--package", KERNEL]))
+    });
+    // With others, features of crates from the registry are on that it does not ask for.
+    steps.step("the FMU library by itself", || {
+        run_command(cargo().args(["check", "--quiet", "--package", FMU]))
     });
 }
 

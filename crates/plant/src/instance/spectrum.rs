@@ -6,7 +6,7 @@
 //! fast ones better than the Schur form does.
 
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
-use nalgebra::{Complex, DMatrix, Schur};
+use nalgebra::{Complex, ComplexField as _, DMatrix, Schur};
 
 use crate::instance::error::InstanceError;
 
@@ -54,7 +54,7 @@ pub fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, InstanceE
         remedy: "another pose",
     })?;
     let by_size = |a: &Complex<f64>, b: &Complex<f64>| {
-        a.norm().total_cmp(&b.norm()).then(a.re.total_cmp(&b.re)).then(a.im.total_cmp(&b.im))
+        a.modulus().total_cmp(&b.modulus()).then(a.re.total_cmp(&b.re)).then(a.im.total_cmp(&b.im))
     };
     values.sort_by(by_size);
     Ok(values)
@@ -69,7 +69,7 @@ pub fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, InstanceE
 pub fn slowest(a: &DMatrix<f64>, count: usize) -> Result<Slow, InstanceError> {
     let size = a.nrows();
     let values = eigenvalues(a)?;
-    let [last, next] = [count - 1, count].map(|row| values[row].norm());
+    let [last, next] = [count - 1, count].map(|row| values[row].modulus());
     let no_gap = || InstanceError::Linearisation {
         what: format!(
             "there are no {count} slow motions here: the next is as fast, {next:.3} rad/s after {last:.3} rad/s"
