@@ -24,6 +24,7 @@ const CRATES: &[&str] = &[
     "crates/import",
     "crates/link",
     "host-sim",
+    "python",
     "tests/bench",
     "tests/fuzz",
 ];
