@@ -1,4 +1,4 @@
-//! Programs and libraries of C as cargo builds them for the host.
+//! Programs and shared libraries as cargo builds them for the host.
 //!
 //! `cargo's arguments => programs, with their tests or without`. What compiles is shown as it comes.
 

@@ -156,12 +156,11 @@ pub fn fmu(found: &Found, arguments: &FmuArguments) -> Result<String, FmuError> 
 /// \[byte\] no library of an FMU has this size.
 const MAX_LIBRARY: u64 = 1 << 30;
 
-/// The library beside this program, or where cargo leaves it with what the program is built from.
+/// The library that cargo built with this program; of an installed program the one beside it.
 fn beside() -> PathBuf {
     let program = std::env::current_exe().unwrap_or_default();
     let built = program.with_file_name("deps").join(LIBRARY);
-    let installed = program.with_file_name(LIBRARY);
-    if built.is_file() && !installed.is_file() { built } else { installed }
+    if built.is_file() { built } else { program.with_file_name(LIBRARY) }
 }
 
 /// The libraries of these files; without any the one beside this program.

@@ -1,6 +1,7 @@
 """Discrete Body Dynamics: multibody plants with the bits of the firmware.
 
-A `Plant` is a scene that is stepped, a `Recording` what it shows meanwhile. Numbers are in SI units; arrays are numpy's, a row per time or per body.
+A `Plant` is a scene that is stepped, a `Recording` what it shows meanwhile. Numbers are in SI units;
+arrays are numpy's, a row per time or per body.
 
 >>> import dbd
 >>> plant = dbd.Plant.from_text(dbd.CART_PENDULUM)

@@ -60,7 +60,7 @@ class Recording:
 
     def sample(self) -> None:
         """Adds a row of the present state. At the time of the last row it takes that row's place, for what an input is
-        held at is known once it is set; after a reset the rows before are dropped."""
+        held at is known once it is set; after a reset or an older state the rows that are later than it are dropped."""
         plant = self.plant
         seen = dict(zip(self._outputs, plant.read(self._outputs), strict=True)) if self._outputs else {}
         row = [plant.time] + [float(seen[name]) if name in seen else plant.get(name) for name in self.columns[1:]]
@@ -121,7 +121,7 @@ class Recording:
             for name in names:
                 if self.units[name] == unit:
                     # An input jumps where it is set.
-                    how = "steps-post" if name in self.plant.inputs and name not in self.plant.outputs else "default"
+                    how = "default" if name in self._outputs else "steps-post"
                     one.plot(self["time"], values[name], drawstyle=how, label=name)
             one.set_ylabel(f"[{unit}]" if unit else "")
             one.legend()

@@ -1,6 +1,6 @@
 //! The same bits on the target as on the host.
 //!
-//! `program hash on host (as tests and as released) and target, golden table => equal hashes`. The golden
+//! `program hash on host (unoptimised, release) and target, golden table => equal hashes`. The golden
 //! table holds hashes of the run-time-sized models of the same scenes at the scenes' steps.
 
 use std::collections::BTreeMap;
@@ -39,13 +39,13 @@ pub fn compare(toolchain: &Toolchain, host: &Host, long: bool) -> Result<()> {
 
 fn compare_of(toolchain: &Toolchain, host: &Host, long: bool, limits: &[&str]) -> Result<()> {
     let arguments = [&["hash"], limits].concat();
-    let tested = parse(&host.tested(&arguments)?);
+    let unoptimised = parse(&host.unoptimised(&arguments)?);
     let release = parse(&host.released(&arguments)?);
     let arguments: Vec<String> = limits.iter().map(|&limit| limit.to_owned()).collect();
     let target = parse(&firmware::execute(toolchain, "hash", long, &arguments)?);
-    if tested != release {
-        let difference = first_difference(&tested, &release);
-        bail!("the host's builds for tests and as released differ: {difference}");
+    if unoptimised != release {
+        let difference = first_difference(&unoptimised, &release);
+        bail!("the host's unoptimised and release builds differ: {difference}");
     }
     // The target may do fewer steps, so it is the one that is looked up.
     if target.iter().any(|(key, hash)| release.get(key) != Some(hash)) {
@@ -75,7 +75,7 @@ fn compare_of(toolchain: &Toolchain, host: &Host, long: bool, limits: &[&str]) -
         bail!("{GOLDEN} has no hash of a shipped scene at a printed number of steps");
     }
     println!(
-        "\nequal on the host as tests and as released, and on the target; {blessed} of them in {GOLDEN}:"
+        "\nequal on host unoptimised, host release and target; {blessed} of them in {GOLDEN}:"
     );
     for (combination, (steps, hash)) in last {
         println!("{combination:<32} {steps:>8} steps  {hash}");

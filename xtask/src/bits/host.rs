@@ -1,31 +1,36 @@
 //! The host's programs whose bits the target's are compared with.
 //!
-//! Optimised as a release and as the tests are, where a step is not at all: with the target's, three levels of optimisation.
+//! Optimised as a release and not at all: with the target's, three levels of optimisation.
 
 use std::path::PathBuf;
 use std::process::Command;
 
 use anyhow::{Context as _, Result};
 
-use crate::built::Program;
+use crate::built::{Program, build};
 use crate::chip::firmware;
-use crate::command::{output, program};
+use crate::command::{cargo, output, program};
 
 /// The same programs twice.
 pub struct Host {
     release: PathBuf,
     plant: PathBuf,
-    tested: PathBuf,
+    unoptimised: PathBuf,
 }
 
 impl Host {
-    /// Takes them from the programs that were built as released, and with the tests.
+    /// Takes the release's programs from those that were built, and builds the others.
     ///
     /// # Errors
-    /// Where they are not there.
-    pub fn new(released: &[Program], tested: &[Program]) -> Result<Self> {
-        let (release, plant) = (shared(released)?, plant(released)?);
-        Ok(Self { release, plant, tested: shared(tested)? })
+    /// Where they are not there or do not build.
+    pub fn new(built: &[Program]) -> Result<Self> {
+        let unoptimised = build(
+            cargo()
+                .args(["build", "--package", "firmware", "--bin", firmware::SHARED])
+                .env("CARGO_PROFILE_DEV_OPT_LEVEL", "0"),
+        )?;
+        let plant = plant(built)?;
+        Ok(Self { release: shared(built)?, plant, unoptimised: shared(&unoptimised)? })
     }
 
     /// The program of controllers with their plants, optimised.
@@ -41,12 +46,12 @@ impl Host {
         lines(program(&self.release).args(arguments))
     }
 
-    /// Lines of a program, built with the tests.
+    /// Lines of a program, not optimised.
     ///
     /// # Errors
     /// Where it fails.
-    pub fn tested(&self, arguments: &[&str]) -> Result<Vec<String>> {
-        lines(program(&self.tested).args(arguments))
+    pub fn unoptimised(&self, arguments: &[&str]) -> Result<Vec<String>> {
+        lines(program(&self.unoptimised).args(arguments))
     }
 }
 

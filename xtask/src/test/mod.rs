@@ -63,7 +63,7 @@ pub fn run(long: bool, write_times: bool) -> Result<()> {
         // Of two cores these steps take hardly more than one, and so does linking an image.
         scope.spawn(|| firmware::link_ahead(&toolchain));
         bare(&mut steps);
-        let host = release(&mut steps, &mut cases, &programs);
+        let host = release(&mut steps, &mut cases);
         other_targets(&mut steps);
         python::add_steps(&mut steps, &programs);
         host
@@ -200,9 +200,9 @@ fn bare(steps: &mut Steps) {
 }
 
 /// Golden bits as released; the programs whose bits the target is compared with.
-fn release(steps: &mut Steps, cases: &mut Vec<Case>, tested: &[Program]) -> Option<Host> {
+fn release(steps: &mut Steps, cases: &mut Vec<Case>) -> Option<Host> {
     let (mut host, mut golden, mut counted) = (None, None, Vec::new());
-    steps.step("programs and libraries as released", || {
+    steps.step("the host's programs are built, optimised as released and not at all", || {
         let mut command = cargo();
         command.args(["build", "--release", "--package", GOLDEN, "--test", "golden"]);
         command.args(["--package", "firmware", "--bin", firmware::SHARED]);
@@ -212,7 +212,7 @@ fn release(steps: &mut Steps, cases: &mut Vec<Case>, tested: &[Program]) -> Opti
         let built = build(&mut command)?;
         golden = built.iter().find(|program| program.tests).cloned();
         counted = built.clone();
-        host = Some(Host::new(&built, tested)?);
+        host = Some(Host::new(&built)?);
         Ok(())
     });
     steps.step("golden bits in release", || {
