@@ -19,6 +19,7 @@ use crate::geometry::{F64, Geometry};
 use crate::laws::Laws as _;
 use crate::model::{Group, ModelOwner, ModelRef, Terms};
 use crate::plant::Plant;
+use crate::plant::base::Base;
 use crate::real::Real;
 use crate::schemes::Scheme;
 use crate::words::{Fnv1a, Word, WordVisitor, Words};
@@ -32,6 +33,16 @@ where
     /// state belongs to.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
+        self.base.fingerprint()
+    }
+}
+
+impl<H> Base<H>
+where
+    H: Deref<Target: ModelOwner + Sized>,
+{
+    /// Of model, precision and step.
+    pub(crate) fn fingerprint(&self) -> u64 {
         let mut hash = Fnv1a::new();
         for byte in <H::Target as ModelOwner>::Precision::NAME.bytes() {
             hash.word(Word::I32(i32::from(byte)));
@@ -42,24 +53,24 @@ where
                 hash.word(Word::I32(i32::from(byte)));
             }
         }
-        hash.word(Word::F64(self.step_size()));
-        visit_model(&self.model().view(), &mut hash);
-        self.model().initial().iter().for_each(|state| state.visit(&mut hash));
+        hash.word(Word::F64(self.step_size));
+        visit_model(&self.model.view(), &mut hash);
+        self.model.initial().iter().for_each(|state| state.visit(&mut hash));
         hash.finish()
     }
+}
 
-    /// FNV-1a 64 over the scheme's name, its way of damping, its evaluations per step, which tell its
-    /// Newton iterations, and its other parameters, folded to 32 bits.
-    pub(crate) fn scheme_fingerprint(&self) -> u32 {
-        let mut hash = Fnv1a::new();
-        for byte in S::NAME.bytes().chain(S::DAMPING.name().bytes()) {
-            hash.word(Word::I32(i32::from(byte)));
-        }
-        hash.word(Word::U64(u64::from(self.scheme().evaluations())));
-        self.scheme().visit_parameters(&mut hash);
-        let hash = hash.finish();
-        (hash >> 32) as u32 ^ hash as u32
+/// FNV-1a 64 over the scheme's name, its way of damping, its evaluations per step, which tell its
+/// Newton iterations, and its other parameters, folded to 32 bits.
+pub(crate) fn scheme_fingerprint<S: Scheme>(scheme: &S) -> u32 {
+    let mut hash = Fnv1a::new();
+    for byte in S::NAME.bytes().chain(S::DAMPING.name().bytes()) {
+        hash.word(Word::I32(i32::from(byte)));
     }
+    hash.word(Word::U64(u64::from(scheme.evaluations())));
+    scheme.visit_parameters(&mut hash);
+    let hash = hash.finish();
+    (hash >> 32) as u32 ^ hash as u32
 }
 
 /// FNV-1a 64 over a model's constants, each number rounded to single precision: the same for a scene in

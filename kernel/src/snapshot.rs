@@ -9,9 +9,12 @@
 
 use core::ops::Deref;
 
+use crate::fingerprint::scheme_fingerprint;
 use crate::model::ModelOwner;
 use crate::plant::Plant;
+use crate::plant::base::Base;
 use crate::schemes::Scheme;
+use crate::state::State;
 use crate::words::{Finite, Word, WordSource, WordVisitor, Words};
 
 const MAGIC: [u8; 4] = *b"DBDS";
@@ -88,7 +91,7 @@ where
         let mut writer = Writer { out, crc: Crc32::default() };
         writer.bytes(&MAGIC);
         writer.bytes(&VERSION.to_le_bytes());
-        writer.bytes(&self.scheme_fingerprint().to_le_bytes());
+        writer.bytes(&scheme_fingerprint(self.scheme()).to_le_bytes());
         writer.bytes(&self.fingerprint().to_le_bytes());
         self.visit_all(&mut writer);
         let crc = writer.crc.finish();
@@ -103,40 +106,8 @@ where
     /// successful call.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), SnapshotError> {
         let size = self.snapshot_size();
-        let mut reader = Reader { bytes: bytes.get(..HEADER).ok_or(SnapshotError::Format)? };
-        if reader.take(4) != u64::from(u32::from_le_bytes(MAGIC)) {
-            return Err(SnapshotError::Format);
-        }
-        let version = reader.take(2) as u16;
-        if version != VERSION {
-            return Err(SnapshotError::Version(version));
-        }
-        let covered = bytes.len().checked_sub(CHECKSUM).ok_or(SnapshotError::Format)?;
-        let (covered, checksum) = bytes.split_at_checked(covered).ok_or(SnapshotError::Format)?;
-        let mut crc = Crc32::default();
-        crc.add(covered);
-        if (Reader { bytes: checksum }).take(4) != u64::from(crc.finish()) {
-            return Err(SnapshotError::Checksum);
-        }
-        let scheme = reader.take(4);
-        if reader.take(8) != self.fingerprint() {
-            return Err(SnapshotError::Model);
-        }
-        if scheme != u64::from(self.scheme_fingerprint()) {
-            return Err(SnapshotError::Scheme);
-        }
-        if bytes.len() != size {
-            return Err(SnapshotError::Format);
-        }
-        let mut state = self.state().clone();
-        let mut source = Reader { bytes: covered.get(HEADER..).unwrap_or(&[]) };
-        state.fill(&mut source);
-        let mut finite = Finite(true);
-        state.visit(&mut finite);
-        for signal in state.signals.as_mut() {
-            signal.fill(&mut source);
-            signal.visit(&mut finite);
-        }
+        let (state, mut source, mut finite) =
+            self.base.read_state(bytes, size, scheme_fingerprint(self.scheme()))?;
         let begun = match S::REMEMBERS.then(|| source.take(4)) {
             Some(1) => true,
             // Not begun all words are zero: one state has one snapshot.
@@ -159,10 +130,7 @@ where
     }
 
     fn visit_all(&self, visitor: &mut impl WordVisitor) {
-        self.state().visit(visitor);
-        for signal in self.state().signals.as_ref() {
-            signal.visit(visitor);
-        }
+        self.base.visit(visitor);
         if S::REMEMBERS {
             let remembered = self.remembered();
             visitor.word(Word::I32(i32::from(remembered.is_some())));
@@ -171,6 +139,64 @@ where
                 .map_or_else(|| self.model().per_body(S::Memory::default()), Clone::clone);
             memory.as_ref().iter().for_each(|of_body| S::visit_memory(of_body, visitor));
         }
+    }
+}
+
+impl<H> Base<H>
+where
+    H: Deref<Target: ModelOwner + Sized>,
+{
+    /// Hands the state's words to the visitor.
+    fn visit(&self, visitor: &mut impl WordVisitor) {
+        self.state.visit(visitor);
+        for signal in self.state.signals.as_ref() {
+            signal.visit(visitor);
+        }
+    }
+
+    /// The state in a snapshot of `size` bytes of the scheme `own`, what comes behind it, and whether its numbers
+    /// are finite.
+    fn read_state<'b>(
+        &self,
+        bytes: &'b [u8],
+        size: usize,
+        own: u32,
+    ) -> Result<(State<H::Target>, Reader<'b>, Finite), SnapshotError> {
+        let mut reader = Reader { bytes: bytes.get(..HEADER).ok_or(SnapshotError::Format)? };
+        if reader.take(4) != u64::from(u32::from_le_bytes(MAGIC)) {
+            return Err(SnapshotError::Format);
+        }
+        let version = reader.take(2) as u16;
+        if version != VERSION {
+            return Err(SnapshotError::Version(version));
+        }
+        let covered = bytes.len().checked_sub(CHECKSUM).ok_or(SnapshotError::Format)?;
+        let (covered, checksum) = bytes.split_at_checked(covered).ok_or(SnapshotError::Format)?;
+        let mut crc = Crc32::default();
+        crc.add(covered);
+        if (Reader { bytes: checksum }).take(4) != u64::from(crc.finish()) {
+            return Err(SnapshotError::Checksum);
+        }
+        let scheme = reader.take(4);
+        if reader.take(8) != self.fingerprint() {
+            return Err(SnapshotError::Model);
+        }
+        if scheme != u64::from(own) {
+            return Err(SnapshotError::Scheme);
+        }
+        if bytes.len() != size {
+            return Err(SnapshotError::Format);
+        }
+        let mut state = self.state.clone();
+        let mut source = Reader { bytes: covered.get(HEADER..).unwrap_or(&[]) };
+        state.fill(&mut source);
+        let mut finite = Finite(true);
+        state.visit(&mut finite);
+        for signal in state.signals.as_mut() {
+            signal.fill(&mut source);
+            signal.visit(&mut finite);
+        }
+        Ok((state, source, finite))
     }
 }
 

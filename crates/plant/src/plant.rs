@@ -241,11 +241,22 @@ impl New<'_> {
         S: Scheme,
         Typed<P, S>: AnyPlant + 'static,
     {
+        let (model, shown) = self.converted::<P>(S::Keeps::MATRIX)?;
+        let plant = Plant::new(model, scheme, self.step);
+        let plant = plant.map_err(|error| self.refusal::<P>(error))?;
+        Ok(Box::new(Typed { plant, shown }))
+    }
+
+    /// The model in a precision, planned where a matrix is to be solved.
+    fn converted<P: Geometry>(
+        &self,
+        planned: bool,
+    ) -> Result<(Arc<SceneModel<P>>, Shown), PlantError> {
         let mut model: SceneModel<P> = self.model.convert();
         if model.laws.is_empty() && !self.model.laws.is_empty() {
             return Err(PlantError::Laws { precision: self.method.precision_name() });
         }
-        if S::Keeps::MATRIX {
+        if planned {
             model = model.planned();
         }
         let exact = model.convert();
@@ -254,32 +265,99 @@ impl New<'_> {
             None => exact,
         };
         let planar = self.plane.map(|(planar, _)| planar.clone());
-        let plant =
-            Plant::new(Arc::new(model), scheme, self.step).map_err(|error| match error {
-                kernel::PlantError::Step(_) => refused(self.method, self.step),
-                kernel::PlantError::Extent(excess) => {
-                    Misfit::unnamed::<P>(&excess, self.step).into()
-                }
-                kernel::PlantError::Plan => PlantError::Pairs,
-                kernel::PlantError::Memory(law) => {
-                    PlantError::Memory { law, scheme: self.method.scheme_name() }
-                }
-                kernel::PlantError::Stiff(most) => {
-                    PlantError::Stiff { most, precision: self.method.precision_name() }
-                }
-            })?;
-        Ok(Box::new(Typed { plant, planar, exact, method: *self.method }))
+        Ok((Arc::new(model), Shown { planar, exact, method: *self.method }))
+    }
+
+    /// What the kernel refuses, with the names of scene and method.
+    fn refusal<P: Geometry>(&self, error: kernel::PlantError) -> PlantError {
+        match error {
+            kernel::PlantError::Step(_) => refused(self.method, self.step),
+            kernel::PlantError::Extent(excess) => Misfit::unnamed::<P>(&excess, self.step).into(),
+            kernel::PlantError::Plan => PlantError::Pairs,
+            kernel::PlantError::Memory(law) => {
+                PlantError::Memory { law, scheme: self.method.scheme_name() }
+            }
+            kernel::PlantError::Stiff(most) => {
+                PlantError::Stiff { most, precision: self.method.precision_name() }
+            }
+        }
     }
 }
 
 /// A plant of one precision and one scheme.
 struct Typed<P: Geometry, S: Scheme> {
     plant: Plant<Arc<SceneModel<P>>, S>,
+    shown: Shown,
+}
+
+/// How a plant looks from outside: in double precision, in the world.
+struct Shown {
     /// Where the plane of a planar scene lies.
     planar: Option<Planar>,
     /// In the world, of a planar scene too.
     exact: SceneModel<F64>,
     method: Method,
+}
+
+impl Shown {
+    /// A state of the plant in the world.
+    fn outward<P: Geometry>(&self, state: &State<SceneModel<P>>) -> State<SceneModel<F64>> {
+        let mut state = widen(state);
+        if let Some(planar) = &self.planar {
+            planar.states_outward(&mut state.bodies);
+            self.exact.laws.turn_memories(&mut state.laws, &mut |body, v| {
+                planar.plane.of_body_outward(body.row(), Vec3::from_f64(v)).to_f64()
+            });
+        }
+        state
+    }
+
+    /// The plant's state of one in the world.
+    fn inward<P: Geometry>(
+        &self,
+        state: &State<SceneModel<F64>>,
+    ) -> Result<State<SceneModel<P>>, StateError> {
+        let bodies = match &self.planar {
+            None => state.bodies.iter().map(BodyState::convert).collect(),
+            Some(planar) => {
+                let mut bodies = Vec::with_capacity(state.bodies.len());
+                for (row, body) in state.bodies.iter().enumerate() {
+                    let turn = body.orientation.to_f64();
+                    let norm: f64 = turn.iter().map(|c| c * c).sum();
+                    if (norm - 1.0).abs() > UNIT {
+                        return Err(StateError::Orientation(BodyIndex(row as u16)));
+                    }
+                    if planar.plane.leaves(row, body, OFF_PLANE) {
+                        return Err(StateError::OffPlane(BodyIndex(row as u16)));
+                    }
+                    bodies.push(planar.plane.state_inward(row, body).convert());
+                }
+                bodies
+            }
+        };
+        let mut laws = state.laws.clone();
+        if let Some(planar) = &self.planar {
+            self.exact.laws.turn_memories(&mut laws, &mut |body, v| {
+                planar.plane.of_body_inward(body.row(), Vec3::from_f64(v)).to_f64()
+            });
+        }
+        Ok(State {
+            bodies,
+            turns: state.turns.clone(),
+            laws: convert_words(&laws, |x| P::Real::from_f64(x).word()),
+            step: state.step,
+            signals: state.signals.iter().map(Signal::convert).collect(),
+        })
+    }
+
+    /// A plant's bodies in the world.
+    fn bodies<P: Geometry>(&self, state: &State<SceneModel<P>>, bodies: &mut Vec<BodyState<F64>>) {
+        bodies.clear();
+        bodies.extend(state.bodies.iter().map(BodyState::convert));
+        if let Some(planar) = &self.planar {
+            planar.states_outward(bodies);
+        }
+    }
 }
 
 /// What a state may leave the plane by, beside the size of the scene and its own.
@@ -306,7 +384,7 @@ where
     }
 
     fn read(&self, readout: &Readout<F64>) -> Option<Reading<f64>> {
-        match &self.planar {
+        match &self.shown.planar {
             None => self.plant.read(&readout.convert()).map(widened),
             Some(planar) => {
                 let reading = self.plant.read(&planar.readout(readout).convert()).map(widened);
@@ -316,22 +394,11 @@ where
     }
 
     fn state(&self) -> State<SceneModel<F64>> {
-        let mut state = widen(self.plant.state());
-        if let Some(planar) = &self.planar {
-            planar.states_outward(&mut state.bodies);
-            self.exact.laws.turn_memories(&mut state.laws, &mut |body, v| {
-                planar.plane.of_body_outward(body.row(), Vec3::from_f64(v)).to_f64()
-            });
-        }
-        state
+        self.shown.outward(self.plant.state())
     }
 
     fn bodies(&self, bodies: &mut Vec<BodyState<F64>>) {
-        bodies.clear();
-        bodies.extend(self.plant.state().bodies.iter().map(BodyState::convert));
-        if let Some(planar) = &self.planar {
-            planar.states_outward(bodies);
-        }
+        self.shown.bodies(self.plant.state(), bodies);
     }
 
     fn signals_at_end(&self) -> Vec<Signal<f64>> {
@@ -339,7 +406,7 @@ where
     }
 
     fn energy(&self) -> Energy<f64> {
-        energy(&self.exact, &self.state(), self.step_size())
+        energy(&self.shown.exact, &self.state(), self.step_size())
     }
 
     fn reset(&mut self) {
@@ -347,37 +414,7 @@ where
     }
 
     fn set_state(&mut self, state: &State<SceneModel<F64>>) -> Result<(), StateError> {
-        let bodies = match &self.planar {
-            None => state.bodies.iter().map(BodyState::convert).collect(),
-            Some(planar) => {
-                let mut bodies = Vec::with_capacity(state.bodies.len());
-                for (row, body) in state.bodies.iter().enumerate() {
-                    let turn = body.orientation.to_f64();
-                    let norm: f64 = turn.iter().map(|c| c * c).sum();
-                    if (norm - 1.0).abs() > UNIT {
-                        return Err(StateError::Orientation(BodyIndex(row as u16)));
-                    }
-                    if planar.plane.leaves(row, body, OFF_PLANE) {
-                        return Err(StateError::OffPlane(BodyIndex(row as u16)));
-                    }
-                    bodies.push(planar.plane.state_inward(row, body).convert());
-                }
-                bodies
-            }
-        };
-        let mut laws = state.laws.clone();
-        if let Some(planar) = &self.planar {
-            self.exact.laws.turn_memories(&mut laws, &mut |body, v| {
-                planar.plane.of_body_inward(body.row(), Vec3::from_f64(v)).to_f64()
-            });
-        }
-        self.plant.set_state(State {
-            bodies,
-            turns: state.turns.clone(),
-            laws: convert_words(&laws, |x| P::Real::from_f64(x).word()),
-            step: state.step,
-            signals: state.signals.iter().map(Signal::convert).collect(),
-        })
+        self.plant.set_state(self.shown.inward(state)?)
     }
 
     fn snapshot(&self) -> Result<Vec<u8>, SnapshotError> {
@@ -419,10 +456,10 @@ where
     }
 
     fn method(&self) -> &Method {
-        &self.method
+        &self.shown.method
     }
 
     fn model(&self) -> &SceneModel<F64> {
-        &self.exact
+        &self.shown.exact
     }
 }

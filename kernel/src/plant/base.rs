@@ -1,0 +1,392 @@
+//! What of a plant does not depend on its scheme: compiled once per kind of model.
+//!
+//! `(model, h) => diagonals, windows, state; signals, state => base`.
+
+use core::ops::Deref;
+
+use crate::attitude::Attitude as _;
+use crate::damping::{Held, Lever, Pose, Share, find, share, weigh};
+use crate::elements::input::{Input, InputKind};
+use crate::extents::first_excess;
+use crate::forces::{Unpushed, Wrench, are_in_line, find_rests};
+use crate::frequency::bound;
+use crate::geometry::Geometry;
+use crate::index::{BodyIndex, InputIndex};
+use crate::laws::{Laws as _, Need};
+use crate::model::{FrameOf, LawShares, LawsIn, ModelOwner, ModelRef, RealOf, SpaceOf, Terms};
+use crate::pose::{Places, place_bodies};
+use crate::real::{Constant, Real};
+use crate::refusal::{InputError, PlantError, StateError};
+use crate::schedule::{KnotStep, LoadWindow, Signal, StageTime, sample};
+use crate::sensors::sample_over;
+use crate::solve::{self, Pencil, Seat};
+use crate::sources::{self, SourceStep};
+use crate::state::State;
+use crate::status::{Cause, Failure, Status};
+use crate::step::{Diagonal, Ledger};
+use crate::words::{Finite, is_finite};
+
+/// A model, a step and a state.
+pub(crate) struct Base<H>
+where
+    H: Deref<Target: ModelOwner + Sized>,
+{
+    pub(crate) model: H,
+    pub(crate) step_size: f64,
+    pub(crate) h: RealOf<H::Target>,
+    pub(crate) diagonals: PerBody<H, Diagonal<SpaceOf<H::Target>>>,
+    pub(crate) rests: PerTsda<H>,
+    pub(crate) shares: <H::Target as ModelOwner>::PerDamper<Share<RealOf<H::Target>>>,
+    pub(crate) law_shares: LawShares<H::Target>,
+    pub(crate) windows: <H::Target as ModelOwner>::PerLoad,
+    pub(crate) knots: <H::Target as ModelOwner>::PerKnot,
+    pub(crate) sources: <H::Target as ModelOwner>::PerSource,
+    pub(crate) state: State<H::Target>,
+    pub(crate) frames: PerBody<H, FrameOf<H::Target>>,
+    pub(crate) wrenches: PerBody<H, Wrench<SpaceOf<H::Target>>>,
+    pub(crate) unpushed: <H::Target as ModelOwner>::PerInput<Unpushed<SpaceOf<H::Target>>>,
+    pub(crate) sums:
+        <H::Target as ModelOwner>::PerDampedBody<<PrecisionOf<H> as Geometry>::PassSum>,
+    pub(crate) in_line: bool,
+    pub(crate) ledger: Ledger,
+    pub(crate) status: Status,
+}
+
+/// What the precision of the model that `H` points to keeps of its TSDAs.
+pub(crate) type PerTsda<H> =
+    <<H as Deref>::Target as ModelOwner>::PerTsda<<PrecisionOf<H> as Geometry>::Rest>;
+/// The precision of the model that `H` points to.
+pub(crate) type PrecisionOf<H> = <<H as Deref>::Target as ModelOwner>::Precision;
+/// The signals of the inputs of the model that `H` points to.
+pub(crate) type SignalsOf<H> =
+    <<H as Deref>::Target as ModelOwner>::PerInput<Signal<RealOf<<H as Deref>::Target>>>;
+/// One `T` per body of the model that `H` points to.
+pub(crate) type PerBody<H, T> = <<H as Deref>::Target as ModelOwner>::PerBody<T>;
+
+impl<H> Base<H>
+where
+    H: Deref<Target: ModelOwner + Sized>,
+{
+    /// At the model's initial state, with the step `step_size` \[s\].
+    ///
+    /// # Errors
+    /// [`PlantError::Step`], [`PlantError::Extent`].
+    pub(crate) fn new(model: H, step_size: f64) -> Result<Self, PlantError> {
+        let h = RealOf::<H::Target>::from_f64(step_size);
+        if !(h > RealOf::<H::Target>::ZERO && h.is_finite()) {
+            return Err(PlantError::Step(step_size));
+        }
+        let owner = &*model;
+        let view = owner.view();
+        let excess = first_excess::<<H::Target as ModelOwner>::Precision, _, _>;
+        if let Some(excess) = excess(&view, owner.initial(), step_size) {
+            return Err(PlantError::Extent(excess));
+        }
+        let mut diagonals = owner.per_body(Diagonal::default());
+        for (diagonal, body) in diagonals.as_mut().iter_mut().zip(view.bodies) {
+            *diagonal = Diagonal::new(body, h);
+        }
+        let mut windows = owner.per_load();
+        for (window, load) in windows.as_mut().iter_mut().zip(view.loads) {
+            *window = LoadWindow::new(load.from, load.until, step_size);
+        }
+        let mut knots = owner.per_knot();
+        for (step, knot) in knots.as_mut().iter_mut().zip(view.knots) {
+            *step = KnotStep::new(knot.time, step_size);
+        }
+        let mut sources = owner.per_source();
+        if <H::Target as ModelOwner>::Terms::SOURCES {
+            sources::place_knots(view.sources, view.knots, knots.as_mut());
+            for (step, source) in sources.as_mut().iter_mut().zip(view.sources) {
+                *step = SourceStep::new(source, view.knots, step_size);
+            }
+        }
+        let state = State::initial(owner);
+        let mut frames = owner.per_body(FrameOf::<H::Target>::default());
+        let mut rests = owner.per_tsda(Default::default());
+        if <H::Target as ModelOwner>::Precision::RESTS {
+            place_bodies(state.bodies.as_ref(), frames.as_mut());
+            find_rests(&view, frames.as_ref(), rests.as_mut());
+        }
+        let shares = owner.per_damper(Share::ALONE);
+        let law_shares = view.laws.shares();
+        let wrenches = owner.per_body(Wrench::default());
+        let unpushed = owner.per_input([Wrench::default(); 2]);
+        let sums = owner.per_damped_body(Default::default());
+        let in_line = are_in_line(&view);
+        Ok(Self {
+            model,
+            step_size,
+            h,
+            diagonals,
+            rests,
+            shares,
+            law_shares,
+            windows,
+            knots,
+            sources,
+            state,
+            frames,
+            wrenches,
+            unpushed,
+            sums,
+            in_line,
+            ledger: Ledger::default(),
+            status: Status::Running,
+        })
+    }
+
+    /// Refuses laws whose memories a scheme does not bring on.
+    ///
+    /// # Errors
+    /// [`PlantError::Memory`].
+    pub(crate) fn check_memory(&self, bears: fn(Need) -> bool) -> Result<(), PlantError> {
+        match self.model.view().laws.memory() {
+            Some((law, need)) if !bears(need) => Err(PlantError::Memory(law)),
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether anything is damped.
+    pub(crate) fn is_damped(&self) -> bool {
+        <H::Target as ModelOwner>::Terms::DAMPERS || self.model.view().laws.is_damped()
+    }
+
+    /// The levers of joints that are damped as a whole.
+    pub(crate) fn find_levers(&mut self, levers: &mut [Lever<PrecisionOf<H>>]) {
+        place_bodies(self.state.bodies.as_ref(), self.frames.as_mut());
+        let places = Places { frames: self.frames.as_ref(), signals: self.state.signals.as_ref() };
+        let half = RealOf::<H::Target>::HALF * self.h;
+        self.ledger.stops = find(&self.model.view(), places, half, levers);
+    }
+
+    /// What each damper has of its bodies' masses, and the weights of joints that are damped as a whole.
+    pub(crate) fn find_shares(&mut self, levers: &mut [Lever<PrecisionOf<H>>]) {
+        place_bodies(self.state.bodies.as_ref(), self.frames.as_mut());
+        let view = self.model.view();
+        let (bodies, signals) = (self.state.bodies.as_ref(), self.state.signals.as_ref());
+        let places = Places { frames: self.frames.as_ref(), signals };
+        let half = RealOf::<H::Target>::HALF * self.h;
+        let mut held = self.model.per_body(Held::default());
+        let shares = self.shares.as_mut();
+        let memories = (self.state.turns.as_ref(), &self.state.laws);
+        let pose = Pose { model: &view, places, bodies, memories, levers: &*levers };
+        share(&pose, held.as_mut(), (&mut *shares, &mut self.law_shares));
+        weigh(&view, shares, half, levers);
+    }
+
+    /// Refuses what vibrates so fast that `ω·h` is beyond `most`.
+    ///
+    /// # Errors
+    /// [`PlantError::Stiff`] with the longest step \[s\].
+    pub(crate) fn check_stiffness(&self, most: Constant) -> Result<(), PlantError> {
+        let most = RealOf::<H::Target>::constant(most);
+        let found = bound(&*self.model, &self.state);
+        let holds = found * self.h <= most;
+        if holds { Ok(()) } else { Err(PlantError::Stiff((most / found).to_f64())) }
+    }
+
+    /// What the matrix of a pencil has of each element.
+    pub(crate) fn find_seats(
+        &mut self,
+        pencil: Pencil<RealOf<H::Target>>,
+        seats: &mut [Seat<SpaceOf<H::Target>>],
+    ) {
+        place_bodies(self.state.bodies.as_ref(), self.frames.as_mut());
+        let places = Places { frames: self.frames.as_ref(), signals: self.state.signals.as_ref() };
+        solve::find(&self.model.view(), places, pencil, seats);
+    }
+
+    /// Brings the signals of tables to the present step: the one that comes next.
+    #[inline(always)]
+    pub(crate) fn sample(&mut self) {
+        if <H::Target as ModelOwner>::Terms::INPUTS {
+            let view = self.model.view();
+            let knots = self.knots.as_ref();
+            let start =
+                StageTime { step: self.state.step, part: RealOf::<H::Target>::ZERO, h: self.h };
+            let signals = self.state.signals.as_mut();
+            let mut changed = sample(view.inputs, view.knots, knots, start, signals);
+            if <H::Target as ModelOwner>::Terms::SOURCES && !view.sources.is_empty() {
+                changed |= sources::sample(
+                    view.sources,
+                    view.knots,
+                    self.sources.as_ref(),
+                    knots,
+                    start,
+                    signals,
+                );
+                changed |= sample_over(&*self.model, &mut self.state, knots);
+            }
+            if changed {
+                let moves = view.inputs.iter().any(moves_ground);
+                self.change(moves);
+            }
+        }
+    }
+
+    /// Takes note of an input's new signal.
+    #[inline(always)]
+    fn change(&mut self, moves_ground: bool) {
+        self.ledger.pushed = false;
+        self.ledger.fresh &= !(moves_ground || self.model.view().laws.is_driven());
+    }
+
+    /// The signals of the inputs at `part` of the coming step, 0 to 1: what its stages see. At 1 they are
+    /// those before what jumps there.
+    pub(crate) fn signals_at(&self, part: RealOf<H::Target>) -> SignalsOf<H> {
+        let view = self.model.view();
+        let knots = self.knots.as_ref();
+        let at = StageTime { step: self.state.step, part, h: self.h };
+        let mut signals = self.state.signals.clone();
+        if <H::Target as ModelOwner>::Terms::INPUTS {
+            sample(view.inputs, view.knots, knots, at, signals.as_mut());
+            let steps = self.sources.as_ref();
+            sources::sample(view.sources, view.knots, steps, knots, at, signals.as_mut());
+        }
+        signals
+    }
+
+    /// Latches a failure.
+    #[cold]
+    pub(crate) fn fail(&mut self, cause: Cause) -> Status {
+        self.ledger.fresh = false;
+        self.ledger.ready = false;
+        self.ledger.begun = false;
+        self.status = Status::Failed(Failure { cause, step: self.state.step });
+        self.status
+    }
+
+    /// Looks at the state with the bodies' frames brought to it.
+    pub(crate) fn with_places<A>(
+        &mut self,
+        look: impl FnOnce(
+            &ModelRef<'_, <H::Target as ModelOwner>::Precision, <H::Target as ModelOwner>::Terms>,
+            Places<'_, <H::Target as ModelOwner>::Precision>,
+            &State<H::Target>,
+        ) -> A,
+    ) -> A {
+        place_bodies(self.state.bodies.as_ref(), self.frames.as_mut());
+        let signals = self.state.signals.as_ref();
+        look(&self.model.view(), Places { frames: self.frames.as_ref(), signals }, &self.state)
+    }
+
+    /// Sets an input with its rate.
+    ///
+    /// # Errors
+    /// [`InputError`]; nothing is changed then.
+    pub(crate) fn set_signal_real(
+        &mut self,
+        input: InputIndex,
+        value: RealOf<H::Target>,
+        rate: RealOf<H::Target>,
+    ) -> Result<(), InputError> {
+        let row = input.0 as usize;
+        let view = self.model.view();
+        let signal = self.state.signals.as_mut().get_mut(row);
+        let (Some(known), Some(signal)) = (view.inputs.get(row), signal) else {
+            return Err(InputError::Unknown(input));
+        };
+        let follows = <H::Target as ModelOwner>::Terms::SOURCES
+            && view.sources.iter().any(|source| source.input == input);
+        if known.knots > 0 || follows {
+            return Err(InputError::Table(input));
+        }
+        if !(value.is_finite() && rate.is_finite()) {
+            return Err(InputError::NotFinite(input));
+        }
+        let value = known.bounded(value);
+        if moves_ground(known) && !<H::Target as ModelOwner>::Precision::bears_shift(value) {
+            return Err(InputError::Extent(input));
+        }
+        let now = Signal { value, rate };
+        if *signal != now {
+            *signal = now;
+            let moves = moves_ground(known);
+            self.change(moves);
+        }
+        Ok(())
+    }
+
+    /// Goes on from `state`, its step counter and signals included; a failure is forgotten.
+    ///
+    /// # Errors
+    /// [`StateError`] where it is not of this model, not finite, or an orientation is not of unit
+    /// length; nothing is changed then.
+    pub(crate) fn set_state(&mut self, state: State<H::Target>) -> Result<(), StateError> {
+        check(&state, &self.state)?;
+        let inputs = self.model.view().inputs;
+        let known = inputs.iter().zip(state.signals.as_ref());
+        if let Some(row) = known.into_iter().position(|(input, signal)| {
+            moves_ground(input) && !<H::Target as ModelOwner>::Precision::bears_shift(signal.value)
+        }) {
+            return Err(StateError::Signal(InputIndex(row as u16)));
+        }
+        self.resume(state);
+        Ok(())
+    }
+
+    /// Goes on from a state of this model as it is, a failure forgotten.
+    pub(crate) fn resume(&mut self, state: State<H::Target>) {
+        self.state = state;
+        self.ledger.fresh = false;
+        self.ledger.ready = false;
+        self.ledger.moved = false;
+        self.ledger.begun = false;
+        self.status = Status::Running;
+        self.sample();
+    }
+}
+
+/// Whether a model has a plan, and its own.
+pub(crate) fn is_planned<M: ModelOwner>(model: &M) -> bool {
+    let view = model.view();
+    let groups = view.groups.iter().map(|group| [group.a.0, group.b.0]);
+    let ends = groups.chain(view.torsions.iter().map(|spring| [spring.a.0, spring.b.0]));
+    let states = view.laws.states();
+    let of_laws = (0..view.laws.count()).map(|row| {
+        let mut ends = [BodyIndex::WORLD.0; 2];
+        view.laws.look(row, &states, &mut |law| ends = law.bodies().map(|end| end.0));
+        ends
+    });
+    model.plan().fits(view.bodies.len(), ends.chain(of_laws))
+}
+
+fn moves_ground<P: Geometry>(input: &Input<P>) -> bool {
+    matches!(input.kind, InputKind::Anchor { .. })
+}
+
+/// Whether a plant in the state `own` can go on from `state`.
+fn check<M: ModelOwner>(state: &State<M>, own: &State<M>) -> Result<(), StateError> {
+    let counts =
+        |s: &State<M>| (s.bodies.as_ref().len(), s.turns.as_ref().len(), s.signals.as_ref().len());
+    if counts(state) != counts(own) {
+        return Err(StateError::Count);
+    }
+    for (i, body) in state.bodies.as_ref().iter().enumerate() {
+        let index = BodyIndex(i as u16);
+        if !is_finite(body) {
+            return Err(StateError::NotFinite(index));
+        }
+        if !M::Precision::is_within(&body.position) {
+            return Err(StateError::Extent(index));
+        }
+        let q = body.orientation.to_f64();
+        let norm: f64 = q.iter().map(|c| c * c).sum();
+        let unit = (norm - 1.0).abs() < 2e-3;
+        if !unit {
+            return Err(StateError::Orientation(index));
+        }
+    }
+    let mut finite = Finite(true);
+    LawsIn::<M::Precision, M::Terms>::visit(&state.laws, &mut finite);
+    if !finite.0 {
+        return Err(StateError::Law);
+    }
+    for (i, signal) in state.signals.as_ref().iter().enumerate() {
+        if !(signal.value.is_finite() && signal.rate.is_finite()) {
+            return Err(StateError::Signal(InputIndex(i as u16)));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,339 @@
+//! A plant: a model, a scheme, a step and the state they drive.
+//!
+//! `(model, scheme, h) => plant; step: state => state`. Nothing is allocated; all memory lies in
+//! the plant, in the shape of its model. A plant holds its model by any pointer: `&M` borrows it,
+//! from flash or from a stack; with a heap, `Arc<M>` or `Box<M>` owns it.
+
+pub(crate) mod base;
+
+use core::ops::Deref;
+
+use crate::damping::Damping;
+use crate::guards::{first_beyond, first_fault};
+use crate::index::InputIndex;
+use crate::keep::{Keep, Kept};
+use crate::model::{ModelOwner, ModelRef, RealOf};
+use crate::pose::Places;
+use crate::real::Real;
+pub use crate::refusal::{InputError, PlantError, StateError};
+use crate::schemes::Scheme;
+use crate::state::State;
+use crate::status::{Cause, MOST_TURN, Status};
+use crate::step::{Stepper, Workspace};
+
+use base::{Base, PerBody, SignalsOf};
+
+/// A model stepped by a scheme at a fixed step. `H` points to the model: `&M`, or a pointer that
+/// owns it.
+pub struct Plant<H, S>
+where
+    H: Deref<Target: ModelOwner + Sized>,
+    S: Scheme,
+{
+    pub(crate) base: Base<H>,
+    scheme: S,
+    kept: Kept<S::Keeps, H::Target>,
+    memory: MemoryOf<H, S>,
+}
+
+/// What a scheme remembers of each body of the model that `H` points to.
+pub(crate) type MemoryOf<H, S> =
+    PerBody<H, <S as Scheme>::Memory<<<H as Deref>::Target as ModelOwner>::Precision>>;
+
+impl<H, S> Plant<H, S>
+where
+    H: Deref<Target: ModelOwner + Sized>,
+    S: Scheme,
+{
+    /// A plant at its model's initial state, with the step `step_size` \[s\], which is rounded
+    /// once to the precision. The diagonals of the inverse Jacobian are computed here.
+    ///
+    /// # Errors
+    /// [`PlantError::Step`] where the rounded step is not positive and finite, [`PlantError::Extent`] where
+    /// a part of the model is beyond what the precision holds.
+    pub fn new(model: H, scheme: S, step_size: f64) -> Result<Self, PlantError> {
+        let mut base = Base::new(model, step_size)?;
+        base.check_memory(S::bears)?;
+        if S::Keeps::MATRIX && !base::is_planned(&*base.model) {
+            return Err(PlantError::Plan);
+        }
+        let mut kept = S::Keeps::memory(&*base.model);
+        if !matches!(S::DAMPING, Damping::Explicit | Damping::Implicit) && base.is_damped() {
+            if S::DAMPING == Damping::JointWise {
+                base.find_levers(kept.levers.as_mut());
+            }
+            base.find_shares(kept.levers.as_mut());
+        }
+        if S::Keeps::MATRIX {
+            if let Some(most) = S::MOST_VIBRATION {
+                base.check_stiffness(most)?;
+            }
+            base.find_seats(scheme.pencil(base.h), kept.seats.as_mut());
+            if S::Keeps::HALVES {
+                let pencil = scheme.pencil(RealOf::<H::Target>::HALF * base.h);
+                base.find_seats(pencil, kept.half_seats.as_mut());
+            }
+        }
+        let memory = base.model.per_body(S::Memory::default());
+        base.sample();
+        Ok(Self { base, scheme, kept, memory })
+    }
+
+    /// The signals of the inputs at `part` of the coming step, 0 to 1: what its stages see. At 1 they are
+    /// those before what jumps there.
+    pub fn signals_at(&self, part: RealOf<H::Target>) -> SignalsOf<H> {
+        self.base.signals_at(part)
+    }
+
+    /// One step. A failure latches: the state stays as the failed step left it, and later calls
+    /// change nothing and return the same failure.
+    #[inline]
+    pub fn step(&mut self) -> Status {
+        if !self.base.status.is_running() {
+            return self.base.status;
+        }
+        // Counted before it is done: nothing of the counter is then kept through it.
+        let step = self.base.state.step;
+        let Some(next) = step.checked_add(1) else { return self.fail(Cause::Steps) };
+        self.base.state.step = next;
+        let cause = match self.attempt(step) {
+            Ok(()) => self.fault(),
+            Err(cause) => Some(cause),
+        };
+        if let Some(cause) = cause {
+            return self.fail(cause);
+        }
+        self.base.sample();
+        Status::Running
+    }
+
+    /// One step without the guards and whatever the status, which it leaves: for those who guard
+    /// otherwise, as who steps lanes must. A step counter at its end begins anew.
+    ///
+    /// # Errors
+    /// What the scheme could not do.
+    #[inline(always)]
+    pub fn step_unguarded(&mut self) -> Result<(), Cause> {
+        let step = self.base.state.step;
+        self.base.state.step = step.wrapping_add(1);
+        let done = self.attempt(step);
+        self.base.sample();
+        done
+    }
+
+    /// What the scheme does in the step of this number.
+    #[inline(always)]
+    fn attempt(&mut self, step: u64) -> Result<(), Cause> {
+        let model = self.base.model.view();
+        let workspace = Workspace {
+            model,
+            h: self.base.h,
+            diagonals: self.base.diagonals.as_ref(),
+            rests: self.base.rests.as_ref(),
+            shares: self.base.shares.as_ref(),
+            levers: self.kept.levers.as_mut(),
+            plan: self.base.model.plan(),
+            seats: self.kept.seats.as_ref(),
+            half_seats: self.kept.half_seats.as_ref(),
+            blocks: self.kept.bodies.as_mut(),
+            pair_blocks: self.kept.pairs.as_mut(),
+            windows: self.base.windows.as_ref(),
+            knots: self.base.knots.as_ref(),
+            sources: self.base.sources.as_ref(),
+            signals: self.base.state.signals.as_mut(),
+            bodies: self.base.state.bodies.as_mut(),
+            turns: self.base.state.turns.as_mut(),
+            law_states: &mut self.base.state.laws,
+            law_shares: &self.base.law_shares,
+            step,
+            frames: self.base.frames.as_mut(),
+            wrenches: self.base.wrenches.as_mut(),
+            unpushed: self.base.unpushed.as_mut(),
+            sums: self.base.sums.as_mut(),
+            in_line: self.base.in_line,
+            ledger: &mut self.base.ledger,
+        };
+        self.scheme.step(&mut Stepper { workspace, memory: self.memory.as_mut() })
+    }
+
+    /// Latches a failure.
+    #[cold]
+    pub(crate) fn fail(&mut self, cause: Cause) -> Status {
+        self.base.fail(cause)
+    }
+
+    /// Looks at the state with the bodies' frames brought to it.
+    pub(crate) fn with_places<A>(
+        &mut self,
+        look: impl FnOnce(
+            &ModelRef<'_, <H::Target as ModelOwner>::Precision, <H::Target as ModelOwner>::Terms>,
+            Places<'_, <H::Target as ModelOwner>::Precision>,
+            &State<H::Target>,
+        ) -> A,
+    ) -> A {
+        self.base.with_places(look)
+    }
+
+    /// What the guards of a step find wrong with the present state: a body that is not finite or turns
+    /// too far in a step, or a turn count at its end. After a failure it may be the one that failed;
+    /// before [`Self::clear`] it tells whether the next step can go well.
+    #[inline]
+    #[must_use]
+    pub fn fault(&self) -> Option<Cause> {
+        let (bodies, turns) = (self.base.state.bodies.as_ref(), self.base.state.turns.as_ref());
+        let limits = (self.base.h, S::MOST_TURN);
+        match first_fault::<_, <H::Target as ModelOwner>::Terms>(bodies, turns, limits) {
+            Some(Cause::Spin { body }) if S::MOST_TURN.single < MOST_TURN as f32 => {
+                Some(Cause::Turn { body })
+            }
+            None => first_beyond(bodies),
+            some => some,
+        }
+    }
+
+    /// Forgets a failure and leaves the state as it failed. What is not finite, spins too fast or is
+    /// at its end fails again.
+    pub fn clear(&mut self) {
+        self.base.status = Status::Running;
+    }
+
+    /// `n` steps with held inputs, or as many as succeed.
+    pub fn advance(&mut self, n: u64) -> Status {
+        for _ in 0..n {
+            if !self.step().is_running() {
+                break;
+            }
+        }
+        self.base.status
+    }
+
+    /// Sets an input \[N, N·m, or m for an anchor, then at rest\], within its range; it is held until set again.
+    ///
+    /// # Errors
+    /// [`InputError`]; nothing is changed then.
+    pub fn set_input(&mut self, input: InputIndex, value: f64) -> Result<(), InputError> {
+        self.set_signal(input, value, 0.0)
+    }
+
+    /// [`Self::set_input`] with a value in the plant's own number: what a controller in single
+    /// precision has at hand, without a way through double precision.
+    ///
+    /// # Errors
+    /// [`InputError`]; nothing is changed then.
+    pub fn set_input_real(
+        &mut self,
+        input: InputIndex,
+        value: RealOf<H::Target>,
+    ) -> Result<(), InputError> {
+        self.set_signal_real(input, value, RealOf::<H::Target>::ZERO)
+    }
+
+    /// Sets an input with its rate: for an anchor the displacement \[m\] and its velocity \[m/s\],
+    /// which its dampers feel; the other kinds do not use the rate. Each number is rounded once to
+    /// the precision.
+    ///
+    /// # Errors
+    /// [`InputError`]; nothing is changed then.
+    pub fn set_signal(
+        &mut self,
+        input: InputIndex,
+        value: f64,
+        rate: f64,
+    ) -> Result<(), InputError> {
+        let [value, rate] = [value, rate].map(RealOf::<H::Target>::from_f64);
+        self.set_signal_real(input, value, rate)
+    }
+
+    /// [`Self::set_signal`] in the plant's own number.
+    ///
+    /// # Errors
+    /// [`InputError`]; nothing is changed then.
+    pub fn set_signal_real(
+        &mut self,
+        input: InputIndex,
+        value: RealOf<H::Target>,
+        rate: RealOf<H::Target>,
+    ) -> Result<(), InputError> {
+        self.base.set_signal_real(input, value, rate)
+    }
+
+    /// Goes back to t = 0, as after [`Self::new`]: the model's initial state, a failure forgotten.
+    pub fn reset(&mut self) {
+        self.base.ledger.evaluations = 0;
+        self.resume(State::initial(&*self.base.model));
+    }
+
+    /// Goes on from `state`, its step counter and signals included; a failure is forgotten.
+    ///
+    /// # Errors
+    /// [`StateError`] where it is not of this model, not finite, or an orientation is not of unit
+    /// length; nothing is changed then.
+    pub fn set_state(&mut self, state: State<H::Target>) -> Result<(), StateError> {
+        self.base.set_state(state)
+    }
+
+    /// The scheme.
+    pub fn scheme(&self) -> &S {
+        &self.scheme
+    }
+
+    /// The status of the last step.
+    pub fn status(&self) -> Status {
+        self.base.status
+    }
+
+    /// The model.
+    pub fn model(&self) -> &H::Target {
+        &self.base.model
+    }
+
+    /// The state.
+    pub fn state(&self) -> &State<H::Target> {
+        &self.base.state
+    }
+
+    /// The step \[s\] as given.
+    pub fn step_size(&self) -> f64 {
+        self.base.step_size
+    }
+
+    /// The present time \[s\]: the number of steps times the step, never accumulated.
+    pub fn time(&self) -> f64 {
+        self.base.state.step as f64 * self.base.step_size
+    }
+
+    /// Force evaluations performed since t = 0.
+    pub fn evaluations(&self) -> u64 {
+        self.base.ledger.evaluations
+    }
+
+    /// Goes on from a state of this model as it is, a failure forgotten: [`Self::set_state`] for a
+    /// state that a plant of it was in, which needs no look.
+    pub fn resume(&mut self, state: State<H::Target>) {
+        self.base.resume(state);
+    }
+
+    /// What the scheme remembers of the bodies, where that is of the present state.
+    pub(crate) fn remembered(&self) -> Option<&MemoryOf<H, S>> {
+        (S::REMEMBERS && self.base.ledger.begun).then_some(&self.memory)
+    }
+
+    /// Goes on from a state with what the scheme remembers of it.
+    pub(crate) fn resume_with(&mut self, state: State<H::Target>, memory: Option<MemoryOf<H, S>>) {
+        self.resume(state);
+        if let Some(memory) = memory {
+            self.memory = memory;
+            self.base.ledger.begun = true;
+        }
+    }
+
+    /// Memory for what the scheme remembers.
+    pub(crate) fn memory(&self) -> MemoryOf<H, S> {
+        self.memory.clone()
+    }
+
+    /// FNV-1a 64 over the state's words.
+    pub fn hash(&self) -> u64 {
+        self.base.state.hash()
+    }
+}
