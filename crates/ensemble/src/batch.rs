@@ -9,9 +9,6 @@
 use dbd_kernel::geometry::Named;
 use dbd_kernel::{Plant, Real, State};
 
-#[cfg(test)]
-mod tests;
-
 use crate::gather::{self, LanesModel, ModelOf};
 use crate::in_lanes::InLanes;
 use crate::lanes::Lanes;

@@ -3,10 +3,13 @@
 //! `(models, h) => ensemble of either precision; (model, h, instruction set, threads) => steps per second`, see
 //! [`crate::pace()`].
 
+use dbd_kernel::index::InputIndex;
+use dbd_kernel::plant::InputError;
 use dbd_kernel::{F32, F64, Leapfrog, State, Status};
 use dbd_scene::{SceneModel, widen};
 
 use crate::ensemble::{Ensemble, EnsembleError};
+use crate::in_lanes::InLanes;
 use crate::instructions::InstructionSet;
 use crate::number::Number;
 use crate::pace::{Course, Pace, pace};
@@ -29,6 +32,32 @@ pub trait AnyEnsemble: Send {
     /// Where there is no such instance.
     fn state(&mut self, instance: usize) -> State<SceneModel<F64>>;
 
+    /// The hash of an instance's state, as [`dbd_kernel::Plant::hash`].
+    ///
+    /// # Panics
+    /// Where there is no such instance.
+    fn hash(&mut self, instance: usize) -> u64;
+
+    /// As [`Ensemble::set_input`].
+    ///
+    /// # Errors
+    /// As there.
+    ///
+    /// # Panics
+    /// Where there is no such instance.
+    fn set_input(
+        &mut self,
+        instance: usize,
+        input: InputIndex,
+        value: f64,
+    ) -> Result<(), InputError>;
+
+    /// Sets an instance back to its initial state, as [`dbd_kernel::Plant::reset`].
+    ///
+    /// # Panics
+    /// Where there is no such instance.
+    fn reset(&mut self, instance: usize);
+
     /// As [`Ensemble::evaluations`].
     ///
     /// # Panics
@@ -36,7 +65,7 @@ pub trait AnyEnsemble: Send {
     fn evaluations(&self, instance: usize) -> Option<u64>;
 }
 
-impl<R: Number> AnyEnsemble for Ensemble<R, Leapfrog> {
+impl<R: Number, S: InLanes + Send + 'static> AnyEnsemble for Ensemble<R, S> {
     fn advance(&mut self, steps: u64) {
         self.advance(steps);
     }
@@ -49,32 +78,51 @@ impl<R: Number> AnyEnsemble for Ensemble<R, Leapfrog> {
         widen(self.state(instance))
     }
 
+    fn hash(&mut self, instance: usize) -> u64 {
+        self.plant(instance).hash()
+    }
+
+    fn set_input(
+        &mut self,
+        instance: usize,
+        input: InputIndex,
+        value: f64,
+    ) -> Result<(), InputError> {
+        self.set_input(instance, input, value)
+    }
+
+    fn reset(&mut self, instance: usize) {
+        self.plant_mut(instance).reset();
+    }
+
     fn evaluations(&self, instance: usize) -> Option<u64> {
         self.evaluations(instance)
     }
 }
 
-/// Instances in double precision, on the best instruction set of this machine.
+/// Instances in double precision.
 ///
 /// # Errors
-/// As [`Ensemble::new`].
+/// As [`Ensemble::with_instructions`].
 pub fn ensemble_in_f64(
     models: Vec<SceneModel<F64>>,
     step_size: f64,
+    set: InstructionSet,
 ) -> Result<Box<dyn AnyEnsemble>, EnsembleError> {
-    Ok(Box::new(Ensemble::new(models, Leapfrog, step_size)?))
+    Ok(Box::new(Ensemble::with_instructions(models, Leapfrog, step_size, set)?))
 }
 
-/// Instances that are rounded to single precision, likewise.
+/// Instances that are rounded to single precision.
 ///
 /// # Errors
-/// As [`Ensemble::new`].
+/// As [`Ensemble::with_instructions`].
 pub fn ensemble_in_f32(
     models: Vec<SceneModel<F64>>,
     step_size: f64,
+    set: InstructionSet,
 ) -> Result<Box<dyn AnyEnsemble>, EnsembleError> {
     let models = models.iter().map(|model| model.convert::<F32>()).collect();
-    Ok(Box::new(Ensemble::new(models, Leapfrog, step_size)?))
+    Ok(Box::new(Ensemble::with_instructions(models, Leapfrog, step_size, set)?))
 }
 
 /// How many instances in double precision go in lockstep on this machine; twice as many do in single.

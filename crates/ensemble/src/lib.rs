@@ -18,8 +18,6 @@ mod gather;
 mod in_lanes;
 mod instructions;
 mod lanes;
-// Six registers' steps, which the unit tests would compile once more.
-#[cfg(not(test))]
 mod leapfrog;
 mod number;
 mod pace;
@@ -30,7 +28,6 @@ pub use batch::PlantOf;
 pub use ensemble::{Ensemble, EnsembleError};
 pub use in_lanes::InLanes;
 pub use instructions::InstructionSet;
-#[cfg(not(test))]
 pub use leapfrog::{
     AnyEnsemble, ensemble_in_f32, ensemble_in_f64, lanes_in_f64, pace_in_f32, pace_in_f64,
 };

@@ -2,7 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use dbd_ensemble::{AnyEnsemble, EnsembleError, ensemble_in_f32, ensemble_in_f64, lanes_in_f64};
+use dbd_ensemble::{
+    AnyEnsemble, EnsembleError, InstructionSet, ensemble_in_f32, ensemble_in_f64, lanes_in_f64,
+};
 use dbd_plant::{Method, Plan, PrecisionName};
 use dbd_scene::Scene;
 
@@ -100,7 +102,7 @@ fn ensemble(
     };
     while rows.len() > 1 {
         let models = rows.iter().map(|row| members[*row].scene.model.clone()).collect();
-        match new(models, plan.step) {
+        match new(models, plan.step, InstructionSet::best()) {
             Ok(ensemble) => return Some(ensemble),
             Err(EnsembleError::Structure { instance, .. }) => drop(rows.remove(instance)),
             Err(_) => return None,

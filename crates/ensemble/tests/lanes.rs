@@ -1,34 +1,25 @@
 //! Every lane has the bits of its instance stepped by itself.
 
-use crate::InLanes;
+#[cfg(dbd_long)]
+use dbd_ensemble::Ensemble;
+use dbd_ensemble::{
+    AnyEnsemble, Difference, EnsembleError, InLanes, InstructionSet, Number, PlantOf,
+    ensemble_in_f32, ensemble_in_f64,
+};
 use dbd_kernel::elements::source::SourceLaw;
-use dbd_kernel::geometry::Named;
 use dbd_kernel::index::{ClearanceIndex, DamperIndex, InputIndex};
 use dbd_kernel::model::{Group, Law};
 use dbd_kernel::status::Cause;
 #[cfg(dbd_long)]
 use dbd_kernel::{BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, Pefrl, Rk4, SemiImplicitEuler};
 use dbd_kernel::{
-    Body, BodyIndex, BodyState, F64, Leapfrog, Plant, Quaternion, Real, Status, TorsionSpring,
-    Tsda, Vec3,
+    Body, BodyIndex, BodyState, F64, Leapfrog, Plant, Quaternion, Status, TorsionSpring, Tsda, Vec3,
 };
 use dbd_scene::{Scene, SceneModel};
 
-use super::{Batch, Members, PlantOf};
-use crate::InstructionSet;
-#[cfg(all(target_arch = "x86_64", dbd_long))]
-use crate::register::Singles512;
-#[cfg(target_arch = "x86_64")]
-use crate::register::{Doubles256, Singles256 as Eight};
-use crate::register::{Register, Singles};
-
-/// Where there is no other register.
-#[cfg(not(target_arch = "x86_64"))]
-type Eight = Singles;
-
-/// Whether this machine can use [`Eight`] lanes.
-fn eight() -> bool {
-    cfg!(not(target_arch = "x86_64")) || InstructionSet::Avx2.is_there()
+/// The instruction sets of this machine.
+fn sets() -> impl Iterator<Item = InstructionSet> {
+    InstructionSet::ALL.into_iter().filter(|set| set.is_there())
 }
 
 /// A scene that ships, and its step.
@@ -67,7 +58,7 @@ fn instances(model: &SceneModel<F64>, count: usize) -> Vec<SceneModel<F64>> {
     (0..count).map(instance).collect()
 }
 
-fn plants<R: Real + Named, S: InLanes>(
+fn plants<R: Number, S: InLanes>(
     models: &[SceneModel<F64>],
     scheme: S,
     step: f64,
@@ -77,27 +68,45 @@ fn plants<R: Real + Named, S: InLanes>(
 }
 
 /// Steps instances in lanes and by themselves, in parts that are no blocks, and compares all bits.
-fn compare<V: Register, S: InLanes + Send>(
+fn compare<R: Number, S: InLanes>(
     name: &str,
-    models: &[SceneModel<F64>],
-    scheme: S,
-    step: f64,
-) -> Vec<PlantOf<V::Number, S>> {
-    let mut alone = plants::<V::Number, S>(models, scheme, step);
-    let mut batch = Members::<V, S>::new(plants(models, scheme, step));
+    ensemble: &mut dyn AnyEnsemble,
+    mut alone: Vec<PlantOf<R, S>>,
+) -> Vec<PlantOf<R, S>> {
     for steps in [1, 70, 64, 30] {
-        batch.advance(steps);
+        ensemble.advance(steps);
         for (i, plant) in alone.iter_mut().enumerate() {
             let _ = plant.advance(steps);
-            let lane = batch.member(i);
-            let what = format!("{name}, {}, {}, instance {i}", S::NAME, V::Number::NAME);
-            assert_eq!(lane.status(), plant.status(), "{what}");
-            assert_eq!(lane.hash(), plant.hash(), "{what}");
-            let counted = batch.evaluations(i);
+            let what = format!("{name}, {}, {}, instance {i}", S::NAME, R::NAME);
+            assert_eq!(ensemble.status(i), plant.status(), "{what}");
+            assert_eq!(ensemble.hash(i), plant.hash(), "{what}");
+            let counted = ensemble.evaluations(i);
             assert!(counted.is_none_or(|counted| counted == plant.evaluations()), "{what}");
         }
     }
     alone
+}
+
+/// In double precision with an instruction set.
+fn in_f64(
+    name: &str,
+    models: &[SceneModel<F64>],
+    step: f64,
+    set: InstructionSet,
+) -> Vec<PlantOf<f64, Leapfrog>> {
+    let mut ensemble = ensemble_in_f64(models.to_vec(), step, set).unwrap();
+    compare(name, ensemble.as_mut(), plants(models, Leapfrog, step))
+}
+
+/// In single precision with an instruction set.
+fn in_f32(
+    name: &str,
+    models: &[SceneModel<F64>],
+    step: f64,
+    set: InstructionSet,
+) -> Vec<PlantOf<f32, Leapfrog>> {
+    let mut ensemble = ensemble_in_f32(models.to_vec(), step, set).unwrap();
+    compare(name, ensemble.as_mut(), plants(models, Leapfrog, step))
 }
 
 /// Planar and in space, with torsion springs, points on lines, dampers, clearances, inputs.
@@ -112,54 +121,57 @@ const SCENES: [&str; 8] = [
     "gyroscope",
 ];
 
-fn every_scene<V: Register, S: InLanes + Send>(scheme: S, scenes: &[&str]) {
-    for name in scenes {
+/// All run, and no two alike.
+fn differ<R: Number, S: InLanes>(name: &str, alone: &[PlantOf<R, S>]) {
+    assert!(alone.iter().all(|plant| plant.status().is_running()), "{name}");
+    assert!(alone.windows(2).all(|pair| pair[0].hash() != pair[1].hash()), "{name}");
+}
+
+#[test]
+fn lanes_of_double_precision_have_the_bits_of_their_instances() {
+    for name in SCENES {
         let (model, step) = shipped(name);
-        // One lane runs a twin.
-        let models = instances(&model, V::LANES - 1);
-        let alone = compare::<V, S>(name, &models, scheme, step);
-        assert!(alone.iter().all(|plant| plant.status().is_running()), "{name}");
-        assert!(alone.windows(2).all(|pair| pair[0].hash() != pair[1].hash()), "{name}");
+        for set in sets() {
+            // One lane runs a twin.
+            let models = instances(&model, f64::lanes(set) - 1);
+            differ(name, &in_f64(name, &models, step, set));
+        }
     }
 }
 
 #[test]
-fn lanes_have_the_bits_of_their_instances() {
-    if eight() {
-        every_scene::<Eight, _>(Leapfrog, &SCENES);
+fn lanes_of_single_precision_have_the_bits_of_their_instances() {
+    for name in SCENES {
+        let (model, step) = shipped(name);
+        for set in sets() {
+            let models = instances(&model, f32::lanes(set) - 1);
+            differ(name, &in_f32(name, &models, step, set));
+        }
     }
 }
 
-/// Each scheme takes a minute to compile: `RUSTFLAGS="--cfg dbd_long" cargo test -p dbd-ensemble --lib`.
+/// Each scheme takes a minute to compile: `RUSTFLAGS="--cfg dbd_long" cargo test -p dbd-ensemble`.
 #[cfg(dbd_long)]
 #[test]
 fn lanes_have_the_bits_of_their_instances_in_every_scheme() {
-    let some = ["gripper", "macpherson", "gyroscope"];
-    every_scene::<Eight, _>(Explicit(Leapfrog), &some);
-    every_scene::<Eight, _>(SemiImplicitEuler, &some);
-    every_scene::<Eight, _>(Pefrl, &some);
-    every_scene::<Eight, _>(BlanesMoanS6, &some);
-    every_scene::<Eight, _>(Rk4, &some);
-    every_scene::<Eight, _>(Dbd { newton: 1 }, &some);
-    every_scene::<Eight, _>(DbdP1 { newton: 0 }, &some);
-    every_scene::<Eight, _>(DbdP2 { newton: 2 }, &some);
-}
-
-#[test]
-fn any_machine_has_lanes() {
-    every_scene::<Singles, _>(Leapfrog, &SCENES);
-}
-
-#[cfg(target_arch = "x86_64")]
-#[test]
-fn other_registers_of_this_machine_give_the_same_bits() {
-    if InstructionSet::Avx2.is_there() {
-        every_scene::<Doubles256, _>(Leapfrog, &SCENES);
+    fn every_scene<S: InLanes + Send + 'static>(scheme: S) {
+        let set = InstructionSet::best();
+        for name in ["gripper", "macpherson", "gyroscope"] {
+            let (model, step) = shipped(name);
+            let models = instances(&model, f32::lanes(set) - 1);
+            let singles = models.iter().map(SceneModel::convert).collect();
+            let mut ensemble = Ensemble::<f32, S>::new(singles, scheme, step).unwrap();
+            differ(name, &compare(name, &mut ensemble, plants::<f32, S>(&models, scheme, step)));
+        }
     }
-    #[cfg(dbd_long)]
-    if InstructionSet::Avx512.is_there() {
-        every_scene::<Singles512, _>(Leapfrog, &SCENES);
-    }
+    every_scene(Explicit(Leapfrog));
+    every_scene(SemiImplicitEuler);
+    every_scene(Pefrl);
+    every_scene(BlanesMoanS6);
+    every_scene(Rk4);
+    every_scene(Dbd { newton: 1 });
+    every_scene(DbdP1 { newton: 0 });
+    every_scene(DbdP2 { newton: 2 });
 }
 
 /// A flywheel on a torsion spring whose axis leans on no principal axis, let go with a spin about it.
@@ -189,9 +201,6 @@ fn flywheel(spin: f64) -> SceneModel<F64> {
 
 #[test]
 fn points_that_coincide_in_one_lane_give_it_no_force() {
-    if !eight() {
-        return;
-    }
     // A ball tied to the origin, at it or apart from it, and let go or thrown.
     let ball = |x: f64| {
         let mut model = flywheel(0.0);
@@ -216,45 +225,34 @@ fn points_that_coincide_in_one_lane_give_it_no_force() {
         model
     };
     let models: Vec<_> = [0.5, 0.0, -0.1].into_iter().map(ball).collect();
-    let alone = compare::<Eight, _>("ball", &models, Leapfrog, 0.01);
+    let alone = in_f32("ball", &models, 0.01, InstructionSet::best());
     assert_eq!(alone[1].state().bodies[0].position, Vec3::ZERO);
 }
 
 #[test]
 fn each_lane_counts_its_own_turns() {
-    if !eight() {
-        return;
-    }
     let spins = [40.0, -40.0, 0.0, 7.0];
     let models: Vec<_> = spins.into_iter().map(flywheel).collect();
-    let alone = compare::<Eight, _>("flywheel", &models, Leapfrog, 0.01);
+    let alone = in_f32("flywheel", &models, 0.01, InstructionSet::best());
     let turns: Vec<i32> = alone.iter().map(|plant| plant.state().turns[0]).collect();
     assert!(turns[0] > 5 && turns[1] < -5 && turns[2] == 0, "{turns:?}");
-    #[cfg(dbd_long)]
-    {
-        compare::<Eight, _>("flywheel", &models, BlanesMoanS6, 0.01);
-        compare::<Eight, _>("flywheel", &models, Rk4, 0.01);
-    }
 }
 
 #[test]
 fn a_failed_lane_stops_alone_with_the_bits_of_its_failure() {
-    if !eight() {
-        return;
-    }
     let (model, step) = shipped("gripper");
     let mut models = instances(&model, 4);
     // Too stiff for the step: it leaves the range of numbers or spins too fast.
     models[1].tsdas.iter_mut().for_each(|spring| spring.stiffness *= 1e4);
     // Fails in the first step.
     models[2].initial[0].angular_velocity = Vec3::new(0.0, 0.0, 3.0 / step);
-    let alone = compare::<Eight, _>("gripper", &models, Leapfrog, step);
+    let alone = in_f32("gripper", &models, step, InstructionSet::best());
     let failed: Vec<bool> = alone.iter().map(|plant| !plant.status().is_running()).collect();
     assert_eq!(failed, [false, true, true, false]);
     // Those that did not fail have gone on in their lanes.
-    let mut batch = Members::<Eight, _>::new(plants::<f32, _>(&models, Leapfrog, step));
-    batch.advance(165);
-    let counted = [0, 1, 2, 3].map(|member| batch.evaluations(member));
+    let mut ensemble = ensemble_in_f32(models, step, InstructionSet::best()).unwrap();
+    ensemble.advance(165);
+    let counted = [0, 1, 2, 3].map(|instance| ensemble.evaluations(instance));
     let own = |member: usize| Some(alone[member].evaluations());
     assert_eq!(counted, [own(0), None, None, own(3)]);
     assert!(matches!(
@@ -265,9 +263,6 @@ fn a_failed_lane_stops_alone_with_the_bits_of_its_failure() {
 
 #[test]
 fn a_lane_without_a_twist_fails_where_its_instance_does() {
-    if !eight() {
-        return;
-    }
     // Half a turn about an axis normal to the spring's.
     let tumbling = |rate: f64| {
         let mut model = flywheel(0.0);
@@ -280,7 +275,7 @@ fn a_lane_without_a_twist_fails_where_its_instance_does() {
     // Exactly half a turn after 157 steps of 0.01 s.
     let rate = std::f64::consts::PI / 1.57;
     let models: Vec<_> = [0.0, rate, 0.3].into_iter().map(tumbling).collect();
-    let alone = compare::<Eight, _>("tumbling", &models, Leapfrog, 0.01);
+    let alone = in_f32("tumbling", &models, 0.01, InstructionSet::best());
     assert!(matches!(
         alone[1].status(),
         Status::Failed(failure) if matches!(failure.cause, Cause::UndefinedTwist { .. })
@@ -290,27 +285,23 @@ fn a_lane_without_a_twist_fails_where_its_instance_does() {
 
 #[test]
 fn an_instance_may_be_changed_between_steps() {
-    if !eight() {
-        return;
-    }
     let (model, step) = shipped("cart-pendulum");
     let models = instances(&model, 4);
     let mut alone = plants::<f32, _>(&models, Leapfrog, step);
-    let mut batch = Members::<Eight, _>::new(plants(&models, Leapfrog, step));
+    let mut ensemble = ensemble_in_f32(models, step, InstructionSet::best()).unwrap();
     for round in 0..6 {
         let value = 0.3 * f64::from(round);
-        let (own, lane) = (&mut alone[1], batch.member_mut(1));
-        own.set_input(InputIndex(0), value).unwrap();
-        lane.set_input(InputIndex(0), value).unwrap();
+        alone[1].set_input(InputIndex(0), value).unwrap();
+        ensemble.set_input(1, InputIndex(0), value).unwrap();
         // One that is at another step than the others.
         if round == 3 {
             alone[2].reset();
-            batch.member_mut(2).reset();
+            ensemble.reset(2);
         }
-        batch.advance(17);
+        ensemble.advance(17);
         for (i, plant) in alone.iter_mut().enumerate() {
             let _ = plant.advance(17);
-            assert_eq!(batch.member(i).hash(), plant.hash(), "round {round}, instance {i}");
+            assert_eq!(ensemble.hash(i), plant.hash(), "round {round}, instance {i}");
         }
     }
     assert!(alone[0].hash() != alone[1].hash() && alone[2].state().step < alone[0].state().step);
@@ -319,14 +310,11 @@ fn an_instance_may_be_changed_between_steps() {
 /// What a sweep weighs is each lane's own.
 #[test]
 fn shares_of_dampers_are_each_lanes_own() {
-    if !eight() {
-        return;
-    }
     let (model, step) = shipped("double-wishbone");
     let mut models = instances(&model, 3);
     // Without dampers of its own a lane has none of the others' shares.
     models[1].dampers.iter_mut().for_each(|damper| *damper = 0.0);
-    compare::<Eight, _>("double-wishbone", &models, Leapfrog, step);
+    in_f32("double-wishbone", &models, step, InstructionSet::best());
 }
 
 /// Sines, tables that repeat and tables over what a lane's own sensor reads.
@@ -395,15 +383,15 @@ body = "b"
             *amplitude *= 1.0 + i as f64;
         }
     }
-    if eight() {
-        compare::<Eight, _>("driven", &models, Leapfrog, 1e-3);
+    for set in sets() {
+        in_f32("driven", &models, 1e-3, set);
     }
-    compare::<Singles, _>("driven", &models, Leapfrog, 1e-3);
     if let SourceLaw::Sine { period, .. } = &mut models[1].sources[0].law {
         *period *= 2.0;
     }
-    let found = crate::alike::difference(&models[0].convert::<F64>(), &models[1].convert());
-    assert!(matches!(found, Some(crate::Difference::Part { part: "source of an input", row: 0 })));
+    let found = ensemble_in_f64(models, 1e-3, InstructionSet::Baseline).err();
+    let difference = Difference::Part { part: "source of an input", row: 0 };
+    assert_eq!(found, Some(EnsembleError::Structure { instance: 1, difference }));
 }
 
 #[test]
@@ -431,12 +419,12 @@ fn instances_with_interactions_go_one_by_one() {
         Scene::parse(&text, "b.toml").unwrap().model
     };
     let models: Vec<_> = [1.0, 0.5, 2.0, 0.1, 3.0].map(of).to_vec();
-    let mut ensemble = crate::Ensemble::new(models.clone(), Leapfrog, 1e-4).unwrap();
+    let mut ensemble = ensemble_in_f64(models.clone(), 1e-4, InstructionSet::best()).unwrap();
     ensemble.advance(300);
     for (i, model) in models.iter().enumerate() {
         let mut plant = Plant::new(model, Leapfrog, 1e-4).unwrap();
         plant.advance(300).ok().unwrap();
-        assert_eq!(ensemble.plant(i).hash(), plant.hash(), "{i}");
+        assert_eq!(ensemble.hash(i), plant.hash(), "{i}");
         assert!(plant.state().bodies[0].velocity.y > 0.0, "{i} has met its stop");
     }
 }
