@@ -1,6 +1,7 @@
 //! `new firmware` and `export`: what is written, and what is refused. That the project builds and
 //! runs is a step of `cargo xtask test`.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
@@ -92,6 +93,62 @@ fn a_project_has_what_other_machines_and_editors_need() {
     }
     let both = new(&folder.path("both"), &["--git", "x", "--registry"]);
     assert_eq!(both.exit, Exit::Refused);
+}
+
+/// The header names what the scene has; the golden bits are those of `run`.
+#[test]
+fn a_project_for_c_has_the_names_and_the_bits_of_its_scene() {
+    let folder = Folder::new();
+    let project = folder.path("my-plant");
+    let done = call(&["new", "c", project.to_str().unwrap(), "--precision", "fixed"]);
+    assert_eq!((done.exit, done.err.as_str()), (Exit::Done, ""));
+    let read = |path: &str| fs::read_to_string(project.join(path)).unwrap();
+    let header = read("include/my_plant.h");
+    for line in [
+        "typedef float my_plant_number;",
+        "#define MY_PLANT_INPUT_DRIVE 0u /* N */",
+        "#define MY_PLANT_READOUT_ANGLE 2u /* rad */",
+        "#define MY_PLANT_BODY_PENDULUM 1u",
+        "#define MY_PLANT_STEP 0.0005",
+        "int32_t my_plant_step(void);",
+    ] {
+        assert!(header.lines().any(|own| own == line), "{line} is not in {header}");
+    }
+    // Every function of the header is there in Rust, and no other is exported.
+    let declared = header.lines().filter(|line| line.ends_with(");")).filter_map(|line| {
+        line.split_once('(').and_then(|(before, _)| before.split_whitespace().last())
+    });
+    let declared: BTreeSet<String> = declared.map(str::to_owned).collect();
+    let library = syn::parse_file(&read("src/lib.rs")).unwrap();
+    let exported: BTreeSet<String> = library
+        .items
+        .iter()
+        .filter_map(|item| match item {
+            syn::Item::Fn(function) if function.sig.abi.is_some() => {
+                Some(function.sig.ident.to_string())
+            }
+            _ => None,
+        })
+        .collect();
+    assert_eq!(declared, exported);
+    assert_eq!(exported.len(), 10);
+    let last = read("golden.txt").lines().last().unwrap().to_owned();
+    let options = ["--precision", "fixed", "--damping", "joint-wise", "--duration", "5s"];
+    let run = folder.summary("cart-pendulum", &options);
+    let bits = format!("{} {}", run["steps"], run["state_hash"].as_str().unwrap());
+    assert_eq!(last, bits, "{}", done.out);
+    let double = folder.path("double");
+    call(&["new", "c", double.to_str().unwrap(), "--precision", "f64"]);
+    let header = fs::read_to_string(double.join("include/double.h")).unwrap();
+    assert!(header.contains("typedef double double_number;"), "{header}");
+    // A scene without inputs and read-outs.
+    let ball = folder.path("ball");
+    let text = "name = \"a ball\"\nduration = 1\n[[body]]\nname = \"b\"\nmass = 1\n\
+                inertia = [1, 1, 1]\nposition = [0, 0, 0]\n";
+    let done = call(&["new", "c", ball.to_str().unwrap(), "--scene", &folder.scene(text)]);
+    assert_eq!((done.exit, done.err.as_str()), (Exit::Done, ""));
+    let source = fs::read_to_string(ball.join("src/lib.rs")).unwrap();
+    assert!(source.contains("static READOUTS: [Readout<Precision>; 0] = [];"), "{source}");
 }
 
 #[test]

@@ -44,13 +44,15 @@ use crate::commands::fmu::{FmuArguments, fmu};
 use crate::commands::import::{self, Import, ImportArguments};
 use crate::commands::linearise::LineariseArguments;
 use crate::commands::list::list;
-use crate::commands::new::{FirmwareArguments, NewCommand, SceneArguments, firmware, laws, scene};
+use crate::commands::new::{
+    NewCommand, NewError, PlantArguments, SceneArguments, c, firmware, laws, scene,
+};
 use crate::commands::schema;
 use crate::commands::sweep::{SweepArguments, sweep};
 use crate::error::Error;
 use crate::help;
 use crate::terminal::text::json;
-use crate::terminal::{Catalogue, Console, Exit, Progress};
+use crate::terminal::{Catalogue, Console, Exit, Found, Progress};
 
 /// Discrete Body Dynamics: simulates mechanisms of rigid bodies and springs.
 #[derive(Debug, Parser)]
@@ -185,8 +187,9 @@ where
         Command::Play(arguments) => play_scenes(&catalogue, &arguments, console),
         Command::Import(arguments) => import_file(&arguments, console),
         Command::New(NewCommand::Firmware(arguments)) => {
-            new_firmware(&catalogue, &arguments, console)
+            new_plant(&catalogue, &arguments, firmware, console)
         }
+        Command::New(NewCommand::C(arguments)) => new_plant(&catalogue, &arguments, c, console),
         Command::New(NewCommand::Laws(arguments)) => laws(&arguments)
             .map_err(Error::from)
             .and_then(|said| console.print(&said).map_err(Error::from))
@@ -287,13 +290,14 @@ fn import_file(arguments: &ImportArguments, console: &mut Console<'_>) -> Result
     open.map_or(Ok(Exit::Done), |open| Err(open.into()))
 }
 
-fn new_firmware(
+fn new_plant(
     catalogue: &Catalogue,
-    arguments: &FirmwareArguments,
+    arguments: &PlantArguments,
+    write: fn(&PlantArguments, &Found) -> Result<String, NewError>,
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
     let found = catalogue.load(&arguments.scene)?;
-    console.print(&firmware(arguments, &found)?)?;
+    console.print(&write(arguments, &found)?)?;
     Ok(Exit::Done)
 }
 

@@ -32,6 +32,8 @@ pub const LINEARISE: &str = examples!("linearise.txt");
 pub const LIST: &str = examples!("list.txt");
 /// Of `modes`.
 pub const MODES: &str = examples!("modes.txt");
+/// Of `new c`.
+pub const NEW_C: &str = examples!("new-c.txt");
 /// Of `new firmware`.
 pub const NEW_FIRMWARE: &str = examples!("new-firmware.txt");
 /// Of `new laws`.

@@ -1,5 +1,6 @@
 //! The target: its compiler and tools, the firmware's images, the emulator that runs them.
 
+pub mod c_project;
 pub mod debian;
 pub mod emulator;
 pub mod firmware;

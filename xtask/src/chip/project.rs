@@ -1,4 +1,4 @@
-//! A new firmware project of a scene, as its owner meets it: written, run in QEMU, tested on the PC.
+//! New projects of a scene, as their owner meets them: written, run in QEMU, tested on the PC.
 //!
 //! `host-sim new firmware => image, test`. It is built beside the firmware, with its compiler, its
 //! profile and its lock file, so that what both depend on is compiled once.
@@ -10,8 +10,8 @@ use std::process::Command;
 use anyhow::{Context as _, Result, bail};
 
 use crate::built::{Program, host_sim};
-use crate::chip::Toolchain;
 use crate::chip::firmware::{LIBRARIES, PROFILE};
+use crate::chip::{Toolchain, c_project};
 use crate::command::{output, program, root, run, shown};
 
 const NAME: &str = "new-project";
@@ -33,6 +33,7 @@ pub fn check(toolchain: &Toolchain, here: bool, programs: &[Program]) -> Result<
         on_the_target(toolchain, &project)?;
         if here { on_the_pc(toolchain, &project) } else { Ok(()) }
     });
+    let checked = checked.and_then(|()| c_project::check(toolchain, &folder, &host_sim, here));
     fs::remove_dir_all(&folder)?;
     checked
 }
@@ -52,7 +53,7 @@ fn written(host_sim: &Path, project: &Path) -> Result<PathBuf> {
 }
 
 /// In the project's folder, with the artefacts of the firmware.
-fn within(command: &mut Command, toolchain: &Toolchain, project: &Path) {
+pub(super) fn within(command: &mut Command, toolchain: &Toolchain, project: &Path) {
     let profile = format!("profile.{PROFILE}.inherits='release'");
     command.current_dir(project).env("CARGO_TARGET_DIR", toolchain.target_dir());
     command.args(["--offline", "--profile", PROFILE, "--config", &profile]);

@@ -10,7 +10,11 @@ use crate::command::{find, output, program};
 
 /// The target of the firmware.
 pub const TARGET: &str = "thumbv7em-none-eabihf";
-const EMULATOR: &str = "qemu-system-arm";
+/// What runs its images.
+pub const EMULATOR: &str = "qemu-system-arm";
+/// What compiles C for it.
+pub const C_COMPILER: &str = "arm-none-eabi-gcc";
+const C_PACKAGE: &str = "gcc-arm-none-eabi";
 const DISASSEMBLER: &str = "arm-none-eabi-objdump";
 const BINUTILS: &str = "binutils-arm-none-eabi";
 const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
@@ -53,6 +57,7 @@ pub fn complete() -> Result<Toolchain> {
     let tools = [
         tool("emulator", EMULATOR, EMULATOR, "install QEMU for Arm, version 7 or later"),
         tool("disassembler", DISASSEMBLER, BINUTILS, "install GNU binutils for arm-none-eabi"),
+        tool("C compiler", C_COMPILER, C_PACKAGE, "install GCC for arm-none-eabi"),
         counter(),
     ];
     let missing = toolchain.as_ref().err().into_iter();

@@ -1,0 +1,153 @@
+//! `host-sim new firmware`: a project with a plant in firmware, which builds and runs as it is.
+//!
+//! `(name, scene) => folder`. The files are those of `templates/firmware/`.
+
+use std::path::PathBuf;
+
+use dbd_plant::digits::significant;
+use dbd_plant::time::rounded;
+use dbd_scene::Scene;
+use dbd_scene::export::constant_name;
+use dbd_study::costs::Costs;
+use dbd_study::estimate::instructions;
+
+use super::plant::Planted;
+use super::{NewError, Place, PlantArguments};
+use crate::commands::schema;
+use crate::terminal::Found;
+
+/// Constants that the project's page shows of a kind.
+const SHOWN: usize = 6;
+
+/// Files of a project and what they are made from.
+const TEMPLATES: &[(&str, &str)] = &[
+    ("Cargo.toml", include_str!("../../../templates/firmware/Cargo.toml.in")),
+    ("build.rs", include_str!("../../../templates/firmware/build.rs.in")),
+    ("memory.x", include_str!("../../../templates/firmware/memory.x.in")),
+    (".cargo/config.toml", include_str!("../../../templates/firmware/config.toml.in")),
+    (".gitignore", include_str!("../../../templates/firmware/gitignore.in")),
+    ("README.md", include_str!("../../../templates/firmware/README.md.in")),
+    ("src/lib.rs", include_str!("../../../templates/firmware/lib.rs.in")),
+    ("src/main.rs", include_str!("../../../templates/firmware/main.rs.in")),
+    ("src/bin/cost.rs", include_str!("../../../templates/firmware/cost.rs.in")),
+    ("tests/golden.rs", include_str!("../../../templates/firmware/golden.rs.in")),
+    ("check.sh", include_str!("../../../templates/firmware/check.sh.in")),
+    (".github/workflows/test.yml", include_str!("../../../templates/firmware/github.yml.in")),
+    (".gitlab-ci.yml", include_str!("../../../templates/firmware/gitlab.yml.in")),
+    ("Dockerfile", include_str!("../../../templates/firmware/Dockerfile.in")),
+    (
+        ".devcontainer/devcontainer.json",
+        include_str!("../../../templates/firmware/devcontainer.json.in"),
+    ),
+    (".vscode/extensions.json", include_str!("../../../templates/firmware/extensions.json.in")),
+    (".vscode/launch.json", include_str!("../../../templates/firmware/launch.json.in")),
+    (".vscode/settings.json", include_str!("../../../templates/firmware/settings.json.in")),
+    (".taplo.toml", include_str!("../../../templates/firmware/taplo.toml.in")),
+    ("Embed.toml", include_str!("../../../templates/firmware/Embed.toml.in")),
+];
+
+/// What files for other machines say where the project's crates are in a folder of this one.
+const ELSEWHERE: &str = "\n# The crates are in a folder of one machine (Cargo.toml): elsewhere name their repository there, \
+                         or write\n# the project with `host-sim new firmware --git URL --rev REV`.";
+
+/// Writes a project of a scene and says what to type next.
+///
+/// # Errors
+/// [`NewError`]; nothing is written then.
+pub fn firmware(arguments: &PlantArguments, found: &Found) -> Result<String, NewError> {
+    let place = Place::of(&arguments.name)?;
+    let Planted { scene, choice, dependencies, golden, mut values, file } =
+        Planted::of(&place, found, arguments)?;
+    let estimate = instructions(scene, &choice.method, &Costs::shipped());
+    let estimate = estimate.map_or_else(String::new, |count| {
+        format!(
+            "some {} instructions per step, estimated by bodies and elements",
+            significant(rounded(count, 2), 2)
+        )
+    });
+    let suffix = choice.method.precision_name().to_uppercase();
+    values.extend([
+        ("elsewhere", if dependencies.is_local { ELSEWHERE } else { "" }.to_owned()),
+        ("hints", hints(scene, &suffix)),
+        ("constants", constants(scene, &suffix)),
+    ]);
+    let golden_file = (PathBuf::from("tests/golden.txt"), golden);
+    let schema_file = (PathBuf::from(format!("scenes/{}", schema::FILE)), schema::text());
+    place.write(TEMPLATES, &values, vec![file, golden_file, schema_file])?;
+    Ok(format!(
+        "{0}: the scene {1} as a plant in firmware: {3}; {2}\n{4}\n  cd {0}\n  cargo test    golden bits on the \
+         PC\n  cargo qemu    the same bits on a Cortex-M4F in QEMU; README.md says what to install\n  cargo \
+         cost    instructions of a step there: {5}\n",
+        place.folder.display(),
+        scene.name,
+        dependencies.origin,
+        choice.words(),
+        choice.reasons.iter().map(|reason| format!("  {reason}\n")).collect::<String>(),
+        if estimate.is_empty() { "nothing like it was counted" } else { &estimate },
+    ))
+}
+
+/// Calls of a controller, for the scene's first read-out and input.
+fn hints(scene: &Scene, suffix: &str) -> String {
+    let prefix = constant_name(&scene.name);
+    let readout = scene.readouts.first().map(|readout| {
+        let name = constant_name(&readout.name);
+        format!("/// plant.read(&model::{prefix}_READOUT_{name}_{suffix})\n")
+    });
+    let input = scene.inputs.iter().find(|input| !input.table).map(|input| {
+        let name = constant_name(&input.name);
+        format!("/// plant.set_input_real(model::{prefix}_INPUT_{name}, 0.0)\n")
+    });
+    let calls: String = readout.into_iter().chain(input).collect();
+    if calls.is_empty() { calls } else { format!("///\n/// ```text\n{calls}/// ```\n") }
+}
+
+/// The constants that a controller takes, for the project's page.
+fn constants(scene: &Scene, suffix: &str) -> String {
+    let prefix = constant_name(&scene.name);
+    let row = |what: &str, names: Vec<String>| {
+        let more = if names.len() > SHOWN { ", …" } else { "" };
+        let shown: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
+        (!names.is_empty()).then(|| format!("| {what} | {}{more} |\n", shown.join(", ")))
+    };
+    let read = format!("_{suffix}");
+    let force = format!("_FORCE_{suffix}");
+    let name =
+        |kind: &str, name: &str, end: &str| format!("{prefix}_{kind}_{}{end}", constant_name(name));
+    let inputs = scene.inputs.iter().map(|one| name("INPUT", &one.name, "")).collect();
+    let readouts = scene.readouts.iter().map(|one| name("READOUT", &one.name, &read)).collect();
+    let bodies = scene.body_names.iter().map(|one| name("BODY", one, "")).collect();
+    let joints = scene.joints.iter().map(|one| name("JOINT", &one.name, &force)).collect();
+    let rows = [
+        row("inputs", inputs),
+        row("read-outs", readouts),
+        row("bodies", bodies),
+        row("forces of joints", joints),
+    ];
+    let rows: String = rows.into_iter().flatten().collect();
+    format!("In `model`, beside the plant:\n\n| what | constants |\n|---|---|\n{rows}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::DependencyOptions;
+    use super::super::choice::ChoiceOptions;
+    use super::*;
+
+    /// Nothing is left to be filled in, and nothing is asked for that is not there.
+    #[test]
+    fn every_name_in_a_template_is_known() {
+        let here = tempfile::tempdir().unwrap();
+        let folder = here.path().join("plant");
+        let found = crate::terminal::Catalogue::default().load("gyroscope").unwrap();
+        let name = folder.clone();
+        let dependencies = DependencyOptions { registry: true, ..DependencyOptions::default() };
+        let choice = ChoiceOptions::default();
+        let scene = "gyroscope".to_owned();
+        firmware(&PlantArguments { name, scene, dependencies, choice }, &found).unwrap();
+        for (path, _) in TEMPLATES {
+            let text = std::fs::read_to_string(folder.join(path)).unwrap();
+            assert!(!text.contains("{{"), "{path}: {text}");
+        }
+    }
+}
