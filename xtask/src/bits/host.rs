@@ -1,36 +1,31 @@
 //! The host's programs whose bits the target's are compared with.
 //!
-//! Optimised as a release and not at all: with the target's, three levels of optimisation.
+//! `programs as tested, programs as released => paths => lines`. What steps is not optimised in the tests' build and has
+//! every check; a release's is compiled for the long tests alone, as the golden tables are compared in release, too.
 
 use std::path::PathBuf;
 use std::process::Command;
 
 use anyhow::{Context as _, Result};
 
-use crate::built::{Program, build};
+use crate::built::Program;
 use crate::chip::firmware;
-use crate::command::{cargo, output, program};
+use crate::command::{output, program};
 
-/// The same programs twice.
+/// The programs of the firmware, for this machine.
 pub struct Host {
-    release: PathBuf,
+    checked: PathBuf,
+    released: Option<PathBuf>,
     plant: PathBuf,
-    unoptimised: PathBuf,
 }
 
 impl Host {
-    /// Takes the release's programs from those that were built, and builds the others.
+    /// Takes the programs from those of the tests' build and those of the release.
     ///
     /// # Errors
-    /// Where they are not there or do not build.
-    pub fn new(built: &[Program]) -> Result<Self> {
-        let unoptimised = build(
-            cargo()
-                .args(["build", "--package", "firmware", "--bin", firmware::SHARED])
-                .env("CARGO_PROFILE_DEV_OPT_LEVEL", "0"),
-        )?;
-        let plant = plant(built)?;
-        Ok(Self { release: shared(built)?, plant, unoptimised: shared(&unoptimised)? })
+    /// Where they are not there.
+    pub fn new(tests: &[Program], release: &[Program]) -> Result<Self> {
+        Ok(Self { checked: shared(tests)?, released: shared(release).ok(), plant: plant(release)? })
     }
 
     /// The program of controllers with their plants, optimised.
@@ -38,20 +33,21 @@ impl Host {
         &self.plant
     }
 
-    /// Lines of a program, optimised.
+    /// Lines of a program as tested.
     ///
     /// # Errors
     /// Where it fails.
-    pub fn released(&self, arguments: &[&str]) -> Result<Vec<String>> {
-        lines(program(&self.release).args(arguments))
+    pub fn checked(&self, arguments: &[&str]) -> Result<Vec<String>> {
+        lines(program(&self.checked).args(arguments))
     }
 
-    /// Lines of a program, not optimised.
+    /// Lines of a program as released, where it was built.
     ///
     /// # Errors
     /// Where it fails.
-    pub fn unoptimised(&self, arguments: &[&str]) -> Result<Vec<String>> {
-        lines(program(&self.unoptimised).args(arguments))
+    pub fn released(&self, arguments: &[&str]) -> Result<Option<Vec<String>>> {
+        let released = self.released.as_ref();
+        released.map(|released| lines(program(released).args(arguments))).transpose()
     }
 }
 

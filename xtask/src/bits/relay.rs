@@ -19,7 +19,7 @@ const END: &str = "2";
 /// # Errors
 /// Where a hash differs or a program fails.
 pub fn compare(toolchain: &Toolchain, host: &Host) -> Result<()> {
-    let on_host = |arguments: &[&str]| host.released(arguments);
+    let on_host = |arguments: &[&str]| host.checked(arguments);
     let on_target = |arguments: &[&str]| {
         let [program, parts @ ..] = arguments else { bail!("no program is named") };
         let parts: Vec<String> = parts.iter().map(|part| (*part).to_owned()).collect();

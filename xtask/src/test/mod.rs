@@ -63,7 +63,7 @@ pub fn run(long: bool, write_times: bool) -> Result<()> {
         // Of two cores these steps take hardly more than one, and so does linking an image.
         scope.spawn(|| firmware::link_ahead(&toolchain));
         bare(&mut steps);
-        let host = release(&mut steps, &mut cases);
+        let host = release(&mut steps, &programs, long, &mut cases);
         other_targets(&mut steps);
         python::add_steps(&mut steps, &programs);
         host
@@ -199,20 +199,28 @@ fn bare(steps: &mut Steps) {
     });
 }
 
-/// Golden bits as released; the programs whose bits the target is compared with.
-fn release(steps: &mut Steps, cases: &mut Vec<Case>) -> Option<Host> {
+/// Golden bits as released, and the programs that are compared with the target's.
+fn release(
+    steps: &mut Steps,
+    programs: &[Program],
+    long: bool,
+    cases: &mut Vec<Case>,
+) -> Option<Host> {
     let (mut host, mut golden, mut counted) = (None, None, Vec::new());
-    steps.step("the host's programs are built, optimised as released and not at all", || {
+    steps.step("the host's programs are built as released", || {
         let mut command = cargo();
         command.args(["build", "--release", "--package", GOLDEN, "--test", "golden"]);
-        command.args(["--package", "firmware", "--bin", firmware::SHARED]);
-        command.args(["--bin", firmware::PLANT]).args(instructions::BUILD);
+        command.args(["--package", "firmware", "--bin", firmware::PLANT]);
+        command.args(instructions::BUILD);
+        if long {
+            command.args(["--bin", firmware::SHARED]);
+        }
         // What stands below Python's module is compiled once with the rest.
         command.args(["--package", python::CRATE, "--lib"]);
         let built = build(&mut command)?;
         golden = built.iter().find(|program| program.tests).cloned();
         counted = built.clone();
-        host = Some(Host::new(&built)?);
+        host = Some(Host::new(programs, &built)?);
         Ok(())
     });
     steps.step("golden bits in release", || {
@@ -268,7 +276,9 @@ fn on_target(
         boards::check_format()?;
         boards::execute(toolchain, if long { &boards::PROGRAMS } else { &[boards::PLAIN] })
     });
-    steps.step("a new firmware project", || project::check(toolchain, long, programs));
+    steps.step("new firmware projects, in Rust and in C", || {
+        project::check(toolchain, long, programs)
+    });
     steps.step("costs on the target", || cost::baseline::check(toolchain));
 }
 
