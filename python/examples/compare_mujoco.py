@@ -56,7 +56,7 @@ def ours(stiffer: float, step: float) -> np.ndarray:
         for joint, (stiffness, damping) in springs.items()
         for what, value in (("stiffness", stiffness * stiffer), ("damping", damping * stiffer**0.5))
     ]
-    plant = dbd.Plant.from_text(dbd.CART_PENDULUM, changes=changes, step=step)
+    plant = dbd.Plant("cart-pendulum", changes=changes, step=step)
     return plant.rollout(pushes(), round(PERIOD / step), ["cart_point.x", "angle"])
 
 

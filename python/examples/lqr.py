@@ -19,7 +19,7 @@ STATES = ["cart_point.x", "angle", "cart_velocity.x", "rate"]
 
 def gains() -> np.ndarray:
     """[N/m, N/rad, N s/m, N s/rad] for weights 20, 50, 1, 1 on the states and 0.05 on the force."""
-    plant = dbd.Plant.from_text(dbd.CART_PENDULUM, changes=UPRIGHT)
+    plant = dbd.Plant("cart-pendulum", changes=UPRIGHT)
     linear = plant.linearise(STATES)
     system = control.ss(linear.A, linear.B, linear.C, linear.D)
     found, _, _ = control.lqr(system, np.diag([20.0, 50.0, 1.0, 1.0]), [[0.05]])
@@ -30,7 +30,7 @@ def main() -> None:
     found = gains()
     print("gains ", np.round(found, 2))
     # The scene as it ships lets go five degrees off upright, where the joint's angle is zero.
-    plant = dbd.Plant.from_text(dbd.CART_PENDULUM)
+    plant = dbd.Plant("cart-pendulum")
     lean = np.array([0.0, np.radians(5.0), 0.0, 0.0])
     furthest = np.zeros(4)
     for millisecond in range(5_000):

@@ -18,7 +18,7 @@ PLANTS = 8
 
 def course(samples: int) -> tuple[list[dbd.Plant], np.ndarray]:
     """Plants at their beginning, and a push [N] of each that ends after a fifth of a second."""
-    first = dbd.Plant.from_text(dbd.CART_PENDULUM)
+    first = dbd.Plant("cart-pendulum")
     plants = [first] + [first.copy() for _ in range(PLANTS - 1)]
     pushes = np.zeros((PLANTS, samples))
     pushes[:, : samples // 10] = np.linspace(-8.0, 8.0, PLANTS)[:, None]

@@ -35,7 +35,7 @@ def force(x: float, angle: float, v: float, w: float) -> float:
 
 def swing(seconds: float = 8.0) -> np.ndarray:
     """Rows of time, place, angle from upright within half a turn, and their rates, one per millisecond."""
-    plant = dbd.Plant.from_text(dbd.CART_PENDULUM, changes=HANGING)
+    plant = dbd.Plant("cart-pendulum", changes=HANGING)
     every = round(1e-3 / plant.step_size)
     row = plant.read(SEEN)
     rows = []

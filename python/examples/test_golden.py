@@ -20,7 +20,7 @@ GAINS = np.array([-20.0, 88.97, -18.33, 17.54])
 
 def balanced() -> tuple[str, np.ndarray]:
     """The plant's hash after two seconds under control, and a row every tenth."""
-    plant = dbd.Plant.from_text(dbd.CART_PENDULUM)
+    plant = dbd.Plant("cart-pendulum")
     rows = []
     for millisecond in range(2_000):
         row = plant.read(COLUMNS)

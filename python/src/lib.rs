@@ -5,6 +5,7 @@
 //! Each uses only those before it:
 //!
 //! - `error`: what went wrong, as the exceptions of `dbd`.
+//! - `shipped`: the scenes that ship, by name.
 //! - `rollout`: runs of many steps, and of many plants on threads.
 //! - `arguments`: what Python hands over, and what it gets back as arrays.
 //! - `states`: the bodies' states as arrays.
@@ -12,6 +13,7 @@
 //! - `motion`: its methods that step, set, read and save.
 
 mod error;
+mod shipped;
 
 mod rollout;
 
@@ -111,6 +113,7 @@ fn alike(
 #[pymodule]
 mod _dbd {
     use pyo3::prelude::*;
+    use pyo3::types::{PyDict, PyMappingProxy};
 
     #[pymodule_export]
     use crate::plant::Plant;
@@ -123,6 +126,11 @@ mod _dbd {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        let scenes = PyDict::new(module.py());
+        for (name, text) in crate::shipped::SCENES {
+            scenes.set_item(name, text)?;
+        }
+        module.add("SCENES", PyMappingProxy::new(module.py(), scenes.as_mapping()))?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

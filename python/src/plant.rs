@@ -11,11 +11,13 @@ use pyo3::types::{PyBytes, PyDict, PyMappingProxy, PyTuple};
 
 use crate::arguments::Seconds;
 use crate::error::{Refusal, raise};
+use crate::shipped::{Called, called};
 
 /// A scene's plant: a multibody system that is stepped with the bits of the firmware.
 ///
 /// Args:
-///     scene: Path of a scene file, TOML.
+///     scene: Path of a scene file, TOML, or the name of a scene that ships, such as ``four-bar``: a key of
+///         ``dbd.SCENES``. A file of that name goes first.
 ///     scheme: How it is stepped, as ``host-sim run --scheme``; ``leapfrog`` if not said.
 ///     newton: Newton iterations of the schemes that have them.
 ///     rho: What ``generalized-alpha`` leaves per step of a vibration it does not resolve, 0 to 0.8.
@@ -68,7 +70,19 @@ impl Plant {
         step: Option<Seconds>,
         changes: Vec<String>,
     ) -> PyResult<Self> {
-        let blueprint = Blueprint::load(scene).map_err(|error| raise(py)(error.into()))?;
+        let blueprint = match called(&scene) {
+            Called::Shipped(name, text) => Blueprint::new(format!("{name}.toml"), text),
+            Called::File => Blueprint::load(scene).map_err(|error| raise(py)(error.into()))?,
+            Called::Unknown(near) => {
+                let help = near.map_or_else(
+                    || "dbd.SCENES has the names".to_owned(),
+                    |near| format!("did you mean `{near}`?"),
+                );
+                let sentence =
+                    format!("there is no file and no scene `{}`; {help}", scene.display());
+                return Err(Refusal::new("SceneError", sentence).raised(py));
+            }
+        };
         let step = step.map(|step| step.0);
         let settings = Settings { scheme, newton, rho, damping, precision, step };
         Self::of(py, Blueprint { changes, ..blueprint }, settings)

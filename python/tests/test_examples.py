@@ -43,6 +43,23 @@ def test_rollouts_are_told(tmp_path: Path) -> None:
     assert out.count("push of") == 8 and "falls after" in out
 
 
+def test_friction_is_identified(tmp_path: Path, host_sim: str) -> None:
+    def found(*log: str) -> tuple[float, float]:
+        out = run(tmp_path, str(EXAMPLES / "identify.py"), *log)
+        friction, error = re.findall(r"\d+\.\d+", out)
+        return float(friction), float(error)
+
+    friction, error = found()
+    assert abs(friction - 0.0031) < 4 * error and 0 < error < 1e-5
+    # A log of host-sim, without noise, at another rate: the friction of the scene as it ships.
+    start = re.findall(r'"(body\.[^"]+)"', (EXAMPLES / "identify.py").read_text())
+    changes = [word for change in start for word in ("--set", change)]
+    command = [host_sim, "run", "cart-pendulum", *changes, "--set", "every=10ms", "--out", "log"]
+    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
+    friction, error = found("log/cart-pendulum/trace.csv")
+    assert abs(friction - 0.0024) < 1e-6
+
+
 def test_the_golden_test_passes(tmp_path: Path) -> None:
     out = run(tmp_path, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(EXAMPLES / "test_golden.py"))
     assert "1 passed" in out

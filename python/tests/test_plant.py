@@ -8,6 +8,7 @@ import pickle
 import signal
 import threading
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -51,6 +52,26 @@ def failing() -> dbd.Plant:
     plant = spring()
     plant.set_state(angular_velocity=[[5e3, 0.0, 0.0]])
     return plant
+
+
+def test_a_scene_that_ships_is_known_by_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    shipped = sorted(path.stem for path in (REPOSITORY / "scenes").glob("*.toml"))
+    assert list(dbd.SCENES) == shipped
+    plant = dbd.Plant("four-bar", precision="f32")
+    plant.advance(10)
+    other = dbd.Plant(REPOSITORY / "scenes" / "four-bar.toml", precision="f32")
+    other.advance(10)
+    assert plant.name == "four-bar" and plant.hash == other.hash
+    with pytest.raises(dbd.SceneError, match="no file and no scene `four-barr`; did you mean `four-bar`"):
+        dbd.Plant("four-barr")
+    with pytest.raises(dbd.SceneError, match="SCENES has the names"):
+        dbd.Plant("zzzzzzzzzz")
+    with pytest.raises(dbd.SceneError, match="four-bar.toml"):
+        dbd.Plant("four-bar.toml")
+    # A file of that name goes first.
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "four-bar").write_text(SPRING)
+    assert dbd.Plant("four-bar").name == "spring"
 
 
 def test_names_units_and_values() -> None:

@@ -4,7 +4,7 @@ A `Plant` is a scene that is stepped, a `Recording` what it shows meanwhile. Num
 arrays are numpy's, a row per time or per body.
 
 >>> import dbd
->>> plant = dbd.Plant.from_text(dbd.CART_PENDULUM)
+>>> plant = dbd.Plant("cart-pendulum")
 >>> plant["drive"] = 1.0
 >>> plant.advance_to(0.1)
 >>> plant.time
@@ -13,7 +13,7 @@ arrays are numpy's, a row per time or per body.
 A run has the bits of `host-sim run` with the same scheme, precision and step.
 """
 
-from ._dbd import CART_PENDULUM, Plant, __version__, rollouts
+from ._dbd import CART_PENDULUM, SCENES, Plant, __version__, rollouts
 from ._errors import (
     BusyError,
     Error,
@@ -32,6 +32,7 @@ from ._state import State
 
 __all__ = [
     "CART_PENDULUM",
+    "SCENES",
     "BusyError",
     "Error",
     "InputError",

@@ -11,6 +11,9 @@ from ._state import State
 
 __version__: str
 
+SCENES: MappingProxyType[str, str]
+"""The scenes that ship, TOML, by name."""
+
 CART_PENDULUM: str
 """The scene that `dbd.gym` steps, TOML."""
 
@@ -29,7 +32,7 @@ class Plant:
         step: float | str | None = None,
         changes: Sequence[str] = (),
     ) -> None:
-        """A plant from a scene file; `step` in s or as text, `"250us"`, `changes` as of `host-sim run --set`."""
+        """A plant from a scene file, or of a scene that ships by its name; `step` in s or as text, `"250us"`, `changes` as of `host-sim run --set`."""
 
     @staticmethod
     def from_text(

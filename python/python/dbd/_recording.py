@@ -21,7 +21,7 @@ class Recording:
     """Time, outputs and held inputs of a plant, a row per sample.
 
     >>> import dbd
-    >>> plant = dbd.Plant.from_text(dbd.CART_PENDULUM)
+    >>> plant = dbd.Plant("cart-pendulum")
     >>> recording = dbd.Recording(plant, ["cart_point.x", "drive"])
     >>> for _ in range(3):
     ...     plant["drive"] = 1.0
