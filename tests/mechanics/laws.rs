@@ -393,47 +393,6 @@ fn friction_of_a_slide_ends_a_swing_and_holds() {
     }
 }
 
-/// An arm of six joints that only their friction holds against gravity, at 80 % of what it can hold, does not creep.
-#[test]
-fn six_joints_hold_an_arm_by_friction_and_do_not_creep() {
-    fn creep<P: Geometry>(scene: &Scene) -> f64 {
-        let model: SceneModel<P> = scene.model.convert();
-        let mut plant = Plant::new(&model, Leapfrog, 2e-5).unwrap();
-        let mut turned = |steps: u64| {
-            plant.advance(steps).ok().unwrap();
-            let bodies = widen(plant.state()).bodies;
-            bodies.iter().map(|body| 2.0 * body.orientation.v.z.asin()).collect::<Vec<_>>()
-        };
-        let (early, late) = (turned(50_000), turned(25_000));
-        assert!(early.iter().all(|angle| angle.abs() < 2e-2), "{early:?}");
-        early.iter().zip(&late).map(|(early, late)| (late - early).abs()).fold(0.0, f64::max)
-    }
-    let (length, weight) = (0.3, 9.81);
-    let mut text = String::from("name = \"arm\"\nduration = 4\ngravity = [0, -9.81, 0]\n");
-    for link in 0..6 {
-        let (middle, before) = (length * (f64::from(link) + 0.5), link - 1);
-        let first = if link == 0 { "world".into() } else { format!("l{before}") };
-        let held: f64 = (link..6).map(|far| weight * length * (f64::from(far - link) + 0.5)).sum();
-        text += &format!(
-            "[[body]]\nname = \"l{link}\"\nmass = 1\ninertia = [1e-3, 8e-3, 8e-3]\nposition = [{middle}, 0, 0]\n\
-             [[joint]]\nname = \"j{link}\"\ntype = \"revolute\"\nbetween = [\"{first}\", \"l{link}\"]\n\
-             at = [{}, 0, 0]\naxis = [0, 0, 1]\nspan = 0.1\nstiffness = 1e6\ndamping = 100\n\
-             friction = {{ coulomb = {}, damping = {} }}\n",
-            middle - 0.5 * length,
-            1.25 * held,
-            25.0 * held,
-        );
-    }
-    let scene = scene(&text);
-    for (name, creep, most) in [
-        ("f64", creep::<F64>(&scene), 1e-9),
-        ("fixed", creep::<Fixed>(&scene), 1e-8),
-        ("f32", creep::<F32>(&scene), 1e-6),
-    ] {
-        assert!(creep < most, "{name}: {creep:e}");
-    }
-}
-
 /// Ten turns on, a stop is where it was.
 #[test]
 fn a_stop_counts_whole_turns() {
