@@ -54,19 +54,19 @@ pub fn run(long: bool, write_times: bool) -> Result<()> {
     steps.step("rustfmt", || run_command(cargo().args(["fmt", "--all", "--check"])));
     steps.step("packages of what is published", packages::check);
     steps.step("measured data are those of the sources", provenance::check);
-    linter_and_documentation(&mut steps);
-    let programs = tests(&mut steps, Selection::All, &mut cases, &mut Vec::new());
-    steps.step("work grows with the bodies alone", || growth::check(&programs));
-    in_a_browser(&mut steps, &programs);
-    documentation_tests(&mut steps);
-    let host = std::thread::scope(|scope| {
-        // Of two cores these steps take hardly more than one, and so does linking an image.
+    let (host, programs) = std::thread::scope(|scope| {
+        // An image is optimised as one: its link takes one core for minutes, whatever else is done.
         scope.spawn(|| firmware::link_ahead(&toolchain));
+        linter_and_documentation(&mut steps);
+        let programs = tests(&mut steps, Selection::All, &mut cases, &mut Vec::new());
+        steps.step("work grows with the bodies alone", || growth::check(&programs));
+        in_a_browser(&mut steps, &programs);
+        documentation_tests(&mut steps);
         bare(&mut steps);
         let host = release(&mut steps, &programs, long, &mut cases);
         other_targets(&mut steps);
         python::add_steps(&mut steps, &programs);
-        host
+        (host, programs)
     });
     on_target(&toolchain, (host.as_ref(), &programs), long, &mut steps);
     audit::add_steps(&toolchain, &mut steps);
