@@ -30,6 +30,7 @@ pages! {
     board "docs/board.md"
     command_line "docs/command-line.md"
     compare "docs/compare.md"
+    cookbook "docs/cookbook.md"
     development "docs/development.md"
     elements "docs/elements.md"
     ensembles "docs/ensembles.md"

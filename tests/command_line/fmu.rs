@@ -7,7 +7,7 @@ use host_sim::terminal::Exit;
 use crate::{Folder, call};
 
 /// A file that begins as a library for Linux does and says what ours say.
-fn library() -> Vec<u8> {
+pub fn library() -> Vec<u8> {
     let mut bytes = b"\x7fELF".to_vec();
     bytes.resize(64, 0);
     bytes[18] = 62;

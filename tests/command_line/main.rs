@@ -5,6 +5,7 @@ mod balance;
 mod bench;
 mod check;
 mod compare;
+mod cookbook;
 #[cfg(unix)]
 mod files;
 mod fmu;
