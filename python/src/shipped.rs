@@ -17,7 +17,7 @@ pub(crate) enum Called {
     Unknown(Option<&'static str>),
 }
 
-/// What is called so: a file goes before a scene of its name.
+/// Looks for a file first, then for a scene of that name.
 pub(crate) fn called(path: &Path) -> Called {
     let name = path.to_str().filter(|name| !name.contains(['/', '\\', '.']) && !path.exists());
     let Some(name) = name else { return Called::File };

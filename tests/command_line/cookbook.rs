@@ -1,4 +1,4 @@
-//! The cookbook, task by task: every `host-sim` command of the page is run, and what it prints stands there.
+//! The cookbook: its commands are run in order, but for those of [`ELSEWHERE`], and the page shows what they print.
 
 use std::fs;
 

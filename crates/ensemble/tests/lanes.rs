@@ -154,16 +154,26 @@ fn lanes_of_single_precision_have_the_bits_of_their_instances() {
 #[cfg(dbd_long)]
 #[test]
 fn lanes_have_the_bits_of_their_instances_in_every_scheme() {
+    fn in_scheme<S: InLanes + Send + 'static>(
+        name: &str,
+        models: &[SceneModel<F64>],
+        scheme: S,
+        step: f64,
+    ) -> Vec<PlantOf<f32, S>> {
+        let singles = models.iter().map(SceneModel::convert).collect();
+        let mut ensemble = Ensemble::<f32, S>::new(singles, scheme, step).unwrap();
+        compare(name, &mut ensemble, plants::<f32, S>(models, scheme, step))
+    }
     fn every_scene<S: InLanes + Send + 'static>(scheme: S) {
-        let set = InstructionSet::best();
         for name in ["gripper", "macpherson", "gyroscope"] {
             let (model, step) = shipped(name);
-            let models = instances(&model, f32::lanes(set) - 1);
-            let singles = models.iter().map(SceneModel::convert).collect();
-            let mut ensemble = Ensemble::<f32, S>::new(singles, scheme, step).unwrap();
-            differ(name, &compare(name, &mut ensemble, plants::<f32, S>(&models, scheme, step)));
+            let models = instances(&model, f32::lanes(InstructionSet::best()) - 1);
+            differ(name, &in_scheme(name, &models, scheme, step));
         }
     }
+    let flywheels: Vec<_> = [40.0, -40.0, 0.0, 7.0].into_iter().map(flywheel).collect();
+    in_scheme("flywheel", &flywheels, BlanesMoanS6, 0.01);
+    in_scheme("flywheel", &flywheels, Rk4, 0.01);
     every_scene(Explicit(Leapfrog));
     every_scene(SemiImplicitEuler);
     every_scene(Pefrl);

@@ -77,7 +77,7 @@ pub fn build_audit(toolchain: &Toolchain) -> Result<PathBuf> {
 }
 
 /// Links the images that the tests take, beside other work: silent, and what fails fails again where the image
-/// is wanted. A link takes one core for a minute.
+/// is wanted. A link takes one core for minutes.
 pub fn link_ahead(toolchain: &Toolchain) {
     for bin in [SHARED, AUDIT, PLANT, HIL] {
         let mut command = toolchain.cargo("build", LIBRARIES);

@@ -15,7 +15,7 @@ mod rows;
 mod scheme;
 
 pub use model::model;
-pub use names::{constant_name, type_name};
+pub use names::{constant_name, constant_names, type_name};
 pub use number::SourceNumber;
 pub use preamble::preamble;
 pub use scheme::{ExportScheme, MOST_ITERATIONS, SchemeError};

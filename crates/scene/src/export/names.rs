@@ -40,7 +40,8 @@ pub(super) fn quoted(name: &str) -> String {
 
 /// Names of things of a kind as parts of constants, each its own: a second one that would be the
 /// same gets its number.
-pub(super) fn constant_names<'n>(names: impl Iterator<Item = &'n str>) -> Vec<String> {
+#[must_use]
+pub fn constant_names<'n>(names: impl Iterator<Item = &'n str>) -> Vec<String> {
     let mut constants: Vec<String> = Vec::new();
     for name in names {
         let mut constant = constant_name(name);

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use dbd_plant::PrecisionName;
 use dbd_scene::Scene;
-use dbd_scene::export::constant_name;
+use dbd_scene::export::{constant_name, constant_names};
 
 use super::plant::Planted;
 use super::{NewError, Place, PlantArguments};
@@ -78,32 +78,34 @@ pub fn c(arguments: &PlantArguments, found: &Found) -> Result<String, NewError> 
 /// What the header calls inputs that the caller sets, read-outs and bodies.
 fn defines(scene: &Scene, capitals: &str) -> String {
     let mut text = String::new();
-    let inputs = scene.inputs.iter().filter(|input| !input.table);
-    let inputs =
-        inputs.map(|input| (&input.name, usize::from(input.index.0), input.unit.to_owned()));
-    let readouts = scene.readouts.iter().enumerate().map(|(row, readout)| {
-        let column = |(part, unit): &(&str, &str)| format!("{part} {unit}").trim().to_owned();
-        let columns: Vec<String> = readout.columns.iter().map(column).collect();
-        (&readout.name, row, columns.join(", "))
-    });
-    let bodies = scene.body_names.iter().enumerate().map(|(row, name)| (name, row, String::new()));
-    for (what, kind, rows) in [
-        ("Inputs, with their units", "INPUT", inputs.collect::<Vec<_>>()),
-        ("Read-outs, with their units", "READOUT", readouts.collect()),
-        ("Bodies", "BODY", bodies.collect()),
-    ] {
+    let mut list = |what: &str, kind: &str, rows: Vec<(String, usize, String)>| {
         if !rows.is_empty() {
             let _ = writeln!(text, "/* {what}. */");
         }
         for (name, number, unit) in &rows {
             let unit = if unit.is_empty() { String::new() } else { format!(" /* {unit} */") };
-            let name = constant_name(name);
             let _ = writeln!(text, "#define {capitals}_{kind}_{name} {number}u{unit}");
         }
         if !rows.is_empty() {
             text += "\n";
         }
-    }
+    };
+    // Numbered as the Rust constants are, where two names would be the same.
+    let names = constant_names(scene.inputs.iter().map(|input| input.name.as_str()));
+    let inputs = scene.inputs.iter().zip(names).filter(|(input, _)| !input.table);
+    let inputs =
+        inputs.map(|(input, name)| (name, usize::from(input.index.0), input.unit.to_owned()));
+    list("Inputs, with their units", "INPUT", inputs.collect());
+    let names = constant_names(scene.readouts.iter().map(|readout| readout.name.as_str()));
+    let readouts = scene.readouts.iter().zip(names).enumerate().map(|(row, (readout, name))| {
+        let column = |(part, unit): &(&str, &str)| format!("{part} {unit}").trim().to_owned();
+        let columns: Vec<String> = readout.columns.iter().map(column).collect();
+        (name, row, columns.join(", "))
+    });
+    list("Read-outs, with their units", "READOUT", readouts.collect());
+    let names = constant_names(scene.body_names.iter().map(String::as_str));
+    let bodies = names.into_iter().enumerate().map(|(row, name)| (name, row, String::new()));
+    list("Bodies", "BODY", bodies.collect());
     text
 }
 
@@ -115,9 +117,10 @@ fn hints(scene: &Scene, prefix: &str, capitals: &str) -> String {
             constant_name(&readout.name)
         )
     });
-    let input = scene.inputs.iter().find(|input| !input.table).map(|input| {
-        format!("{prefix}_set_input({capitals}_INPUT_{}, 0);", constant_name(&input.name))
-    });
+    let names = constant_names(scene.inputs.iter().map(|input| input.name.as_str()));
+    let mut inputs = scene.inputs.iter().zip(names).filter(|(input, _)| !input.table);
+    let input =
+        inputs.next().map(|(_, name)| format!("{prefix}_set_input({capitals}_INPUT_{name}, 0);"));
     let calls: Vec<String> = readout.into_iter().chain(input).collect();
     if calls.is_empty() {
         return String::new();
@@ -130,6 +133,26 @@ mod tests {
     use super::super::DependencyOptions;
     use super::super::choice::ChoiceOptions;
     use super::*;
+
+    /// Two names that C would take for one are told apart, as in Rust.
+    #[test]
+    fn names_that_would_be_one_get_numbers() {
+        let body = |name: &str| {
+            format!(
+                "[[body]]\nname = \"{name}\"\nmass = 1\ninertia = [1, 1, 1]\nposition = [0, 0, 0]\n"
+            )
+        };
+        let readout = |name: &str| {
+            format!("[[readout]]\nname = \"{name}\"\ntype = \"point\"\nbody = \"a-b\"\n")
+        };
+        let parts = [body("a b"), body("a-b"), readout("p q"), readout("p-q")].concat();
+        let scene =
+            Scene::parse(&format!("name = \"s\"\nduration = 1\n{parts}"), "s.toml").unwrap();
+        let text = defines(&scene, "S");
+        for line in ["S_BODY_A_B 0u", "S_BODY_A_B_2 1u", "S_READOUT_P_Q 0u", "S_READOUT_P_Q_2 1u"] {
+            assert!(text.contains(&format!("#define {line}")), "{line}: {text}");
+        }
+    }
 
     /// Nothing is left to be filled in, and nothing is asked for that is not there.
     #[test]
