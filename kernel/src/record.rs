@@ -58,6 +58,15 @@ pub struct Direction<S: Space> {
     pub moments: [S::Moment; 2],
 }
 
+impl<S: Space> Direction<S> {
+    /// One along which the rate is `by` times as large.
+    #[inline(always)]
+    #[must_use]
+    pub fn scaled(&self, by: S::Real) -> Self {
+        Self { along: self.along * by, moments: self.moments.map(|moment| moment * by) }
+    }
+}
+
 /// Adds a record to its two bodies; the world takes none.
 #[inline(always)]
 pub(crate) fn apply<S: Space>(wrenches: &mut [Wrench<S>], a: usize, b: usize, record: &Record<S>) {

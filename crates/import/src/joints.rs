@@ -9,7 +9,7 @@ use crate::body::{Freedom, Joint};
 use crate::chain::{Stage, Way, centre};
 use crate::coordinate::{Coordinate, Law};
 use crate::lacks;
-use crate::mechanism::{Link, Load, Mechanism, Signal, Torsion, Type, rounded};
+use crate::mechanism::{Axis, Link, Load, Mechanism, Signal, Torsion, Type, rounded};
 use crate::notation::{number, text, vector};
 use crate::omission::{Kind, Omissions};
 use crate::options::Options;
@@ -106,6 +106,18 @@ fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissi
             let masses = masses.map(|part| mechanism.parts.parts[part].mass.mass);
             let lightest = masses.fold(f64::INFINITY, f64::min);
             let known = keys(joint, &link, (q, slides), (mechanism.options, lightest));
+            let freedom = match (link.kind, joint.freedom) {
+                (Type::Revolute(_), Freedom::Hinge) | (Type::Translational(_), Freedom::Slide) => {
+                    Some(None)
+                }
+                (Type::Cylindrical(_), Freedom::Hinge) => Some(Some("turn")),
+                (Type::Cylindrical(_), Freedom::Slide) => Some(Some("slide")),
+                _ => None,
+            };
+            if let Some(freedom) = freedom {
+                let axis = Axis { joint: name.clone(), freedom, is_reversed: slides, span };
+                mechanism.axes.insert(*number, axis);
+            }
             match known {
                 Some(keys) => {
                     link.keys.extend(keys);

@@ -32,6 +32,7 @@
 //! - `inertia`: what joints have to move.
 //! - `servo`: actuators that are linear laws.
 //! - `contact`: which geoms can touch, and contacts of solids with planes.
+//! - `couplings`: equalities between joints and fixed tendons.
 //! - `joints`, `loops`, `tendons`, `actuators`, `signals`: what brings them in.
 //! - `write`: the scene's text.
 //! - `assembled`: springs of a mechanism whose loops are open at the file's pose.
@@ -50,6 +51,7 @@ mod carrier;
 mod chain;
 mod contact;
 mod coordinate;
+mod couplings;
 mod defaults;
 mod element;
 mod elements;

@@ -1,10 +1,11 @@
 //! Equalities between bodies close loops.
 //!
-//! `<connect> => spherical joint, <weld> => fixed joint`. Of bodies they hold at the file's pose, as in
+//! `<connect> => spherical joint, <weld> => fixed joint, <joint> => coupling`. Of bodies they hold at the file's pose, as in
 //! MuJoCo: its other end is where the first body's lies there. Of sites they may be open.
 
 use nalgebra::{Isometry3, Vector3};
 
+use crate::couplings;
 use crate::defaults::Attributes;
 use crate::element::{Attribute, Element};
 use crate::error::Fault;
@@ -36,7 +37,14 @@ pub(crate) fn add(
             }
             match element.name.as_str() {
                 "connect" | "weld" => joint(mechanism, &equality, omissions)?,
-                name if EQUALITIES.contains(&name) => omit(element, omissions),
+                "joint" => {
+                    if let Some(why) = couplings::equality(mechanism, &equality)? {
+                        omit(element, why, omissions);
+                    }
+                }
+                name if EQUALITIES.contains(&name) => {
+                    omit(element, "which couples what a scene leaves apart", omissions);
+                }
                 _ => {}
             }
         }
@@ -44,18 +52,14 @@ pub(crate) fn add(
     Ok(())
 }
 
-fn omit(element: &Element, omissions: &mut Omissions) {
+fn omit(element: &Element, why: &str, omissions: &mut Omissions) {
     let part = |name: &str| element.text(name).map(|value| format!("{name} {value}"));
     let names = ["joint1", "joint2", "tendon1", "tendon2", "flex", "polycoef"];
     let words: Vec<String> = names.into_iter().filter_map(part).collect();
     omissions.add(
         Kind::Equality,
         element.place,
-        format!(
-            "{}: {}, which couples what a scene leaves apart",
-            element.called(),
-            words.join(", ")
-        ),
+        format!("{}: {}: {why}", element.called(), words.join(", ")),
     );
 }
 

@@ -66,6 +66,38 @@ impl Link {
     }
 }
 
+/// The axis about or along which a joint moves.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Axis {
+    /// The name of the joint.
+    pub(crate) joint: String,
+    /// Of a cylindrical joint which freedom.
+    pub(crate) freedom: Option<&'static str>,
+    /// Whether the joint's bodies are exchanged: it goes the other way.
+    pub(crate) is_reversed: bool,
+    /// \[m\] of the joint.
+    pub(crate) span: f64,
+}
+
+/// A sum of coordinates of joints, held by a spring.
+#[derive(Clone, Debug)]
+pub(crate) struct Coupling {
+    /// Its name.
+    pub(crate) name: String,
+    /// The coordinates and their factors.
+    pub(crate) of: Vec<(Axis, f64)>,
+    /// The sum in the middle of its play, from where the scene begins.
+    pub(crate) offset: f64,
+    /// Within which nothing acts.
+    pub(crate) play: f64,
+    /// \[N·m/rad, N/m\]
+    pub(crate) stiffness: f64,
+    /// \[N·m·s/rad, N·s/m\]
+    pub(crate) damping: f64,
+    /// Where it comes from.
+    pub(crate) source: Source,
+}
+
 /// A torsion spring.
 #[derive(Clone, Debug)]
 pub(crate) struct Torsion {
@@ -191,6 +223,10 @@ pub(crate) struct Mechanism<'m> {
     pub(crate) rails: Vec<Rail>,
     /// Coordinates of joints, by their bodies.
     pub(crate) coordinates: BTreeMap<usize, Coordinate>,
+    /// Of those about or along the axis of a joint, that axis.
+    pub(crate) axes: BTreeMap<usize, Axis>,
+    /// Couplings of joints.
+    pub(crate) couplings: Vec<Coupling>,
     /// The elements of their springs.
     pub(crate) elements: BTreeMap<usize, String>,
     /// Tendons by their names, and the elements of their springs.
@@ -232,6 +268,8 @@ impl<'m> Mechanism<'m> {
             lines: Vec::new(),
             rails: Vec::new(),
             coordinates: BTreeMap::new(),
+            axes: BTreeMap::new(),
+            couplings: Vec::new(),
             elements: BTreeMap::new(),
             tendons: BTreeMap::new(),
             rotors: BTreeSet::new(),

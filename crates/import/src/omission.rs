@@ -46,9 +46,9 @@ kinds! {
     Joints = "joints",
     /// springs of balls that start turned, springs and dampers of free bodies, stiffness that is not linear
     Spring = "spring",
-    /// tendons that are no spring between two sites
+    /// tendons that are no spring between two sites and no coupling of two or three joints
     Tendon = "tendon",
-    /// equalities between joints, tendons and flexes, welds at another angle
+    /// equalities between tendons and flexes, of joints by a curve, welds at another angle
     Equality = "equality",
     /// actuators that are no linear law at a hinge, a slide or a tendon
     Actuator = "actuator",

@@ -93,6 +93,32 @@ const ACTUATOR: &[&str] = &[
     "velrange",
 ];
 
+/// What a tendon may have.
+const TENDON: &[&str] = &[
+    "actuatorfrclimited",
+    "actuatorfrcrange",
+    "armature",
+    "class",
+    "damping",
+    "frictionloss",
+    "group",
+    "limited",
+    "margin",
+    "material",
+    "name",
+    "range",
+    "rgba",
+    "solimpfriction",
+    "solimplimit",
+    "solreffriction",
+    "solreflimit",
+    "springlength",
+    "springyield",
+    "stiffness",
+    "user",
+    "width",
+];
+
 /// The attributes of elements that are read: section, element, names, whether it has a pose.
 type Known = (&'static str, &'static str, &'static [&'static str], bool);
 
@@ -281,39 +307,18 @@ const ATTRIBUTES: &[Known] = &[
         ],
         false,
     ),
+    (
+        "equality",
+        "joint",
+        &["active", "class", "joint1", "joint2", "name", "polycoef", "solimp", "solref"],
+        false,
+    ),
     ("actuator", "motor", ACTUATOR, false),
     ("actuator", "position", ACTUATOR, false),
     ("actuator", "velocity", ACTUATOR, false),
     ("actuator", "general", ACTUATOR, false),
-    (
-        "tendon",
-        "spatial",
-        &[
-            "actuatorfrclimited",
-            "actuatorfrcrange",
-            "armature",
-            "class",
-            "damping",
-            "frictionloss",
-            "group",
-            "limited",
-            "margin",
-            "material",
-            "name",
-            "range",
-            "rgba",
-            "solimpfriction",
-            "solimplimit",
-            "solreffriction",
-            "solreflimit",
-            "springlength",
-            "springyield",
-            "stiffness",
-            "user",
-            "width",
-        ],
-        false,
-    ),
+    ("tendon", "spatial", TENDON, false),
+    ("tendon", "fixed", TENDON, false),
     (
         "asset",
         "mesh",
@@ -340,7 +345,7 @@ const ATTRIBUTES: &[Known] = &[
     ),
 ];
 
-/// Equalities; a scene has a counterpart of the first two.
+/// Equalities; a scene has a counterpart of the first three.
 pub(crate) const EQUALITIES: &[&str] =
     &["connect", "weld", "joint", "tendon", "flex", "flexvert", "flexstrain", "distance"];
 

@@ -1,8 +1,9 @@
-//! Tendons between two sites.
+//! Tendons.
 //!
-//! `<spatial> of two sites => TSDA`. Others are no spring between two points and are listed.
+//! `<spatial> of two sites => TSDA, <fixed> => coupling`. Others are no spring between two points and are listed.
 
 use crate::coordinate::{Coordinate, Law};
+use crate::couplings;
 use crate::defaults::{Attributes, Defaults, MAIN};
 use crate::element::Element;
 use crate::error::Fault;
@@ -44,8 +45,9 @@ fn tendon(
     omissions: &mut Omissions,
 ) -> Result<Option<&'static str>, Fault> {
     let element = given.element;
-    if element.name != "spatial" {
-        return Ok(Some("a scene couples no joints"));
+    if element.name == "fixed" {
+        limits(given, settings, omissions)?;
+        return couplings::tendon(mechanism, given, settings);
     }
     let [first, second] = &element.children[..] else {
         return Ok(Some("a scene has springs between two sites, none over others"));
@@ -116,7 +118,8 @@ fn limits(
     for (limited, name, unit) in
         [("limited", "range", "m"), ("actuatorfrclimited", "actuatorfrcrange", "N")]
     {
-        let off = name == "range" && settings.is_off("limit");
+        // Of a fixed tendon a range is a coupling.
+        let off = name == "range" && (settings.is_off("limit") || element.name == "fixed");
         if given.limited(limited, name, settings.automatic_limits)?
             && let (Some(range), false) = (given.numbers(name, 2, 2)?, off)
         {

@@ -6,9 +6,10 @@ use std::fmt::Write as _;
 
 use nalgebra::Vector3;
 
+use crate::couplings::SETTLING;
 use crate::joints::{LIMIT_SPEED, RESTITUTION};
 use crate::mass::Solid;
-use crate::mechanism::{Mechanism, Signal, Type, rounded};
+use crate::mechanism::{Axis, Mechanism, Signal, Type, rounded};
 use crate::notation::{fitting, line, number, snapped, text, vector};
 use crate::omission::Kind;
 use crate::options::{TOLERANCE, Weld};
@@ -76,6 +77,12 @@ fn top(
     }
     if mechanism.links.iter().any(|link| link.keys.iter().any(|key| key.contains("rotor"))) {
         out.push_str("# Rotors: armatures, behind gears as stiff as their joints.\n");
+    }
+    if !mechanism.couplings.is_empty() {
+        let _ = writeln!(
+            out,
+            "# Couplings, where the file states nothing: as stiff as limits, damped by {SETTLING} s of that."
+        );
     }
     if !mechanism.contacts.is_empty() {
         let _ = writeln!(
@@ -254,6 +261,25 @@ fn springs(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
         let _ = writeln!(out, "stiffness = {}", number(spring.stiffness));
         let _ = writeln!(out, "damping = {}", number(spring.damping));
         let _ = writeln!(out, "preload = {}", number(spring.preload));
+    }
+    for coupling in &mechanism.couplings {
+        out.push('\n');
+        comment(out, &coupling.source, texts);
+        let term = |(axis, factor): &(Axis, f64)| {
+            let freedom = axis.freedom.map_or(String::new(), |of| format!("freedom = \"{of}\", "));
+            format!("{{ joint = {}, {freedom}factor = {} }}", text(&axis.joint), number(*factor))
+        };
+        let of: Vec<String> = coupling.of.iter().map(term).collect();
+        let _ = writeln!(out, "[[coupling]]\nname = {}", text(&coupling.name));
+        let _ = writeln!(out, "of = [{}]", of.join(", "));
+        let _ = writeln!(out, "stiffness = {}", number(coupling.stiffness));
+        let _ = writeln!(out, "damping = {}", number(coupling.damping));
+        for (key, value) in [("offset", coupling.offset), ("play", coupling.play)] {
+            let value = snapped(value, 1.0);
+            if value != 0.0 {
+                let _ = writeln!(out, "{key} = {}", number(value));
+            }
+        }
     }
     for load in &mechanism.loads {
         out.push('\n');

@@ -6,7 +6,9 @@
 
 use crate::error::SceneError;
 use crate::text::Table;
-use crate::{body, geometry, inertia, input, joints, links, load, point_on_line, readout, spring};
+use crate::{
+    body, geometry, inertia, input, joints, laws, links, load, point_on_line, readout, spring,
+};
 use crate::{torsion_spring, tsda};
 
 /// What names a thing or places it in a list is its own.
@@ -21,6 +23,7 @@ pub(crate) fn kinds() -> Vec<(&'static str, Vec<&'static [&'static str]>)> {
         ("tsda", vec![tsda::KEYS, spring::KEYS]),
         ("point_on_line", vec![point_on_line::KEYS, spring::KEYS]),
         ("torsion_spring", vec![torsion_spring::KEYS, spring::KEYS]),
+        ("coupling", vec![laws::COUPLING]),
         ("load", vec![load::KEYS]),
         ("input", input::keys()),
         ("readout", readout::keys()),

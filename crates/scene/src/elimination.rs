@@ -7,11 +7,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Deref;
 
-use dbd_kernel::laws::Laws as _;
+use dbd_kernel::laws::Laws;
 use dbd_kernel::model::Plan;
 use dbd_kernel::model::{Group, ModelOwner, ModelRef};
-use dbd_kernel::space::Space;
-use dbd_kernel::{BodyIndex, BodyState, TorsionSpring};
+use dbd_kernel::{BodyState, Geometry, TorsionSpring};
 
 /// A plan on the heap, see [`Plan`] for the fields.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -32,9 +31,19 @@ impl Elimination {
     /// counts.
     #[must_use]
     pub fn new(bodies: usize, ends: &[[u16; 2]]) -> Option<Self> {
+        Self::with_cliques(bodies, ends, &[])
+    }
+
+    /// [`Self::new`] with bodies of which each two have a block.
+    fn with_cliques(bodies: usize, ends: &[[u16; 2]], cliques: &[Vec<u16>]) -> Option<Self> {
         let is_body = |body: u16| usize::from(body) < bodies;
         let mut neighbours: Vec<BTreeSet<u16>> = vec![BTreeSet::new(); bodies];
-        for &[a, b] in ends.iter().filter(|ends| ends.iter().all(|end| is_body(*end))) {
+        let within = |clique: &Vec<u16>| {
+            let pairs = clique.iter().flat_map(|a| clique.iter().map(|b| [*a, *b]));
+            pairs.filter(|[a, b]| a < b).collect::<Vec<_>>()
+        };
+        let all = ends.iter().copied().chain(cliques.iter().flat_map(within));
+        for [a, b] in all.filter(|ends| ends.iter().all(|end| is_body(*end))) {
             neighbours[usize::from(a)].insert(b);
             neighbours[usize::from(b)].insert(a);
         }
@@ -81,16 +90,24 @@ impl Elimination {
     }
 
     /// The plan of a model by its bodies, groups, torsion springs and laws.
-    pub(crate) fn of<S: Space>(
+    pub(crate) fn of<P: Geometry, L: Laws<P>>(
         bodies: usize,
         groups: &[Group],
-        torsions: &[TorsionSpring<S>],
-        laws: impl Iterator<Item = [BodyIndex; 2]>,
+        torsions: &[TorsionSpring<P::Space>],
+        laws: &L,
     ) -> Option<Self> {
+        let (mut ends, mut cliques) = (Vec::new(), Vec::new());
+        laws.look_at_all(&laws.states(), &mut |_, law| {
+            let own = law.bodies().map(|end| end.0);
+            ends.push(own);
+            let mut clique = own.to_vec();
+            law.branch_bodies(&mut |bodies| clique.extend(bodies.map(|end| end.0)));
+            cliques.push(clique);
+        });
         let groups = groups.iter().map(|group| [group.a.0, group.b.0]);
         let torsions = torsions.iter().map(|spring| [spring.a.0, spring.b.0]);
-        let laws = laws.map(|ends| ends.map(|end| end.0));
-        Self::new(bodies, &groups.chain(torsions).chain(laws).collect::<Vec<_>>())
+        let ends: Vec<_> = groups.chain(torsions).chain(ends).collect();
+        Self::with_cliques(bodies, &ends, &cliques)
     }
 
     /// As the kernel follows it.
@@ -121,10 +138,8 @@ impl<H: Deref<Target: ModelOwner + Sized>> Eliminated<H> {
     #[must_use]
     pub fn new(model: H) -> Option<Self> {
         let view = model.view();
-        let mut ends = Vec::new();
-        view.laws.look_at_all(&view.laws.states(), &mut |_, law| ends.push(law.bodies()));
-        let ends = ends.into_iter();
-        let plan = Elimination::of(view.bodies.len(), view.groups, view.torsions, ends)?;
+        let ModelRef { bodies, groups, torsions, laws, .. } = view;
+        let plan = Elimination::of(bodies.len(), groups, torsions, laws)?;
         Some(Self { model, plan })
     }
 }

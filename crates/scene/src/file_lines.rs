@@ -11,6 +11,7 @@ pub(crate) struct FileLines {
     pub(crate) points_on_lines: Vec<usize>,
     pub(crate) torsion_springs: Vec<usize>,
     pub(crate) interactions: Vec<usize>,
+    pub(crate) couplings: Vec<usize>,
     pub(crate) inputs: Vec<usize>,
     pub(crate) readouts: Vec<usize>,
 }
@@ -25,6 +26,7 @@ impl FileLines {
             points_on_lines: root.lines("point_on_line")?,
             torsion_springs: root.lines("torsion_spring")?,
             interactions: root.lines("interaction")?,
+            couplings: root.lines("coupling")?,
             inputs: root.lines("input")?,
             readouts: root.lines("readout")?,
         })

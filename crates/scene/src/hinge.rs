@@ -39,6 +39,39 @@ pub(crate) struct Known<'k> {
     pub(crate) quantities: &'k [&'static [Quantity]],
 }
 
+/// A joint that moves about or along one axis, by its name at a key, and whether it turns; a cylindrical joint needs
+/// `freedom`. `who` asks for it: `a drive`.
+pub(crate) fn freedom<'p>(
+    table: &Table<'_>,
+    key: &str,
+    (places, elements): (&'p [JointPlace], &Elements),
+    who: &str,
+) -> Result<(&'p JointPlace, bool), SceneError> {
+    let (name, target) = table.required(key, ElementName { elements, kinds: Kinds::JOINT })?;
+    let place = match target {
+        Target::Joint(row) => places.get(row),
+        _ => None,
+    };
+    let turns = match place.map(|place| place.kind) {
+        Some("revolute") => true,
+        Some("translational") => false,
+        Some("cylindrical") => table.required("freedom", Choice(&["turn", "slide"]))? == 0,
+        kind => {
+            let problem = format!("names the {} joint `{name}`", kind.unwrap_or("unknown"));
+            let help = format!(
+                "{who} acts about or along one axis: of a revolute, translational or cylindrical joint"
+            );
+            return Err(table.refuse_value(key, &problem, help));
+        }
+    };
+    let Some(place) = place else { return Err(table.missing(key, "the name of a joint")) };
+    if table.has("freedom") && place.kind != "cylindrical" {
+        let help = "a cylindrical joint turns and slides; this one does one of both";
+        return Err(table.refuse_key("freedom", "says nothing here", help));
+    }
+    Ok((place, turns))
+}
+
 /// Reads `target`, a joint or a torsion spring, and what it needs: `axis` for a spherical joint,
 /// `about` for a universal one.
 pub(crate) fn read(table: &Table<'_>, known: &Known<'_>) -> Result<Hinge, SceneError> {

@@ -124,6 +124,7 @@ const KEYS: &[&str] = &[
     "point_on_line",
     "torsion_spring",
     "interaction",
+    "coupling",
     "load",
     "input",
     "readout",

@@ -96,8 +96,7 @@ impl<P: Geometry> SceneModel<P> {
     /// of bodies than an index counts.
     #[must_use]
     pub fn planned(self) -> Self {
-        let plan =
-            Elimination::of(self.bodies.len(), &self.groups, &self.torsions, self.laws.bodies());
+        let plan = Elimination::of(self.bodies.len(), &self.groups, &self.torsions, &self.laws);
         let plan = plan.unwrap_or_default();
         Self { plan, ..self }
     }

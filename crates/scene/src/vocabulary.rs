@@ -11,7 +11,7 @@ use crate::{orientation, point_on_line, points, readout, spring, start, torsion_
 pub struct TableKeys {
     /// What it is called: `scene`, `body`, `joint`; of tables within others `link`, `shape`, `spider`, `orientation`,
     /// `point` (in `[points]`), `halves` (`{ first, second }`), `rate` (of a joint in `assemble.rates`), `stiffness`,
-    /// `sine`, `limits`, `friction` and `rotor` of joints, `gear` and `winding` of drives.
+    /// `sine`, `limits`, `friction` and `rotor` of joints, `gear` and `winding` of drives, `term` of couplings.
     pub table: &'static str,
     /// The type or shape that has these keys, where there are several: `revolute`.
     pub kind: Option<&'static str>,
@@ -41,6 +41,8 @@ pub fn vocabulary() -> Vec<TableKeys> {
         one("rotor", &[laws::ROTOR]),
         one("gear", &[laws::GEAR]),
         one("winding", &[laws::WINDING]),
+        one("coupling", &[laws::COUPLING]),
+        one("term", &[laws::TERM]),
     ];
     all.extend(joints::WITHIN.map(|(table, keys)| one(table, &[keys])));
     let mut add = |table, kind, keys| all.push(TableKeys { table, kind: Some(kind), keys });

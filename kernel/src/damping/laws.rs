@@ -3,6 +3,7 @@
 //! `(tables, memories, pose, velocities, kick) => velocities`. A law says where its dampers act and how strong they
 //! are; how an impulse is made of that stands here, once for all laws of a model.
 
+use crate::damping::far::Far;
 use crate::damping::kick::Kick;
 use crate::damping::moving::Moving;
 use crate::damping::pair::Pair;
@@ -10,7 +11,7 @@ use crate::damping::pass::Sweep;
 use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::laws::{Body, Damper, DamperPass, End, Inner, Laws, Seen};
+use crate::laws::{Body, Branch, Damper, DamperPass, End, Inner, Instant, Laws, Seen};
 use crate::model::{ModelRef, SharesIn, StatesIn, Terms};
 use crate::real::Real as _;
 use crate::space::Linear as _;
@@ -65,7 +66,8 @@ impl<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool> DamperPass<P>
             Some(Body { frame, orientation: &state.orientation, velocity, spin })
         };
         let (a, b) = (End { body: end(a) }, End { body: Some(end(b)?) });
-        Some(Seen { a, b, signals: places.signals })
+        let (frames, bodies) = (places.frames, &*self.moving.states);
+        Some(Seen { a, b, at: Instant { frames, bodies, signals: places.signals } })
     }
 
     fn act(
@@ -97,5 +99,25 @@ impl<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool> DamperPass<P>
             pair.damp_within::<P, K>(&damper.direction, known, limits, inner);
         }
         pair.store::<P>(self.moving);
+    }
+
+    fn act_along(
+        &mut self,
+        bodies: [BodyIndex; 2],
+        (damper, share): (&Damper<P>, &Share<P::Real>),
+        branches: &[Option<Branch<P>>],
+    ) {
+        if damper.coefficient == P::Real::ZERO {
+            return;
+        }
+        let mut far = Far::default();
+        far.add(bodies, &damper.direction);
+        for branch in branches.iter().flatten() {
+            far.add(branch.bodies, &branch.direction);
+        }
+        let bounds = damper.bounds().map(|bound| bound * self.sweep.h);
+        let known = self.sweep.damper::<REVERSE>(damper.coefficient, share);
+        let limits = (damper.rate, bounds, damper.brakes());
+        far.damp(self.model, &self.sweep.kick, (known, limits), self.moving);
     }
 }

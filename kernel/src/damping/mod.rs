@@ -22,6 +22,7 @@
 //! torsion springs; a damped bushing or point on a line has the law `c·v_rel`, whose torque vanishes only
 //! with its deflection.
 
+mod far;
 mod joints;
 mod kick;
 mod laws;
@@ -38,6 +39,7 @@ mod strength;
 
 pub use crate::elements::share::Share;
 pub use crate::record::Direction;
+pub(crate) use far::{Far, Held as FarHeld};
 pub(crate) use joints::sweep_joints;
 pub(crate) use kick::{HalfKick, KeptKick, NoKick};
 pub(crate) use laws::LawsKnown;

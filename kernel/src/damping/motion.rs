@@ -115,7 +115,9 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
             Mount::Law(row) => {
                 let mut ends = None;
                 self.model.laws.look(row, self.memories.1, &mut |law| {
-                    ends = (law.dampers() > 0).then_some(law.bodies());
+                    // With branches it moves more than two bodies: it stands alone.
+                    let pair = law.dampers() > 0 && law.most_branches() == 0;
+                    ends = pair.then_some(law.bodies());
                 });
                 return ends;
             }

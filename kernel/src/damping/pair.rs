@@ -45,6 +45,30 @@ impl<R: Real> Damper<R> {
     fn unmet(&self, x: R) -> R {
         self.later + self.own / (R::TWO + x)
     }
+
+    /// Its impulse from `[1/μ, rate, the kick's rate]`: towards a rate, within bounds \[N·s\], and within what stops the
+    /// rate if it brakes.
+    #[inline(always)]
+    pub(super) fn impulse(
+        &self,
+        kicked: bool,
+        [inverse, rate, kick]: [R; 3],
+        (towards, [least, most], brakes): (R, [R; 2], bool),
+    ) -> R {
+        let (x, impulse_per_rate) = self.impulse_per_rate(inverse);
+        let rate = if kicked { rate - kick * self.unmet(x) } else { rate };
+        let impulse = impulse_per_rate * (rate - towards);
+        let impulse = R::pick(most.less_than(impulse), most, impulse);
+        let impulse = R::pick(impulse.less_than(least), least, impulse);
+        if !brakes {
+            return impulse;
+        }
+        let (whole, zero) = (rate / inverse, R::ZERO);
+        let backward = whole.less_than(zero);
+        let (least, most) = (R::pick(backward, whole, zero), R::pick(backward, zero, whole));
+        let impulse = R::pick(most.less_than(impulse), most, impulse);
+        R::pick(impulse.less_than(least), least, impulse)
+    }
 }
 
 /// One of a pair's bodies while its dampers turn it.
@@ -182,24 +206,11 @@ impl<S: Space> Pair<S> {
         &mut self,
         direction: &Direction<S>,
         damper: Damper<S::Real>,
-        (towards, [least, most], brakes): (S::Real, [S::Real; 2], bool),
+        limits: (S::Real, [S::Real; 2], bool),
         inner: Option<(S::Real, &mut Inner<S::Real>)>,
     ) {
         self.push::<P, K>(direction, S::Real::truth(false), inner, |inverse, rate, kick| {
-            let (x, impulse_per_rate) = damper.impulse_per_rate(inverse);
-            let rate = if K::KNOWN { rate - kick * damper.unmet(x) } else { rate };
-            let impulse = impulse_per_rate * (rate - towards);
-            let impulse = S::Real::pick(most.less_than(impulse), most, impulse);
-            let impulse = S::Real::pick(impulse.less_than(least), least, impulse);
-            if !brakes {
-                return impulse;
-            }
-            let (whole, zero) = (rate / inverse, S::Real::ZERO);
-            let backward = whole.less_than(zero);
-            let (least, most) =
-                (S::Real::pick(backward, whole, zero), S::Real::pick(backward, zero, whole));
-            let impulse = S::Real::pick(most.less_than(impulse), most, impulse);
-            S::Real::pick(impulse.less_than(least), least, impulse)
+            damper.impulse(K::KNOWN, [inverse, rate, kick], limits)
         });
     }
 

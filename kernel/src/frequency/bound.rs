@@ -12,6 +12,7 @@ use crate::laws::{Instant, Laws as _};
 use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, StatesIn, Terms};
 use crate::pose::{Places, held_turns, place_bodies, placed, twist_of};
 use crate::real::Real;
+use crate::record::Direction;
 use crate::space::{Linear as _, Space, Vector as _};
 use crate::state::State;
 
@@ -101,6 +102,8 @@ enum Mount {
     Actuator(usize),
     Torsion(usize),
     Law(usize),
+    /// A branch of a law, by its place.
+    Branch(usize, usize),
 }
 
 /// A model at a pose.
@@ -113,6 +116,12 @@ struct Pose<'s, 'm, P: Geometry, T: Terms<P>> {
 }
 
 impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
+    /// What laws see.
+    fn at(&self) -> Instant<'_, P> {
+        let Places { frames, signals, .. } = self.places;
+        Instant { frames, bodies: self.bodies, signals }
+    }
+
     /// Visits all that has a stiffness with its two ends, in the order of each body's sums.
     #[inline(always)]
     fn each_mount(&self, mut visit: impl FnMut(Mount, [BodyIndex; 2])) {
@@ -128,8 +137,16 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
         for (row, spring) in self.view.torsions.iter().enumerate() {
             visit(Mount::Torsion(row), [spring.a, spring.b]);
         }
+        let at = self.at();
         self.view.laws.look_at_all(self.memories.1, &mut |row, law| {
             visit(Mount::Law(row), law.bodies());
+            if law.most_branches() > 0
+                && let Some(seen) = at.seen(law.bodies())
+            {
+                law.each_branch(&seen, &mut |place, branch| {
+                    visit(Mount::Branch(row, place), branch.bodies);
+                });
+            }
         });
     }
 
@@ -211,20 +228,46 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
                 *turning = *turning + spring.turning(twist.angle, gradient);
             }
             Mount::Law(row) => {
-                let at =
-                    Instant { frames: places.frames, bodies: self.bodies, signals: places.signals };
                 view.laws.look(row, self.memories.1, &mut |law| {
                     let ends = law.bodies();
-                    let Some(seen) = at.seen(ends) else { return };
-                    let end = usize::from(ends[0] != here);
-                    let share = if ends[1 - end].is_world() { P::Real::ONE } else { P::Real::TWO };
+                    let Some(seen) = self.at().seen(ends) else { return };
+                    let (end, share): (_, P::Real) = end_of(ends, here);
+                    // (Σ rᵢ)² ≤ n·Σ rᵢ²: a spring along n directions is at most n of each.
+                    let mut terms = P::Real::ONE;
+                    law.each_branch(&seen, &mut |_, _| terms = terms + P::Real::ONE);
                     let turned = law.tangent(&seen, &mut |stiffness, direction| {
                         let moment = direction.moments[end];
-                        add_row(block, share * stiffness, scaled(body, direction.along, moment));
+                        let stiffness = share * stiffness * terms;
+                        terms = P::Real::ONE;
+                        add_row(block, stiffness, scaled(body, direction.along, moment));
                     });
                     *turning = *turning + turned[end];
                 });
             }
+            Mount::Branch(row, place) => view.laws.look(row, self.memories.1, &mut |law| {
+                let Some(seen) = self.at().seen(law.bodies()) else { return };
+                let mut first = None;
+                law.tangent(&seen, &mut |stiffness, _| {
+                    first.get_or_insert(stiffness);
+                });
+                let Some(stiffness) = first else { return };
+                let (mut terms, mut found) = (P::Real::ONE, None);
+                law.each_branch(&seen, &mut |number, branch| {
+                    terms = terms + P::Real::ONE;
+                    if number == place {
+                        found = Some(*branch);
+                    }
+                });
+                let Some(branch) = found else { return };
+                let (end, share): (_, P::Real) = end_of(branch.bodies, here);
+                let mut add = |stiffness: P::Real, direction: &Direction<P::Space>| {
+                    let moment = direction.moments[end];
+                    add_row(block, share * stiffness, scaled(body, direction.along, moment));
+                };
+                add(stiffness * terms, &branch.direction);
+                let turned = law.branch_tangent(place, &seen, &mut add);
+                *turning = *turning + turned[end];
+            }),
         }
     }
 
@@ -237,6 +280,12 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
         }
         largest_eigenvalue(stiffness)
     }
+}
+
+/// Which end of a pair a body is, and by how much a spring to the other end counts.
+fn end_of<R: Real>(ends: [BodyIndex; 2], here: BodyIndex) -> (usize, R) {
+    let end = usize::from(ends[0] != here);
+    (end, if ends[1 - end].is_world() { R::ONE } else { R::TWO })
 }
 
 /// `M^-1/2·(u, n)`.

@@ -46,7 +46,7 @@ impl<'s, P: Geometry> Instant<'s, P> {
             })
         };
         let (a, b) = (End { body: end(a) }, End { body: Some(end(b)?) });
-        Some(Seen { a, b, signals: self.signals })
+        Some(Seen { a, b, at: *self })
     }
 }
 
@@ -150,10 +150,18 @@ pub struct Seen<'s, P: Geometry> {
     pub a: End<'s, P>,
     /// B.
     pub b: End<'s, P>,
-    pub(crate) signals: &'s [Signal<P::Real>],
+    pub(crate) at: Instant<'s, P>,
 }
 
-impl<P: Geometry> Seen<'_, P> {
+impl<'s, P: Geometry> Seen<'s, P> {
+    /// What is seen of two other bodies; within a pass over dampers with their velocities before it. `None` where the
+    /// second is no body.
+    #[inline(always)]
+    #[must_use]
+    pub fn between(&self, bodies: [BodyIndex; 2]) -> Option<Seen<'s, P>> {
+        self.at.seen(bodies)
+    }
+
     /// \[N, N·m, m\] The value of an input; 0 where the model has no such input.
     #[inline(always)]
     #[must_use]
@@ -165,7 +173,7 @@ impl<P: Geometry> Seen<'_, P> {
     #[inline(always)]
     #[must_use]
     pub fn signal(&self, input: InputIndex) -> Signal<P::Real> {
-        self.signals.get(usize::from(input.0)).copied().unwrap_or_default()
+        self.at.signals.get(usize::from(input.0)).copied().unwrap_or_default()
     }
 
     /// The direction along a unit vector u (world axes) between a point of A and one of B, at the ends of their

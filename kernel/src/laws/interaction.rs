@@ -3,6 +3,7 @@
 use crate::elements::share::Share;
 use crate::geometry::{F64, Geometry};
 use crate::index::BodyIndex;
+use crate::laws::branch::Branch;
 use crate::laws::end::Seen;
 use crate::laws::kind::{Field, FieldSink, FieldSource};
 use crate::real::Real;
@@ -236,6 +237,9 @@ pub trait Interaction<P: Geometry>: Constants<P> {
     /// Whether [`Self::record`] depends on inputs: an input that is set costs an evaluation then. Dampers and drives may
     /// depend on them without that.
     const DRIVEN: bool = false;
+    /// On how many further pairs of bodies it acts at most, up to [`MOST_BRANCHES`](crate::laws::MOST_BRANCHES): with one
+    /// tension along the sum of its own direction and of theirs. Such a law has one damper at most.
+    const BRANCHES: usize = 0;
     /// What [`Self::read`] shows.
     const QUANTITIES: &'static [Quantity] = &[];
 
@@ -257,13 +261,38 @@ pub trait Interaction<P: Geometry>: Constants<P> {
 
     /// Visits the stiffness of [`Self::record`] as springs along directions \[N/m, N·m/rad\], each at its largest
     /// wherever it may get to within a step; returns \[N·m\] what its force does to a turn of A and of B, in any
-    /// direction at most. The frequency bound and the matrix of implicit schemes are made of it.
+    /// direction at most. The frequency bound and the matrix of implicit schemes are made of it. With [`Self::BRANCHES`]
+    /// the first spring is one along all directions; the others are of its own pair alone.
     fn tangent(
         &self,
         seen: &Seen<'_, P>,
         state: &Self::State,
         visit: Springs<'_, P>,
     ) -> [P::Real; 2];
+
+    /// Visits the bodies of its branches, A and B, in the order of [`Self::branches`].
+    fn branch_bodies(&self, _visit: &mut dyn FnMut([BodyIndex; 2])) {}
+
+    /// Visits its branches with the tension of its spring, each time as many and in the same order.
+    #[inline(always)]
+    fn branches(
+        &self,
+        _seen: &Seen<'_, P>,
+        _state: &Self::State,
+        _visit: &mut impl FnMut(Branch<P>),
+    ) {
+    }
+
+    /// [`Self::tangent`] of a branch by its place, without the spring along all directions.
+    fn branch_tangent(
+        &self,
+        _branch: usize,
+        _seen: &Seen<'_, P>,
+        _state: &Self::State,
+        _visit: Springs<'_, P>,
+    ) -> [P::Real; 2] {
+        [P::Real::ZERO; 2]
+    }
 
     /// Visits its dampers, each time as many and in the same order, idle ones with the coefficient 0.
     #[inline(always)]

@@ -6,6 +6,7 @@ use crate::geometry::{F64, Geometry};
 use crate::index::InputIndex;
 use crate::laws::curve::Curve;
 use crate::laws::hinge::Hinge;
+use crate::laws::term::{MOST_TERMS, Term, Way};
 use crate::real::Real as _;
 use crate::space::{Linear as _, Space, Turn as _};
 use crate::vector::{Quaternion, Vec3};
@@ -41,6 +42,8 @@ pub trait FieldSource {
     fn axis(&mut self, field: &Field) -> Option<([f64; 3], [f64; 4])>;
     /// Knots with ascending x to the front of `to`; how many.
     fn table(&mut self, field: &Field, to: &mut [[f64; 2]]) -> Option<usize>;
+    /// Terms of a sum, the first ones are there.
+    fn terms(&mut self, field: &Field) -> Option<[Option<Term>; MOST_TERMS]>;
 }
 
 /// Takes constants by name, in double precision.
@@ -57,6 +60,8 @@ pub trait FieldSink {
     fn axis(&mut self, field: &Field, axis: [f64; 3], reference: [f64; 4]);
     /// Knots, and how many there may be.
     fn table(&mut self, field: &Field, knots: &[[f64; 2]], capacity: usize);
+    /// Terms of a sum.
+    fn terms(&mut self, field: &Field, terms: &[Option<Term>; MOST_TERMS]);
 }
 
 /// A kind of constant.
@@ -245,6 +250,48 @@ impl<const N: usize> Kind for Table<N> {
     }
     fn write_to(of: &Curve<f64, N>, field: &Field, sink: &mut dyn FieldSink) {
         sink.table(field, of.known(), N);
+    }
+}
+
+/// The terms of a sum: `[Option<Term<P>>; MOST_TERMS]`, the first ones are there.
+#[derive(Clone, Copy, Debug)]
+pub struct Terms;
+
+impl Kind for Terms {
+    type In<P: Geometry> = [Option<Term<P>>; MOST_TERMS];
+    const NAME: &'static str = "terms";
+
+    fn rounded<P: Geometry>(of: &Self::In<F64>) -> Self::In<P> {
+        of.map(|term| {
+            let Term { bodies, factor, way } = term?;
+            let way = match way {
+                Way::Turn(axis) => Way::Turn(Axis::rounded::<P>(&axis)),
+                Way::Travel { points, axis } => Way::Travel {
+                    points: Points::rounded::<P>(&points),
+                    axis: Normal::rounded::<P>(&axis),
+                },
+            };
+            Some(Term { bodies, factor: P::Real::from_f64(factor), way })
+        })
+    }
+    fn visit<P: Geometry>(of: &Self::In<P>, visitor: &mut dyn WordVisitor) {
+        for Term { bodies: [a, b], factor, way } in of.iter().flatten() {
+            visitor.word(Word::U64(u64::from(a.0) << 16 | u64::from(b.0)));
+            visitor.word(factor.word());
+            match way {
+                Way::Turn(axis) => Axis::visit::<P>(axis, &mut Hand(visitor)),
+                Way::Travel { points, axis } => {
+                    Points::visit::<P>(points, &mut Hand(visitor));
+                    Normal::visit::<P>(axis, &mut Hand(visitor));
+                }
+            }
+        }
+    }
+    fn read_from(field: &Field, source: &mut dyn FieldSource) -> Option<Self::In<F64>> {
+        source.terms(field)
+    }
+    fn write_to(of: &Self::In<F64>, field: &Field, sink: &mut dyn FieldSink) {
+        sink.terms(field, of);
     }
 }
 

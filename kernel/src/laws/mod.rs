@@ -15,7 +15,10 @@
 #[macro_use]
 mod declare;
 
+mod branch;
+mod branches;
 mod coordinate;
+mod coupling;
 mod curve;
 mod distance_damper;
 mod distance_spring;
@@ -43,7 +46,10 @@ mod slide_servo;
 mod slip;
 mod stop;
 mod tabled;
+mod term;
 
+pub use branch::{Branch, MOST_BRANCHES};
+pub use coupling::{Coupling, Sum};
 pub use curve::Curve;
 pub use distance_damper::DistanceDamper;
 pub use distance_spring::DistanceSpring;
@@ -64,7 +70,7 @@ pub use interaction::{
 #[doc(hidden)]
 pub use kind::first;
 pub use kind::{
-    Axis, Count, Field, FieldSink, FieldSource, Kind, Normal, Number, Points, Signal, Table,
+    Axis, Count, Field, FieldSink, FieldSource, Kind, Normal, Number, Points, Signal, Table, Terms,
 };
 pub use list::Laws;
 pub use plane_contact::{Held, PlaneContact};
@@ -76,6 +82,7 @@ pub use slide_drive::SlideDrive;
 pub use slide_friction::SlideFriction;
 pub use slide_servo::SlideServo;
 pub use slip::Slip;
+pub use term::{MOST_TERMS, Term, Way};
 
 pub use crate::record::Direction;
 pub use crate::record::Record;

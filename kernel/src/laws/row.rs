@@ -3,6 +3,7 @@
 use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
+use crate::laws::branch::Branch;
 use crate::laws::end::Seen;
 use crate::laws::interaction::{Damper, Inner, Quantity, Springs};
 use crate::record::Record;
@@ -33,6 +34,13 @@ pub trait DamperPass<P: Geometry> {
         shares: &[Share<P::Real>],
         inner: Option<&mut Inner<P::Real>>,
     );
+    /// A damper acts along the directions of a law and of its branches.
+    fn act_along(
+        &mut self,
+        bodies: [BodyIndex; 2],
+        known: (&Damper<P>, &Share<P::Real>),
+        branches: &[Option<Branch<P>>],
+    );
 }
 
 /// A row of a table with its memory: what those ask who look at laws outside a step.
@@ -49,6 +57,19 @@ pub trait Row<P: Geometry> {
     fn energy(&self, seen: &Seen<'_, P>) -> P::Real;
     /// [`Interaction::tangent`](crate::laws::Interaction::tangent).
     fn tangent(&self, seen: &Seen<'_, P>, visit: Springs<'_, P>) -> [P::Real; 2];
+    /// [`Interaction::BRANCHES`](crate::laws::Interaction::BRANCHES).
+    fn most_branches(&self) -> usize;
+    /// [`Interaction::branch_bodies`](crate::laws::Interaction::branch_bodies).
+    fn branch_bodies(&self, visit: &mut dyn FnMut([BodyIndex; 2]));
+    /// [`Interaction::branches`](crate::laws::Interaction::branches).
+    fn each_branch(&self, seen: &Seen<'_, P>, visit: &mut dyn FnMut(usize, &Branch<P>));
+    /// [`Interaction::branch_tangent`](crate::laws::Interaction::branch_tangent).
+    fn branch_tangent(
+        &self,
+        branch: usize,
+        seen: &Seen<'_, P>,
+        visit: Springs<'_, P>,
+    ) -> [P::Real; 2];
     /// [`Interaction::dampers`](crate::laws::Interaction::dampers).
     fn each_damper(&self, seen: &Seen<'_, P>, visit: &mut dyn FnMut(usize, &Damper<P>));
     /// [`Interaction::DRIVES`](crate::laws::Interaction::DRIVES).

@@ -3,6 +3,8 @@
 use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
+use crate::laws::branch::Branch;
+use crate::laws::branches::Branches;
 use crate::laws::end::{Instant, Seen};
 use crate::laws::interaction::{
     Damper, Inner, Interaction, Need, Quantity, Several, SharesOf, Springs,
@@ -42,6 +44,7 @@ pub fn act<P: Geometry, T: Interaction<P>>(
             law.settle(&seen, state);
         }
         let Some(mut record) = law.record(&seen, state) else { return Err(row) };
+        let mut branches = Branches::of(law, &seen, state);
         if act.damped && T::Dampers::COUNT > 0 {
             let own = if T::INNER { law.inner(state, P::Real::ZERO).rate } else { P::Real::ZERO };
             law.dampers(&seen, state, &mut |damper| {
@@ -49,12 +52,21 @@ pub fn act<P: Geometry, T: Interaction<P>>(
                 if T::INNER {
                     rate = rate + damper.inner() * own;
                 }
+                if T::BRANCHES > 0 {
+                    rate = rate + branches.rate(&seen);
+                }
                 let tension = damper.tension(rate);
                 record = record.with(&seen.pull(&damper.direction, tension));
+                if T::BRANCHES > 0 {
+                    branches.pull(tension);
+                }
             });
         }
         let [a, b] = bodies.map(BodyIndex::row);
         apply(wrenches, a, b, &record);
+        if T::BRANCHES > 0 {
+            branches.apply(&seen, wrenches);
+        }
     }
     Ok(())
 }
@@ -81,6 +93,7 @@ pub fn sweep<P: Geometry, T: Interaction<P>>(
         let bodies = law.bodies();
         let mut dampers = T::Dampers::of(Damper::<P>::idle());
         let (mut count, mut kick, time) = (0, P::Real::ZERO, pass.time());
+        let branches;
         {
             let Some(seen) = pass.seen(bodies) else { continue };
             if T::INNER {
@@ -95,8 +108,15 @@ pub fn sweep<P: Geometry, T: Interaction<P>>(
                     count += 1;
                 }
             });
+            branches = Branches::of(law, &seen, state);
         }
         let known = dampers.as_ref().get(..count).unwrap_or_default();
+        if T::BRANCHES > 0 {
+            if let Some(known) = known.first().zip(shares.as_ref().first()) {
+                pass.act_along(bodies, known, branches.all());
+            }
+            continue;
+        }
         if !T::INNER {
             pass.act(bodies, known, shares.as_ref(), None);
             continue;
@@ -185,6 +205,27 @@ impl<P: Geometry, T: Interaction<P>> Row<P> for Known<'_, T, T::State> {
     }
     fn tangent(&self, seen: &Seen<'_, P>, visit: Springs<'_, P>) -> [P::Real; 2] {
         self.law.tangent(seen, self.state, visit)
+    }
+    fn most_branches(&self) -> usize {
+        T::BRANCHES
+    }
+    fn branch_bodies(&self, visit: &mut dyn FnMut([BodyIndex; 2])) {
+        self.law.branch_bodies(visit);
+    }
+    fn each_branch(&self, seen: &Seen<'_, P>, visit: &mut dyn FnMut(usize, &Branch<P>)) {
+        let mut count = 0;
+        self.law.branches(seen, self.state, &mut |branch| {
+            visit(count, &branch);
+            count += 1;
+        });
+    }
+    fn branch_tangent(
+        &self,
+        branch: usize,
+        seen: &Seen<'_, P>,
+        visit: Springs<'_, P>,
+    ) -> [P::Real; 2] {
+        self.law.branch_tangent(branch, seen, self.state, visit)
     }
     fn each_damper(&self, seen: &Seen<'_, P>, visit: &mut dyn FnMut(usize, &Damper<P>)) {
         let mut count = 0;

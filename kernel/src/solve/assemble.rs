@@ -5,14 +5,14 @@
 //! its directions, `w = κ·k + χ·c` of stiffness and damping. What its tension adds as it turns is left out.
 
 use crate::body::BodyState;
-use crate::damping::Direction;
+use crate::damping::{Direction, Far, FarHeld};
 use crate::elements::element::Element;
 use crate::elements::point_law::Stretch;
 use crate::forces::springs;
 use crate::freedoms::Freedoms;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::laws::{Instant, Laws as _};
+use crate::laws::{Instant, Laws as _, Row as Law, Seen};
 use crate::model::{Group, ModelRef, Plan, StatesIn, Terms};
 use crate::pose::{End, Places, gradient_of, held_turns, placed};
 use crate::real::Real;
@@ -60,6 +60,9 @@ pub(crate) fn assemble<P: Geometry, T: Terms<P>>(
     model.laws.look_at_all(memories, &mut |row, law| {
         let ends = law.bodies();
         let Some(seen) = at.seen(ends) else { return };
+        if law.most_branches() > 0 {
+            return along(law, &seen, (pencil, places.frames), system);
+        }
         let mut mount = Mount::new(system, ends, before + row);
         // Velocities and turns of the matrix are along the world's axes.
         let mut add = |weight, direction: &Direction<P::Space>| {
@@ -74,6 +77,46 @@ pub(crate) fn assemble<P: Geometry, T: Terms<P>>(
             add(pencil.weight(P::Real::ZERO, damper.coefficient), &damper.direction);
         });
     });
+}
+
+/// A spring and a damper along the directions of a law and of its branches, of all pairs of their bodies.
+fn along<P: Geometry>(
+    law: &dyn Law<P>,
+    seen: &Seen<'_, P>,
+    (pencil, frames): (Pencil<P::Real>, &[P::Frame]),
+    system: &mut System<'_, P::Space>,
+) {
+    let (mut own, mut damping) = (None, P::Real::ZERO);
+    law.tangent(seen, &mut |stiffness, direction| {
+        own.get_or_insert((stiffness, *direction));
+    });
+    law.each_damper(seen, &mut |_, damper| damping = damping + damper.coefficient);
+    let Some((stiffness, direction)) = own else { return };
+    let mut far = Far::<P>::default();
+    far.add(law.bodies(), &direction);
+    law.each_branch(seen, &mut |_, branch| far.add(branch.bodies, &branch.direction));
+    let weight = pencil.weight(stiffness, damping);
+    let row = |held: &FarHeld<P>| {
+        let moment = frames.get(held.row).map(|frame| P::moment_to_world(frame, held.moment));
+        P::Space::row(held.along, moment.unwrap_or(held.moment))
+    };
+    for (place, first) in far.iter().enumerate() {
+        if let Some(block) = system.diagonal.get_mut(first.row) {
+            row(first).add_square(weight, block);
+        }
+        for second in far.iter().take(place) {
+            let found = system.plan.pairs.iter().position(|pair| {
+                let [a, b] = pair.map(usize::from);
+                (a, b) == (first.row, second.row) || (b, a) == (first.row, second.row)
+            });
+            let Some(pair) = found else { continue };
+            let ordered =
+                system.plan.pairs.get(pair).is_some_and(|[a, _]| usize::from(*a) == first.row);
+            let Some(block) = system.pairs.get_mut(pair) else { continue };
+            let (rows, columns) = if ordered { (second, first) } else { (first, second) };
+            row(rows).add_product(weight, &row(columns), block);
+        }
+    }
 }
 
 type Row<P> = <<P as Geometry>::Space as Space>::Row;

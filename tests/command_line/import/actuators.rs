@@ -165,7 +165,11 @@ fn tendons_between_two_sites_are_tsdas() {
             Kind::Tendon,
             "around geoms",
         ),
-        ("<fixed><joint joint='h' coef='1'/></fixed>".into(), Kind::Tendon, "couples"),
+        (
+            "<fixed stiffness='1'><joint joint='h' coef='1'/></fixed>".into(),
+            Kind::Tendon,
+            "two or three joints",
+        ),
         (
             format!("<spatial stiffness='1' range='0 2'>{sites}</spatial>"),
             Kind::Limit,

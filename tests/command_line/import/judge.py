@@ -6,8 +6,8 @@
 
 `record` writes a table of 0.5 s: time, then x, y, z of each group of bodies that are rigid with each other, by
 the name of its first. `distance` prints how far a trace of host-sim is from MuJoCo's, body by body. What a scene
-has no counterpart for is off: contact but of spheres, capsules and boxes with planes, equalities of joints, tendons that are not
-between two sites, actuators that are no linear law or act at neither a joint nor a tendon. Controls are the keyframe's.
+has no counterpart for is off: contact but of spheres, capsules and boxes with planes, equalities of tendons, tendons that are not
+between two sites or of two or three joints, actuators that are no linear law or act at neither a joint nor a tendon. Controls are the keyframe's.
 """
 
 import csv
@@ -24,7 +24,7 @@ def load(file, step):
     for one in list(spec.sensors):
         spec.delete(one)
     for one in list(spec.equalities):
-        if one.type not in (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD):
+        if one.type not in (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD, mujoco.mjtEq.mjEQ_JOINT):
             spec.delete(one)
     model = spec.compile()
     off = mujoco.mjtDisableBit
@@ -37,12 +37,16 @@ def load(file, step):
     model.jnt_solref[:], model.jnt_solimp[:] = stiff, whole
     model.dof_solref[:], model.dof_solimp[:] = stiff, whole
     model.eq_solref[:], model.eq_solimp[:] = stiff, whole
+    model.tendon_solref_lim[:], model.tendon_solimp_lim[:] = stiff, whole
     model.opt.impratio = 100
     model.opt.disableflags |= off.mjDSBL_REFSAFE
-    site = mujoco.mjtWrap.mjWRAP_SITE
+    site, joint = mujoco.mjtWrap.mjWRAP_SITE, mujoco.mjtWrap.mjWRAP_JOINT
     for tendon in range(model.ntendon):
         first = model.tendon_adr[tendon]
-        if model.tendon_num[tendon] != 2 or any(model.wrap_type[first : first + 2] != site):
+        kinds = model.wrap_type[first : first + model.tendon_num[tendon]]
+        if all(kinds == joint) and len(kinds) in (2, 3):
+            continue
+        if len(kinds) != 2 or any(kinds != site):
             model.tendon_stiffness[tendon] = model.tendon_damping[tendon] = 0
     linear = (model.actuator_dyntype == 0) & (model.actuator_gaintype == 0) & (model.actuator_biastype <= 1)
     linear &= (model.actuator_trntype <= 1) | (model.actuator_trntype == int(mujoco.mjtTrn.mjTRN_TENDON))

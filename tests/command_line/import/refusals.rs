@@ -102,7 +102,7 @@ fn what_has_no_counterpart_is_listed_by_line_with_its_size() {
         "<geom name='floor' type='plane' size='1 1 1'/>\n<body name='hand' mocap='true'/>\n<replicate count='3'/>",
         "<option viscosity='0.002'/>\n\
          <tendon><spatial name='cord' stiffness='7'><site site='x'/></spatial></tendon>\n\
-         <equality><joint name='mimic' joint1='h' joint2='k' polycoef='0 2 0 0 0'/></equality>\n\
+         <equality><joint name='mimic' joint1='h' joint2='k' polycoef='0 2 1 0 0'/></equality>\n\
          <actuator><motor name='m' joint='h' armature='0.1'/><intvelocity name='p' joint='h' kp='9'/></actuator>",
     );
     let Err(ImportError::Omitted { omissions, .. }) =
@@ -141,7 +141,7 @@ fn what_has_no_counterpart_is_listed_by_line_with_its_size() {
         (
             17,
             Kind::Equality,
-            "joint `mimic`: joint1 h, joint2 k, polycoef 0 2 0 0 0, which couples what a scene leaves apart",
+            "joint `mimic`: joint1 h, joint2 k, polycoef 0 2 1 0 0: a scene couples joints linearly",
         ),
         (18, Kind::Armature, "motor `m`: armature 0.1 kg·m²"),
         (

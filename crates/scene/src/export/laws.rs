@@ -2,9 +2,9 @@
 //!
 //! `(laws, precision) => type of the list, its rows`. Every number is its bit pattern.
 
-use dbd_kernel::laws::{Field, FieldSink};
+use dbd_kernel::laws::{Field, FieldSink, MOST_TERMS, Term, Way};
 use dbd_kernel::space::{Linear as _, Space, Turn as _};
-use dbd_kernel::{BodyIndex, Geometry, Real as _};
+use dbd_kernel::{BodyIndex, F64, Geometry, Real as _};
 
 use super::number::{SourceGeometry, SourceNumber as _};
 use super::rows::index;
@@ -53,6 +53,21 @@ fn number<P: SourceGeometry>(value: f64) -> String {
     P::Real::from_f64(value).number()
 }
 
+fn vector<P: SourceGeometry>(v: [f64; 3]) -> String {
+    P::vector(&P::Vector::from_f64(v))
+}
+
+fn locals<P: SourceGeometry>(points: [[f64; 3]; 2]) -> String {
+    let [a, b] = points.map(|point| P::local(&P::local_from_f64(point)));
+    format!("[{a}, {b}]")
+}
+
+fn hinge<P: SourceGeometry>(axis: [f64; 3], reference: [f64; 4]) -> String {
+    let axis = P::moment(&<P as Geometry>::Moment::from_f64(axis));
+    let reference = P::turn(&<P::Space as Space>::Turn::from_f64(reference));
+    format!("dbd_kernel::laws::Hinge {{ axis: {axis}, reference: {reference} }}")
+}
+
 impl<P: SourceGeometry> FieldSink for Fields<P> {
     fn number(&mut self, field: &Field, value: f64) {
         self.push(field, &number::<P>(value));
@@ -65,17 +80,13 @@ impl<P: SourceGeometry> FieldSink for Fields<P> {
         self.push(field, &text);
     }
     fn points(&mut self, field: &Field, points: [[f64; 3]; 2]) {
-        let [a, b] = points.map(|point| P::local(&P::local_from_f64(point)));
-        self.push(field, &format!("[{a}, {b}]"));
+        self.push(field, &locals::<P>(points));
     }
     fn normal(&mut self, field: &Field, normal: [f64; 3]) {
-        self.push(field, &P::vector(&P::Vector::from_f64(normal)));
+        self.push(field, &vector::<P>(normal));
     }
     fn axis(&mut self, field: &Field, axis: [f64; 3], reference: [f64; 4]) {
-        let axis = P::moment(&<P as Geometry>::Moment::from_f64(axis));
-        let reference = P::turn(&<P::Space as Space>::Turn::from_f64(reference));
-        let hinge = format!("dbd_kernel::laws::Hinge {{ axis: {axis}, reference: {reference} }}");
-        self.push(field, &hinge);
+        self.push(field, &hinge::<P>(axis, reference));
     }
     fn table(&mut self, field: &Field, knots: &[[f64; 2]], capacity: usize) {
         let none = [[0.0; 2]];
@@ -84,5 +95,26 @@ impl<P: SourceGeometry> FieldSink for Fields<P> {
         let all = all.collect::<Vec<_>>().join(", ");
         let count = knots.len();
         self.push(field, &format!("dbd_kernel::laws::Curve {{ knots: [{all}], count: {count} }}"));
+    }
+    fn terms(&mut self, field: &Field, terms: &[Option<Term>; MOST_TERMS]) {
+        let term = |term: &Option<Term>| {
+            let Some(Term { bodies, factor, way }) = term else { return "None".to_owned() };
+            let [a, b] = bodies.map(index);
+            let way = match way {
+                Way::Turn(axis) => {
+                    format!("Turn({})", hinge::<P>(axis.axis.to_f64(), axis.reference.to_f64()))
+                }
+                Way::Travel { points, axis } => {
+                    let points = locals::<P>(points.map(|point| F64::local_to_f64(&point)));
+                    format!("Travel {{ points: {points}, axis: {} }}", vector::<P>(axis.to_f64()))
+                }
+            };
+            let factor = number::<P>(*factor);
+            format!(
+                "Some(dbd_kernel::laws::Term {{ bodies: [{a}, {b}], factor: {factor}, \
+                 way: dbd_kernel::laws::Way::{way} }})"
+            )
+        };
+        self.push(field, &format!("[{}]", terms.each_ref().map(term).join(", ")));
     }
 }

@@ -123,7 +123,12 @@ impl Scene {
     pub fn line_of_interaction(&self, row: usize) -> Option<usize> {
         let (table, number) = *self.law_places.get(row)?;
         let lines = &self.file_lines;
-        let lines = if table == "joint" { &lines.joints } else { &lines.interactions };
+        let lines = match table {
+            "joint" => &lines.joints,
+            "input" => &lines.inputs,
+            "coupling" => &lines.couplings,
+            _ => &lines.interactions,
+        };
         lines.get(number).copied()
     }
 

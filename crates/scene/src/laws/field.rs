@@ -2,7 +2,7 @@
 
 use dbd_kernel::Quaternion;
 use dbd_kernel::attitude::Attitude as _;
-use dbd_kernel::laws::{Field, FieldSource};
+use dbd_kernel::laws::{Field, FieldSource, MOST_TERMS, Term};
 
 use crate::assembly::Assembly;
 use crate::error::SceneError;
@@ -23,12 +23,14 @@ pub(super) enum Of<'a> {
     Joint(OfJoint<'a>),
     /// To a drive at a joint: its place, its input, its constants.
     Drive(&'a JointPlace, usize, Constants),
+    /// To a coupling: its terms and constants.
+    Coupling([Option<Term>; MOST_TERMS], Constants),
 }
 
 impl Of<'_> {
     fn place(&self) -> Option<&JointPlace> {
         match self {
-            Of::Itself => None,
+            Of::Itself | Of::Coupling(..) => None,
             Of::Joint(of) => Some(of.place),
             Of::Drive(place, ..) => Some(place),
         }
@@ -78,7 +80,7 @@ impl<'a, 't> Reading<'a, 't> {
             Of::Drive(_, input, _) => return u32::try_from(input).ok(),
             // No input has this row: nothing drives it.
             Of::Joint(_) => return Some(u16::MAX.into()),
-            Of::Itself => {}
+            Of::Itself | Of::Coupling(..) => {}
         }
         let read = self.table.required(field.name, InputName(self.inputs));
         self.keep(read)
@@ -109,7 +111,9 @@ impl FieldSource for Reading<'_, '_> {
         let read = match &self.of {
             Of::Itself => None,
             Of::Joint(of) => of.number(self.table, field.name, unit(field, 0)),
-            Of::Drive(.., constants) => return constants.get(field.name).or(field.default),
+            Of::Drive(.., constants) | Of::Coupling(_, constants) => {
+                return constants.get(field.name).or(field.default);
+            }
         };
         if let Some(read) = read {
             return self.keep(read);
@@ -166,6 +170,10 @@ impl FieldSource for Reading<'_, '_> {
         let knots = self.keep(read)?;
         to.iter_mut().zip(&knots).for_each(|(place, knot)| *place = *knot);
         Some(knots.len())
+    }
+
+    fn terms(&mut self, _: &Field) -> Option<[Option<Term>; MOST_TERMS]> {
+        if let Of::Coupling(terms, _) = self.of { Some(terms) } else { None }
     }
 }
 

@@ -2,8 +2,8 @@
 //!
 //! `scene => interactions`. The geometry is what a law writes to a [`FieldSink`].
 
-use dbd_kernel::laws::{Field, FieldSink, Instant, Laws as _, Row};
-use dbd_kernel::{BodyIndex, F64};
+use dbd_kernel::laws::{Field, FieldSink, Instant, Laws as _, MOST_TERMS, Row, Term, Way};
+use dbd_kernel::{BodyIndex, F64, Geometry as _};
 
 use crate::Scene;
 use crate::facts;
@@ -113,4 +113,17 @@ impl FieldSink for Shape {
         self.axis.get_or_insert(axis);
     }
     fn table(&mut self, _: &Field, _: &[[f64; 2]], _: usize) {}
+    // It is drawn at its first joint.
+    fn terms(&mut self, field: &Field, terms: &[Option<Term>; MOST_TERMS]) {
+        match &terms[0] {
+            Some(Term { way: Way::Turn(hinge), .. }) => {
+                self.axis(field, hinge.axis.to_f64(), hinge.reference.to_f64());
+            }
+            Some(Term { way: Way::Travel { points, axis }, .. }) => {
+                self.points(field, points.map(|point| F64::local_to_f64(&point)));
+                self.normal(field, axis.to_f64());
+            }
+            None => {}
+        }
+    }
 }

@@ -8,6 +8,7 @@ mod info;
 mod kit;
 mod linked;
 mod list;
+mod of_couplings;
 mod of_drives;
 mod of_joints;
 mod rows;
@@ -20,6 +21,7 @@ pub use kit::{Poses, hold};
 #[doc(hidden)]
 pub use linked::LinkedLaw;
 pub use list::LawList;
+pub(crate) use of_couplings::{KEYS as COUPLING, TERM};
 pub(crate) use of_drives::{Driven, GEAR, KEYS as DRIVE, TYPE as DRIVE_TYPE, WINDING};
 pub use of_joints::dissipation;
 pub(crate) use of_joints::{FRICTION, LIMITS, ROTOR};
@@ -36,6 +38,7 @@ use crate::error::SceneError;
 use crate::joints::{self, JointPlace};
 use crate::laws::field::{Of, Reading};
 use crate::laws::linked::linked_laws;
+use crate::laws::of_couplings::Coupled;
 use crate::laws::of_joints::{OF_JOINTS, OfJoint, keys_of};
 use crate::laws::source::Source;
 use crate::nearest::nearest;
@@ -65,6 +68,12 @@ pub struct KnownLaw {
 }
 
 impl KnownLaw {
+    /// Whether it is a law between two bodies, as a table `interaction` has it.
+    #[must_use]
+    pub fn is_between(&self) -> bool {
+        self.fields.iter().all(|field| field.kind != "terms")
+    }
+
     fn of<L: Law>(path: &str) -> Self {
         Self {
             name: <L as laws::Constants<dbd_kernel::F64>>::NAME,
@@ -98,6 +107,7 @@ pub fn known_law(name: &str) -> Option<KnownLaw> {
 #[must_use]
 pub fn known_laws() -> Vec<KnownLaw> {
     let mut known = vec![
+        KnownLaw::of::<laws::Coupling>("dbd_kernel::laws::Coupling"),
         KnownLaw::of::<laws::EndStop>("dbd_kernel::laws::EndStop"),
         KnownLaw::of::<laws::HingeStop>("dbd_kernel::laws::HingeStop"),
         KnownLaw::of::<laws::DistanceStop>("dbd_kernel::laws::DistanceStop"),
@@ -172,6 +182,8 @@ struct One<'t> {
     table: Table<'t>,
     label: String,
     place: LawPlace,
+    /// What it shows where that is not what its law says.
+    quantities: Option<&'static [laws::Quantity]>,
 }
 
 /// The rows of each law so far.
@@ -230,12 +242,17 @@ pub(crate) fn read_all(
     }
     of_joints(root, joints, assembly, &mut rows)?;
     of_drives(root, (joints, elements), assembly, &mut rows)?;
+    of_couplings(root, (joints, elements), assembly, &mut rows)?;
     for (number, table) in root.list("interaction")?.into_iter().enumerate() {
         let known = &rows.known;
         if !table.has("law") {
             table.only(&[KEYS, &all_fields(known)])?;
         }
         let law = table.required("law", LawName(known))?;
+        if !known[law].is_between() {
+            let help = "a sum of coordinates of joints is a [[coupling]]";
+            return Err(table.refuse_value("law", "is no law between two bodies", help));
+        }
         let fields = known[law].fields.iter();
         table.only(&[KEYS, &fields.map(|field| field.name).collect::<Vec<_>>()])?;
         let pair = table.required("between", Between(assembly))?;
@@ -244,12 +261,13 @@ pub(crate) fn read_all(
             return Err(table.refuse_value("between", "has the ground as its second body", help));
         }
         let (label, place) = (pair.label(&table), ("interaction", number));
-        rows.add(law, assembly, (&pair, Of::Itself), One { name: None, table, label, place })?;
+        let one = One { name: None, table, label, place, quantities: None };
+        rows.add(law, assembly, (&pair, Of::Itself), one)?;
     }
     let mut read = Read::default();
     let mut sources = Vec::new();
     for (law, source, of_law) in rows.laws {
-        for One { name, table, label, place } in of_law {
+        for One { name, table, label, place, quantities } in of_law {
             let target = Target::Interaction(read.labels.len());
             match name {
                 Some(name) => elements.add(&table, name, "interaction", target)?,
@@ -257,7 +275,7 @@ pub(crate) fn read_all(
             }
             read.labels.push(label);
             read.places.push(place);
-            read.quantities.push(rows.known[law].quantities);
+            read.quantities.push(quantities.unwrap_or(rows.known[law].quantities));
         }
         sources.push(Arc::from(source));
     }
@@ -284,7 +302,8 @@ fn of_joints<'t>(
             let name = format!("{}.{key}", place.name);
             let [a, b] = &place.pair.names;
             let label = format!("{key} `{name}` ({a}–{b})");
-            let one = One { name: Some(name), table, label, place: ("joint", number) };
+            let place_of = ("joint", number);
+            let one = One { name: Some(name), table, label, place: place_of, quantities: None };
             rows.add(law, assembly, (&place.pair, Of::Joint(of_joint)), one)?;
         }
     }
@@ -310,8 +329,29 @@ fn of_drives<'t>(
         let name = table.required("name", Text::Name)?;
         let [a, b] = &place.pair.names;
         let label = format!("drive `{name}` ({a}–{b})");
-        let one = One { name: Some(name), table, label, place: ("input", number) };
+        let one =
+            One { name: Some(name), table, label, place: ("input", number), quantities: None };
         rows.add(law, assembly, (&place.pair, Of::Drive(place, number, constants)), one)?;
+    }
+    Ok(())
+}
+
+/// Reads couplings of joints.
+fn of_couplings<'t>(
+    root: &Table<'t>,
+    joints: (&[JointPlace], &Elements),
+    assembly: &Assembly,
+    rows: &mut Rows<'t>,
+) -> Result<(), SceneError> {
+    let Some(law) = rows.known.iter().position(|known| known.name == "coupling") else {
+        return Ok(());
+    };
+    for (number, table) in root.list("coupling")?.into_iter().enumerate() {
+        let Coupled { pair, joints, terms, constants, quantities } =
+            Coupled::read(&table, joints, assembly)?;
+        let label = format!("{} ({})", table.label(), joints.join(", "));
+        let one = One { name: None, table, label, place: ("coupling", number), quantities };
+        rows.add(law, assembly, (pair, Of::Coupling(terms, constants)), one)?;
     }
     Ok(())
 }
@@ -323,7 +363,7 @@ fn all_fields(known: &[KnownLaw]) -> Vec<&'static str> {
 
 /// The laws, each with all its keys.
 pub(crate) fn types() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
-    known_laws().into_iter().map(|law| {
+    known_laws().into_iter().filter(KnownLaw::is_between).map(|law| {
         (law.name, KEYS.iter().copied().chain(law.fields.iter().map(|field| field.name)).collect())
     })
 }

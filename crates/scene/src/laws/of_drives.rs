@@ -4,8 +4,9 @@
 //! output here, in double precision: inertia times the square of the ratio, constant times the ratio.
 
 use crate::error::SceneError;
+use crate::hinge::freedom;
 use crate::joints::JointPlace;
-use crate::target::{ElementName, Elements, Kinds, Target};
+use crate::target::Elements;
 use crate::text::{Choice, Number, Table};
 
 /// The name of the type.
@@ -81,27 +82,7 @@ impl<'j> Driven<'j> {
         places: &'j [JointPlace],
         elements: &Elements,
     ) -> Result<Self, SceneError> {
-        let (name, target) =
-            table.required("target", ElementName { elements, kinds: Kinds::JOINT })?;
-        let place = match target {
-            Target::Joint(row) => places.get(row),
-            _ => None,
-        };
-        let turns = match place.map(|place| place.kind) {
-            Some("revolute") => true,
-            Some("translational") => false,
-            Some("cylindrical") => table.required("freedom", Choice(&["turn", "slide"]))? == 0,
-            kind => {
-                let problem = format!("names the {} joint `{name}`", kind.unwrap_or("unknown"));
-                let help = "a drive acts about or along one axis: of a revolute, translational or cylindrical joint";
-                return Err(table.refuse_value("target", &problem, help));
-            }
-        };
-        let Some(place) = place else { return Err(table.missing("target", "the name of a joint")) };
-        if table.has("freedom") && place.kind != "cylindrical" {
-            let help = "a cylindrical joint turns and slides; this one does one of both";
-            return Err(table.refuse_key("freedom", "says nothing here", help));
-        }
+        let (place, turns) = freedom(table, "target", (places, elements), "a drive")?;
         let names = if turns { Mode::TURN } else { Mode::TRAVEL };
         let mode = Mode::ALL[table.required("mode", Choice(&names))?];
         Ok(Self { place, turns, mode })
@@ -277,7 +258,7 @@ impl<'j> Driven<'j> {
 pub(super) struct Constants(Vec<(&'static str, f64)>);
 
 impl Constants {
-    fn add(&mut self, field: &'static str, number: f64) {
+    pub(super) fn add(&mut self, field: &'static str, number: f64) {
         self.0.push((field, number));
     }
 

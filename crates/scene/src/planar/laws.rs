@@ -6,8 +6,8 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use dbd_kernel::attitude::Attitude as _;
-use dbd_kernel::laws::{Field, FieldSink, FieldSource};
-use dbd_kernel::{BodyIndex, F64, Quaternion, Vec3};
+use dbd_kernel::laws::{Field, FieldSink, FieldSource, Hinge, MOST_TERMS, Term, Way};
+use dbd_kernel::{BodyIndex, F64, Geometry as _, Quaternion, Vec3};
 
 use crate::Scene;
 use crate::laws::LawList;
@@ -50,6 +50,7 @@ enum Known {
     Normal([f64; 3]),
     Axis([f64; 3], [f64; 4]),
     Table(Vec<[f64; 2]>),
+    Terms([Option<Term>; MOST_TERMS]),
 }
 
 /// Takes the constants of a row in space, and gives them in the plane.
@@ -69,6 +70,40 @@ impl Flat<'_> {
     fn leaves(&mut self, field: &Field, by: String) {
         self.off.get_or_insert((field.name, by));
     }
+
+    fn points_of(&mut self, field: &Field, points: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
+        let [a, b] = self.bodies.map(BodyIndex::row);
+        let inward = |row, point| self.plane.point_inward(row, Vec3::from_f64(point)).to_f64();
+        let [first, second] = [inward(a, points[0]), inward(b, points[1])];
+        for z in [first[2], second[2]] {
+            if z.abs() > self.near {
+                self.leaves(field, format!(" by {} m", short(z)));
+            }
+        }
+        [first, second].map(|[x, y, _]| [x, y, 0.0])
+    }
+
+    fn normal_of(&mut self, field: &Field, normal: [f64; 3]) -> [f64; 3] {
+        let a = self.bodies[0].row();
+        let [x, y, z] = self.plane.of_body_inward(a, Vec3::from_f64(normal)).to_f64();
+        if z.abs() > ALIKE {
+            let degrees = libm::asin(z.abs().min(1.0)).to_degrees();
+            self.leaves(field, format!(": it leans by {} degrees", short(degrees)));
+        }
+        [x, y, 0.0]
+    }
+
+    fn axis_of(&mut self, field: &Field, axis: [f64; 3]) -> ([f64; 3], [f64; 4]) {
+        let [a, b] = self.bodies;
+        let axis = self.plane.of_body_inward(a.row(), Vec3::from_f64(axis));
+        if let Some(lean) = lean(axis) {
+            self.leaves(field, format!(": it leans by {} degrees from the normal", short(lean)));
+        }
+        let orientation =
+            |body: BodyIndex| self.model.initial.get(body.row()).map(|state| &state.orientation);
+        let reference = Quaternion::relative(orientation(a), orientation(b)).conjugate().to_f64();
+        ([0.0, 0.0, if axis.z < 0.0 { -1.0 } else { 1.0 }], reference)
+    }
 }
 
 impl FieldSink for Flat<'_> {
@@ -79,40 +114,43 @@ impl FieldSink for Flat<'_> {
         self.known.push_back(Known::Count(value));
     }
     fn points(&mut self, field: &Field, points: [[f64; 3]; 2]) {
-        let [a, b] = self.bodies.map(BodyIndex::row);
-        let inward = |row, point| self.plane.point_inward(row, Vec3::from_f64(point)).to_f64();
-        let [first, second] = [inward(a, points[0]), inward(b, points[1])];
-        for z in [first[2], second[2]] {
-            if z.abs() > self.near {
-                self.leaves(field, format!(" by {} m", short(z)));
-            }
-        }
-        let flat = [first, second].map(|[x, y, _]| [x, y, 0.0]);
+        let flat = self.points_of(field, points);
         self.known.push_back(Known::Points(flat));
     }
     fn normal(&mut self, field: &Field, normal: [f64; 3]) {
-        let a = self.bodies[0].row();
-        let [x, y, z] = self.plane.of_body_inward(a, Vec3::from_f64(normal)).to_f64();
-        if z.abs() > ALIKE {
-            let degrees = libm::asin(z.abs().min(1.0)).to_degrees();
-            self.leaves(field, format!(": it leans by {} degrees", short(degrees)));
-        }
-        self.known.push_back(Known::Normal([x, y, 0.0]));
+        let flat = self.normal_of(field, normal);
+        self.known.push_back(Known::Normal(flat));
     }
     fn axis(&mut self, field: &Field, axis: [f64; 3], _: [f64; 4]) {
-        let [a, b] = self.bodies;
-        let axis = self.plane.of_body_inward(a.row(), Vec3::from_f64(axis));
-        if let Some(lean) = lean(axis) {
-            self.leaves(field, format!(": it leans by {} degrees from the normal", short(lean)));
-        }
-        let orientation =
-            |body: BodyIndex| self.model.initial.get(body.row()).map(|state| &state.orientation);
-        let reference = Quaternion::relative(orientation(a), orientation(b)).conjugate().to_f64();
-        let axis = [0.0, 0.0, if axis.z < 0.0 { -1.0 } else { 1.0 }];
+        let (axis, reference) = self.axis_of(field, axis);
         self.known.push_back(Known::Axis(axis, reference));
     }
     fn table(&mut self, _: &Field, knots: &[[f64; 2]], _: usize) {
         self.known.push_back(Known::Table(knots.to_vec()));
+    }
+    fn terms(&mut self, field: &Field, terms: &[Option<Term>; MOST_TERMS]) {
+        let own = self.bodies;
+        let flat = terms.map(|term| {
+            let Term { bodies, factor, way } = term?;
+            self.bodies = bodies;
+            let way = match way {
+                Way::Turn(hinge) => {
+                    let (axis, reference) = self.axis_of(field, hinge.axis.to_f64());
+                    let axis = Vec3::from_f64(axis);
+                    Way::Turn(Hinge { axis, reference: Quaternion::from_f64(reference) })
+                }
+                Way::Travel { points, axis } => {
+                    let points = points.map(|point| F64::local_to_f64(&point));
+                    Way::Travel {
+                        points: self.points_of(field, points).map(F64::local_from_f64),
+                        axis: Vec3::from_f64(self.normal_of(field, axis.to_f64())),
+                    }
+                }
+            };
+            Some(Term { bodies, factor, way })
+        });
+        self.bodies = own;
+        self.known.push_back(Known::Terms(flat));
     }
 }
 
@@ -139,5 +177,8 @@ impl FieldSource for Flat<'_> {
         let Known::Table(knots) = self.known.pop_front()? else { return None };
         to.iter_mut().zip(&knots).for_each(|(place, knot)| *place = *knot);
         Some(knots.len())
+    }
+    fn terms(&mut self, _: &Field) -> Option<[Option<Term>; MOST_TERMS]> {
+        if let Known::Terms(terms) = self.known.pop_front()? { Some(terms) } else { None }
     }
 }

@@ -2,6 +2,7 @@
 
 mod assemble;
 mod authoring;
+mod couplings;
 mod driven;
 mod drives;
 mod equations;

@@ -1,5 +1,5 @@
 //! What the keys of tables within tables mean and take: points, links, shapes, orientations, stiffnesses, spiders, rates, sines,
-//! limits, friction, gears, windings.
+//! limits, friction, gears, windings, terms of couplings.
 //!
 //! `(table, key) => schema`, and whole tables of them.
 
@@ -27,6 +27,7 @@ pub(super) fn schema(table: &str, key: &str, tables: &[TableKeys]) -> Option<Val
         }
         "rotor" => of_gear(key),
         "winding" => of_winding(key),
+        "term" => of_term(key),
         _ => None,
     };
     found.map(Key::schema)
@@ -232,6 +233,42 @@ fn of_gear(key: &str) -> Option<Key> {
         "stiffness" => Key(number(Positive), "N·m/rad or N/m, > 0: at the joint", ""),
         "damping" => Key(number(NotNegative), "N·m·s/rad or N·s/m: at the joint", "0"),
         "play" => Key(number(NotNegative), "rad or m at the joint, from flank to flank", "0"),
+        _ => return None,
+    })
+}
+
+/// A coupling of joints.
+pub(super) fn of_coupling(key: &str, tables: &[TableKeys]) -> Option<Key> {
+    let terms = json!({
+        "type": "array", "items": within("term", tables, &["joint"]), "minItems": 2, "maxItems": 3,
+    });
+    Some(match key {
+        "name" => Key(name(), "A name of its own among joints and elements", "none"),
+        "of" => Key(terms, "Joints and the factors by which their coordinates enter the sum", ""),
+        "offset" => Key(number(Any), "rad or m, as the first joint: the sum at rest", "0"),
+        "stiffness" => Key(number(Positive), "N·m/rad or N/m, > 0: tension per sum", ""),
+        "damping" => {
+            Key(number(NotNegative), "N·m·s/rad or N·s/m: tension per rate of the sum", "0")
+        }
+        "play" => Key(number(NotNegative), "rad or m of the sum, from flank to flank", "0"),
+        "acts" => Key(
+            choice(&["tension", "compression"]),
+            "Where it acts: on a sum above the offset alone, as a tendon, or below it alone",
+            "both",
+        ),
+        _ => return None,
+    })
+}
+
+fn of_term(key: &str) -> Option<Key> {
+    Some(match key {
+        "joint" => Key(name(), "A revolute, translational or cylindrical joint", ""),
+        "freedom" => Key(choice(&["turn", "slide"]), "Of a cylindrical joint: which", ""),
+        "factor" => Key(
+            number(Any),
+            "Not 0: sum per coordinate, in rad/m of a travel in a sum of turns, in m/rad of a turn in a sum of travels",
+            "1 of the first joint",
+        ),
         _ => return None,
     })
 }

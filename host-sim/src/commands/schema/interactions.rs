@@ -5,7 +5,7 @@
 
 use dbd_kernel::laws::Field;
 use dbd_plant::digits::significant;
-use dbd_scene::laws::known_laws;
+use dbd_scene::laws::{KnownLaw, known_laws};
 use serde_json::{Value, json};
 
 use super::elements::between;
@@ -32,7 +32,8 @@ pub(super) fn required(law: &str) -> Vec<&'static str> {
 
 fn law() -> Value {
     let one = |name, about: &str| json!({ "const": name, "description": about });
-    let mut laws: Vec<Value> = known_laws().iter().map(|law| one(law.name, law.about)).collect();
+    let laws = known_laws().into_iter().filter(KnownLaw::is_between);
+    let mut laws: Vec<Value> = laws.map(|law| one(law.name, law.about)).collect();
     laws.push(json!({ "type": "string", "minLength": 1 }));
     let mut schema = any(&laws);
     schema["description"] = json!("The law: what it does to the two bodies.");
@@ -42,7 +43,7 @@ fn law() -> Value {
 /// A constant of one law or of several.
 fn constant(key: &str) -> Option<Value> {
     let (mut takes, mut says) = (Vec::new(), Vec::new());
-    for law in known_laws() {
+    for law in known_laws().into_iter().filter(KnownLaw::is_between) {
         let Some(field) = law.fields.iter().find(|field| field.name == key) else { continue };
         let kind = of_kind(field);
         if !takes.contains(&kind) {

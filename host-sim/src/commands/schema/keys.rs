@@ -9,7 +9,7 @@ use super::elements::{
     of_geometry, of_input, of_joint, of_line, of_load, of_readout, of_spring, realisation,
 };
 use super::elements::{of_torsion, of_tsda};
-use super::inner::{self, orientation, within};
+use super::inner::{self, of_coupling, orientation, within};
 use super::interactions;
 use super::values::Range::{Any, Positive};
 use super::values::{Key, any, array, name, number, numbers, place};
@@ -26,6 +26,7 @@ pub(super) fn schema(table: &str, key: &str, tables: &[TableKeys]) -> Option<Val
         "point_on_line" => of_line(key).or_else(|| of_spring(key, tables)),
         "torsion_spring" => of_torsion(key).or_else(|| of_spring(key, tables)),
         "interaction" => return interactions::schema(key),
+        "coupling" => of_coupling(key, tables),
         "load" => of_load(key),
         "input" => of_input(key, tables),
         "readout" => of_readout(key, tables),

@@ -32,7 +32,7 @@ pub fn text() -> String {
 }
 
 /// Tables of which there are many, and what one of them is.
-const MANY: [(&str, &str); 10] = [
+const MANY: [(&str, &str); 11] = [
     ("body", "A rigid body: mass, inertia, pose and velocity at t = 0"),
     ("joint", "A joint, made of springs and dampers"),
     ("tsda", "A spring and damper between two points"),
@@ -41,6 +41,10 @@ const MANY: [(&str, &str); 10] = [
     (
         "interaction",
         "What two bodies do to each other by a law: a stop, friction, or one of a program's own",
+    ),
+    (
+        "coupling",
+        "A sum of coordinates of joints that a spring holds: gears, a rack, a belt, a differential",
     ),
     ("load", "A constant force or torque over a window of time"),
     ("input", "What a controller or a table drives at run time"),
@@ -58,6 +62,7 @@ fn required(table: &str) -> &'static [&'static str] {
         }
         "torsion_spring" => &["between", "axis", "stiffness"],
         "interaction" => &["law", "between"],
+        "coupling" => &["of", "stiffness"],
         "load" => &["body"],
         "input" | "readout" => &["type"],
         "geometry" => &["body", "shape"],

@@ -1,0 +1,189 @@
+//! Sums of joint coordinates: equalities between two joints, fixed tendons.
+//!
+//! `<joint joint1 joint2 polycoef>, <fixed> of joints => [[coupling]]`. A scene counts coordinates from where it begins; what
+//! they are there goes into the offset.
+
+use crate::body::{Freedom, Joint};
+use crate::defaults::Attributes;
+use crate::element::Attribute;
+use crate::error::Fault;
+use crate::mechanism::{Axis, Coupling, Mechanism, rounded};
+use crate::settings::Settings;
+
+/// \[s\] damping over stiffness of what MuJoCo's own softness is no law of a scene.
+pub(crate) const SETTLING: f64 = 1e-3;
+
+/// The most joints of a coupling.
+const MOST: usize = 3;
+
+/// A joint's coordinate with its factor in a sum.
+struct Term<'m> {
+    axis: Axis,
+    joint: &'m Joint,
+    /// \[rad, m\] the coordinate where the scene begins.
+    start: f64,
+    factor: f64,
+}
+
+impl Term<'_> {
+    /// \[N·m/rad, N/m\] how stiff a limit of the joint is.
+    fn stiffness(&self, mechanism: &Mechanism<'_>) -> f64 {
+        let arm = if self.joint.freedom == Freedom::Hinge { 0.5 * self.axis.span } else { 1.0 };
+        mechanism.options.stiffness * arm * arm
+    }
+}
+
+/// Stiff enough to hold, and at each joint no stiffer than its limits.
+fn stiffness(mechanism: &Mechanism<'_>, terms: &[Term<'_>]) -> f64 {
+    let of = |term: &Term<'_>| term.stiffness(mechanism) / (term.factor * term.factor);
+    rounded(terms.iter().map(of).fold(f64::INFINITY, f64::min))
+}
+
+fn term<'m>(
+    mechanism: &Mechanism<'m>,
+    named: &Attribute,
+    factor: f64,
+) -> Result<Option<Term<'m>>, Fault> {
+    let body = mechanism.tree.joint(named)?;
+    let found = mechanism.axes.get(&body).zip(mechanism.tree.bodies[body].joint.as_ref());
+    let start = mechanism.pose.coordinates[body];
+    Ok(found.map(|(axis, joint)| Term { axis: axis.clone(), joint, start, factor }))
+}
+
+fn of(terms: &[Term<'_>]) -> Vec<(Axis, f64)> {
+    let signed = |term: &Term<'_>| if term.axis.is_reversed { -term.factor } else { term.factor };
+    terms.iter().map(|term| (term.axis.clone(), signed(term))).collect()
+}
+
+/// Adds the coupling of an equality between two joints, or says why there is none.
+pub(crate) fn equality(
+    mechanism: &mut Mechanism<'_>,
+    given: &Attributes<'_>,
+) -> Result<Option<&'static str>, Fault> {
+    let element = given.element;
+    let Some(first) = given.get("joint1") else {
+        let message = format!("{} has no `joint1`", element.called());
+        return Err(Fault::at(element.place, message, "joint1, joint2 and polycoef"));
+    };
+    let Some(second) = given.get("joint2") else {
+        return Ok(Some("a joint alone is held by no coupling"));
+    };
+    let mut polynomial = given.numbers("polycoef", 1, 5)?.unwrap_or_else(|| vec![0.0, 1.0]);
+    polynomial.resize(5, 0.0);
+    if polynomial[2..].iter().any(|coefficient| *coefficient != 0.0) {
+        return Ok(Some("a scene couples joints linearly"));
+    }
+    let [constant, ratio] = [polynomial[0], polynomial[1]];
+    if ratio == 0.0 {
+        return Ok(Some("a joint alone is held by no coupling"));
+    }
+    let (Some(one), Some(two)) = (term(mechanism, first, 1.0)?, term(mechanism, second, -ratio)?)
+    else {
+        return Ok(Some("its joints are no hinges and slides of a joint of the scene"));
+    };
+    if one.axis == two.axis {
+        return Ok(Some("it couples a joint with itself"));
+    }
+    let offset =
+        constant + ratio * (two.start - two.joint.reference) - (one.start - one.joint.reference);
+    let terms = [one, two];
+    let stiffness = stiffness(mechanism, &terms);
+    let name = element
+        .text("name")
+        .map_or_else(|| format!("{}-{}", first.value, second.value), str::to_owned);
+    let words = format!("<joint> of `{}` and `{}`", first.value, second.value);
+    let coupling = Coupling {
+        name: mechanism.own_name(&name),
+        of: of(&terms),
+        offset,
+        play: 0.0,
+        stiffness,
+        damping: rounded(SETTLING * stiffness),
+        source: (words, element.place),
+    };
+    mechanism.couplings.push(coupling);
+    Ok(None)
+}
+
+/// Adds the couplings of a fixed tendon, its spring and its range, or says why there is none.
+pub(crate) fn tendon(
+    mechanism: &mut Mechanism<'_>,
+    given: &Attributes<'_>,
+    settings: &Settings,
+) -> Result<Option<&'static str>, Fault> {
+    let element = given.element;
+    let mut terms = Vec::new();
+    for child in element.children.iter().filter(|child| child.name == "joint") {
+        let own = Attributes::own(child);
+        let Some(named) = own.get("joint") else {
+            let message = format!("{} has no `joint`", child.called());
+            return Err(Fault::at(child.place, message, "joint and coef"));
+        };
+        let factor = own.numbers("coef", 1, 1)?.map_or(0.0, |numbers| numbers[0]);
+        let Some(term) = term(mechanism, named, factor)? else {
+            return Ok(Some("its joints are no hinges and slides of a joint of the scene"));
+        };
+        if factor != 0.0 {
+            terms.push(term);
+        }
+    }
+    let off = |flag: &str, value: f64| if settings.is_off(flag) { 0.0 } else { value };
+    let linear = |name: &str| -> Result<f64, Fault> {
+        Ok(given.numbers(name, 1, 3)?.map_or(0.0, |numbers| numbers[0]))
+    };
+    let stiffness_of_spring = off("spring", linear("stiffness")?);
+    let damping = off("damper", linear("damping")?);
+    let limited = given.limited("limited", "range", settings.automatic_limits)?;
+    let range = given.numbers("range", 2, 2)?.filter(|_| limited && !settings.is_off("limit"));
+    if stiffness_of_spring == 0.0 && damping == 0.0 && range.is_none() {
+        let called = element.called();
+        mechanism.notes.push(format!("{called} has no force of its own and is left out"));
+        return Ok(None);
+    }
+    if !(2..=MOST).contains(&terms.len()) {
+        return Ok(Some("a scene couples two or three joints"));
+    }
+    if stiffness_of_spring < 0.0 || damping < 0.0 {
+        return Ok(Some("its stiffness and damping are not ≥ 0"));
+    }
+    if stiffness_of_spring == 0.0 && damping > 0.0 {
+        return Ok(Some("a damper across joints takes a spring beside it"));
+    }
+    let sum = |q: fn(&Term<'_>) -> f64| terms.iter().map(|term| term.factor * q(term)).sum::<f64>();
+    let (start, rest) = (sum(|term| term.start), sum(|term| term.joint.spring_reference));
+    let name = element.text("name").unwrap_or("tendon").to_owned();
+    let joints: Vec<_> = terms.iter().map(|term| format!("`{}`", term.axis.joint)).collect();
+    let words = format!("<fixed name=\"{name}\"> of {}", joints.join(", "));
+    let of_limits = stiffness(mechanism, &terms);
+    let mut add = |name: &str, [from, to]: [f64; 2], stiffness: f64, damping: f64| {
+        let coupling = Coupling {
+            name: mechanism.own_name(name),
+            of: of(&terms),
+            offset: 0.5 * (from + to) - start,
+            play: to - from,
+            stiffness,
+            damping,
+            source: (words.clone(), element.place),
+        };
+        mechanism.couplings.push(coupling);
+    };
+    if stiffness_of_spring > 0.0 {
+        let lengths = given.numbers("springlength", 1, 2)?.unwrap_or_else(|| vec![-1.0]);
+        // A length of −1 is that at which the springs of joints are at rest; others may be negative.
+        let automatic = lengths.iter().all(|length| *length == -1.0);
+        let first = if automatic { rest } else { lengths[0] };
+        let last = lengths.get(1).copied().filter(|_| !automatic).unwrap_or(first);
+        if last > first && damping > 0.0 {
+            return Ok(Some("between its two spring lengths a damper stays alone"));
+        }
+        add(&name, [first, last.max(first)], stiffness_of_spring, damping);
+    }
+    if let Some(range) = range {
+        if range[0] >= range[1] {
+            return Ok(Some("its range has no extent"));
+        }
+        let damping = rounded(SETTLING * of_limits);
+        add(&format!("{name}-range"), [range[0], range[1]], of_limits, damping);
+    }
+    Ok(None)
+}

@@ -1,0 +1,107 @@
+//! A damper along a sum of directions, each of two bodies.
+//!
+//! `(directions, rates, kick's rates, coefficient, time) => impulse on all bodies`, as [`super::pair`] for two.
+
+use crate::damping::kick::Kick;
+use crate::damping::moving::Moving;
+use crate::damping::pair::Damper;
+use crate::geometry::Geometry;
+use crate::index::BodyIndex;
+use crate::laws::MOST_BRANCHES;
+use crate::model::{ModelRef, Terms};
+use crate::real::Real as _;
+use crate::record::Direction;
+use crate::space::{Linear as _, Moment as _};
+
+/// A body, and what a unit impulse along the sum is for it.
+#[derive(Clone, Copy)]
+pub(crate) struct Held<P: Geometry> {
+    pub(crate) row: usize,
+    /// World axes.
+    pub(crate) along: P::Vector,
+    /// Body axes.
+    pub(crate) moment: P::Moment,
+}
+
+/// The bodies that a sum of directions moves, each once, in the order in which they come.
+pub(crate) struct Far<P: Geometry>([Option<Held<P>>; 2 * (1 + MOST_BRANCHES)]);
+
+impl<P: Geometry> Default for Far<P> {
+    #[inline(always)]
+    fn default() -> Self {
+        Self([None; 2 * (1 + MOST_BRANCHES)])
+    }
+}
+
+impl<P: Geometry> Far<P> {
+    /// Adds a direction between two bodies, B before A; the ground takes nothing.
+    #[inline(always)]
+    pub(crate) fn add(&mut self, bodies: [BodyIndex; 2], direction: &Direction<P::Space>) {
+        let Direction { along, moments: [of_a, of_b] } = *direction;
+        let [a, b] = bodies;
+        for (body, along, moment) in [(b, along, of_b), (a, -along, -of_a)] {
+            if !body.is_world() {
+                self.hold(Held { row: body.row(), along, moment });
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn hold(&mut self, more: Held<P>) {
+        for place in &mut self.0 {
+            match place {
+                Some(held) if held.row == more.row => {
+                    held.along = held.along + more.along;
+                    held.moment = held.moment + more.moment;
+                    return;
+                }
+                Some(_) => {}
+                None => {
+                    *place = Some(more);
+                    return;
+                }
+            }
+        }
+    }
+
+    /// Its bodies.
+    #[inline(always)]
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Held<P>> {
+        self.0.iter().flatten()
+    }
+
+    /// The damper acts on all bodies at once.
+    #[inline(always)]
+    pub(super) fn damp<T: Terms<P>, K: Kick<P>>(
+        &self,
+        model: &ModelRef<'_, P, T>,
+        kick: &K,
+        (damper, limits): (Damper<P::Real>, (P::Real, [P::Real; 2], bool)),
+        moving: &mut Moving<'_, P>,
+    ) {
+        let [mut inverse, mut rate, mut kicked] = [P::Real::ZERO; 3];
+        for Held { row, along, moment } in self.iter() {
+            let (Some(body), Some((velocity, spin))) =
+                (model.bodies.get(*row), moving.velocities(*row))
+            else {
+                return;
+            };
+            let response = moment.scale(body.inverse_inertia);
+            inverse = inverse + along.dot(*along) * body.inverse_mass + moment.dot(response);
+            rate = rate + along.dot(velocity) + moment.dot(spin);
+            if K::KNOWN {
+                let Some(kick) = kick.of(*row) else { return };
+                kicked = kicked + along.dot(kick.linear) + moment.dot(kick.angular);
+            }
+        }
+        if inverse == P::Real::ZERO {
+            return;
+        }
+        let impulse = damper.impulse(K::KNOWN, [inverse, rate, kicked], limits);
+        for Held { row, along, moment } in self.iter() {
+            let Some(body) = model.bodies.get(*row) else { return };
+            moving.accelerate(*row, *along * -(impulse * body.inverse_mass));
+            moving.spin_up(*row, moment.scale(body.inverse_inertia) * -impulse);
+        }
+    }
+}

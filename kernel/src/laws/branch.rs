@@ -1,0 +1,19 @@
+//! Further pairs of bodies on which a law acts with the same tension.
+
+use crate::geometry::Geometry;
+use crate::index::BodyIndex;
+use crate::record::Direction;
+
+/// The most that a law has.
+pub const MOST_BRANCHES: usize = 2;
+
+/// A further pair of bodies on which a law acts: its tension pulls there along another direction, too.
+#[derive(Clone, Copy, Debug)]
+pub struct Branch<P: Geometry> {
+    /// A, which may be the ground, and B.
+    pub bodies: [BodyIndex; 2],
+    /// The rate of the whole is the sum of the rates along the law's own direction and along those of its branches.
+    pub direction: Direction<P::Space>,
+    /// \[N, N·m\] the tension of the law's spring.
+    pub tension: P::Real,
+}

@@ -1,0 +1,297 @@
+//! A coupling of joints: a spring and a damper of a sum of their coordinates.
+//!
+//! `xᵢ ↦ y = Σ aᵢ·xᵢ − offset`, tension `k·dead(y)`, dead the part of y beyond half of the play on either side, and
+//! c times its rate; the tension pulls at each coordinate by its factor, so that the power is tension times the rate of y.
+//! A gear pair, a rack, a belt and a joint that mimics another have two coordinates, a differential three; with one
+//! side alone it is a tendon. What carries the axes takes the difference of the moments by itself. The damper is one
+//! along the whole sum, on up to six bodies at once, within bounds where teeth or a tendon may come apart (Shardlow 2003
+//! for two bodies).
+//!
+//! y goes with the coordinates from step to step: in single precision many turns leave no digits to teeth.
+
+use crate::geometry::Geometry;
+use crate::index::BodyIndex;
+use crate::laws::branch::Branch;
+use crate::laws::coordinate::Coordinate;
+use crate::laws::end::Seen;
+use crate::laws::hinge::Turns;
+use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
+use crate::laws::term::{MOST_TERMS, Term, Way};
+use crate::real::Real;
+use crate::record::Record;
+use crate::words::{WordSource, WordVisitor, Words};
+
+law! {
+    /// A sum of coordinates of up to three joints, held by a spring: gears, racks, belts, differentials, tendons.
+    pub struct Coupling = "coupling" {
+        /// The coordinates, each with the factor by which it enters the sum.
+        terms: Terms,
+        /// The sum at which the spring is free.
+        offset: Number("rad") = 0.0,
+        /// Tension per sum.
+        stiffness: Number("N·m/rad"),
+        /// Tension per rate of the sum.
+        damping: Number("N·m·s/rad") = 0.0,
+        /// Play of the sum, from one flank to the other.
+        play: Number("rad") = 0.0,
+        /// 1, or 0 where the coupling does not pull: nothing holds a sum above the offset.
+        pulls: Number = 1.0,
+        /// 1, or 0 where the coupling does not push: nothing holds a sum below the offset.
+        pushes: Number = 1.0,
+    }
+}
+
+/// What a coupling remembers: the sum at the end of the step before, and where its coordinates were.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sum<R> {
+    /// Half turns of each coordinate.
+    pub turns: [Turns; MOST_TERMS],
+    /// \[m, rad\] the coordinates, of turns the last one alone.
+    pub last: [R; MOST_TERMS],
+    /// \[m, rad\] Σ aᵢ·xᵢ.
+    pub sum: R,
+}
+
+impl<R: Real> Default for Sum<R> {
+    fn default() -> Self {
+        Self { turns: Default::default(), last: [R::ZERO; MOST_TERMS], sum: R::ZERO }
+    }
+}
+
+impl<R: Real> Words for Sum<R> {
+    fn visit(&self, visitor: &mut impl WordVisitor) {
+        self.turns.iter().for_each(|turns| turns.visit(visitor));
+        self.last.iter().chain([&self.sum]).for_each(|number| visitor.word(number.word()));
+    }
+    fn fill(&mut self, source: &mut impl WordSource) {
+        self.turns.iter_mut().for_each(|turns| turns.fill(source));
+        for number in self.last.iter_mut().chain([&mut self.sum]) {
+            *number = R::from_words(source);
+        }
+    }
+}
+
+/// The coordinate of a term at a pose; `None` where it is undefined.
+#[inline(always)]
+fn of_term<P: Geometry>(term: &Term<P>, seen: &Seen<'_, P>, turns: Turns) -> Option<Coordinate<P>> {
+    match &term.way {
+        Way::Turn(axis) => Coordinate::turn(seen, axis, turns),
+        Way::Travel { points, axis } => Some(Coordinate::travel(seen, points, *axis)),
+    }
+}
+
+/// A coordinate with its factor, and what is seen of its bodies.
+struct Part<'s, P: Geometry> {
+    bodies: [BodyIndex; 2],
+    seen: Seen<'s, P>,
+    factor: P::Real,
+    coordinate: Coordinate<P>,
+}
+
+impl<P: Geometry> Part<'_, P> {
+    /// Its direction, of the length of its factor.
+    #[inline(always)]
+    fn branch(&self, tension: P::Real) -> Branch<P> {
+        let direction = self.coordinate.direction(&self.seen).scaled(self.factor);
+        Branch { bodies: self.bodies, direction, tension }
+    }
+
+    /// \[N·m\] what a tension does to a turn of its bodies.
+    fn bent(&self, tension: P::Real, visit: Springs<'_, P>) -> [P::Real; 2] {
+        self.coordinate.bent(&self.seen, (tension * self.factor).abs(), visit)
+    }
+}
+
+impl<P: Geometry> Coupling<P> {
+    /// A term by its place, of an angle near that of the step before.
+    #[inline(always)]
+    fn part<'s>(
+        &self,
+        term: usize,
+        seen: &Seen<'s, P>,
+        memory: &Sum<P::Real>,
+    ) -> Option<Part<'s, P>> {
+        let known = self.terms.get(term)?.as_ref()?;
+        let bodies = known.bodies;
+        let seen = seen.between(bodies)?;
+        let coordinate = of_term(known, &seen, memory.turns.get(term)?.odd())?;
+        Some(Part { bodies, seen, factor: known.factor, coordinate })
+    }
+
+    /// Σ aᵢ·xᵢ; `None` where a coordinate is undefined.
+    #[inline(always)]
+    fn sum(&self, seen: &Seen<'_, P>, memory: &Sum<P::Real>) -> Option<P::Real> {
+        let mut sum = memory.sum;
+        for (term, (known, last)) in self.terms.iter().zip(memory.last).enumerate() {
+            if known.is_some() {
+                let part = self.part(term, seen, memory)?;
+                sum = sum + part.factor * (part.coordinate.value - last);
+            }
+        }
+        Some(sum)
+    }
+
+    /// \[m, rad\] what its spring is stretched by.
+    #[inline(always)]
+    fn stretch(&self, sum: P::Real) -> P::Real {
+        let (half, zero) = (P::Real::HALF * self.play, P::Real::ZERO);
+        let y = sum - self.offset;
+        let (above, below) = (y - half, y + half);
+        let stretch = P::Real::pick(zero.less_than(above), self.pulls * above, zero);
+        P::Real::pick(below.less_than(zero), self.pushes * below, stretch)
+    }
+
+    /// \[N, N·m\] the tension of its spring.
+    #[inline(always)]
+    fn tension(&self, seen: &Seen<'_, P>, memory: &Sum<P::Real>) -> Option<P::Real> {
+        Some(self.stiffness * self.stretch(self.sum(seen, memory)?))
+    }
+
+    /// Whether teeth or a tendon may come apart.
+    #[inline(always)]
+    fn parts(&self) -> bool {
+        let zero = P::Real::ZERO;
+        zero < self.play || self.pulls == zero || self.pushes == zero
+    }
+}
+
+impl<P: Geometry> Interaction<P> for Coupling<P> {
+    type State = Sum<P::Real>;
+    type Dampers = [(); 1];
+    const BRANCHES: usize = MOST_TERMS - 1;
+    const QUANTITIES: &'static [Quantity] =
+        &[Quantity { name: "load", unit: "N·m" }, Quantity { name: "stretch", unit: "rad" }];
+
+    #[inline(always)]
+    fn settle(&self, seen: &Seen<'_, P>, memory: &mut Sum<P::Real>) {
+        let Some(sum) = self.sum(seen, memory) else { return };
+        memory.sum = sum;
+        for (term, known) in self.terms.iter().enumerate() {
+            let Some(known) = known else { continue };
+            let (Some(seen), Some(turns)) =
+                (seen.between(known.bodies), memory.turns.get_mut(term))
+            else {
+                continue;
+            };
+            if let Way::Turn(axis) = &known.way
+                && let Some(twist) = axis.seen(&seen)
+            {
+                twist.settle(turns);
+            }
+            if let (Some(next), Some(last)) =
+                (of_term(known, &seen, turns.odd()), memory.last.get_mut(term))
+            {
+                *last = next.value;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn record(&self, seen: &Seen<'_, P>, memory: &Sum<P::Real>) -> Option<Record<P::Space>> {
+        let tension = self.tension(seen, memory)?;
+        let branch = self.part(0, seen, memory)?.branch(tension);
+        Some(seen.pull(&branch.direction, tension))
+    }
+
+    fn branch_bodies(&self, visit: &mut dyn FnMut([BodyIndex; 2])) {
+        self.terms.iter().flatten().skip(1).for_each(|term| visit(term.bodies));
+    }
+
+    #[inline(always)]
+    fn branches(
+        &self,
+        seen: &Seen<'_, P>,
+        memory: &Sum<P::Real>,
+        visit: &mut impl FnMut(Branch<P>),
+    ) {
+        let Some(tension) = self.tension(seen, memory) else { return };
+        for term in 1..MOST_TERMS {
+            if let Some(part) = self.part(term, seen, memory) {
+                visit(part.branch(tension));
+            }
+        }
+    }
+
+    fn energy(&self, seen: &Seen<'_, P>, memory: &Sum<P::Real>) -> P::Real {
+        let Some(sum) = self.sum(seen, memory) else { return P::Real::ZERO };
+        let stretch = self.stretch(sum);
+        P::Real::HALF * (self.stiffness * (stretch * stretch))
+    }
+
+    /// As if its teeth met.
+    fn tangent(
+        &self,
+        seen: &Seen<'_, P>,
+        memory: &Sum<P::Real>,
+        visit: Springs<'_, P>,
+    ) -> [P::Real; 2] {
+        let known = self.tension(seen, memory).zip(self.part(0, seen, memory));
+        let Some((tension, part)) = known else { return [P::Real::ZERO; 2] };
+        visit(self.stiffness, &part.branch(tension).direction);
+        part.bent(tension, visit)
+    }
+
+    fn branch_tangent(
+        &self,
+        branch: usize,
+        seen: &Seen<'_, P>,
+        memory: &Sum<P::Real>,
+        visit: Springs<'_, P>,
+    ) -> [P::Real; 2] {
+        let known = self.tension(seen, memory).zip(self.part(branch + 1, seen, memory));
+        let Some((tension, part)) = known else { return [P::Real::ZERO; 2] };
+        part.bent(tension, visit)
+    }
+
+    #[inline(always)]
+    fn dampers(
+        &self,
+        seen: &Seen<'_, P>,
+        memory: &Sum<P::Real>,
+        visit: &mut impl FnMut(Damper<P>),
+    ) {
+        let zero = P::Real::ZERO;
+        if self.damping == zero {
+            return visit(Damper::idle());
+        }
+        let known = self.tension(seen, memory).zip(self.part(0, seen, memory));
+        let Some((tension, part)) = known else { return };
+        if self.parts() && tension == zero {
+            return visit(Damper::idle());
+        }
+        let damper = Damper::new(self.damping, part.branch(tension).direction);
+        if !self.parts() {
+            return visit(damper);
+        }
+        let [least, most] = damper.bounds();
+        let pulls = zero.less_than(tension);
+        visit(
+            damper.within(
+                P::Real::pick(pulls, -tension, least),
+                P::Real::pick(pulls, most, -tension),
+            ),
+        );
+    }
+
+    fn check(&self) -> Result<(), Wrong> {
+        let (zero, one) = (P::Real::ZERO, P::Real::ONE);
+        for term in self.terms.iter().flatten() {
+            Wrong::unless(term.factor != zero, "factor", "is 0", "a factor other than 0")?;
+        }
+        let many = self.terms.iter().flatten().count() > 1;
+        Wrong::unless(many, "terms", "has one coordinate", "two coordinates or three")?;
+        Wrong::unless(self.stiffness > zero, "stiffness", "is not positive", "a stiffness > 0")?;
+        Wrong::unless(self.damping >= zero, "damping", "is negative", "a number ≥ 0")?;
+        Wrong::unless(self.play >= zero, "play", "is negative", "a number ≥ 0")?;
+        for (name, number) in [("pulls", self.pulls), ("pushes", self.pushes)] {
+            Wrong::unless(number == zero || number == one, name, "is no choice", "0 or 1")?;
+        }
+        let acts = self.pulls == one || self.pushes == one;
+        Wrong::unless(acts, "pulls", "is 0 as `pushes` is", "1, or `pushes` 1")
+    }
+
+    fn read(&self, quantity: usize, seen: &Seen<'_, P>, memory: &Sum<P::Real>) -> P::Real {
+        let Some(sum) = self.sum(seen, memory) else { return P::Real::ZERO };
+        if quantity == 0 { self.stiffness * self.stretch(sum) } else { sum - self.offset }
+    }
+}
