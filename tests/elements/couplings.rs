@@ -101,8 +101,27 @@ fn gear(more: &str, parts: &[String]) -> String {
     scene(&[&own[..], &[coupling(of, &format!("stiffness = 25e3\n{more}"))], parts].concat())
 }
 
+/// A rack of 2 kg that falls and turns a pinion of 0.0125 kg·m² and 50 mm.
+pub(crate) fn rack() -> String {
+    let parts = [
+        "gravity = [0, 0, -9.81]\n".to_owned(),
+        wheel("pinion", 0.0, 0.0125, "world"),
+        slider("rack", 0.5, 2.0),
+        coupling(
+            r#"{ joint = "of_rack" }, { joint = "of_pinion", factor = "50 mm/rad" }"#,
+            "stiffness = 1e6\ndamping = 500",
+        ),
+    ];
+    scene(&parts)
+}
+
+/// A pair of gears that 10 N·m drive at its input.
+pub(crate) fn driven(more: &str) -> String {
+    gear(more, &[torque("motor", "of_input", 10.0)])
+}
+
 /// Mean time between crossings of a level upwards \[s\].
-fn period(instance: &mut Instance, column: &str, level: f64, periods: usize) -> f64 {
+pub(crate) fn period(instance: &mut Instance, column: &str, level: f64, periods: usize) -> f64 {
     let (mut last, mut times) = (value(instance, column), Vec::new());
     while times.len() <= periods {
         instance.advance(1).unwrap();
@@ -120,7 +139,7 @@ fn period(instance: &mut Instance, column: &str, level: f64, periods: usize) -> 
 /// it carries.
 #[test]
 fn a_pair_of_gears_vibrates_and_accelerates() {
-    let text = gear("", &[torque("motor", "of_input", 10.0)]);
+    let text = driven("");
     let load = 27.522_936 * 1.0;
     for (step, precision, near) in
         [(20e-6, "f64", 2e-5), (20e-6, "fixed", 2e-5), (20e-6, "f32", 2e-3)]
@@ -129,7 +148,7 @@ fn a_pair_of_gears_vibrates_and_accelerates() {
         let found = 1.0 / period(&mut pair, "load", -load, 20);
         assert!((found / 87.575_400 - 1.0).abs() < near, "{precision}: {found} Hz");
     }
-    let text = gear("damping = 40", &[torque("motor", "of_input", 10.0)]);
+    let text = driven("damping = 40");
     for precision in ["f64", "f32", "fixed"] {
         let mut pair = instance(&text, 100e-6, precision);
         pair.advance_to(1.0).unwrap();
@@ -155,20 +174,11 @@ fn many_turns_leave_teeth_where_they_are() {
     }
 }
 
-/// A rack of 2 kg falls and turns a pinion of 0.0125 kg·m² and 50 mm: g/(1 + J/(m·r²)) … 2.5 of the rack's mass.
+/// g·m/(m + J/r²).
 #[test]
 fn a_rack_turns_its_pinion() {
-    let parts = [
-        "gravity = [0, 0, -9.81]\n".to_owned(),
-        wheel("pinion", 0.0, 0.0125, "world"),
-        slider("rack", 0.5, 2.0),
-        coupling(
-            r#"{ joint = "of_rack" }, { joint = "of_pinion", factor = "50 mm/rad" }"#,
-            "stiffness = 1e6\ndamping = 500",
-        ),
-    ];
     for precision in ["f64", "f32", "fixed"] {
-        let mut rack = instance(&scene(&parts), 50e-6, precision);
+        let mut rack = instance(&rack(), 50e-6, precision);
         rack.advance_to(0.5).unwrap();
         let fallen = value(&rack, "rack.z");
         let known = -0.5 * 9.81 * 2.0 / (2.0 + 0.0125 / 0.0025) * 0.25;
@@ -303,7 +313,7 @@ fn a_train_on_a_turning_carrier_keeps_energy_and_momentum() {
 /// leapfrog is 2.
 #[test]
 fn every_scheme_turns_gears() {
-    let text = gear("damping = 4", &[torque("motor", "of_input", 10.0)]);
+    let text = driven("damping = 4");
     let load = |scheme: &str, step: f64| {
         use dbd_plant::instance::{Blueprint, Settings};
         let settings =
@@ -334,7 +344,7 @@ fn every_scheme_turns_gears() {
 /// A plane has the same motion.
 #[test]
 fn gears_in_a_plane() {
-    let text = gear("damping = 40", &[torque("motor", "of_input", 10.0)]);
+    let text = driven("damping = 40");
     let planar = text.replace("duration = 1", "duration = 1\nplanar = true");
     let [space, plane] = [text, planar].map(|text| {
         let mut pair = instance(&text, 50e-6, "f64");

@@ -25,6 +25,26 @@ fn a_gate_opens_to_its_stop_and_closes() {
 }
 
 #[test]
+fn a_hand_grasps_a_ball_lifts_it_and_lets_it_fall() {
+    for precision in ["f64", "f32", "fixed"] {
+        let mut hand = instance(&example("grasp"), 50e-6, precision);
+        hand.advance_to(0.5).unwrap();
+        let [left, right] = ["left", "right"].map(|name| value(&hand, name));
+        assert!(left < -0.08 && (left + right).abs() < 0.01, "{precision}: {left} {right}");
+        hand.advance_to(1.2).unwrap();
+        let held = value(&hand, "ball.z");
+        assert!((held - 0.12).abs() < 5e-4, "{precision}: {held}");
+        // Both pads squeeze alike with half of the torque, and the ball does not creep.
+        hand.advance_to(1.45).unwrap();
+        let squeeze = value(&hand, "squeeze");
+        assert!((3.5..4.7).contains(&squeeze), "{precision}: {squeeze}");
+        assert!((value(&hand, "ball.z") - held).abs() < 2e-6, "{precision}");
+        hand.advance_to(1.65).unwrap();
+        assert!(value(&hand, "ball.z") < 0.08 && value(&hand, "squeeze") == 0.0, "{precision}");
+    }
+}
+
+#[test]
 fn a_trolley_goes_as_far_as_its_table_says() {
     let mut crane = instance(&example("crane"), 1e-3, "f64");
     let mut widest: f64 = 0.0;

@@ -7,7 +7,7 @@ use dbd_tests::page::{block, table};
 use nalgebra::{Matrix6, Vector6};
 
 use crate::drives::{ROTOR, period, wheel};
-use crate::{instance, value};
+use crate::{couplings, instance, value};
 
 const G: f64 = 9.81;
 
@@ -303,6 +303,36 @@ fn cases() -> Vec<Case> {
                 let drive = "mode = \"velocity\"\nkd = 0.4\nmost = 0.8\nvalue = \"3 rad/s\"";
                 at(&wheel(drive, ""), h, 0.1, "angle")
             }),
+        ),
+        case(
+            "coupling",
+            "frequency of a mesh of 3 : 1, 25 kN·m/rad",
+            "Hz",
+            (25e3_f64 * (1.0 + 1.0 / 0.09)).sqrt() / std::f64::consts::TAU,
+            1e-4,
+            1e-5,
+            Box::new(|h| {
+                let mut pair = instance(&couplings::driven(""), h, "f64");
+                1.0 / couplings::period(&mut pair, "load", -30.0 / 1.09, 40)
+            }),
+        ),
+        case(
+            "coupling",
+            "rate of its output 1 s after 10 N·m",
+            "rad/s",
+            30.0 / 1.09,
+            1e-4,
+            1e-6,
+            Box::new(|h| at(&couplings::driven("damping = 40"), h, 1.0, "rate_output")),
+        ),
+        case(
+            "coupling",
+            "place of a rack after falling 0.5 s",
+            "m",
+            -0.125 * G * 2.0 / 7.0,
+            1e-4,
+            1e-4,
+            Box::new(|h| at(&couplings::rack(), h, 0.5, "rack.z")),
         ),
     ]
 }

@@ -62,7 +62,7 @@ impl Element {
     }
 
     /// The elements of all sections of a name, as `<worldbody>` or `<actuator>`: a file may have several.
-    pub(crate) fn sections<'e>(&'e self, name: &'e str) -> impl Iterator<Item = &'e Element> {
+    pub(crate) fn sections<'e>(&'e self, name: &str) -> impl Iterator<Item = &'e Element> {
         self.children.iter().filter(move |child| child.name == name)
     }
 }
@@ -71,7 +71,7 @@ impl Element {
 pub(crate) struct Document {
     /// The texts.
     pub(crate) texts: Texts,
-    /// `<mujoco>`.
+    /// `<mujoco>` or `<robot>`.
     pub(crate) root: Element,
 }
 
@@ -80,17 +80,15 @@ impl Document {
     pub(crate) fn read(text: &str, name: &str, folder: &Path) -> Result<Self, ImportError> {
         let mut texts = Texts::default();
         let mut root = parse(text, name, None, &mut texts)?;
-        if root.name != "mujoco" {
-            let found = format!("begins with <{}>", root.name);
-            let help = match root.name.as_str() {
-                "robot" => {
-                    "MJCF begins with <mujoco>; this is URDF, which MuJoCo converts: `mj_saveLastXML`"
-                }
-                _ => "MJCF begins with <mujoco>",
-            };
-            return Err(Fault::at(root.place, found, help).refuse(&texts));
+        match root.name.as_str() {
+            "mujoco" => include(&mut root, folder, &mut texts)?,
+            "robot" => {}
+            other => {
+                let found = format!("begins with <{other}>");
+                let help = "MJCF begins with <mujoco>, URDF with <robot>";
+                return Err(Fault::at(root.place, found, help).refuse(&texts));
+            }
         }
-        include(&mut root, folder, &mut texts)?;
         Ok(Self { texts, root })
     }
 }
@@ -151,7 +149,7 @@ fn parse(
         (Err(fault), None) => fault,
         (Err(fault), Some(place)) => {
             let message = format!("{name} cannot be read as XML, see its line {}", fault.line());
-            Fault::at(place, message, "MJCF is well-formed XML in UTF-8")
+            Fault::at(place, message, "MJCF and URDF are well-formed XML in UTF-8")
         }
     };
     Err(fault.refuse(texts))
@@ -166,7 +164,7 @@ fn xml(text: &str, file: usize) -> Result<roxmltree::Document<'_>, Fault> {
     roxmltree::Document::parse_with_options(text, options).map_err(|error| {
         let place = position(text, file, error.pos());
         let message = format!("is no XML: {}", error_text(&error));
-        Fault::at(place, message, "MJCF is well-formed XML in UTF-8")
+        Fault::at(place, message, "MJCF and URDF are well-formed XML in UTF-8")
     })
 }
 

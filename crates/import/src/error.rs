@@ -64,7 +64,7 @@ impl ImportError {
     #[must_use]
     pub fn help(&self) -> String {
         match self {
-            Self::Unreadable { .. } => "MJCF is a readable XML file in UTF-8".into(),
+            Self::Unreadable { .. } => "MJCF and URDF are readable XML files in UTF-8".into(),
             Self::Refused(refusal) => refusal.help.clone(),
             Self::Omitted { omissions, .. } => {
                 let mut kinds: Vec<&str> = omissions.iter().map(|o| o.kind.name()).collect();

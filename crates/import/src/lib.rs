@@ -1,4 +1,4 @@
-//! MuJoCo's MJCF becomes a scene.
+//! MuJoCo's MJCF and ROS's URDF become scenes.
 //!
 //! `FILE.xml => bodies, joints, springs of a mechanism => TOML with where each part came from`. What the
 //! method has no counterpart for is a [`Omission`] with its line and its size, and refused unless its
@@ -13,6 +13,7 @@
 //! - `element`: elements of XML, files that include each other as one.
 //! - `schema`: names of elements and attributes.
 //! - `defaults`: classes of attributes, and attributes as numbers.
+//! - `urdf`: URDF as elements of MJCF.
 //! - `settings`: what the file says of itself: units, sequences, gravity.
 //! - `mass`: mass, centre and inertia, of shapes, too.
 //! - `bulk`, `mesh`: what meshes hold.
@@ -74,6 +75,7 @@ mod settings;
 mod signals;
 mod tendons;
 mod tree;
+mod urdf;
 mod weigh;
 mod write;
 
@@ -84,6 +86,8 @@ pub use omission::{Kind, Omission};
 pub use options::{Options, TOLERANCE, Weld};
 
 use crate::element::Document;
+use crate::error::Fault;
+use crate::omission::Omissions;
 
 /// A scene that was made of a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,10 +100,10 @@ pub struct Imported {
     pub notes: Vec<String>,
 }
 
-/// Makes a scene of an MJCF file and of what it includes.
+/// Makes a scene of an MJCF file and of what it includes, or of a URDF file.
 ///
 /// # Errors
-/// [`ImportError`]: where a file cannot be read or is no MJCF, where a body cannot be in a scene, and
+/// [`ImportError`]: where a file cannot be read or is neither, where a body cannot be in a scene, and
 /// where something has no counterpart and its kind is not ignored.
 pub fn import(file: &Path, options: &Options) -> Result<Imported, ImportError> {
     let name = file.display().to_string();
@@ -109,7 +113,7 @@ pub fn import(file: &Path, options: &Options) -> Result<Imported, ImportError> {
     import_text(&text, &name, folder, options)
 }
 
-/// Makes a scene of the text of an MJCF file; `name` is what messages call it, files that it includes
+/// Makes a scene of the text of an MJCF or URDF file; `name` is what messages call it, files that it includes
 /// lie below `folder`.
 ///
 /// # Errors
@@ -121,10 +125,15 @@ pub fn import_text(
     options: &Options,
 ) -> Result<Imported, ImportError> {
     let mut document = Document::read(text, name, folder)?;
-    let root = std::mem::take(&mut document.root);
-    let made = model::Model::read(&root, folder)
+    let mut root = std::mem::take(&mut document.root);
+    let mut found = Omissions::default();
+    let refused = |fault: Fault| fault.refuse(&document.texts);
+    if root.name == "robot" {
+        root = urdf::mujoco(&root, &mut found).map_err(refused)?;
+    }
+    let made = model::Model::read(&root, folder, found)
         .and_then(|model| model.scene(&document.texts, name, options));
-    let (made, omissions) = made.map_err(|fault| fault.refuse(&document.texts))?;
+    let (made, omissions) = made.map_err(refused)?;
     let omitted = omissions.named(&document.texts);
     let refused: Vec<Omission> =
         omitted.iter().filter(|o| !options.ignored.contains(&o.kind)).cloned().collect();

@@ -40,8 +40,11 @@ pub(crate) type Made = (String, Vec<String>);
 
 impl<'m> Model<'m> {
     /// Reads the elements.
-    pub(crate) fn read(root: &'m Element, folder: &Path) -> Result<Self, Fault> {
-        let mut omissions = Omissions::default();
+    pub(crate) fn read(
+        root: &'m Element,
+        folder: &Path,
+        mut omissions: Omissions,
+    ) -> Result<Self, Fault> {
         schema::check(root, &mut omissions)?;
         let settings = settings::read(root, &mut omissions)?;
         let defaults = Defaults::read(root)?;

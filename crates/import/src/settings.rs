@@ -52,8 +52,8 @@ pub(crate) struct Settings {
     pub(crate) strips_paths: bool,
     /// \[m/s²\]
     pub(crate) gravity: Vector3<f64>,
-    /// \[s\] the file's own step.
-    pub(crate) timestep: f64,
+    /// \[s\] the file's own step, where its kind has one.
+    pub(crate) timestep: Option<f64>,
     /// What the flags of `<option>` turn off.
     pub(crate) off: Vec<String>,
     /// Where the last `<compiler>` stands.
@@ -79,7 +79,7 @@ pub(crate) fn read(root: &Element, omissions: &mut Omissions) -> Result<Settings
         meshes: String::new(),
         strips_paths: false,
         gravity: Vector3::new(0.0, 0.0, -9.81),
-        timestep: 0.002,
+        timestep: (root.name == "mujoco").then_some(0.002),
         off: Vec::new(),
         compiler: root.place,
     };
@@ -141,7 +141,8 @@ fn option(
 ) -> Result<(), Fault> {
     let given = Attributes::own(section);
     settings.gravity = given.vector("gravity")?.unwrap_or(settings.gravity);
-    settings.timestep = given.magnitude("timestep", settings.timestep)?;
+    let known = settings.timestep.unwrap_or(0.002);
+    settings.timestep = Some(given.magnitude("timestep", known)?);
     for (name, unit) in [("density", "kg/m³"), ("viscosity", "Pa·s")] {
         let value = given.magnitude(name, 0.0)?;
         if value > 0.0 {

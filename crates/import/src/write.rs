@@ -93,11 +93,12 @@ fn top(
     if options.weld == Weld::Merge {
         out.push_str("# Bodies without joints are one with their parents.\n");
     }
-    let step = settings.timestep;
-    let _ = writeln!(
-        out,
-        "# The file's own step was {step} s; without `step` here a run chooses one that is stable."
-    );
+    if let Some(step) = settings.timestep {
+        let _ = writeln!(
+            out,
+            "# The file's own step was {step} s; without `step` here a run chooses one that is stable."
+        );
+    }
     for (kind, place, what) in omissions {
         let _ = writeln!(
             out,

@@ -8,7 +8,7 @@ use crate::spring;
 use crate::target::{Elements, Target};
 use crate::text::{Number, Table};
 
-pub(crate) const KEYS: &[&str] = &["name", "between", "axis", "preload"];
+pub(crate) const KEYS: &[&str] = &["name", "between", "axis", "preload", "limits"];
 
 /// Reads all torsion springs in scene order and names them for messages:
 /// `torsion_spring 1 (world–crank)`.

@@ -10,7 +10,7 @@ use crate::spring;
 use crate::target::{Elements, Target};
 use crate::text::{Kind, Number, Table, Value};
 
-pub(crate) const KEYS: &[&str] = &["name", "between", "points", "free_length"];
+pub(crate) const KEYS: &[&str] = &["name", "between", "points", "free_length", "limits"];
 
 /// Points closer than this share of the free length give the line no direction.
 const COINCIDENT: f64 = 1e-9;

@@ -134,7 +134,7 @@ enum Command {
     /// it in a browser, or serves it (--serve)
     #[command(after_help = help::PLAY)]
     Play(PlayArguments),
-    /// Makes a scene of MuJoCo's MJCF: each part with the line it comes from; what has no counterpart is
+    /// Makes a scene of MuJoCo's MJCF or of a URDF: each part with the line it comes from; what has no counterpart is
     /// listed with its size and refused, unless its kind is ignored
     #[command(after_help = help::IMPORT)]
     Import(ImportArguments),

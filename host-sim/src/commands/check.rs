@@ -169,8 +169,8 @@ pub struct InteractionCheck {
     pub name: String,
     /// Its law.
     pub law: &'static str,
-    /// Its bodies.
-    pub between: [String; 2],
+    /// Its bodies: two, of a coupling more.
+    pub between: Vec<String>,
     /// Its dampers; some may have a coefficient of 0.
     pub dampers: usize,
 }
@@ -182,8 +182,9 @@ impl InteractionCheck {
             false => scene.body_names[index.row()].clone(),
         };
         let InteractionInfo { law, bodies, dampers, .. } = *interaction;
+        let bodies = bodies.iter().chain(&interaction.further);
         let name = interaction.name().unwrap_or(&interaction.label).to_owned();
-        Self { name, law, between: bodies.map(body), dampers }
+        Self { name, law, between: bodies.copied().map(body).collect(), dampers }
     }
 }
 

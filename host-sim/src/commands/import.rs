@@ -22,7 +22,7 @@ const ALL: &str = "all";
 /// What is imported, how, and where to.
 #[derive(Clone, Debug, Args)]
 pub struct ImportArguments {
-    /// MJCF, MuJoCo's XML
+    /// MJCF, MuJoCo's XML, or URDF
     #[arg(value_hint = ValueHint::FilePath)]
     pub file: PathBuf,
     /// Write to this file, whole or not at all, instead of to standard output

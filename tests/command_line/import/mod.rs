@@ -8,6 +8,7 @@ mod chains;
 mod meshes;
 mod parts;
 mod refusals;
+mod robots;
 mod sums;
 
 use std::path::Path;

@@ -32,7 +32,7 @@ fn what_is_wrong_is_named_with_its_place() {
         format!("<mujoco><worldbody><body name='a'>{inner}</body></worldbody></mujoco>")
     };
     for (text, line, message, help) in [
-        ("<robot/>".into(), 1, "begins with <robot>", "URDF"),
+        ("<sdf/>".into(), 1, "begins with <sdf>", "URDF"),
         (with("", "", "<actuators/>"), 10, "<actuators> is no section", "<actuator>"),
         (with("<geom size='x'/>", "", ""), 6, "`size` holds \"x\"", "numbers"),
         (with("<geom size='nan'/>", "", ""), 6, "`size` holds \"nan\"", "numbers"),

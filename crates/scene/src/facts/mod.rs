@@ -127,6 +127,8 @@ impl Scene {
             "joint" => &lines.joints,
             "input" => &lines.inputs,
             "coupling" => &lines.couplings,
+            "tsda" => &lines.tsdas,
+            "torsion_spring" => &lines.torsion_springs,
             _ => &lines.interactions,
         };
         lines.get(number).copied()

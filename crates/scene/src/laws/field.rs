@@ -1,14 +1,14 @@
 //! A law's constants out of its table.
 
-use dbd_kernel::Quaternion;
 use dbd_kernel::attitude::Attitude as _;
 use dbd_kernel::laws::{Field, FieldSource, MOST_TERMS, Term};
+use dbd_kernel::{Quaternion, Vec3};
 
 use crate::assembly::Assembly;
 use crate::error::SceneError;
 use crate::joints::JointPlace;
 use crate::laws::of_drives::Constants;
-use crate::laws::of_joints::OfJoint;
+use crate::laws::of_joints::{OfJoint, limit};
 use crate::nearest::nearest;
 use crate::pair::Pair;
 use crate::points::{Heading, PlaceOf};
@@ -23,6 +23,8 @@ pub(super) enum Of<'a> {
     Joint(OfJoint<'a>),
     /// To a drive at a joint: its place, its input, its constants.
     Drive(&'a JointPlace, usize, Constants),
+    /// To a raw TSDA or a torsion spring: its points, its axis (world).
+    Spring([[f64; 3]; 2], Vec3<f64>),
     /// To a coupling: its terms and constants.
     Coupling([Option<Term>; MOST_TERMS], Constants),
 }
@@ -30,7 +32,7 @@ pub(super) enum Of<'a> {
 impl Of<'_> {
     fn place(&self) -> Option<&JointPlace> {
         match self {
-            Of::Itself | Of::Coupling(..) => None,
+            Of::Itself | Of::Spring(..) | Of::Coupling(..) => None,
             Of::Joint(of) => Some(of.place),
             Of::Drive(place, ..) => Some(place),
         }
@@ -79,7 +81,7 @@ impl<'a, 't> Reading<'a, 't> {
         match self.of {
             Of::Drive(_, input, _) => return u32::try_from(input).ok(),
             // No input has this row: nothing drives it.
-            Of::Joint(_) => return Some(u16::MAX.into()),
+            Of::Joint(_) | Of::Spring(..) => return Some(u16::MAX.into()),
             Of::Itself | Of::Coupling(..) => {}
         }
         let read = self.table.required(field.name, InputName(self.inputs));
@@ -87,10 +89,13 @@ impl<'a, 't> Reading<'a, 't> {
     }
 
     /// A direction in the axes of the first body, as a joint's axis is given.
-    fn heading(&mut self, field: &Field) -> Option<dbd_kernel::Vec3<f64>> {
+    fn heading(&mut self, field: &Field) -> Option<Vec3<f64>> {
         let (assembly, table, a) = (self.assembly, self.table, self.pair.a);
         if let Some(place) = self.of.place() {
             return Some(assembly.vector_in(a, place.axis_w));
+        }
+        if let Of::Spring(_, axis) = self.of {
+            return Some(assembly.vector_in(a, axis));
         }
         let read = table.required(field.name, Heading(assembly)).map(|written| {
             let carried = assembly.carried_direction(a, written);
@@ -111,6 +116,7 @@ impl FieldSource for Reading<'_, '_> {
         let read = match &self.of {
             Of::Itself => None,
             Of::Joint(of) => of.number(self.table, field.name, unit(field, 0)),
+            Of::Spring(..) => limit(self.table, field.name, unit(field, 0)),
             Of::Drive(.., constants) | Of::Coupling(_, constants) => {
                 return constants.get(field.name).or(field.default);
             }
@@ -148,6 +154,9 @@ impl FieldSource for Reading<'_, '_> {
         if let Some(place) = self.of.place() {
             let point = |body| assembly.point_in(body, place.at_w).to_f64();
             return Some([pair.a, pair.b].map(point));
+        }
+        if let Of::Spring(points, _) = self.of {
+            return Some(points);
         }
         let read = self.table.required(field.name, TwoPlaces { assembly, pair });
         self.keep(read)
@@ -201,9 +210,9 @@ impl Kind for InputName<'_> {
 }
 
 /// A point of the first body and one of the second, each in its body's axes.
-struct TwoPlaces<'a> {
-    assembly: &'a Assembly,
-    pair: &'a Pair,
+pub(super) struct TwoPlaces<'a> {
+    pub(super) assembly: &'a Assembly,
+    pub(super) pair: &'a Pair,
 }
 
 impl Kind for TwoPlaces<'_> {

@@ -17,6 +17,8 @@ pub struct InteractionInfo {
     pub law: &'static str,
     /// A, which may be the ground, and B.
     pub bodies: [BodyIndex; 2],
+    /// The bodies of a coupling that are not of its first joint.
+    pub further: Vec<BodyIndex>,
     /// The number of its dampers; some may have a coefficient of 0.
     pub dampers: usize,
     /// \[m\] a point of A and a point of B, each in the axes of its body from its centre of mass; of the ground in
@@ -58,9 +60,19 @@ impl Scene {
                 let label = self.law_names.get(found.len()).cloned().unwrap_or_default();
                 let mut shape = Shape::default();
                 source.write(row, &mut shape);
-                let Shape { points, normal, axis } = shape;
+                let Shape { points, normal, axis, mut further } = shape;
+                further.retain(|body| !bodies.contains(body));
                 let law = source.name();
-                found.push(InteractionInfo { label, law, bodies, dampers, points, normal, axis });
+                found.push(InteractionInfo {
+                    label,
+                    law,
+                    bodies,
+                    further,
+                    dampers,
+                    points,
+                    normal,
+                    axis,
+                });
             }
         }
         found
@@ -98,6 +110,7 @@ struct Shape {
     points: Option<[[f64; 3]; 2]>,
     normal: Option<[f64; 3]>,
     axis: Option<[f64; 3]>,
+    further: Vec<BodyIndex>,
 }
 
 impl FieldSink for Shape {
@@ -115,6 +128,11 @@ impl FieldSink for Shape {
     fn table(&mut self, _: &Field, _: &[[f64; 2]], _: usize) {}
     // It is drawn at its first joint.
     fn terms(&mut self, field: &Field, terms: &[Option<Term>; MOST_TERMS]) {
+        for body in terms.iter().flatten().flat_map(|term| term.bodies) {
+            if !body.is_world() && !self.further.contains(&body) {
+                self.further.push(body);
+            }
+        }
         match &terms[0] {
             Some(Term { way: Way::Turn(hinge), .. }) => {
                 self.axis(field, hinge.axis.to_f64(), hinge.reference.to_f64());

@@ -11,6 +11,7 @@ mod list;
 mod of_couplings;
 mod of_drives;
 mod of_joints;
+mod of_springs;
 mod rows;
 mod source;
 
@@ -241,6 +242,7 @@ pub(crate) fn read_all(
         rows.inputs.push(table.optional("name", Text::Name)?.unwrap_or_default());
     }
     of_joints(root, joints, assembly, &mut rows)?;
+    of_springs(root, assembly, &mut rows)?;
     of_drives(root, (joints, elements), assembly, &mut rows)?;
     of_couplings(root, (joints, elements), assembly, &mut rows)?;
     for (number, table) in root.list("interaction")?.into_iter().enumerate() {
@@ -271,6 +273,7 @@ pub(crate) fn read_all(
             let target = Target::Interaction(read.labels.len());
             match name {
                 Some(name) => elements.add(&table, name, "interaction", target)?,
+                None if place.0 == "tsda" || place.0 == "torsion_spring" => {}
                 None => elements.read_optional(&table, "interaction", target)?,
             }
             read.labels.push(label);
@@ -305,6 +308,31 @@ fn of_joints<'t>(
             let place_of = ("joint", number);
             let one = One { name: Some(name), table, label, place: place_of, quantities: None };
             rows.add(law, assembly, (&place.pair, Of::Joint(of_joint)), one)?;
+        }
+    }
+    Ok(())
+}
+
+/// Reads `limits` of raw TSDAs and of torsion springs.
+fn of_springs<'t>(
+    root: &Table<'t>,
+    assembly: &Assembly,
+    rows: &mut Rows<'t>,
+) -> Result<(), SceneError> {
+    for (kind, law) in [("tsda", "distance-stop"), ("torsion_spring", "hinge-stop")] {
+        let Some(law) = rows.known.iter().position(|known| known.name == law) else { continue };
+        for (number, owner) in root.list(kind)?.into_iter().enumerate() {
+            let Some(value) = owner.value("limits") else { continue };
+            let table = value.table("{ from = …, to = …, stiffness = … }")?;
+            let (pair, of) = of_springs::limits(&owner, &table, kind, assembly)?;
+            let called = owner.optional("name", Text::Name)?;
+            let name = called.as_ref().map(|called| format!("{called}.limits"));
+            let label = match &name {
+                Some(name) => format!("limits `{name}` ({}–{})", pair.names[0], pair.names[1]),
+                None => format!("limits of {}", pair.label(&owner)),
+            };
+            let one = One { name, table, label, place: (kind, number), quantities: None };
+            rows.add(law, assembly, (&pair, of), one)?;
         }
     }
     Ok(())

@@ -73,8 +73,8 @@ impl<'j> OfJoint<'j> {
         let (keys, _) = keys_of(key);
         let is_friction = keys == FRICTION;
         table.only(&[keys])?;
-        if is_limits && !(table.has("from") || table.has("to")) {
-            return Err(table.refuse("limits nothing", "`from`, `to` or both"));
+        if is_limits {
+            check_limits(table)?;
         }
         // What turns is in radians.
         let turns = fields.iter().any(|field| field.kind == "axis");
@@ -90,14 +90,8 @@ impl<'j> OfJoint<'j> {
         key: &str,
         unit: &'static str,
     ) -> Option<Result<f64, SceneError>> {
-        let from_zero = |none: f64| {
-            let offset = table.optional("offset", Number::any(unit))?.unwrap_or(0.0);
-            Ok(table.optional(key, Number::any(unit))?.map_or(none, |end| end - offset))
-        };
         match key {
-            "from" if self.is_limits => Some(from_zero(-NONE)),
-            "to" if self.is_limits => Some(from_zero(NONE)),
-            "dissipation" if self.is_limits => restituted(table, unit).transpose(),
+            _ if self.is_limits => limit(table, key, unit),
             "breakaway" if self.is_friction && !table.has(key) => {
                 Some(table.required("coulomb", Number::not_negative(unit)))
             }
@@ -122,6 +116,32 @@ impl<'j> OfJoint<'j> {
         let square = limit.zip(given("give")?).map(|(limit, give)| limit / (give * self.mobility));
         Ok(square.filter(|square| *square > 0.0 && square.is_finite()).map_or(0.0, libm::sqrt))
     }
+}
+
+/// A number of a law of limits that their table gives in another way.
+pub(super) fn limit(
+    table: &Table<'_>,
+    key: &str,
+    unit: &'static str,
+) -> Option<Result<f64, SceneError>> {
+    let from_zero = |none: f64| {
+        let offset = table.optional("offset", Number::any(unit))?.unwrap_or(0.0);
+        Ok(table.optional(key, Number::any(unit))?.map_or(none, |end| end - offset))
+    };
+    match key {
+        "from" => Some(from_zero(-NONE)),
+        "to" => Some(from_zero(NONE)),
+        "dissipation" => restituted(table, unit).transpose(),
+        _ => None,
+    }
+}
+
+/// Refuses limits that limit nothing.
+pub(super) fn check_limits(table: &Table<'_>) -> Result<(), SceneError> {
+    if table.has("from") || table.has("to") {
+        return Ok(());
+    }
+    Err(table.refuse("limits nothing", "`from`, `to` or both"))
 }
 
 /// `restitution` and `speed` as the coefficient of Hunt and Crossley.

@@ -81,6 +81,65 @@ fn a_key_of_a_joint_is_the_interaction_about_its_axis() {
     assert_eq!(keyed.line_of_interaction(2), keyed.line_of_joint(1));
 }
 
+/// Limits of a raw TSDA are a stop of its length, of a torsion spring one of its twist; the ground may come second.
+#[test]
+fn limits_of_springs_are_the_interactions_of_their_geometry() {
+    let springs = |more: [&str; 2]| {
+        format!(
+            "[[tsda]]\nname = \"strut\"\nbetween = [\"lever\", \"world\"]\npoints = [[0, 0.1, 0], [0.5, 0, 0]]\n\
+             stiffness = 100\nfree_length = \"initial\"\n{}\n[[torsion_spring]]\nbetween = [\"world\", \"lever\"]\n\
+             axis = [0, 0, 2]\nstiffness = 3\n{}\n",
+            more[0], more[1]
+        )
+    };
+    let keyed = scene(
+        "",
+        &springs([
+            "limits = { from = \"0.4 m\", to = \"0.8 m\", stiffness = 1e5, dissipation = 0.5 }",
+            "limits = { from = \"-10 deg\", to = \"20 deg\", offset = \"5 deg\", stiffness = 50, restitution = 1, speed = 1 }",
+        ]),
+    )
+    .unwrap();
+    let law = |law: &str, keys: &str| {
+        format!("[[interaction]]\nlaw = \"{law}\"\nbetween = [\"world\", \"lever\"]\n{keys}\n")
+    };
+    let listed = scene(
+        "",
+        &[
+            springs(["", ""]),
+            law(
+                "distance-stop",
+                "points = [[0.5, 0, 0], [0, 0.1, 0]]\nfrom = 0.4\nto = 0.8\nstiffness = 1e5\ndissipation = 0.5",
+            ),
+            law(
+                "hinge-stop",
+                "axis = [0, 0, 1]\nfrom = \"-10 deg - 5 deg\"\nto = \"20 deg - 5 deg\"\nstiffness = 50",
+            ),
+        ]
+        .concat(),
+    )
+    .unwrap();
+    let of = |scene: &Scene| Plant::new(&scene.model, Leapfrog, 1e-4).unwrap().fingerprint();
+    assert_eq!(of(&keyed), of(&listed));
+    let found = keyed.interactions();
+    assert_eq!(found[0].name(), Some("strut.limits"));
+    assert_eq!(found[1].label, "limits of torsion_spring 1 (world–lever)");
+    assert!(keyed.line_of_interaction(0) < keyed.line_of_interaction(1));
+    let ground = "[[torsion_spring]]\nbetween = [\"lever\", \"world\"]\naxis = [0, 0, 2]\nstiffness = 3\n\
+                  limits = { to = 1, stiffness = 50 }\n";
+    let exchanged = &scene("", ground).unwrap().interactions()[0];
+    assert!(exchanged.bodies[0].is_world() && exchanged.axis == Some([0.0, 0.0, -1.0]));
+    for (springs, parts) in [
+        (springs(["limits = { to = 1, offset = 0.1, stiffness = 1 }", ""]), ["offset", "`from`"]),
+        (springs(["limits = { stiffness = 1 }", ""]), ["limits nothing", "both"]),
+        (springs(["", "limits = { to = \"1 mm\", stiffness = 1 }"]), ["`to`", "rad"]),
+        (springs(["", "limits = { to = 1 }"]), ["stiffness", "N·m/rad"]),
+    ] {
+        let said = scene("", &springs).err().unwrap_or_default();
+        assert!(parts.iter().all(|part| said.contains(part)), "{springs}: {said}");
+    }
+}
+
 /// The ground may come second: signs are those of the joint.
 #[test]
 fn the_ground_may_be_the_second_body() {

@@ -108,7 +108,7 @@ pub(super) fn of_joint(key: &str, tables: &[TableKeys]) -> Option<Key> {
     })
 }
 
-pub(super) fn of_tsda(key: &str) -> Option<Key> {
+pub(super) fn of_tsda(key: &str, tables: &[TableKeys]) -> Option<Key> {
     Some(match key {
         "name" => Key(name(), "A name of its own among joints and elements", "none"),
         "between" => between(),
@@ -121,6 +121,7 @@ pub(super) fn of_tsda(key: &str) -> Option<Key> {
         "free_length" => {
             Key(number(NotNegative), "m, ≥ 0, or \"initial\": as long as it is at t = 0", "")
         }
+        "limits" => Key(limits(tables), "Stops of its length, in m", "none"),
         _ => return None,
     })
 }
@@ -145,12 +146,13 @@ pub(super) fn of_line(key: &str) -> Option<Key> {
     })
 }
 
-pub(super) fn of_torsion(key: &str) -> Option<Key> {
+pub(super) fn of_torsion(key: &str, tables: &[TableKeys]) -> Option<Key> {
     Some(match key {
         "name" => Key(name(), "A name of its own among joints and elements", "none"),
         "between" => between(),
         "axis" => Key(heading(), "[x, y, z] or two points, world; fixed in the first body", ""),
         "preload" => Key(number(Any), "N·m: torque on the second body at twist 0", "0"),
+        "limits" => Key(limits(tables), "Stops of its twist, in rad", "none"),
         _ => return None,
     })
 }

@@ -1,0 +1,479 @@
+//! URDF, the robots' files of ROS, as the elements of MJCF that say the same.
+//!
+//! `<robot> => <mujoco>`. Links become bodies in each other, at the places of the file's text, so that all that is said of them
+//! leads there. A link that no joint holds is fixed to the ground, as in MuJoCo. URDF knows no gravity: it is 9.81 m/s² down z.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use dbd_scene::nearest;
+use nalgebra::{Matrix3, Rotation3};
+
+use crate::defaults::Attributes;
+use crate::element::{Attribute, Element};
+use crate::error::Fault;
+use crate::omission::{Kind, Omissions};
+use crate::place::Place;
+
+/// What a robot may hold; nothing of the second is a law of motion.
+const ROBOT: [&[&str]; 2] = [
+    &["link", "joint", "transmission", "mujoco"],
+    &["material", "gazebo", "sensor", "version", "ros2_control", "link_name", "self_collide"],
+];
+
+/// What a link and a joint may hold.
+const LINK: &[&str] = &[
+    "inertial",
+    "visual",
+    "collision",
+    "contact",
+    "material",
+    "self_collision_checking",
+    "collision_checking",
+    "self_filter",
+];
+const JOINT: &[&str] = &[
+    "origin",
+    "parent",
+    "child",
+    "axis",
+    "calibration",
+    "dynamics",
+    "limit",
+    "mimic",
+    "safety_controller",
+];
+
+/// What only `xacro` makes something of.
+const MACROS: &[&str] = &["macro", "property", "arg", "include", "if", "unless"];
+
+/// The types of joints.
+const TYPES: [&str; 6] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar"];
+
+/// As many links may hang on each other as elements may stand in each other.
+const DEPTH: usize = 400;
+
+/// The tree of MJCF.
+///
+/// # Errors
+/// Where links and joints make no tree, or a value is none that it can have.
+pub(crate) fn mujoco(robot: &Element, omissions: &mut Omissions) -> Result<Element, Fault> {
+    for child in &robot.children {
+        if MACROS.contains(&child.name.as_str()) {
+            let help = "`xacro FILE > FILE.urdf` first: macros are not read";
+            return Err(Fault::at(child.place, format!("<{}> is a macro's", child.name), help));
+        }
+    }
+    known(robot, &ROBOT.concat(), omissions);
+    let mut links = BTreeMap::new();
+    for link in robot.sections("link") {
+        known(link, LINK, omissions);
+        let name = required(link, "name", "<link name=\"…\">")?;
+        if links.insert(name.value.as_str(), link).is_some() {
+            let message = format!("link `{}` is there twice", name.value);
+            return Err(Fault::at(name.place, message, "each link has a name of its own"));
+        }
+    }
+    let joints = robot.sections("joint").map(|joint| Joint::read(joint, &links, omissions));
+    let joints = joints.collect::<Result<Vec<_>, _>>()?;
+    if links.is_empty() {
+        let help = "<link>s; macros are expanded first: `xacro FILE > FILE.urdf`";
+        return Err(Fault::at(robot.place, "has no links", help));
+    }
+    let mut held = BTreeSet::new();
+    for joint in &joints {
+        if !held.insert(joint.child.value.as_str()) {
+            let message = format!("link `{}` hangs on two joints", joint.child.value);
+            let help = "a URDF is a tree; a loop is closed by a [[joint]] in the scene";
+            return Err(Fault::at(joint.child.place, message, help));
+        }
+    }
+    let mut on = BTreeMap::<&str, Vec<&Joint<'_>>>::new();
+    for joint in &joints {
+        on.entry(joint.parent.value.as_str()).or_default().push(joint);
+    }
+    let tree = Robot { links, on };
+    let mut world = empty("worldbody", robot.place);
+    let mut count = 0;
+    for (name, link) in &tree.links {
+        if held.contains(name) {
+            continue;
+        }
+        let ground = *name == "world";
+        let body = tree.body(link, None, (0, &mut count))?;
+        if ground {
+            world.children.extend(body.children.into_iter().filter(|c| c.name != "inertial"));
+        } else {
+            world.children.push(body);
+        }
+    }
+    if count < tree.links.len() {
+        let circle = tree.links.iter().find(|(name, _)| held.contains(*name));
+        let place = circle.map_or(robot.place, |(_, link)| link.place);
+        let message = "its links hang on each other in a circle";
+        return Err(Fault::at(place, message, "a tree of links with one that no joint holds"));
+    }
+    let given = |name: &str, value: &str| attribute(name, value, robot.place);
+    let mut compiler = empty("compiler", robot.place);
+    compiler.attributes =
+        vec![given("angle", "radian"), given("eulerseq", "XYZ"), given("inertiafromgeom", "false")];
+    // By its name it is known that no step was stated.
+    let mut mujoco = empty("robot", robot.place);
+    mujoco
+        .attributes
+        .extend(robot.attribute("name").map(|name| attribute("model", &name.value, name.place)));
+    mujoco.children = vec![compiler];
+    // What a URDF says to MuJoCo alone.
+    for section in robot.sections("mujoco") {
+        let own = |one: &&Element| matches!(one.name.as_str(), "compiler" | "option");
+        mujoco.children.extend(section.children.iter().filter(own).cloned());
+    }
+    mujoco.children.push(world);
+    mujoco.children.push(equalities(robot, &joints, omissions)?);
+    mujoco.children.push(motors(robot, &joints, omissions)?);
+    Ok(mujoco)
+}
+
+/// A joint as it is written.
+struct Joint<'e> {
+    element: &'e Element,
+    name: &'e Attribute,
+    kind: &'static str,
+    parent: &'e Attribute,
+    child: &'e Attribute,
+}
+
+impl<'e> Joint<'e> {
+    fn read(
+        element: &'e Element,
+        links: &BTreeMap<&str, &Element>,
+        omissions: &mut Omissions,
+    ) -> Result<Self, Fault> {
+        known(element, JOINT, omissions);
+        let name = required(element, "name", "<joint name=\"…\" type=\"…\">")?;
+        let kind = required(element, "type", &TYPES.join(", "))?;
+        let Some(known) = TYPES.into_iter().find(|known| *known == kind.value) else {
+            let message = format!("`{}` is no type of joint", kind.value);
+            return Err(Fault::at(kind.place, message, TYPES.join(", ")));
+        };
+        let end = |which: &str| -> Result<&'e Attribute, Fault> {
+            let help = format!("<{which} link=\"…\"/>");
+            let Some(end) = element.sections(which).next() else {
+                let message = format!("{} has no <{which}>", element.called());
+                return Err(Fault::at(element.place, message, help));
+            };
+            let link = required(end, "link", &help)?;
+            if links.contains_key(link.value.as_str()) {
+                return Ok(link);
+            }
+            let meant = nearest(&link.value, links.keys().copied());
+            let help = meant.map_or_else(
+                || "the name of a link".to_owned(),
+                |meant| format!("did you mean `{meant}`?"),
+            );
+            Err(Fault::at(link.place, format!("names no link: `{}`", link.value), help))
+        };
+        let (parent, child) = (end("parent")?, end("child")?);
+        if known == "planar" {
+            let what =
+                format!("{}: a planar joint; two slides and a hinge say that", element.called());
+            omissions.add(Kind::Joints, element.place, what);
+        }
+        Ok(Self { element, name, kind: known, parent, child })
+    }
+
+    /// Whether it has one freedom, a hinge's or a slide's.
+    fn moves(&self) -> bool {
+        matches!(self.kind, "revolute" | "continuous" | "prismatic")
+    }
+
+    /// Its number within a part of it, 0 where that is not there.
+    fn number(&self, part: &str, name: &str) -> Result<Option<f64>, Fault> {
+        let Some(part) = self.element.sections(part).next() else { return Ok(None) };
+        Attributes::own(part).number(name)
+    }
+
+    /// As a joint of MJCF; `None` where it has no freedom.
+    fn freedom(&self) -> Result<Option<Element>, Fault> {
+        let mut joint = empty("joint", self.element.place);
+        let kind = match self.kind {
+            "revolute" | "continuous" => "hinge",
+            "prismatic" => "slide",
+            "floating" => {
+                joint.name = "freejoint".into();
+                joint.attributes.push(attribute("name", &self.name.value, self.name.place));
+                return Ok(Some(joint));
+            }
+            _ => return Ok(None),
+        };
+        let mut add = |name: &str, value: &str, place: Place| {
+            joint.attributes.push(attribute(name, value, place));
+        };
+        add("name", &self.name.value, self.name.place);
+        add("type", kind, self.element.place);
+        match self.element.sections("axis").next().and_then(|axis| axis.attribute("xyz")) {
+            Some(axis) => add("axis", &axis.value, axis.place),
+            None => add("axis", "1 0 0", self.element.place),
+        }
+        if let Some(limit) = self.element.sections("limit").next()
+            && self.kind != "continuous"
+        {
+            let given = Attributes::own(limit);
+            let end = |name: &str| given.number(name).map(|end| end.unwrap_or(0.0));
+            let (lower, upper) = (end("lower")?, end("upper")?);
+            // As in MuJoCo, equal ends are none.
+            if lower < upper {
+                add("range", &format!("{lower:?} {upper:?}"), limit.place);
+            } else if lower > upper {
+                let message = format!("`lower` {lower} is above `upper` {upper}");
+                return Err(Fault::at(limit.place, message, "lower below upper"));
+            }
+        }
+        if let Some(dynamics) = self.element.sections("dynamics").next() {
+            for (name, to) in [("damping", "damping"), ("friction", "frictionloss")] {
+                if let Some(number) = dynamics.attribute(name) {
+                    add(to, &number.value, number.place);
+                }
+            }
+        }
+        Ok(Some(joint))
+    }
+}
+
+/// Links by their names, and the joints on each.
+struct Robot<'e> {
+    links: BTreeMap<&'e str, &'e Element>,
+    on: BTreeMap<&'e str, Vec<&'e Joint<'e>>>,
+}
+
+impl Robot<'_> {
+    /// A link with all that hangs on it; `count` links so far.
+    fn body(
+        &self,
+        link: &Element,
+        joint: Option<&Joint<'_>>,
+        (depth, count): (usize, &mut usize),
+    ) -> Result<Element, Fault> {
+        if depth > DEPTH {
+            let message = format!("hangs on more than {DEPTH} links, one on another");
+            return Err(Fault::at(link.place, message, "a shorter chain of links"));
+        }
+        *count += 1;
+        let mut body = empty("body", link.place);
+        let name = link.text("name").unwrap_or_default();
+        let place = link.attribute("name").map_or(link.place, |name| name.place);
+        body.attributes.push(attribute("name", name, place));
+        if let Some(joint) = joint {
+            body.attributes.extend(pose(joint.element)?);
+            body.children.extend(joint.freedom()?);
+        }
+        body.children.extend(inertial(link)?);
+        for (section, touches) in [("visual", false), ("collision", true)] {
+            for one in link.sections(section) {
+                body.children.extend(geom(one, touches)?);
+            }
+        }
+        for joint in self.on.get(name).into_iter().flatten() {
+            if let Some(child) = self.links.get(joint.child.value.as_str()) {
+                body.children.push(self.body(child, Some(joint), (depth + 1, count))?);
+            }
+        }
+        Ok(body)
+    }
+}
+
+/// `pos` and `euler` of an `<origin>`.
+fn pose(element: &Element) -> Result<Vec<Attribute>, Fault> {
+    let Some(origin) = element.sections("origin").next() else { return Ok(Vec::new()) };
+    let given = |from: &str, to: &str| {
+        origin.attribute(from).map(|given| attribute(to, &given.value, given.place))
+    };
+    Ok(given("xyz", "pos").into_iter().chain(given("rpy", "euler")).collect())
+}
+
+/// The mass of a link, its inertia along the axes of the link.
+fn inertial(link: &Element) -> Result<Option<Element>, Fault> {
+    let Some(section) = link.sections("inertial").next() else { return Ok(None) };
+    let part = |name: &str| {
+        section.sections(name).next().ok_or_else(|| {
+            let message = format!("<inertial> of {} has no <{name}>", link.called());
+            Fault::at(section.place, message, "<mass value=\"…\"/> and <inertia ixx=\"…\" …/>")
+        })
+    };
+    let (mass, inertia) = (part("mass")?, part("inertia")?);
+    let value = required(mass, "value", "kg")?;
+    let given = Attributes::own(inertia);
+    let number = |name: &str| given.number(name).map(|number| number.unwrap_or(0.0));
+    let [xx, yy, zz] = [number("ixx")?, number("iyy")?, number("izz")?];
+    let [xy, xz, yz] = [number("ixy")?, number("ixz")?, number("iyz")?];
+    let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    let mut made = empty("inertial", section.place);
+    made.attributes.push(attribute("mass", &value.value, value.place));
+    let origin = section.sections("origin").next();
+    let origin = origin.map(Attributes::own);
+    let angles = origin.as_ref().map_or(Ok(None), |origin| origin.vector("rpy"))?;
+    let turn = angles
+        .map_or_else(Rotation3::identity, |rpy| Rotation3::from_euler_angles(rpy.x, rpy.y, rpy.z));
+    let turned = turn * tensor * turn.inverse();
+    let six = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+    let six: Vec<String> = six.iter().map(|at| format!("{:?}", turned[*at])).collect();
+    let at = origin.and_then(|origin| origin.get("xyz").cloned());
+    made.attributes.push(match at {
+        Some(at) => attribute("pos", &at.value, at.place),
+        None => attribute("pos", "0 0 0", section.place),
+    });
+    made.attributes.push(attribute("fullinertia", &six.join(" "), inertia.place));
+    Ok(Some(made))
+}
+
+/// What a link looks like, or what of it touches.
+fn geom(section: &Element, touches: bool) -> Result<Option<Element>, Fault> {
+    let geometry = section.sections("geometry").next().and_then(|one| one.children.first());
+    let Some(geometry) = geometry else { return Ok(None) };
+    let mut geom = empty("geom", section.place);
+    let mut add = |name: &str, value: &str, place: Place| {
+        geom.attributes.push(attribute(name, value, place));
+    };
+    let given = Attributes::own(geometry);
+    let number = |name: &str| -> Result<f64, Fault> {
+        given.number(name)?.ok_or_else(|| {
+            let message = format!("<{}> has no `{name}`", geometry.name);
+            Fault::at(geometry.place, message, "its size in m")
+        })
+    };
+    match geometry.name.as_str() {
+        "box" => {
+            let Some(size) = given.vector("size")? else {
+                return Err(Fault::at(geometry.place, "<box> has no `size`", "three sides in m"));
+            };
+            let half = size * 0.5;
+            add("type", "box", geometry.place);
+            add("size", &format!("{:?} {:?} {:?}", half.x, half.y, half.z), geometry.place);
+        }
+        "cylinder" | "capsule" => {
+            let size = format!("{:?} {:?}", number("radius")?, 0.5 * number("length")?);
+            add("type", &geometry.name, geometry.place);
+            add("size", &size, geometry.place);
+        }
+        "sphere" => {
+            add("type", "sphere", geometry.place);
+            add("size", &format!("{:?}", number("radius")?), geometry.place);
+        }
+        // A picture has none of it; of what touches, that it does is said.
+        "mesh" if touches => {
+            let file = given.text("filename").unwrap_or_default();
+            add("type", "mesh", geometry.place);
+            add("mesh", file, geometry.place);
+        }
+        "mesh" => return Ok(None),
+        other => {
+            let message = format!("<{other}> is no geometry");
+            let help = "<box>, <cylinder>, <sphere> or <mesh>";
+            return Err(Fault::at(geometry.place, message, help));
+        }
+    }
+    if touches {
+        add("rgba", "0 0 0 0", section.place);
+    } else {
+        add("contype", "0", section.place);
+        add("conaffinity", "0", section.place);
+        let colour = section.sections("material").flat_map(|one| one.sections("color")).next();
+        if let Some(colour) = colour.and_then(|colour| colour.attribute("rgba")) {
+            add("rgba", &colour.value, colour.place);
+        }
+    }
+    geom.attributes.extend(pose(section)?);
+    Ok(Some(geom))
+}
+
+/// Joints that mimic others.
+fn equalities(
+    robot: &Element,
+    joints: &[Joint<'_>],
+    omissions: &mut Omissions,
+) -> Result<Element, Fault> {
+    let mut section = empty("equality", robot.place);
+    for joint in joints {
+        let Some(mimic) = joint.element.sections("mimic").next() else { continue };
+        // What does not move mimics nothing.
+        if !joint.moves() {
+            continue;
+        }
+        let other = required(mimic, "joint", "<mimic joint=\"…\" multiplier=\"…\" offset=\"…\"/>")?;
+        if joints.iter().any(|joint| joint.name.value == other.value && !joint.moves()) {
+            let called = joint.element.called();
+            let what = format!("{called}: mimics `{}`, which does not move", other.value);
+            omissions.add(Kind::Equality, mimic.place, what);
+            continue;
+        }
+        let number = |name: &str, default: f64| {
+            joint.number("mimic", name).map(|number| number.unwrap_or(default))
+        };
+        let (multiplier, offset) = (number("multiplier", 1.0)?, number("offset", 0.0)?);
+        let mut equality = empty("joint", mimic.place);
+        equality.attributes = vec![
+            attribute("name", &format!("{}-mimic", joint.name.value), joint.name.place),
+            attribute("joint1", &joint.name.value, joint.name.place),
+            attribute("joint2", &other.value, other.place),
+            attribute("polycoef", &format!("{offset:?} {multiplier:?} 0 0 0"), mimic.place),
+        ];
+        section.children.push(equality);
+    }
+    Ok(section)
+}
+
+/// A motor at the joint of each transmission, as strong as the joint's `effort` says.
+fn motors(
+    robot: &Element,
+    joints: &[Joint<'_>],
+    omissions: &mut Omissions,
+) -> Result<Element, Fault> {
+    let mut section = empty("actuator", robot.place);
+    for transmission in robot.sections("transmission") {
+        for of in transmission.sections("joint") {
+            let name = required(of, "name", "<joint name=\"…\">")?;
+            let driven = joints.iter().find(|joint| joint.name.value == name.value);
+            let Some(driven) = driven.filter(|joint| joint.moves()) else {
+                let called = transmission.called();
+                let what =
+                    format!("{called}: drives `{}`, which is no joint that moves", name.value);
+                omissions.add(Kind::Actuator, name.place, what);
+                continue;
+            };
+            let mut motor = empty("motor", transmission.place);
+            let actuator = transmission.sections("actuator").find_map(|one| one.attribute("name"));
+            let called = actuator.unwrap_or(name);
+            motor.attributes.push(attribute("name", &called.value, called.place));
+            motor.attributes.push(attribute("joint", &name.value, name.place));
+            if let Some(effort) = driven.number("limit", "effort")?.filter(|effort| *effort > 0.0) {
+                let range = format!("{:?} {effort:?}", -effort);
+                motor.attributes.push(attribute("ctrlrange", &range, driven.element.place));
+            }
+            section.children.push(motor);
+        }
+    }
+    Ok(section)
+}
+
+fn empty(name: &str, place: Place) -> Element {
+    Element { name: name.to_owned(), place, ..Element::default() }
+}
+
+fn attribute(name: &str, value: &str, place: Place) -> Attribute {
+    Attribute { name: name.to_owned(), value: value.to_owned(), place }
+}
+
+fn required<'e>(element: &'e Element, name: &str, help: &str) -> Result<&'e Attribute, Fault> {
+    element.attribute(name).ok_or_else(|| {
+        Fault::at(element.place, format!("{} has no `{name}`", element.called()), help)
+    })
+}
+
+/// Lists elements of no known name.
+fn known(element: &Element, names: &[&str], omissions: &mut Omissions) {
+    for child in element.children.iter().filter(|child| !names.contains(&child.name.as_str())) {
+        let meant = nearest(&child.name, names.iter().copied());
+        let meant = meant.map_or(String::new(), |meant| format!(", did you mean <{meant}>?"));
+        let what = format!("<{}> in <{}>{meant}", child.name, element.name);
+        omissions.add(Kind::Unknown, child.place, what);
+    }
+}

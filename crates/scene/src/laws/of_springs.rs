@@ -1,0 +1,42 @@
+//! `limits` of raw TSDAs and of torsion springs: stops of their lengths and twists.
+//!
+//! `(table of a spring, its limits) => bodies, geometry of the law`. A length is what it is, a twist counts from t = 0.
+
+use dbd_kernel::Vec3;
+
+use crate::assembly::Assembly;
+use crate::error::SceneError;
+use crate::laws::field::{Of, TwoPlaces};
+use crate::laws::of_joints::{LIMITS, check_limits};
+use crate::pair::{Between, Pair};
+use crate::points::Heading;
+use crate::text::Table;
+
+/// The keys of limits of a length: an offset has nothing to count from.
+fn keys(kind: &str) -> Vec<&'static str> {
+    LIMITS.iter().copied().filter(|key| kind != "tsda" || *key != "offset").collect()
+}
+
+/// What stops a spring: its bodies, exchanged where the ground is the second one, its points or its axis.
+pub(super) fn limits<'a>(
+    owner: &Table<'_>,
+    table: &Table<'_>,
+    kind: &str,
+    assembly: &Assembly,
+) -> Result<(Pair, Of<'a>), SceneError> {
+    table.only(&[&keys(kind)])?;
+    check_limits(table)?;
+    let pair = owner.required("between", Between(assembly))?;
+    let (mut points, mut axis) = ([[0.0; 3]; 2], Vec3::ZERO);
+    if kind == "tsda" {
+        points = owner.required("points", TwoPlaces { assembly, pair: &pair })?;
+    } else {
+        let written = owner.required("axis", Heading(assembly))?;
+        axis = assembly.carried_direction(pair.a, written);
+    }
+    if !pair.b.is_world() {
+        return Ok((pair, Of::Spring(points, axis)));
+    }
+    let [first, second] = points;
+    Ok((pair.reversed(), Of::Spring([second, first], -axis)))
+}
