@@ -4,7 +4,7 @@
 
 use crate::damping::kick::Kick;
 use crate::damping::moving::Moving;
-use crate::damping::pair::Damper;
+use crate::damping::pair::{Damper, Limits};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::laws::MOST_BRANCHES;
@@ -76,7 +76,7 @@ impl<P: Geometry> Far<P> {
         &self,
         model: &ModelRef<'_, P, T>,
         kick: &K,
-        (damper, limits): (Damper<P::Real>, (P::Real, [P::Real; 2], bool)),
+        (damper, limits): (Damper<P::Real>, Limits<P::Real>),
         moving: &mut Moving<'_, P>,
     ) {
         let [mut inverse, mut rate, mut kicked] = [P::Real::ZERO; 3];

@@ -24,6 +24,10 @@ pub(super) struct Damper<R> {
     pub(super) h: R,
 }
 
+/// What bounds a damper's impulse: the rate it goes towards, its least and its largest impulse \[N·s\], whether it takes no
+/// more than all of the rate.
+pub(super) type Limits<R> = (R, [R; 2], bool);
+
 impl<R: Real> Damper<R> {
     /// `(h·c/μ, impulse per relative velocity μ·s/(1 + s))`, `s = x + x²/2` and `x = h·c/μ`, from
     /// `1/μ > 0`: a share of μ in \[0, 1\].
@@ -53,7 +57,7 @@ impl<R: Real> Damper<R> {
         &self,
         kicked: bool,
         [inverse, rate, kick]: [R; 3],
-        (towards, [least, most], brakes): (R, [R; 2], bool),
+        (towards, [least, most], brakes): Limits<R>,
     ) -> R {
         let (x, impulse_per_rate) = self.impulse_per_rate(inverse);
         let rate = if kicked { rate - kick * self.unmet(x) } else { rate };
@@ -206,7 +210,7 @@ impl<S: Space> Pair<S> {
         &mut self,
         direction: &Direction<S>,
         damper: Damper<S::Real>,
-        limits: (S::Real, [S::Real; 2], bool),
+        limits: Limits<S::Real>,
         inner: Option<(S::Real, &mut Inner<S::Real>)>,
     ) {
         self.push::<P, K>(direction, S::Real::truth(false), inner, |inverse, rate, kick| {

@@ -26,7 +26,7 @@ pub(super) enum Of<'a> {
     /// To a raw TSDA or a torsion spring: its points, its axis (world).
     Spring([[f64; 3]; 2], Vec3<f64>),
     /// To a coupling: its terms and constants.
-    Coupling([Option<Term>; MOST_TERMS], Constants),
+    Coupling(Box<[Option<Term>; MOST_TERMS]>, Constants),
 }
 
 impl Of<'_> {
@@ -182,7 +182,7 @@ impl FieldSource for Reading<'_, '_> {
     }
 
     fn terms(&mut self, _: &Field) -> Option<[Option<Term>; MOST_TERMS]> {
-        if let Of::Coupling(terms, _) = self.of { Some(terms) } else { None }
+        if let Of::Coupling(terms, _) = &self.of { Some(**terms) } else { None }
     }
 }
 

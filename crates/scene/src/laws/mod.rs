@@ -379,7 +379,7 @@ fn of_couplings<'t>(
             Coupled::read(&table, joints, assembly)?;
         let label = format!("{} ({})", table.label(), joints.join(", "));
         let one = One { name: None, table, label, place: ("coupling", number), quantities };
-        rows.add(law, assembly, (pair, Of::Coupling(terms, constants)), one)?;
+        rows.add(law, assembly, (pair, Of::Coupling(Box::new(terms), constants)), one)?;
     }
     Ok(())
 }

@@ -50,7 +50,7 @@ enum Known {
     Normal([f64; 3]),
     Axis([f64; 3], [f64; 4]),
     Table(Vec<[f64; 2]>),
-    Terms([Option<Term>; MOST_TERMS]),
+    Terms(Box<[Option<Term>; MOST_TERMS]>),
 }
 
 /// Takes the constants of a row in space, and gives them in the plane.
@@ -150,7 +150,7 @@ impl FieldSink for Flat<'_> {
             Some(Term { bodies, factor, way })
         });
         self.bodies = own;
-        self.known.push_back(Known::Terms(flat));
+        self.known.push_back(Known::Terms(Box::new(flat)));
     }
 }
 
@@ -179,6 +179,6 @@ impl FieldSource for Flat<'_> {
         Some(knots.len())
     }
     fn terms(&mut self, _: &Field) -> Option<[Option<Term>; MOST_TERMS]> {
-        if let Known::Terms(terms) = self.known.pop_front()? { Some(terms) } else { None }
+        if let Known::Terms(terms) = self.known.pop_front()? { Some(*terms) } else { None }
     }
 }
