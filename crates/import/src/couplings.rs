@@ -112,6 +112,19 @@ pub(crate) fn tendon(
     settings: &Settings,
 ) -> Result<Option<&'static str>, Fault> {
     let element = given.element;
+    let off = |flag: &str, value: f64| if settings.is_off(flag) { 0.0 } else { value };
+    let linear = |name: &str| -> Result<f64, Fault> {
+        Ok(given.numbers(name, 1, 3)?.map_or(0.0, |numbers| numbers[0]))
+    };
+    let stiffness_of_spring = off("spring", linear("stiffness")?);
+    let damping = off("damper", linear("damping")?);
+    let limited = given.limited("limited", "range", settings.automatic_limits)?;
+    let range = given.numbers("range", 2, 2)?.filter(|_| limited && !settings.is_off("limit"));
+    if stiffness_of_spring == 0.0 && damping == 0.0 && range.is_none() {
+        let called = element.called();
+        mechanism.notes.push(format!("{called} has no force of its own and is left out"));
+        return Ok(None);
+    }
     let mut terms = Vec::new();
     for child in element.children.iter().filter(|child| child.name == "joint") {
         let own = Attributes::own(child);
@@ -127,21 +140,8 @@ pub(crate) fn tendon(
             terms.push(term);
         }
     }
-    let off = |flag: &str, value: f64| if settings.is_off(flag) { 0.0 } else { value };
-    let linear = |name: &str| -> Result<f64, Fault> {
-        Ok(given.numbers(name, 1, 3)?.map_or(0.0, |numbers| numbers[0]))
-    };
-    let stiffness_of_spring = off("spring", linear("stiffness")?);
-    let damping = off("damper", linear("damping")?);
-    let limited = given.limited("limited", "range", settings.automatic_limits)?;
-    let range = given.numbers("range", 2, 2)?.filter(|_| limited && !settings.is_off("limit"));
-    if stiffness_of_spring == 0.0 && damping == 0.0 && range.is_none() {
-        let called = element.called();
-        mechanism.notes.push(format!("{called} has no force of its own and is left out"));
-        return Ok(None);
-    }
-    if !(2..=MOST).contains(&terms.len()) {
-        return Ok(Some("a scene couples two or three joints"));
+    if !(1..=MOST).contains(&terms.len()) {
+        return Ok(Some("a scene couples one to three joints"));
     }
     if stiffness_of_spring < 0.0 || damping < 0.0 {
         return Ok(Some("its stiffness and damping are not ≥ 0"));

@@ -136,6 +136,21 @@ pub(crate) struct Line {
     pub(crate) source: Source,
 }
 
+/// A range of the distance of two points.
+#[derive(Clone, Debug)]
+pub(crate) struct Rope {
+    /// Its name.
+    pub(crate) name: String,
+    /// What it holds.
+    pub(crate) between: [Side; 2],
+    /// \[m\] its ends, world.
+    pub(crate) points: [Vector3<f64>; 2],
+    /// \[m\]
+    pub(crate) range: [f64; 2],
+    /// Where it comes from.
+    pub(crate) source: Source,
+}
+
 /// A spring that holds a point of a part to a line of the world.
 #[derive(Clone, Debug)]
 pub(crate) struct Rail {
@@ -219,6 +234,8 @@ pub(crate) struct Mechanism<'m> {
     pub(crate) torsions: Vec<Torsion>,
     /// Springs along slides and tendons.
     pub(crate) lines: Vec<Line>,
+    /// Ranges of tendons.
+    pub(crate) ropes: Vec<Rope>,
     /// Springs of slides in the plane.
     pub(crate) rails: Vec<Rail>,
     /// Coordinates of joints, by their bodies.
@@ -266,6 +283,7 @@ impl<'m> Mechanism<'m> {
             links: Vec::new(),
             torsions: Vec::new(),
             lines: Vec::new(),
+            ropes: Vec::new(),
             rails: Vec::new(),
             coordinates: BTreeMap::new(),
             axes: BTreeMap::new(),

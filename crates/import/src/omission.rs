@@ -46,7 +46,7 @@ kinds! {
     Joints = "joints",
     /// springs of balls that start turned, springs and dampers of free bodies, stiffness that is not linear
     Spring = "spring",
-    /// tendons that are no spring between two sites and no coupling of two or three joints
+    /// tendons that are no spring between two sites and no coupling of one to three joints
     Tendon = "tendon",
     /// equalities between tendons and flexes, of joints by a curve, welds at another angle
     Equality = "equality",

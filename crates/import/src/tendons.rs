@@ -7,7 +7,7 @@ use crate::couplings;
 use crate::defaults::{Attributes, Defaults, MAIN};
 use crate::element::Element;
 use crate::error::Fault;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, Rope};
 use crate::omission::{Kind, Omissions};
 use crate::pose::Pose;
 use crate::settings::Settings;
@@ -89,13 +89,27 @@ fn tendon(
     limits(given, settings, omissions)?;
     let points = [mechanism.point(a, at_a), mechanism.point(b, at_b)];
     let name = element.text("name").unwrap_or("tendon").to_owned();
+    let words = format!("<spatial name=\"{name}\"> between `{}` and `{}`", one.value, two.value);
+    let limited = given.limited("limited", "range", settings.automatic_limits)?;
+    let range = given.numbers("range", 2, 2)?.filter(|_| limited && !settings.is_off("limit"));
+    if let Some([from, to]) = range.as_deref().and_then(|range| <[f64; 2]>::try_from(range).ok()) {
+        if from >= to || to <= 0.0 {
+            return Ok(Some("its range has no extent"));
+        }
+        let rope = Rope {
+            name: mechanism.own_name(&format!("{name}-range")),
+            between: [mechanism.side(a), mechanism.side(b)],
+            points,
+            range: [from.max(0.0), to],
+            source: (words.clone(), element.place),
+        };
+        mechanism.ropes.push(rope);
+    }
     let coordinate = Coordinate::Length { between, points };
     let mut made = None;
     if stiffness > 0.0 || damping > 0.0 {
         let rest = free - (points[1] - points[0]).norm();
         let law = Law { stiffness, damping, rest, bias: 0.0 };
-        let words =
-            format!("<spatial name=\"{name}\"> between `{}` and `{}`", one.value, two.value);
         made = Some(coordinate.spring(mechanism, &name, law, (words, element.place)));
         if let Some(line) = mechanism.lines.last_mut() {
             // As it is written: not what rounding makes of a sum and a difference.
@@ -115,16 +129,11 @@ fn limits(
     let (element, called) = (given.element, given.element.called());
     let mut add =
         |kind: Kind, what: String| omissions.add(kind, element.place, format!("{called}: {what}"));
-    for (limited, name, unit) in
-        [("limited", "range", "m"), ("actuatorfrclimited", "actuatorfrcrange", "N")]
+    let name = "actuatorfrcrange";
+    if given.limited("actuatorfrclimited", name, settings.automatic_limits)?
+        && let Some(range) = given.numbers(name, 2, 2)?
     {
-        // Of a fixed tendon a range is a coupling.
-        let off = name == "range" && (settings.is_off("limit") || element.name == "fixed");
-        if given.limited(limited, name, settings.automatic_limits)?
-            && let (Some(range), false) = (given.numbers(name, 2, 2)?, off)
-        {
-            add(Kind::Limit, format!("{name} {} to {} {unit}", range[0], range[1]));
-        }
+        add(Kind::Limit, format!("{name} {} to {} N", range[0], range[1]));
     }
     let armature = given.magnitude("armature", 0.0)?;
     if armature > 0.0 {

@@ -84,10 +84,10 @@ fn top(
             "# Couplings, where the file states nothing: as stiff as limits, damped by {SETTLING} s of that."
         );
     }
-    if !mechanism.contacts.is_empty() {
+    if !(mechanism.contacts.is_empty() && mechanism.ropes.is_empty()) {
         let _ = writeln!(
             out,
-            "# Contacts, stated: as stiff as joints, an impact at {LIMIT_SPEED} m/s returns {RESTITUTION} of it."
+            "# Contacts and ranges of tendons, stated: as stiff as joints, an impact at {LIMIT_SPEED} m/s returns {RESTITUTION} of it."
         );
     }
     if options.weld == Weld::Merge {
@@ -263,6 +263,22 @@ fn springs(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
         let _ = writeln!(out, "damping = {}", number(spring.damping));
         let _ = writeln!(out, "preload = {}", number(spring.preload));
     }
+    for rope in &mechanism.ropes {
+        out.push('\n');
+        comment(out, &rope.source, texts);
+        let _ = writeln!(out, "[[interaction]]\nname = {}", text(&rope.name));
+        let _ = writeln!(out, "law = \"distance-stop\"");
+        // The ground comes first.
+        let [a, b] = if rope.between[1].is_none() { [1, 0] } else { [0, 1] };
+        let sides = [rope.between[a], rope.between[b]];
+        let _ = writeln!(out, "between = {}", between(mechanism, sides));
+        let [first, second] =
+            [a, b].map(|i| vector(mechanism.within(rope.between[i], rope.points[i]), size));
+        let _ = writeln!(out, "points = [{first}, {second}]");
+        let [from, to] = rope.range.map(number);
+        let _ = writeln!(out, "from = {from}\nto = {to}");
+        stop(out, mechanism);
+    }
     for coupling in &mechanism.couplings {
         out.push('\n');
         comment(out, &coupling.source, texts);
@@ -303,9 +319,7 @@ fn contacts(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
         let _ = writeln!(out, "points = [{ground}, {centre}]");
         let _ = writeln!(out, "normal = {}", vector(contact.normal, 1.0));
         let _ = writeln!(out, "radius = {}", number(contact.radius));
-        let _ = writeln!(out, "stiffness = {}", number(mechanism.options.stiffness));
-        let dissipation = dbd_scene::laws::dissipation(RESTITUTION, LIMIT_SPEED);
-        let _ = writeln!(out, "dissipation = {}", number(rounded(dissipation)));
+        stop(out, mechanism);
         if contact.friction > 0.0 {
             let _ = writeln!(out, "friction = {}", number(contact.friction));
             let _ = writeln!(out, "damping = {}", number(contact.damping));
@@ -314,6 +328,13 @@ fn contacts(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
             let _ = writeln!(out, "rolling = {}", number(contact.rolling));
         }
     }
+}
+
+/// How stiff what stops is, and what comes back of an impact.
+fn stop(out: &mut String, mechanism: &Mechanism<'_>) {
+    let _ = writeln!(out, "stiffness = {}", number(mechanism.options.stiffness));
+    let dissipation = dbd_scene::laws::dissipation(RESTITUTION, LIMIT_SPEED);
+    let _ = writeln!(out, "dissipation = {}", number(rounded(dissipation)));
 }
 
 /// What of geoms can be seen, in the axes of their bodies.

@@ -278,8 +278,8 @@ impl<P: Geometry> Interaction<P> for Coupling<P> {
         for term in self.terms.iter().flatten() {
             Wrong::unless(term.factor != zero, "factor", "is 0", "a factor other than 0")?;
         }
-        let many = self.terms.iter().flatten().count() > 1;
-        Wrong::unless(many, "terms", "has one coordinate", "two coordinates or three")?;
+        let any = self.terms.iter().flatten().next().is_some();
+        Wrong::unless(any, "terms", "has no coordinate", "one to three coordinates")?;
         Wrong::unless(self.stiffness > zero, "stiffness", "is not positive", "a stiffness > 0")?;
         Wrong::unless(self.damping >= zero, "damping", "is negative", "a number ≥ 0")?;
         Wrong::unless(self.play >= zero, "play", "is negative", "a number ≥ 0")?;

@@ -166,14 +166,19 @@ fn tendons_between_two_sites_are_tsdas() {
             "around geoms",
         ),
         (
-            "<fixed stiffness='1'><joint joint='h' coef='1'/></fixed>".into(),
+            "<fixed stiffness='1'><joint joint='h' coef='0'/></fixed>".into(),
             Kind::Tendon,
-            "two or three joints",
+            "one to three joints",
         ),
         (
-            format!("<spatial stiffness='1' range='0 2'>{sites}</spatial>"),
+            format!("<spatial stiffness='1' range='2 0' limited='true'>{sites}</spatial>"),
+            Kind::Tendon,
+            "no extent",
+        ),
+        (
+            format!("<spatial stiffness='1' actuatorfrcrange='0 2'>{sites}</spatial>"),
             Kind::Limit,
-            "range 0 to 2 m",
+            "actuatorfrcrange 0 to 2 N",
         ),
         (format!("<spatial stifness='1'>{sites}</spatial>"), Kind::Unknown, "`stiffness`"),
     ] {

@@ -62,6 +62,30 @@ fn offset_in(scene: &str) -> f64 {
     line.unwrap().parse().unwrap()
 }
 
+/// A range of a tendon between two sites stops its length, the ground first; of one joint it stops that joint.
+#[test]
+fn ranges_of_tendons_are_stops() {
+    let more =
+        "<tendon><fixed name='one' range='-0.1 0.2'><joint joint='h' coef='0.5'/></fixed></tendon>";
+    let scene = loaded(&of(&two(more), &Options::default()));
+    let found = scene.interactions();
+    assert_eq!((found.len(), found[0].name()), (1, Some("one-range")));
+    let text = "<mujoco><worldbody><site name='w' pos='0 0 1'/>\
+                <body name='a'><freejoint/><geom size='0.1' contype='0' conaffinity='0'/><site name='s' pos='0 0.1 0'/></body>\
+                </worldbody><tendon><spatial name='rope' range='0.5 1.2'><site site='s'/><site site='w'/></spatial>\
+                </tendon></mujoco>";
+    let made = of(text, &Options::default());
+    let scene = loaded(&made);
+    let found = &scene.interactions()[0];
+    assert_eq!((found.law, found.name()), ("distance-stop", Some("rope-range")));
+    assert!(
+        found.bodies[0].is_world() && made.scene.contains("from = 0.5\nto = 1.2"),
+        "{}",
+        made.scene
+    );
+    assert_eq!(found.points, Some([[0.0, 0.0, 1.0], [0.0, 0.1, 0.0]]));
+}
+
 /// What is written counts coordinates from where the scene begins.
 #[test]
 fn offsets_count_from_where_the_scene_begins() {
@@ -109,7 +133,7 @@ fn what_is_no_linear_sum_is_listed() {
         (
             format!("<tendon><fixed stiffness='1'>{joints}{joints}</fixed></tendon>"),
             Kind::Tendon,
-            "two or three",
+            "one to three",
         ),
         (
             format!("<tendon><fixed stiffness='1' frictionloss='2'>{joints}</fixed></tendon>"),

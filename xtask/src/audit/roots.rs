@@ -15,6 +15,10 @@ pub const SCHEMES: [&str; 12] = [
     "semi-implicit-euler-joint-wise",
     "leapfrog-joint-wise",
 ];
+/// Those of double precision: compiled from the same text, it takes others to the same.
+pub const DOUBLE: [&str; 2] = ["dbd", "leapfrog"];
+/// Models of laws alone.
+pub const LAWFUL: [&str; 2] = ["laws-of-turns", "laws-of-travels"];
 /// Models that are stepped with all of them.
 pub const MODELS: [&str; 2] = ["four-bar", "every-kind"];
 /// What is called between steps, with the second of these models.

@@ -112,12 +112,12 @@ impl<'j> Kind for Of<'j, '_> {
     type Output = Vec<Read<'j>>;
 
     fn expected(&self) -> String {
-        "two or three joints, [{ joint = \"…\" }, { joint = \"…\", factor = … }]".into()
+        "one to three joints, [{ joint = \"…\" }, { joint = \"…\", factor = … }]".into()
     }
 
     fn read(&self, value: &Value<'_>) -> Result<Self::Output, SceneError> {
         let entries = value.array(&self.expected())?;
-        if !(2..=MOST_TERMS).contains(&entries.len()) {
+        if !(1..=MOST_TERMS).contains(&entries.len()) {
             let problem = format!("has {} coordinates", entries.len());
             return Err(value.refuse(&problem, &self.expected()));
         }

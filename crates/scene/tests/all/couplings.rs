@@ -107,12 +107,12 @@ fn what_is_no_coupling_is_refused_with_a_remedy() {
         (format!("{PAIR}\n{stiff}\nplay = \"1 mm\""), ["play", "rad"]),
         (format!("{PAIR}\n{stiff}\nacts = \"both\""), ["acts", "compression"]),
         (format!("{PAIR}\n{stiff}\nratio = 3"), ["ratio", "of"]),
-        (format!("of = [{{ joint = \"wheel\" }}]\n{stiff}"), ["1 coordinates", "two or three"]),
+        (format!("of = []\n{stiff}"), ["0 coordinates", "one to three"]),
         (
             format!(
                 "of = [{{ joint = \"wheel\" }}, {{ joint = \"pinion\", factor = 1 }}, {{ joint = \"rack\", factor = 1 }}, {{ joint = \"nut\", freedom = \"turn\", factor = 1 }}]\n{stiff}"
             ),
-            ["4 coordinates", "two or three"],
+            ["4 coordinates", "one to three"],
         ),
         (pair("{ joint = \"pinion\" }"), ["factor", "a finite number"]),
         (pair("{ joint = \"pinion\", factor = 0 }"), ["is 0", "3 : 1"]),

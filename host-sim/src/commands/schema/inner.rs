@@ -240,7 +240,7 @@ fn of_gear(key: &str) -> Option<Key> {
 /// A coupling of joints.
 pub(super) fn of_coupling(key: &str, tables: &[TableKeys]) -> Option<Key> {
     let terms = json!({
-        "type": "array", "items": within("term", tables, &["joint"]), "minItems": 2, "maxItems": 3,
+        "type": "array", "items": within("term", tables, &["joint"]), "minItems": 1, "maxItems": 3,
     });
     Some(match key {
         "name" => Key(name(), "A name of its own among joints and elements", "none"),

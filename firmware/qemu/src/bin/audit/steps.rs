@@ -1,15 +1,21 @@
 //! Roots `audit.step.MODEL.SCHEME.PRECISION`: steps of all schemes.
 //!
-//! All schemes with the four-bar and with a model that has every kind of element, in all
-//! precisions; every other shipped model with leapfrog in single precision, some in fixed point.
+//! All schemes with the four-bar and with a model that has every kind of element, in single precision and in fixed
+//! point; of double precision, which is compiled from the same text, two schemes. Every law with leapfrog, every other
+//! shipped model with leapfrog in single precision, some in fixed point.
 
+use dbd_kernel::laws::{
+    Coupling, DistanceDamper, DistanceSpring, DistanceStop, EndStop, HingeDamper, HingeDrive,
+    HingeFriction, HingeServo, HingeSpring, HingeStop, PlaneContact, SlideDrive, SlideFriction,
+    SlideServo,
+};
 use dbd_kernel::model::Planned;
 use dbd_kernel::{
     BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Fixed, GeneralizedAlpha,
     GeneralizedAlpha3, JointWise, Leapfrog, Model, Pefrl, Plant, Rk4, SemiImplicitEuler, Status,
 };
 use firmware::alone::Alone;
-use firmware::models::{self, four_bar::FourBarF32, four_bar::FourBarF64};
+use firmware::models::{self, four_bar::FourBarF32};
 
 use crate::Keep;
 
@@ -19,6 +25,38 @@ pub type EveryKind<P> = Model<P, 4, 6, 24, 12, 2, 14, 2, 1, 2, 4, 3, 4, 2>;
 
 /// The same with the plan of a matrix.
 pub type EveryKindPlanned<P> = Planned<&'static EveryKind<P>, 4, 6, 4, 8>;
+
+/// Bodies with laws between them alone.
+type Lawful<P, L> = Model<P, 3, 0, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 3, 0, L>;
+
+/// The laws about axes.
+type OfTurns<P> = Lawful<
+    P,
+    (
+        [Coupling<P>; 1],
+        [HingeStop<P>; 1],
+        [HingeFriction<P>; 1],
+        [HingeSpring<P>; 1],
+        [HingeDamper<P>; 1],
+        [HingeServo<P>; 1],
+        [HingeDrive<P>; 1],
+    ),
+>;
+
+/// The laws along ways.
+type OfTravels<P> = Lawful<
+    P,
+    (
+        [EndStop<P>; 1],
+        [DistanceStop<P>; 1],
+        [PlaneContact<P>; 1],
+        [DistanceSpring<P>; 1],
+        [DistanceDamper<P>; 1],
+        [SlideFriction<P>; 1],
+        [SlideServo<P>; 1],
+        [SlideDrive<P>; 1],
+    ),
+>;
 
 macro_rules! step {
     ($keep:ident, $model:literal $type:ty, $name:literal $scheme:ty, $precision:literal) => {{
@@ -53,7 +91,6 @@ pub fn keep(keep: Keep) {
         ($($name:literal $scheme:ty;)*) => {
             $(
                 step!(keep, "four-bar" Alone<FourBarF32, $scheme>, $name $scheme, "f32");
-                step!(keep, "four-bar" Alone<FourBarF64, $scheme>, $name $scheme, "f64");
             )*
         };
     }
@@ -61,7 +98,6 @@ pub fn keep(keep: Keep) {
         ($($name:literal $scheme:ty;)*) => {
             $(
                 step!(keep, "every-kind" EveryKind<F32>, $name $scheme, "f32");
-                step!(keep, "every-kind" EveryKind<F64>, $name $scheme, "f64");
                 step!(keep, "every-kind" EveryKind<Fixed>, $name $scheme, "fixed");
             )*
         };
@@ -71,6 +107,17 @@ pub fn keep(keep: Keep) {
             $(step!(keep, $scene models::$module::$model, "leapfrog" Leapfrog, "fixed");)*
         };
     }
+    step!(keep, "every-kind" EveryKind<F64>, "dbd" Dbd, "f64");
+    step!(keep, "every-kind" EveryKind<F64>, "leapfrog" Leapfrog, "f64");
+    macro_rules! lawful {
+        ($($precision:ident $name:literal)*) => {
+            $(
+                step!(keep, "laws-of-turns" OfTurns<$precision>, "leapfrog" Leapfrog, $name);
+                step!(keep, "laws-of-travels" OfTravels<$precision>, "leapfrog" Leapfrog, $name);
+            )*
+        };
+    }
+    lawful!(F32 "f32" Fixed "fixed");
     firmware::shipped!(shipped);
     firmware::fixed!(fixed);
     firmware::shipped_f32!(shipped_f32);
