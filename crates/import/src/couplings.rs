@@ -10,7 +10,7 @@ use crate::error::Fault;
 use crate::mechanism::{Axis, Coupling, Mechanism, rounded};
 use crate::settings::Settings;
 
-/// \[s\] damping over stiffness of what MuJoCo's own softness is no law of a scene.
+/// \[s\] damping over stiffness of couplings for which a file states neither: MuJoCo's `solref` is no law of a scene.
 pub(crate) const SETTLING: f64 = 1e-3;
 
 /// The most joints of a coupling.
@@ -25,17 +25,13 @@ struct Term<'m> {
     factor: f64,
 }
 
-impl Term<'_> {
-    /// \[N·m/rad, N/m\] how stiff a limit of the joint is.
-    fn stiffness(&self, mechanism: &Mechanism<'_>) -> f64 {
-        let arm = if self.joint.freedom == Freedom::Hinge { 0.5 * self.axis.span } else { 1.0 };
-        mechanism.options.stiffness * arm * arm
-    }
-}
-
 /// Stiff enough to hold, and at each joint no stiffer than its limits.
 fn stiffness(mechanism: &Mechanism<'_>, terms: &[Term<'_>]) -> f64 {
-    let of = |term: &Term<'_>| term.stiffness(mechanism) / (term.factor * term.factor);
+    let of = |term: &Term<'_>| {
+        let is_hinge = term.joint.freedom == Freedom::Hinge;
+        let own = mechanism.options.stiffness_of_limits(is_hinge, term.axis.span);
+        own / (term.factor * term.factor)
+    };
     rounded(terms.iter().map(of).fold(f64::INFINITY, f64::min))
 }
 
@@ -55,7 +51,7 @@ fn of(terms: &[Term<'_>]) -> Vec<(Axis, f64)> {
     terms.iter().map(|term| (term.axis.clone(), signed(term))).collect()
 }
 
-/// Adds the coupling of an equality between two joints, or says why there is none.
+/// Adds a coupling for an equality of two joints; otherwise the reason why a scene has none.
 pub(crate) fn equality(
     mechanism: &mut Mechanism<'_>,
     given: &Attributes<'_>,
@@ -105,7 +101,7 @@ pub(crate) fn equality(
     Ok(None)
 }
 
-/// Adds the couplings of a fixed tendon, its spring and its range, or says why there is none.
+/// Adds couplings for the spring and the range of a fixed tendon; otherwise the reason why a scene has none.
 pub(crate) fn tendon(
     mechanism: &mut Mechanism<'_>,
     given: &Attributes<'_>,
@@ -124,6 +120,9 @@ pub(crate) fn tendon(
         let called = element.called();
         mechanism.notes.push(format!("{called} has no force of its own and is left out"));
         return Ok(None);
+    }
+    if range.as_ref().is_some_and(|range| range[0] >= range[1]) {
+        return Ok(Some("its range has no extent"));
     }
     let mut terms = Vec::new();
     for child in element.children.iter().filter(|child| child.name == "joint") {
@@ -179,9 +178,6 @@ pub(crate) fn tendon(
         add(&name, [first, last.max(first)], stiffness_of_spring, damping);
     }
     if let Some(range) = range {
-        if range[0] >= range[1] {
-            return Ok(Some("its range has no extent"));
-        }
         let damping = rounded(SETTLING * of_limits);
         add(&format!("{name}-range"), [range[0], range[1]], of_limits, damping);
     }

@@ -204,8 +204,7 @@ fn keys(
             return has_none.then(Vec::new);
         }
     };
-    let arm = if joint.freedom == Freedom::Hinge { 0.5 * link.span } else { 1.0 };
-    let stiffness = options.stiffness * arm * arm;
+    let stiffness = options.stiffness_of_limits(joint.freedom == Freedom::Hinge, link.span);
     let mut keys = Vec::new();
     let range = joint.range.filter(|_| joint.limited);
     // A range without extent locks the joint, which no stop does.

@@ -44,6 +44,14 @@ pub struct Options {
     pub ignored: Vec<Kind>,
 }
 
+impl Options {
+    /// \[N·m/rad, N/m\] how stiff limits of a hinge, of a slide are, whose joint has this span \[m\].
+    pub(crate) fn stiffness_of_limits(&self, is_hinge: bool, span: f64) -> f64 {
+        let arm = if is_hinge { 0.5 * span } else { 1.0 };
+        self.stiffness * arm * arm
+    }
+}
+
 impl Default for Options {
     fn default() -> Self {
         Self {

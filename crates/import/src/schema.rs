@@ -406,7 +406,8 @@ fn defaults(class: &Element, omissions: &mut Omissions) {
     }
 }
 
-fn children(element: &Element, known: &[&str], omissions: &mut Omissions) {
+/// Lists elements within another that have no known name.
+pub(crate) fn children(element: &Element, known: &[&str], omissions: &mut Omissions) {
     for child in element.children.iter().filter(|child| !known.contains(&child.name.as_str())) {
         let meant = nearest(&child.name, known.iter().copied());
         let meant = meant.map_or(String::new(), |meant| format!(", did you mean <{meant}>?"));

@@ -13,6 +13,7 @@ use crate::element::{Attribute, Element};
 use crate::error::Fault;
 use crate::omission::{Kind, Omissions};
 use crate::place::Place;
+use crate::schema;
 
 /// What a robot may hold; nothing of the second is a law of motion.
 const ROBOT: [&[&str]; 2] = [
@@ -55,7 +56,7 @@ const DEPTH: usize = 400;
 /// The tree of MJCF.
 ///
 /// # Errors
-/// Where links and joints make no tree, or a value is none that it can have.
+/// Where links and joints do not form a tree, or a value is invalid.
 pub(crate) fn mujoco(robot: &Element, omissions: &mut Omissions) -> Result<Element, Fault> {
     for child in &robot.children {
         if MACROS.contains(&child.name.as_str()) {
@@ -63,10 +64,10 @@ pub(crate) fn mujoco(robot: &Element, omissions: &mut Omissions) -> Result<Eleme
             return Err(Fault::at(child.place, format!("<{}> is a macro's", child.name), help));
         }
     }
-    known(robot, &ROBOT.concat(), omissions);
+    schema::children(robot, &ROBOT.concat(), omissions);
     let mut links = BTreeMap::new();
     for link in robot.sections("link") {
-        known(link, LINK, omissions);
+        schema::children(link, LINK, omissions);
         let name = required(link, "name", "<link name=\"…\">")?;
         if links.insert(name.value.as_str(), link).is_some() {
             let message = format!("link `{}` is there twice", name.value);
@@ -148,7 +149,7 @@ impl<'e> Joint<'e> {
         links: &BTreeMap<&str, &Element>,
         omissions: &mut Omissions,
     ) -> Result<Self, Fault> {
-        known(element, JOINT, omissions);
+        schema::children(element, JOINT, omissions);
         let name = required(element, "name", "<joint name=\"…\" type=\"…\">")?;
         let kind = required(element, "type", &TYPES.join(", "))?;
         let Some(known) = TYPES.into_iter().find(|known| *known == kind.value) else {
@@ -220,7 +221,7 @@ impl<'e> Joint<'e> {
             let given = Attributes::own(limit);
             let end = |name: &str| given.number(name).map(|end| end.unwrap_or(0.0));
             let (lower, upper) = (end("lower")?, end("upper")?);
-            // As in MuJoCo, equal ends are none.
+            // As in MuJoCo, equal ends set no range.
             if lower < upper {
                 add("range", &format!("{lower:?} {upper:?}"), limit.place);
             } else if lower > upper {
@@ -466,14 +467,4 @@ fn required<'e>(element: &'e Element, name: &str, help: &str) -> Result<&'e Attr
     element.attribute(name).ok_or_else(|| {
         Fault::at(element.place, format!("{} has no `{name}`", element.called()), help)
     })
-}
-
-/// Lists elements of no known name.
-fn known(element: &Element, names: &[&str], omissions: &mut Omissions) {
-    for child in element.children.iter().filter(|child| !names.contains(&child.name.as_str())) {
-        let meant = nearest(&child.name, names.iter().copied());
-        let meant = meant.map_or(String::new(), |meant| format!(", did you mean <{meant}>?"));
-        let what = format!("<{}> in <{}>{meant}", child.name, element.name);
-        omissions.add(Kind::Unknown, child.place, what);
-    }
 }

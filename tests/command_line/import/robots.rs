@@ -41,7 +41,7 @@ fn joint(kind: &str, more: &str) -> String {
     format!("<joint name='j' type='{kind}'><parent link='a'/><child link='b'/>{more}</joint>")
 }
 
-/// What no joint holds is fixed; "world" is the ground; equal limits are none; a link that floats is free.
+/// A link without a joint is fixed; `world` is the ground; equal limits set no range; a floating link is free.
 #[test]
 fn links_and_joints_are_taken_as_mujoco_takes_them() {
     let scene = loaded(&of(

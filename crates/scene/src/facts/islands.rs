@@ -24,7 +24,8 @@ pub(super) fn islands(scene: &Scene) -> Vec<Island> {
     let laws: Vec<_> = model.laws.bodies().collect();
     let pairs = pairs.chain(laws.iter().map(|[a, b]| (*a, *b)));
     let mut parts = Parts::apart(model.bodies.len());
-    for (a, b) in pairs.clone().filter(|(a, b)| !a.is_world() && !b.is_world()) {
+    let coupled = model.laws.pairs().into_iter().map(|[a, b]| (a, b));
+    for (a, b) in pairs.clone().chain(coupled).filter(|(a, b)| !a.is_world() && !b.is_world()) {
         parts.join(a.row(), b.row());
     }
     let mut islands = vec![Island::default(); model.bodies.len()];

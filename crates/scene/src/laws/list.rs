@@ -94,6 +94,20 @@ impl<P: Geometry> LawList<P> {
         self.tables.iter().flat_map(|table| table.source.bodies())
     }
 
+    /// Each two bodies between which a row acts: of a coupling all pairs of its bodies.
+    #[must_use]
+    pub fn pairs(&self) -> Vec<[BodyIndex; 2]> {
+        let mut pairs = Vec::new();
+        self.look_at_all(&self.states(), &mut |_, law| {
+            let mut bodies = law.bodies().to_vec();
+            law.branch_bodies(&mut |more| bodies.extend(more));
+            for (place, &b) in bodies.iter().enumerate() {
+                pairs.extend(bodies[..place].iter().filter(|a| **a != b).map(|a| [*a, b]));
+            }
+        });
+        pairs
+    }
+
     /// Replaces the vectors of memories, each of the axes of a body: those of a plane in space, and back.
     pub fn turn_memories(
         &self,

@@ -74,7 +74,7 @@ pub(super) fn pairs(model: &SceneModel<F64>) -> BTreeSet<(usize, usize)> {
     });
     let count = model.bodies.len();
     let is_body = |body: BodyIndex| body.row() < count;
-    let all = groups.chain(torsions).chain(model.laws.bodies()).chain(inputs);
+    let all = groups.chain(torsions).chain(model.laws.pairs()).chain(inputs);
     all.filter(|[a, b]| is_body(*a) && is_body(*b) && a.row() != b.row())
         .map(|[a, b]| (a.row().min(b.row()), a.row().max(b.row())))
         .collect()
