@@ -45,8 +45,8 @@ pub fn stretches(scene: &Scene) -> Vec<Stretch> {
     if bodies > MOST_BODIES {
         return Vec::new();
     }
-    let elements = scene.joint_elements();
-    let joints = scene.element_frequencies().into_iter().take(scene.joints.len());
+    let elements = dbd_scene::joint_elements(scene);
+    let joints = dbd_scene::element_frequencies(scene).into_iter().take(scene.joints.len());
     let frequencies = joints.map(|joint| joint.frequency).filter(|frequency| *frequency > 0.0);
     let softest = frequencies.fold(f64::INFINITY, f64::min);
     if elements.is_empty() {
@@ -124,8 +124,10 @@ mod tests {
                     type = \"spherical\"\nbetween = [\"world\", \"bob\"]\nat = [0, 0, 0]\n\
                     stiffness = 2e4\narm = 0.03\n";
         let scene = Scene::parse(text, "plumb.toml").unwrap();
-        let steepest =
-            scene.joint_elements().iter().map(|e| e.direction_w.z.abs()).fold(0.0, f64::max);
+        let steepest = dbd_scene::joint_elements(&scene)
+            .iter()
+            .map(|e| e.direction_w.z.abs())
+            .fold(0.0, f64::max);
         let [hook] = stretches(&scene)[..] else { panic!() };
         assert!((hook.extension - 4.0 * 10.0 / 2e4 * steepest).abs() < 1e-12, "{hook:?}");
         assert_eq!((hook.joint, hook.free_length), (0, 0.03));

@@ -90,7 +90,7 @@ fn a_chain_of_masses_has_its_frequencies_shapes_ratios_and_masses() {
 #[test]
 fn shares_of_strain_energy_sum_to_one_where_elements_alone_hold() {
     for name in ["3ruu", "double-wishbone", "gripper", "cart-pendulum", "macpherson"] {
-        let scene = shipped(name).relaxed().unwrap();
+        let scene = dbd_scene::relaxed(&shipped(name)).unwrap();
         let (model, state) = (&scene.model, State::initial(&scene.model));
         let (found, elements) = (modes(model, &state).unwrap(), elements(&scene));
         let last = found.frequencies.len() - 1;
@@ -132,8 +132,11 @@ fn half_the_stiffness_is_predicted_and_solved() {
     let (_, name) = fastest.element.split_once('`').unwrap();
     let name = name.trim_end_matches('`');
     let row = scene.joints.iter().position(|joint| joint.name == name).unwrap();
-    let stiffness =
-        scene.joint_elements().iter().find(|element| element.joint == row).unwrap().stiffness;
+    let stiffness = dbd_scene::joint_elements(&scene)
+        .iter()
+        .find(|element| element.joint == row)
+        .unwrap()
+        .stiffness;
     let half = scene.with(&format!("joint.\"{name}\".stiffness={:?}", stiffness / 2.0)).unwrap();
     let solved =
         *modes(&half.model, &State::initial(&half.model)).unwrap().frequencies.last().unwrap();
@@ -255,7 +258,7 @@ fn a_chain_of_links_bends_as_a_beam() {
 #[test]
 fn the_stiffness_matrix_answers_as_the_wrenches() {
     for name in ["macpherson", "gripper", "hanging-chain"] {
-        let scene = shipped(name).relaxed().unwrap();
+        let scene = dbd_scene::relaxed(&shipped(name)).unwrap();
         let (model, state) = (&scene.model, State::initial(&scene.model));
         let shift = |row: usize, axis: usize| ((3 * row + axis) as f64 * 1.7).sin();
         let at = |by: f64| {

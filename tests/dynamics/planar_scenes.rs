@@ -78,7 +78,7 @@ fn the_page_says_how_far_planar_runs_are_apart_from_spatial_ones() {
     let mut seen = 0;
     for name in scene_names() {
         let scene = scene(&name);
-        let Ok(planar) = scene.reduced() else { continue };
+        let Ok(planar) = dbd_scene::reduced(&scene) else { continue };
         seen += 1;
         let Found { moved, apart, step, off } = compared(&scene, &planar);
         // It is the same mechanism, unless that tells apart whatever differs at all.
@@ -101,7 +101,7 @@ fn the_page_says_how_far_planar_runs_are_apart_from_spatial_ones() {
 fn three_freedoms_are_those_of_six_at_rest_across() {
     for name in ["hexagon", "crank-slider", "cart-pendulum"] {
         let scene = scene(name);
-        let planar = scene.reduced().unwrap_or_else(|found| panic!("{found:?}"));
+        let planar = dbd_scene::reduced(&scene).unwrap_or_else(|found| panic!("{found:?}"));
         let step = scene.step.unwrap();
         let flat: SceneModel<Planar64> = planar.model.convert();
         let single: SceneModel<Planar32> = planar.model.convert();

@@ -75,7 +75,7 @@ fn a_plane_has_the_same_motion() {
     let lean = 30_f64.to_radians();
     for contact in ["friction = 0.5\ndamping = 50\nrolling = 1e-3", "friction = 0.15"] {
         let space = disc(lean, "", contact);
-        let flat = space.reduced().unwrap();
+        let flat = dbd_scene::reduced(&space).unwrap();
         let spatial = after::<F64, _>(&space, Leapfrog, 1e-4, 0.5);
         let double: SceneModel<Planar64> = flat.model.convert();
         let mut double = Plant::new(&double, Leapfrog, 1e-4).unwrap();

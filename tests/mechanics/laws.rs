@@ -275,7 +275,7 @@ fn a_stop_of_turns_holds_in_space_and_in_the_plane() {
         "[[interaction]]\nlaw = \"hinge-stop\"\nbetween = [\"world\", \"disc\"]\naxis = [0, 0, 1]\n\
          from = \"-20 deg\"\nto = \"5 deg\"\nstiffness = 500\ndissipation = 0.2",
     );
-    let flat = text.reduced().unwrap();
+    let flat = dbd_scene::reduced(&text).unwrap();
     let mut spatial = Plant::new(&text.model, Leapfrog, 5e-5).unwrap();
     let model: SceneModel<Planar64> = flat.model.convert();
     let mut planar = Plant::new(&model, Leapfrog, 5e-5).unwrap();

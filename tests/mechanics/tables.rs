@@ -167,7 +167,7 @@ fn tables_about_an_axis_hold_in_space_and_in_the_plane() {
                 torque = [[-10, -0.2], [-1, -0.1], [0, 0], [1, 0.02], [10, 0.1]]\n";
     let damped = scene(&text(rate));
     let mut spatial = Plant::new(&damped.model, Leapfrog, 1e-4).unwrap();
-    let flat: SceneModel<Planar64> = damped.reduced().unwrap().model.convert();
+    let flat: SceneModel<Planar64> = dbd_scene::reduced(&damped).unwrap().model.convert();
     let mut planar = Plant::new(&flat, Leapfrog, 1e-4).unwrap();
     spatial.advance(10_000).ok().unwrap();
     planar.advance(10_000).ok().unwrap();

@@ -1,6 +1,6 @@
 //! Which module of a crate uses which, read from its sources.
 //!
-//! `lib.rs and what its mod lines reach => modules, arrows`. A path that begins with `crate`, `super`,
+//! `lib.rs, of a program main.rs, and what its mod lines reach => modules, arrows`. A path that begins with `crate`, `super`,
 //! `self` or a module of the same file is an arrow, in `use` lines, code and macros alike; comments,
 //! strings and what is compiled for tests alone are not read. A name that a module takes in or
 //! hands on stands for the module that defines it. A `pub use` of what lies in the module's own
@@ -46,7 +46,8 @@ impl Sources {
     /// Where a file is missing or is no Rust.
     pub fn read(files: Files<'_>) -> Self {
         let mut sources = Self::default();
-        sources.file(files, Vec::new(), "lib.rs".into(), "");
+        let root = if files("lib.rs").is_some() { "lib.rs" } else { "main.rs" };
+        sources.file(files, Vec::new(), root.into(), "");
         for (from, path) in std::mem::take(&mut sources.paths) {
             let to = sources.defined_in(&path, 0);
             // A folder's module and what lies in it are told apart, the root and all below it too.

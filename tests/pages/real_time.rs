@@ -20,7 +20,7 @@ const SHOWN: [&str; 8] = [
 fn what_a_step_needs_is_as_counted() {
     let lines = SHOWN.map(|name| {
         let scene = scene(name);
-        let (facts, cost) = (scene.facts(), cost(name, "leapfrog", "f32"));
+        let (facts, cost) = (dbd_scene::facts(&scene), cost(name, "leapfrog", "f32"));
         let (instructions, tsdas) = (cost.number("instructions_mean"), scene.model.tsda_count());
         let (rate, step) = (cost.number("estimated_rate_168mhz_hz"), cost.number("step_s"));
         vec![

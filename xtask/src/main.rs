@@ -2,6 +2,19 @@
 //!
 //! `sources => steps => verdict`. Host parts go through the cargo that runs this program, target
 //! parts through the compiler that [`chip::toolchain`] finds.
+//!
+//! # Modules
+//!
+//! Each uses only those before it:
+//!
+//! - `attended`, `command`, `built`, `steps`: other programs, what cargo builds, lists of steps.
+//! - [`chip`]: compiler, emulator and images of the target.
+//! - `baseline`, `provenance`: counts and data that are kept.
+//! - `audit`, `cost`, `callgrind`, `instructions`: what a step must not reach, and what it costs.
+//! - `bench`, `growth`, `prove`, `precisions`, `compile_times`, `fuzz`: measurements and random input.
+//! - `playground`, `bits`: the kernel in a browser; the same bits everywhere.
+//! - `boards`, `hil`, `python`, `libraries`, `packages`, `semver`: firmware, other languages, what is published.
+//! - `test`: all that must hold.
 
 mod attended;
 mod audit;

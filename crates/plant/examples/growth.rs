@@ -49,9 +49,9 @@ fn run(way: &str, links: usize) -> Result<usize, String> {
     let state = State::initial(&scene.model);
     match way {
         "check" => Ok(counted_work(&|| {
-            let warnings = scene.warnings_with(&scene.facts()).len();
+            let warnings = dbd_scene::warnings_with(&scene, &dbd_scene::facts(&scene)).len();
             let bound = frequency::bound(&scene.model, &state) as usize;
-            warnings + scene.element_dampings().len() + bound
+            warnings + dbd_scene::element_dampings(&scene).len() + bound
         })),
         "run" => Ok(counted_work(&|| {
             let Ok(plant) = plant(&scene, &Method::default(), STEP) else { return 0 };

@@ -136,7 +136,7 @@ impl Diagnostic for FailedRun {
 
 fn describe(scene: &Scene, trouble: Trouble) -> String {
     match trouble {
-        Trouble::Step(cause) => scene.fault(&cause),
+        Trouble::Step(cause) => dbd_scene::fault(scene, &cause),
         Trouble::Growth { growth, body } => {
             let (growth, body) = (significant(growth, 2), scene.body_name(body));
             format!("{growth} J came from nowhere, body `{body}` is the fastest,")

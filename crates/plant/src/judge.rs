@@ -325,7 +325,7 @@ fn reversals(scene: &Scene, model: &SceneModel<F64>) -> Vec<Reversal> {
         let least = SIDE * tsda.stiffness * tsda.free_length;
         Some(Reversal { spring, first: None, least, since: None, most: (0.0, 0.0) })
     };
-    scene.one_sided_springs().into_iter().filter_map(one).collect()
+    dbd_scene::one_sided_springs(scene).into_iter().filter_map(one).collect()
 }
 
 /// Whether a scene's total energy is meant to stay as it is.

@@ -203,9 +203,9 @@ pub fn check_stiffness(scene: &Scene, method: &Method, step: f64) -> Result<(), 
 /// build does not hold the precision, [`PlantError::Planar`] where a planar scene does not run in it.
 pub fn check_inputs(scene: &Scene, method: &Method) -> Result<(), PlantError> {
     if scene.planar.is_some() {
-        return with_planar_precision!(method, P => Ok(scene.check_inputs::<P>()?));
+        return with_planar_precision!(method, P => Ok(dbd_scene::check_inputs::<P>(scene)?));
     }
-    with_precision!(method, P => Ok(scene.check_inputs::<P>()?))
+    with_precision!(method, P => Ok(dbd_scene::check_inputs::<P>(scene)?))
 }
 
 /// Whether a method's precision holds a scene's places and displacements, with steps of `step` \[s\].
@@ -217,7 +217,7 @@ pub fn check_extents(scene: &Scene, method: &Method, step: f64) -> Result<(), Pl
     if scene.planar.is_some() {
         return Ok(());
     }
-    with_precision!(method, P => Ok(scene.check_extents::<P>(step)?))
+    with_precision!(method, P => Ok(dbd_scene::check_extents::<P>(scene, step)?))
 }
 
 fn refused(method: &Method, step: f64) -> PlantError {

@@ -6,8 +6,8 @@
 
 use dbd_kernel::{Body, BodyState, F64, Quaternion, Vec3};
 
-use crate::DerivedBody;
 use crate::assembly::{Assembly, WORLD};
+use crate::derived::DerivedBody;
 use crate::error::SceneError;
 use crate::inertia::{self, AnyInertia, Inertia, PrincipalInertia, Section};
 use crate::links::{self, Link};

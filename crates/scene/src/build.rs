@@ -13,11 +13,14 @@ use dbd_kernel::laws::Law;
 use dbd_kernel::{F32, Fixed, State, frequency};
 
 use crate::default_step::{STEPS_PER_PERIOD, fastest_spin, longest, shortest_period};
+use crate::error::SceneError;
 use crate::export::{Export, ExportPrecision, ExportScheme, SchemeError, source};
+use crate::extents::UnfitInput;
 use crate::fitting::Span;
+use crate::lint::Severity;
+use crate::scene::Scene;
 use crate::single::slow_start;
 use crate::time::{Time, TimeError, display};
-use crate::{Scene, SceneError, Severity, UnfitInput};
 
 /// The share of a stability limit at t = 0 that leaves room for a motion.
 const MARGIN: f64 = 0.85;
@@ -251,8 +254,7 @@ impl Build {
                 span.ok_or_else(|| BuildError::NoStep(called.clone()))?.round_step(limit)
             }
         };
-        let mut warnings: Vec<String> = scene
-            .warnings()
+        let mut warnings: Vec<String> = crate::lint::warnings(&scene)
             .into_iter()
             .filter(|warning| warning.severity == Severity::Warning)
             .map(|warning| {
@@ -296,13 +298,13 @@ impl Build {
             }
             let held = match precision {
                 ExportPrecision::F64 => continue,
-                ExportPrecision::F32 => scene.check_inputs::<F32>(),
+                ExportPrecision::F32 => crate::extents::check_inputs::<F32>(&scene),
                 ExportPrecision::Fixed => {
-                    if let Err(misfit) = scene.check_extents::<Fixed>(step) {
+                    if let Err(misfit) = crate::extents::check_extents::<Fixed>(&scene, step) {
                         let help = misfit.remedy.replace("--precision f64", "f64");
                         return Err(BuildError::Option(format!("{called}: {misfit}"), help));
                     }
-                    scene.check_inputs::<Fixed>()
+                    crate::extents::check_inputs::<Fixed>(&scene)
                 }
             };
             let single = step as f32;

@@ -4,8 +4,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::Scene;
-
 /// Columns of a body, after its name.
 pub const BODY_COLUMNS: [&str; 13] =
     [".x", ".y", ".z", ".qw", ".qx", ".qy", ".qz", ".vx", ".vy", ".vz", ".wx", ".wy", ".wz"];
@@ -74,21 +72,8 @@ impl TraceColumns {
     }
 }
 
-impl Scene {
-    /// The names of a trace's columns in order.
-    #[must_use]
-    pub fn columns(&self) -> Vec<String> {
-        let mut columns = vec![TIME_COLUMN.to_owned()];
-        columns.extend(self.body_names.iter().flat_map(|body| of_body(body)));
-        columns.extend(ENERGY_COLUMNS.map(str::to_owned));
-        for readout in &self.readouts {
-            columns.extend(readout.columns.iter().map(|(end, _)| readout.name.clone() + end));
-        }
-        columns
-    }
-}
-
-fn of_body(name: &str) -> impl Iterator<Item = String> + use<'_> {
+/// The columns of a body.
+pub(crate) fn of_body(name: &str) -> impl Iterator<Item = String> + use<'_> {
     BODY_COLUMNS.iter().map(move |end| format!("{name}{end}"))
 }
 

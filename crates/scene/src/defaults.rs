@@ -7,7 +7,8 @@
 use crate::error::SceneError;
 use crate::text::Table;
 use crate::{
-    body, geometry, inertia, input, joints, laws, links, load, point_on_line, readout, spring,
+    body, geometry, inertia, input, interaction, joints, links, load, point_on_line, readout,
+    spring,
 };
 use crate::{torsion_spring, tsda};
 
@@ -23,7 +24,7 @@ pub(crate) fn kinds() -> Vec<(&'static str, Vec<&'static [&'static str]>)> {
         ("tsda", vec![tsda::KEYS, spring::KEYS]),
         ("point_on_line", vec![point_on_line::KEYS, spring::KEYS]),
         ("torsion_spring", vec![torsion_spring::KEYS, spring::KEYS]),
-        ("coupling", vec![laws::COUPLING]),
+        ("coupling", vec![interaction::COUPLING]),
         ("load", vec![load::KEYS]),
         ("input", input::keys()),
         ("readout", readout::keys()),

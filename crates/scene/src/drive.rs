@@ -3,13 +3,11 @@
 //! `keys of [[input]] => drive`. A table over a read-out is read once all read-outs are known, see
 //! [`read_over`].
 
-use dbd_kernel::F64;
-use dbd_kernel::elements::source::SourceLaw;
-
 use crate::error::SceneError;
-use crate::nearest::nearest;
-use crate::readout::ReadoutInfo;
 use crate::text::{Choice, Kind, Number, Seconds, Switch, Table, Text, Value};
+
+/// The keys of every input.
+pub(crate) const INPUT: &[&str] = &["name", "type"];
 
 /// The keys that say what drives an input.
 pub(crate) const KEYS: [&str; 8] =
@@ -147,41 +145,12 @@ fn sine(value: &Value<'_>, unit: &'static str) -> Result<[f64; 4], SceneError> {
     Ok([amplitude, frequency, phase, offset])
 }
 
-/// The sensor that a table stands over: what the kernel reads, and the direction of a vector's column.
-pub(crate) fn read_over(
+/// Reads a table over something.
+pub(crate) fn curve(
     table: &Table<'_>,
-    readouts: &[ReadoutInfo],
+    over: Argument,
     unit: &'static str,
-) -> Result<(Curve, SourceLaw<F64>), SceneError> {
-    let name = table.required("over", Text::Name)?;
-    let columns = readouts.iter().flat_map(|info| {
-        let column = move |(row, (end, unit)): (usize, &(&'static str, &'static str))| {
-            (format!("{}{end}", info.name), row, *unit, info)
-        };
-        info.columns.iter().enumerate().map(column)
-    });
-    let columns: Vec<_> = columns.collect();
-    let Some((_, row, unit_over, info)) = columns.iter().find(|(column, ..)| *column == name)
-    else {
-        let help = match nearest(&name, columns.iter().map(|(column, ..)| column.as_str())) {
-            Some(meant) => format!("did you mean \"{meant}\"?"),
-            None => "it must be a read-out, of a point one of its columns: \"NAME.x\"".into(),
-        };
-        let problem = format!("names no column of a read-out: \"{name}\"");
-        return Err(table.refuse_value("over", &problem, help));
-    };
-    let Some(sensor) = info.readout.sensor() else {
-        let problem = format!("names `{name}`, a read-out of type {}", info.kind);
-        let help = "a joint_angle, joint_rate, point or point_velocity: what depends on forces or \
-                    inputs would lead in a circle";
-        return Err(table.refuse_value("over", &problem, help));
-    };
-    let curve = curve(table, Argument { unit: unit_over, name: "reading" }, unit)?;
-    let weights = core::array::from_fn(|i| if i == *row { 1.0 } else { 0.0 });
-    Ok((curve, SourceLaw::Over { sensor, weights, offset: 0.0 }))
-}
-
-fn curve(table: &Table<'_>, over: Argument, unit: &'static str) -> Result<Curve, SceneError> {
+) -> Result<Curve, SceneError> {
     let knots = table.required("table", Knots { over, unit })?;
     let interpolate = table.optional("interpolate", Choice(&["held", "linear"]))?;
     Ok(Curve { knots, linear: interpolate == Some(1) })
@@ -189,9 +158,9 @@ fn curve(table: &Table<'_>, over: Argument, unit: &'static str) -> Result<Curve,
 
 /// What a table stands over.
 #[derive(Clone, Copy)]
-struct Argument {
-    unit: &'static str,
-    name: &'static str,
+pub(crate) struct Argument {
+    pub(crate) unit: &'static str,
+    pub(crate) name: &'static str,
 }
 
 /// Pairs of time or reading and value, ascending.

@@ -6,9 +6,8 @@ use std::io;
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode, SourceSpan};
 use thiserror::Error;
 
-use crate::parameters::Log;
 use crate::quantity::Scope;
-use crate::written::Angles;
+use crate::written::{Angles, Log};
 
 /// A scene that cannot be read, or that is refused.
 ///

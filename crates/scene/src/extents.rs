@@ -5,7 +5,7 @@
 use dbd_kernel::extents::{Excess, Part, first_excess};
 use dbd_kernel::{BodyIndex, Geometry};
 
-use crate::Scene;
+use crate::scene::Scene;
 use crate::time::display;
 
 /// A part of a model that a precision cannot hold.
@@ -80,41 +80,64 @@ impl Misfit {
     }
 }
 
-impl Scene {
-    /// Whether bodies, points and the ground's displacements lie within what a precision stores, with steps
-    /// of `step` \[s\], in space.
-    ///
-    /// # Errors
-    /// The first part that does not.
-    pub fn check_extents<P: Geometry>(&self, step: f64) -> Result<(), Misfit> {
-        let view = dbd_kernel::model::ModelOwner::view(&self.model);
-        let excess = first_excess::<P, _, _>(&view, &self.model.initial, step);
-        let Some(excess) = excess else { return Ok(()) };
-        let named = |kind: &str, name: Option<&String>, row: u16| match name {
-            Some(name) => format!("the {kind} `{name}`"),
-            None => format!("{kind} {row}"),
-        };
-        let body = |body: BodyIndex| named("body", self.body_names.get(body.row()), body.0);
-        let group = |row: u16| match self.joint_of(row.into()) {
-            Some(joint) => format!("the joint `{joint}`"),
-            None => self.raw_of(row.into()).map_or_else(|| format!("group {row}"), str::to_owned),
-        };
-        let input = |row: u16| {
-            named("input", self.inputs.get(usize::from(row)).map(|input| &input.name), row)
-        };
-        Err(Misfit::of::<P>(&excess, step, body, group, input))
-    }
+/// An input whose value or table a precision cannot hold.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the input `{input}` (line {line}) has a value, a rise or a time that {precision} cannot hold"
+)]
+pub struct UnfitInput {
+    /// The input.
+    pub input: String,
+    /// The line on which it begins.
+    pub line: usize,
+    /// The precision's name.
+    pub precision: &'static str,
+}
 
-    fn joint_of(&self, group: usize) -> Option<&str> {
-        let joint = self.joints.iter().find(|joint| joint.groups.contains(&group))?;
-        Some(&joint.name)
-    }
+/// Whether bodies, points and the ground's displacements lie within what a precision stores, with steps
+/// of `step` \[s\], in space.
+///
+/// # Errors
+/// The first part that does not.
+pub fn check_extents<P: Geometry>(scene: &Scene, step: f64) -> Result<(), Misfit> {
+    let view = dbd_kernel::model::ModelOwner::view(&scene.model);
+    let excess = first_excess::<P, _, _>(&view, &scene.model.initial, step);
+    let Some(excess) = excess else { return Ok(()) };
+    let named = |kind: &str, name: Option<&String>, row: u16| match name {
+        Some(name) => format!("the {kind} `{name}`"),
+        None => format!("{kind} {row}"),
+    };
+    let body = |body: BodyIndex| named("body", scene.body_names.get(body.row()), body.0);
+    let group = |row: u16| match joint_of(scene, row.into()) {
+        Some(joint) => format!("the joint `{joint}`"),
+        None => raw_of(scene, row.into()).map_or_else(|| format!("group {row}"), str::to_owned),
+    };
+    let input =
+        |row: u16| named("input", scene.inputs.get(usize::from(row)).map(|input| &input.name), row);
+    Err(Misfit::of::<P>(&excess, step, body, group, input))
+}
 
-    /// What messages call the raw element of a group.
-    fn raw_of(&self, group: usize) -> Option<&str> {
-        let first = self.joints.iter().map(|joint| joint.groups.end).max().unwrap_or(0);
-        self.raw_names().get(group.checked_sub(first)?).map(String::as_str)
-    }
+/// Whether a precision holds what inputs are given.
+///
+/// # Errors
+/// The first input that it does not.
+pub fn check_inputs<P: Geometry>(scene: &Scene) -> Result<(), UnfitInput> {
+    let Some(index) = scene.model.convert::<P>().unfit_input() else { return Ok(()) };
+    let row = usize::from(index.0);
+    let input = scene.inputs.get(row).map_or_else(String::new, |input| input.name.clone());
+    let line = scene.file_lines.inputs.get(row).copied().unwrap_or_default();
+    Err(UnfitInput { input, line, precision: P::NAME })
+}
+
+fn joint_of(scene: &Scene, group: usize) -> Option<&str> {
+    let joint = scene.joints.iter().find(|joint| joint.groups.contains(&group))?;
+    Some(&joint.name)
+}
+
+/// What messages call the raw element of a group.
+fn raw_of(scene: &Scene, group: usize) -> Option<&str> {
+    let first = scene.joints.iter().map(|joint| joint.groups.end).max().unwrap_or(0);
+    scene.raw_names().get(group.checked_sub(first)?).map(String::as_str)
 }
 
 #[cfg(test)]
@@ -159,9 +182,9 @@ mod tests {
                 "the input `road` moves the ground by 8 m, and fixed holds at most 7 m",
             ),
         ] {
-            let found = far.check_extents::<Fixed>(1e-3).unwrap_err().to_string();
+            let found = check_extents::<Fixed>(&far, 1e-3).unwrap_err().to_string();
             assert!(found.contains(said), "{found}");
-            assert_eq!(far.check_extents::<F32>(1e-3), Ok(()));
+            assert_eq!(check_extents::<F32>(&far, 1e-3), Ok(()));
         }
     }
 }

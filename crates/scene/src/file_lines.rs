@@ -1,5 +1,6 @@
 //! On which lines of its file a scene's things begin.
 
+use crate::error::SceneError;
 use crate::text::Table;
 
 /// Lines from 1, per kind in scene order.
@@ -18,7 +19,7 @@ pub(crate) struct FileLines {
 
 impl FileLines {
     /// The lines of all tables of the scene.
-    pub(crate) fn of(root: &Table<'_>) -> Result<Self, crate::SceneError> {
+    pub(crate) fn of(root: &Table<'_>) -> Result<Self, SceneError> {
         Ok(Self {
             bodies: root.lines("body")?,
             joints: root.lines("joint")?,
@@ -32,3 +33,6 @@ impl FileLines {
         })
     }
 }
+
+/// Where an interaction stands in the scene: its table and the number of that.
+pub(crate) type LawPlace = (&'static str, usize);

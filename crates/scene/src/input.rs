@@ -8,14 +8,14 @@ use dbd_kernel::index::InputIndex;
 use dbd_kernel::{BodyIndex, F64, Geometry, LoadFrame, Vec3};
 
 use crate::assembly::NoAnchor;
-use crate::drive::{self, Drive};
+use crate::between::BodyName;
+use crate::drive::{self, Drive, INPUT as KEYS};
 use crate::error::SceneError;
-use crate::hinge::{self, Hinge, Known};
-use crate::laws::{self, Driven};
+use crate::hinge::Hinge;
+use crate::interaction::{self, Driven};
+use crate::known::{HINGE, Known, hinge};
 use crate::names::Names;
-use crate::pair::BodyName;
 use crate::points::PlaceOf;
-use crate::readout::ReadoutInfo;
 use crate::target::{ElementName, Kinds, Target};
 use crate::text::{Choice, Direction, Kind, Table, Value};
 
@@ -46,15 +46,13 @@ struct InputType {
 static TYPES: [InputType; 7] = [
     InputType { name: "force", unit: "N", keys: &["body", "point", "axis", "frame"], read: force },
     InputType { name: "torque", unit: "N·m", keys: &["body", "axis", "frame"], read: torque },
-    InputType { name: "joint_torque", unit: "N·m", keys: hinge::KEYS, read: joint_torque },
+    InputType { name: "joint_torque", unit: "N·m", keys: HINGE, read: joint_torque },
     InputType { name: "actuator", unit: "N", keys: &["target"], read: actuator },
     InputType { name: "anchor", unit: "m", keys: &["target", "axis"], read: anchor },
     // Its unit is that of its mode.
-    InputType { name: laws::DRIVE_TYPE, unit: "", keys: laws::DRIVE, read: signal },
+    InputType { name: interaction::DRIVE_TYPE, unit: "", keys: interaction::DRIVE, read: signal },
     InputType { name: "signal", unit: "", keys: &[], read: signal },
 ];
-
-const KEYS: &[&str] = &["name", "type"];
 
 /// Every key of every type.
 pub(crate) fn keys() -> Vec<&'static [&'static str]> {
@@ -79,7 +77,7 @@ pub(crate) fn read_all(
         table.only(&[KEYS, &drive::KEYS, kind.keys])?;
         let name = names.read(&table, "input", ())?;
         let made = (kind.read)(&table, known)?;
-        let unit = match kind.name == laws::DRIVE_TYPE {
+        let unit = match kind.name == interaction::DRIVE_TYPE {
             true => Driven::read(&table, known.places, known.elements)?.unit(),
             false => kind.unit,
         };
@@ -98,23 +96,6 @@ pub(crate) fn read_all(
         infos.push(InputInfo { name, kind: kind.name, unit, table, range, index });
     }
     Ok(infos)
-}
-
-/// Reads the tables that stand over read-outs, once these are known.
-pub(crate) fn read_over(
-    root: &Table<'_>,
-    known: &mut Known<'_>,
-    inputs: &[InputInfo],
-    readouts: &[ReadoutInfo],
-) -> Result<(), SceneError> {
-    for (table, info) in root.list("input")?.iter().zip(inputs) {
-        if table.has("over") {
-            let (curve, law) = drive::read_over(table, readouts, info.unit)?;
-            let added = known.assembly.add_source(info.index, law, &curve);
-            added.map_err(|defect| defect.refuse(table))?;
-        }
-    }
-    Ok(())
 }
 
 /// Lets a table have the keys of its type: defaults of other types are not its.
@@ -171,7 +152,7 @@ fn frame(table: &Table<'_>) -> Result<LoadFrame, SceneError> {
 }
 
 fn joint_torque(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {
-    let Hinge { a, b, axis } = hinge::read(table, known)?;
+    let Hinge { a, b, axis } = hinge(table, known)?;
     let in_b = known.assembly.vector_in(b, known.assembly.direction_w(a, axis));
     Ok(InputKind::JointTorque { a, b, axes: [axis, in_b] })
 }

@@ -3,8 +3,8 @@
 use dbd_kernel::{Load, LoadFrame, Vec3};
 
 use crate::assembly::Assembly;
+use crate::between::BodyName;
 use crate::error::SceneError;
-use crate::pair::BodyName;
 use crate::text::{Choice, Number, Numbers, Seconds, Table};
 
 pub(crate) const KEYS: &[&str] = &["body", "force", "torque", "frame", "from", "until"];

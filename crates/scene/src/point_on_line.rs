@@ -3,8 +3,9 @@
 use dbd_kernel::Vec3;
 
 use crate::assembly::{Assembly, Lines, Points};
+use crate::between::Between;
 use crate::error::SceneError;
-use crate::pair::{Between, Pair};
+use crate::pair::Pair;
 use crate::points::PlaceOf;
 use crate::spring;
 use crate::target::{Elements, Target};

@@ -8,13 +8,13 @@ use dbd_kernel::index::LawIndex;
 use dbd_kernel::readouts::Readout;
 use dbd_kernel::{F64, Geometry, Vec3};
 
-use crate::InputInfo;
+use crate::between::BodyName;
 use crate::columns::Taken;
 use crate::error::SceneError;
-use crate::hinge::{self, Known};
+use crate::input::InputInfo;
+use crate::known::{HINGE, Known, hinge};
 use crate::names::Names;
 use crate::nearest::nearest;
-use crate::pair::BodyName;
 use crate::points::PlaceOf;
 use crate::target::{ElementName, Kinds, Target};
 use crate::text::{Choice, Number, Table, Text};
@@ -68,7 +68,7 @@ static TYPES: [ReadoutType; 9] = [
     ReadoutType {
         name: "joint_rate",
         columns: Columns::Scalar("rad/s"),
-        keys: hinge::KEYS,
+        keys: HINGE,
         read: |table, known, _| Ok(Readout::JointRate { spring: spring(table, known)? }),
     },
     ReadoutType {
@@ -204,7 +204,7 @@ fn kind(table: &Table<'_>) -> Result<&'static ReadoutType, SceneError> {
 
 /// The torsion spring about the axis of `target`.
 fn spring(table: &Table<'_>, known: &mut Known<'_>) -> Result<u16, SceneError> {
-    let hinge = hinge::read(table, known)?;
+    let hinge = hinge(table, known)?;
     known.assembly.carrier(&hinge).map_err(|defect| defect.refuse(table))
 }
 

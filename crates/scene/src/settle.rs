@@ -10,12 +10,12 @@ use dbd_kernel::{Body, F64, Quaternion, State, Vec3, forces};
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::Scene;
 use crate::closure::{MOST_BODIES, Pose, length};
 use crate::error::SceneError;
 use crate::joints::{Moved, ROUNDING};
 use crate::orientation::settled;
 use crate::runtime::SceneModel;
+use crate::scene::{Scene, Settled};
 use crate::text::Table;
 
 /// Most steps.
@@ -39,19 +39,6 @@ const PLANE: &[usize] = &[0, 1, 5];
 
 /// Growth of τ per step.
 const GROWTH: f64 = 4.0;
-
-/// What was moved to bring a scene to rest.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Settled {
-    /// The bodies that were moved, in the order of the scene.
-    pub moved: Vec<Moved>,
-    /// Steps that were computed.
-    pub iterations: usize,
-    /// \[N\] the largest force on a body at the pose of rest, of a planar scene in its plane.
-    pub force: f64,
-    /// \[N·m\] the largest torque on a body there.
-    pub torque: f64,
-}
 
 /// Why a scene was not brought to rest.
 #[derive(Clone, Debug, PartialEq, Error, Diagnostic)]
@@ -87,25 +74,23 @@ pub enum Restless {
     Undefined,
 }
 
-impl Scene {
-    /// The scene at rest where the forces at t = 0 balance, with what was moved in [`Scene::settled`]. Velocities
-    /// of the scene are left out.
-    ///
-    /// # Errors
-    /// Where it has more than 200 bodies, nothing holds a body, or a torsion angle becomes undefined.
-    pub fn relaxed(&self) -> Result<Self, Restless> {
-        let mut scene = self.clone();
-        let planar = scene.planar.as_mut().map(|planar| &mut planar.model.initial);
-        for state in scene.model.initial.iter_mut().chain(planar.into_iter().flatten()) {
-            (state.velocity, state.angular_velocity) = (Vec3::ZERO, Vec3::ZERO);
-        }
-        scene.settled = Some(rest(&mut scene)?);
-        // What is written reads back to the same bits.
-        for state in &mut scene.model.initial {
-            state.orientation = Quaternion::from_f64(settled(state.orientation.to_f64()));
-        }
-        Ok(scene)
+/// The scene at rest where the forces at t = 0 balance, with what was moved in [`Scene::settled`]. Velocities
+/// of the scene are left out.
+///
+/// # Errors
+/// Where it has more than 200 bodies, nothing holds a body, or a torsion angle becomes undefined.
+pub fn relaxed(scene: &Scene) -> Result<Scene, Restless> {
+    let mut scene = scene.clone();
+    let planar = scene.planar.as_mut().map(|planar| &mut planar.model.initial);
+    for state in scene.model.initial.iter_mut().chain(planar.into_iter().flatten()) {
+        (state.velocity, state.angular_velocity) = (Vec3::ZERO, Vec3::ZERO);
     }
+    scene.settled = Some(rest(&mut scene)?);
+    // What is written reads back to the same bits.
+    for state in &mut scene.model.initial {
+        state.orientation = Quaternion::from_f64(settled(state.orientation.to_f64()));
+    }
+    Ok(scene)
 }
 
 /// Moves the bodies of a scene that says `settle = true` to where they rest.

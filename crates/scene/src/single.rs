@@ -5,7 +5,7 @@
 
 use dbd_kernel::State;
 
-use crate::Scene;
+use crate::scene::Scene;
 use crate::time::{display, rounded};
 
 /// \[rad\] by so much the last digit of a unit quaternion in single precision turns a body.

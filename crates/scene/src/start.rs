@@ -6,10 +6,10 @@
 
 use dbd_kernel::{BodyIndex, BodyState, F64, Quaternion, Vec3};
 
-use crate::Scene;
 use crate::assembly::Assembly;
 use crate::error::SceneError;
 use crate::orientation::Orientation;
+use crate::scene::Scene;
 use crate::text::{Number, Numbers, Table};
 
 /// The keys of a body's table.
@@ -77,7 +77,7 @@ pub(crate) fn apply(
 
 #[cfg(test)]
 mod tests {
-    use crate::Scene;
+    use crate::scene::Scene;
 
     /// Two links between two pins, in the plane, sagging far from the poses at which the joints are closed.
     const CHAIN: &str = "name = \"chain\"\nduration = 1\ngravity = [0, -9.81, 0]\nplanar = true\n\
@@ -91,13 +91,13 @@ mod tests {
     fn a_planar_scene_starts_at_rest_with_the_elements_that_it_had() {
         let parse = |text: &str| Scene::parse(text, "chain.toml");
         let before = parse(CHAIN).unwrap();
-        let rest = before.relaxed().unwrap();
+        let rest = crate::settle::relaxed(&before).unwrap();
         let back = parse(&rest.long_text().unwrap()).unwrap();
         let (before, now) = (before.planar.unwrap().model, back.planar.clone().unwrap().model);
         assert_eq!((before.points, before.tsdas), (now.points, now.tsdas));
         assert_eq!(back.model.initial, rest.model.initial);
         assert!(now.initial[1].position.y.abs() > 1.0 || now.initial[1].position.x.abs() > 1.0);
-        let again = back.relaxed().unwrap().settled.unwrap();
+        let again = crate::settle::relaxed(&back).unwrap().settled.unwrap();
         assert!(again.moved.iter().all(|moved| moved.distance < 1e-8), "{again:?}");
         let out = format!("{CHAIN}[start.a]\nposition = [0.5, 0, 0.1]\n");
         let said = parse(&out).unwrap_err().message();

@@ -1,8 +1,8 @@
 //! `[[torsion_spring]]`: a spring about an axis of the first body, with preload and damping.
 
 use crate::assembly::Assembly;
+use crate::between::Between;
 use crate::error::SceneError;
-use crate::pair::Between;
 use crate::points::Heading;
 use crate::spring;
 use crate::target::{Elements, Target};

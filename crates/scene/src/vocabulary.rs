@@ -3,7 +3,9 @@
 //! `() => tables with their keys`, from the very lists by which unknown keys are refused; for what helps people to
 //! write scenes.
 
-use crate::{body, defaults, drive, geometry, inertia, input, joints, laws, links, load};
+use crate::{
+    body, defaults, drive, geometry, inertia, input, interaction, joints, links, load, read,
+};
 use crate::{orientation, point_on_line, points, readout, spring, start, torsion_spring, tsda};
 
 /// A table of scene files and the keys that it may have.
@@ -25,7 +27,7 @@ pub fn vocabulary() -> Vec<TableKeys> {
     let one =
         |table, keys: &[&[&'static str]]| TableKeys { table, kind: None, keys: keys.concat() };
     let mut all = vec![
-        one("scene", &[super::KEYS]),
+        one("scene", &[read::KEYS]),
         one("point", &[points::KEYS]),
         one("body", &[body::KEYS]),
         one("orientation", &[orientation::KEYS]),
@@ -36,13 +38,13 @@ pub fn vocabulary() -> Vec<TableKeys> {
         one("load", &[load::KEYS]),
         one("sine", &[drive::SINE]),
         one("start", &[start::KEYS]),
-        one("limits", &[laws::LIMITS]),
-        one("friction", &[laws::FRICTION]),
-        one("rotor", &[laws::ROTOR]),
-        one("gear", &[laws::GEAR]),
-        one("winding", &[laws::WINDING]),
-        one("coupling", &[laws::COUPLING]),
-        one("term", &[laws::TERM]),
+        one("limits", &[interaction::LIMITS]),
+        one("friction", &[interaction::FRICTION]),
+        one("rotor", &[interaction::ROTOR]),
+        one("gear", &[interaction::GEAR]),
+        one("winding", &[interaction::WINDING]),
+        one("coupling", &[interaction::COUPLING]),
+        one("term", &[interaction::TERM]),
     ];
     all.extend(joints::WITHIN.map(|(table, keys)| one(table, &[keys])));
     let mut add = |table, kind, keys| all.push(TableKeys { table, kind: Some(kind), keys });
@@ -55,7 +57,7 @@ pub fn vocabulary() -> Vec<TableKeys> {
     }
     joints::types().for_each(|(kind, keys)| add("joint", kind, keys));
     input::types().for_each(|(kind, keys)| add("input", kind, keys));
-    laws::types().for_each(|(kind, keys)| add("interaction", kind, keys));
+    interaction::types().for_each(|(kind, keys)| add("interaction", kind, keys));
     readout::types().for_each(|(kind, keys)| add("readout", kind, keys));
     geometry::shapes().for_each(|(kind, keys)| add("geometry", kind, keys));
     all

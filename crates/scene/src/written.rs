@@ -1,10 +1,11 @@
-//! Numbers as they are written, where the model no longer shows them: plain angles, whatever key they stand at.
+//! Numbers as they are written, where the model no longer shows them.
 //!
-//! `values that are read => large angles with their lines`.
+//! `values that are read => all numbers by where they stand; large plain angles with their lines`.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// \[rad\] Nobody turns anything by more than once round; a turn written with three digits is one.
 const WHOLE_TURN: f64 = 1.001 * TAU;
@@ -48,5 +49,22 @@ impl Angles {
     /// All of them in the order of the file.
     pub(crate) fn all(self) -> Vec<WrittenAngle> {
         self.0.into_inner().into_values().collect()
+    }
+}
+
+/// The numbers that were read, by where they stand.
+#[derive(Debug, Default)]
+pub(crate) struct Log(RefCell<BTreeMap<(usize, usize), (f64, String)>>);
+
+impl Log {
+    /// Notes a number; of two readings of one the first counts.
+    pub(crate) fn note(&self, span: Range<usize>, value: f64, unit: &str) {
+        let mut noted = self.0.borrow_mut();
+        noted.entry((span.start, span.end)).or_insert_with(|| (value, unit.to_owned()));
+    }
+
+    /// The value and the unit of the number that stands there.
+    pub(crate) fn at(&self, span: Range<usize>) -> Option<(f64, String)> {
+        self.0.borrow().get(&(span.start, span.end)).cloned()
     }
 }

@@ -130,7 +130,7 @@ pub fn instructions(scene: &Scene, method: &Method, counted: &Costs) -> Option<f
     }
     let turned = model.torsions.iter().filter(|spring| spring.damper.row().is_some()).count();
     sum += share.torsion_damper[usize::from(joint_wise)] * turned as f64;
-    for interaction in scene.interactions() {
+    for interaction in dbd_scene::interactions(scene) {
         let law = share.laws.iter().find(|(name, _)| *name == interaction.law)?;
         sum += law.1;
     }

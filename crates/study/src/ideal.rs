@@ -201,7 +201,10 @@ pub fn ideal(
     let longest = LONGEST.min(frequencies.longest_turn()).min(frequencies.period / 40.0);
     // Halves of round steps are round.
     let least = ((frame.step(1) / longest).ceil().max(1.0) as u64).next_power_of_two();
-    let own = scene.joint_elements().iter().map(|element| element.stiffness).fold(0.0, f64::max);
+    let own = dbd_scene::joint_elements(scene)
+        .iter()
+        .map(|element| element.stiffness)
+        .fold(0.0, f64::max);
     let mut present = (scene.clone(), Vec::new(), own);
     let mut run = frame.resolved(&present.0, least);
     let by_joints = loop {

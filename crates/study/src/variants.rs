@@ -135,7 +135,8 @@ pub fn compare(
     }
     if !scene.joints.is_empty() {
         // Both in space, so that nothing else differs.
-        let [softer, stiffer] = [1.0, 2.0].map(|factor| scene.with_stiffer_joints(factor));
+        let [softer, stiffer] =
+            [1.0, 2.0].map(|factor| dbd_scene::with_stiffer_joints(scene, factor));
         let limit = limit(&stiffer);
         let states = [&softer, &stiffer].map(|scene| motion(scene, limit, grid));
         let difference = match &states {

@@ -158,7 +158,7 @@ pub fn ways(scene: &Scene, in_space: bool) -> Vec<Way> {
         }
     }
     // The references know no laws of interactions.
-    if !scene.interactions().is_empty() {
+    if !dbd_scene::interactions(scene).is_empty() {
         return ways;
     }
     ways.extend([Way::NaiveSemiImplicitEuler, Way::NaiveLeapfrog, Way::LinearlyImplicitEuler]);

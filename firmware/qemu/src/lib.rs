@@ -2,6 +2,19 @@
 //!
 //! `shipped models => program => lines on the console`. Hardware is touched in [`board`] only;
 //! models and programs also compile for a host, where `hash` prints the same lines.
+//!
+//! # Modules
+//!
+//! Each uses only those before it:
+//!
+//! - [`models`], [`alone`]: shipped models, const and in flash; a model that shares no code with another.
+//! - [`console`]: arguments, lines and files of a program.
+//! - [`root`], [`sensors`], [`trajectory`], [`relay`]: square roots, sensors on a script, a recorded run, a run in two halves.
+//! - [`mod@hash`]: hashes of shipped models.
+//! - [`board`]: the hardware.
+//! - [`chart`], [`sample`]: which models and schemes are counted.
+//! - `cost`, `guards`: instructions and memory of a step, on the target only.
+//! - [`controllers`], [`wiring`], [`closed_loop`], [`hil`]: controllers in a loop with a plant here or outside.
 #![cfg_attr(target_os = "none", no_std)]
 
 // First, for its macros.

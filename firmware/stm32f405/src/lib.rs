@@ -2,6 +2,15 @@
 //!
 //! `scenes => const models => steps, one per tick => lines over the UART`. The programs differ in who calls
 //! [`runs::Run::tick`]: a loop (`plain`), an interrupt's task (`rtic`) or an async task (`embassy`).
+//!
+//! # Modules
+//!
+//! Each uses only those before it:
+//!
+//! - [`board`]: clock, console and timer.
+//! - [`panic`]: what panicked.
+//! - [`models`]: the scenes' models.
+//! - [`runs`]: what every program runs.
 #![no_std]
 
 pub mod board;

@@ -240,7 +240,7 @@ impl ReadoutCheck {
 pub fn check(scene: &Scene) -> Check {
     let model = &scene.model;
     let frequencies = Frequencies::of(scene);
-    let facts = scene.facts();
+    let facts = dbd_scene::facts(scene);
     let made_of = |joint: &JointInfo| match joint.realisation {
         Realisation::Tsda => None,
         other => Some(other.name()),
@@ -269,8 +269,7 @@ pub fn check(scene: &Scene) -> Check {
         bodies: model.bodies.len(),
         tsdas: model.tsda_count(),
         torsion_springs: scene.torsion_springs(),
-        interactions: scene
-            .interactions()
+        interactions: dbd_scene::interactions(scene)
             .iter()
             .map(|interaction| InteractionCheck::of(interaction, scene))
             .collect(),

@@ -119,7 +119,7 @@ pub struct FoundModes {
 /// # Errors
 /// [`ModeTableError`].
 pub fn find(scene: &Scene, options: &ModeOptions) -> Result<FoundModes, ModeTableError> {
-    let scene = if options.relax { scene.relaxed()? } else { scene.clone() };
+    let scene = if options.relax { dbd_scene::relaxed(scene)? } else { scene.clone() };
     let Table { rows, fastest, ratios, total_mass, modes, .. } = table(&scene, options.count)?;
     let kick = match &options.kick {
         Some(name) => Some(kicked(&scene, name, fastest.as_ref())?),

@@ -35,7 +35,7 @@ impl PlaneCheck {
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         let asked = scene.planar.is_some();
-        match scene.reduced() {
+        match dbd_scene::reduced(scene) {
             Ok(planar) => Self {
                 plane: planar.plane.name(),
                 planar: true,

@@ -52,7 +52,7 @@ pub struct Relaxed {
 /// # Errors
 /// [`Restless`].
 pub fn relax(scene: &Scene) -> Result<(Scene, Relaxed), Restless> {
-    let rest = scene.relaxed()?;
+    let rest = dbd_scene::relaxed(scene)?;
     let settled = SettledCheck::of(&rest).unwrap_or_default();
     let [force, torque] = rest.settled.as_ref().map_or([0.0; 2], |rest| [rest.force, rest.torque]);
     let moved = &settled.moved;

@@ -90,7 +90,7 @@ fn short(frequencies: &Frequencies, method: &Method, step: f64, whose: &str) -> 
 
 /// A mechanism so small that the points of its bodies are coarse in fixed point.
 fn small(scene: &Scene) -> Option<String> {
-    let elements = scene.joint_elements();
+    let elements = dbd_scene::joint_elements(scene);
     let levers = elements.iter().flat_map(|element| element.moments).map(|m| m.dot(m).sqrt());
     let size = levers.fold(0.0, f64::max);
     (size > 0.0 && 0.5 * FIXED_DIGIT > COARSE * size).then(|| {
@@ -118,7 +118,7 @@ pub fn of_noise(
     };
     let places: Vec<f64> =
         scene.model.initial.iter().map(|state| digit(state.position.to_f64())).collect();
-    let elements = scene.joint_elements();
+    let elements = dbd_scene::joint_elements(scene);
     let masses: Vec<f64> = scene.model.bodies.iter().map(|body| body.mass).collect();
     let field = scene.model.gravity.first().map_or(0.0, |g| g.dot(*g).sqrt());
     let weight = field * masses.iter().sum::<f64>();

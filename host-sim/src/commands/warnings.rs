@@ -28,7 +28,7 @@ const SOLVED: usize = 60;
 /// What is probably not meant in the scene itself.
 #[must_use]
 pub fn of_scene(scene: &Scene) -> Vec<String> {
-    let [warnings, _] = with_notes(scene, &scene.facts());
+    let [warnings, _] = with_notes(scene, &dbd_scene::facts(scene));
     warnings
 }
 
@@ -36,7 +36,7 @@ pub fn of_scene(scene: &Scene) -> Vec<String> {
 /// are at hand.
 #[must_use]
 pub fn with_notes(scene: &Scene, facts: &Facts) -> [Vec<String>; 2] {
-    let all = scene.warnings_with(facts);
+    let all = dbd_scene::warnings_with(scene, facts);
     let [mut warnings, notes] = [Severity::Warning, Severity::Note].map(|severity| {
         let of_it = all.iter().filter(|warning| warning.severity == severity);
         of_it.map(ToString::to_string).collect::<Vec<_>>()
@@ -118,8 +118,8 @@ fn of_damping(scene: &Scene, method: &Method, step: f64, whose: &str) -> Option<
     let most = if composed { STRONGEST_COMPOSED } else { STRONGEST_CROSSED };
     let rate = |element: &ElementDamping| if composed { element.rate } else { element.crossed };
     let mut strong = match method.damping() {
-        Damping::JointWise => scene.joint_dampings(),
-        _ => scene.element_dampings(),
+        Damping::JointWise => dbd_scene::joint_dampings(scene),
+        _ => dbd_scene::element_dampings(scene),
     };
     strong.retain(|element| rate(element) * step > most);
     strong.sort_by(|a, b| rate(b).total_cmp(&rate(a)));

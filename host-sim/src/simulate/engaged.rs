@@ -75,7 +75,7 @@ struct Watched {
 impl Engagements {
     /// Those of a scene, before its run.
     pub(super) fn new(scene: &Scene) -> Self {
-        let labels = scene.interactions();
+        let labels = dbd_scene::interactions(scene);
         let mut watched = Vec::new();
         let laws = &scene.stepped().laws;
         laws.look_at_all(&laws.states(), &mut |row, law| {

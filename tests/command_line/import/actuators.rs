@@ -224,7 +224,7 @@ fn an_armature_is_a_rotor() {
     let text = text.replace("<mujoco>", "<mujoco><option gravity='0 0 0'/>");
     let text = text.replace("</worldbody>", "</worldbody><actuator><motor joint='h'/></actuator>");
     let scene = loaded(&of(&text, &Options::default()));
-    let names: Vec<_> = scene.interactions().into_iter().map(|law| law.law).collect();
+    let names: Vec<_> = dbd_scene::interactions(&scene).into_iter().map(|law| law.law).collect();
     assert_eq!(names, ["hinge-drive"]);
     let mut plant = dbd_plant::plant(&scene, &dbd_plant::Method::default(), 1e-4).unwrap();
     plant.set(dbd_kernel::InputIndex(0), 3.0, 0.0).unwrap();

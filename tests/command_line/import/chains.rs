@@ -55,7 +55,7 @@ fn solids_on_a_slope_move_as_in_mujoco() {
     for (stiffness, most) in [(1e6, 3e-4), (1e7, 1e-4)] {
         let options = Options { stiffness, duration: 0.5, ..Options::default() };
         let scene = loaded(&imported("slope.xml", &options));
-        assert_eq!(scene.interactions().len(), 21);
+        assert_eq!(dbd_scene::interactions(&scene).len(), 21);
         let found = distances(&scene, "tests/command_line/import/slope.csv");
         assert!(worst(&found) < most, "{stiffness}: {found:?}");
     }

@@ -158,7 +158,7 @@ fn blank_values_colours_and_empty_ranges_refuse_nothing() {
     for (range, limits) in [("0 0", 0), ("1 0", 0), ("", 0), ("-1 1", 1)] {
         let text = mujoco(&body("a", &format!("<joint range='{range}'/>"), ""), "");
         let scene = loaded(&of(&text, &Options::default()));
-        assert_eq!(scene.interactions().len(), limits, "{range}");
+        assert_eq!(dbd_scene::interactions(&scene).len(), limits, "{range}");
     }
 }
 
@@ -172,7 +172,7 @@ fn ranges_and_friction_of_joints_are_theirs() {
     };
     let (scene, made) = turn("<joint name='h' axis='0 0 1' range='-10 30'/>");
     assert!(made.omitted.is_empty() && made.scene.contains("# Limits, stated"), "{}", made.scene);
-    let found = scene.interactions();
+    let found = dbd_scene::interactions(&scene);
     assert_eq!((found.len(), found[0].law, found[0].name()), (1, "hinge-stop", Some("h.limits")));
     assert!(made.scene.contains("from = -0.17453292519943295"), "{}", made.scene);
     let text = mujoco(
@@ -192,7 +192,8 @@ fn ranges_and_friction_of_joints_are_theirs() {
         ),
     ] {
         let (scene, made) = turn(joint);
-        let mut found: Vec<_> = scene.interactions().iter().map(|found| found.law).collect();
+        let mut found: Vec<_> =
+            dbd_scene::interactions(&scene).iter().map(|found| found.law).collect();
         found.sort_unstable();
         let mut laws = laws;
         laws.sort_unstable();
@@ -204,7 +205,11 @@ fn ranges_and_friction_of_joints_are_theirs() {
         let text = mujoco(&body("a", &joint, ""), "");
         let options = Options { ignored: vec![Kind::Limit], ..Options::default() };
         let made = of(&text, &options);
-        assert_eq!((made.omitted.len(), loaded(&made).interactions().len()), (1, 0), "{range}");
+        assert_eq!(
+            (made.omitted.len(), dbd_scene::interactions(&loaded(&made)).len()),
+            (1, 0),
+            "{range}"
+        );
     }
     // A ball has no angle that a joint of a scene could stop.
     let text = mujoco(&body("a", "<joint type='ball' range='0 40' frictionloss='2'/>", ""), "");
@@ -291,7 +296,7 @@ fn solids_touch_planes() {
     let contacts = |text: &str| {
         let made = of(text, &Options { stiffness: 1e6, ..Options::default() });
         let scene = loaded(&made);
-        let found = scene.interactions();
+        let found = dbd_scene::interactions(&scene);
         assert!(found.iter().all(|one| one.law == "plane-contact"), "{found:?}");
         let points: Vec<_> = found.iter().map(|one| one.points.unwrap()).collect();
         (points, made.scene)
@@ -343,7 +348,7 @@ fn solids_touch_planes() {
     let pair = "<contact><pair geom1='sole' geom2='foot'/></contact>";
     let options = Options { ignored: vec![Kind::Contact], ..Options::default() };
     let made = of(&text(own, "contype='0' conaffinity='0'", pair), &options);
-    assert_eq!((made.omitted.len(), loaded(&made).interactions().len()), (1, 0));
+    assert_eq!((made.omitted.len(), dbd_scene::interactions(&loaded(&made)).len()), (1, 0));
     let exclude = "<contact><exclude body1='world' body2='a'/></contact>";
     assert!(contacts(&text("<geom size='0.1'/>", "", exclude)).0.is_empty());
     let off = "<option><flag contact='disable'/></option>";
@@ -359,7 +364,7 @@ fn solids_touch_planes() {
             "geom, cylinder, radius 0.1 m, length 0.4 m: may touch 1 other"
         ]
     );
-    assert_eq!(loaded(&made).interactions().len(), 1);
+    assert_eq!(dbd_scene::interactions(&loaded(&made)).len(), 1);
 }
 
 /// What nobody sees of a name, and what a spreadsheet would compute, is left out; names stay apart.

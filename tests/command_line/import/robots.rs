@@ -21,7 +21,7 @@ fn an_arm_moves_as_in_mujoco() {
     let scene = loaded(&made);
     assert_eq!((scene.name.as_str(), scene.body_names.len()), ("arm", 5));
     // Limits of four joints, a coupling, and a motor as strong as the joint bears.
-    assert_eq!(scene.interactions().len(), 5);
+    assert_eq!(dbd_scene::interactions(&scene).len(), 5);
     let motor = &scene.inputs[0];
     assert_eq!((motor.name.as_str(), motor.range), ("shoulder_motor", [-30.0, 30.0]));
     assert!(made.scene.contains("colour = "), "{}", made.scene);
@@ -48,7 +48,7 @@ fn links_and_joints_are_taken_as_mujoco_takes_them() {
         &robot(&joint("revolute", "<limit lower='0' upper='0'/>")),
         &Options::default(),
     ));
-    assert_eq!((scene.body_names.len(), scene.interactions().len()), (1, 0));
+    assert_eq!((scene.body_names.len(), dbd_scene::interactions(&scene).len()), (1, 0));
     let text = robot(&joint("floating", "")).replace("'a'", "'world'");
     let free = loaded(&of(&text, &Options::default()));
     assert_eq!((free.body_names.len(), free.joints.len()), (1, 0));

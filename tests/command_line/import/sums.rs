@@ -18,7 +18,7 @@ fn joints_go_together_as_in_mujoco() {
         let made = imported("couplings.xml", &start(stiffness));
         assert!(made.omitted.is_empty(), "{:?}", made.omitted);
         let scene = loaded(&made);
-        assert_eq!(scene.interactions().len(), 6);
+        assert_eq!(dbd_scene::interactions(&scene).len(), 6);
         distances(&scene, trajectory)
     };
     let (soft, stiff) = (of(1e6), of(1e7));
@@ -68,7 +68,7 @@ fn ranges_of_tendons_are_stops() {
     let more =
         "<tendon><fixed name='one' range='-0.1 0.2'><joint joint='h' coef='0.5'/></fixed></tendon>";
     let scene = loaded(&of(&two(more), &Options::default()));
-    let found = scene.interactions();
+    let found = dbd_scene::interactions(&scene);
     assert_eq!((found.len(), found[0].name()), (1, Some("one-range")));
     let text = "<mujoco><worldbody><site name='w' pos='0 0 1'/>\
                 <body name='a'><freejoint/><geom size='0.1' contype='0' conaffinity='0'/><site name='s' pos='0 0.1 0'/></body>\
@@ -76,7 +76,7 @@ fn ranges_of_tendons_are_stops() {
                 </tendon></mujoco>";
     let made = of(text, &Options::default());
     let scene = loaded(&made);
-    let found = &scene.interactions()[0];
+    let found = &dbd_scene::interactions(&scene)[0];
     assert_eq!((found.law, found.name()), ("distance-stop", Some("rope-range")));
     assert!(
         found.bodies[0].is_world() && made.scene.contains("from = 0.5\nto = 1.2"),
@@ -98,7 +98,7 @@ fn offsets_count_from_where_the_scene_begins() {
     assert!(made.scene.contains(expected), "{}", made.scene);
     let offset = offset_in(&made.scene);
     assert!((offset - (0.1 + 2.0 * 0.7 - 0.3)).abs() < 1e-12, "{offset}");
-    assert_eq!(loaded(&made).interactions()[0].name(), Some("gear"));
+    assert_eq!(dbd_scene::interactions(&loaded(&made))[0].name(), Some("gear"));
     let more = "<tendon><fixed name='t' stiffness='5' damping='0.5'><joint joint='h' coef='2'/>\
                 <joint joint='k' coef='-1'/></fixed></tendon>";
     let made = of(&two(more), &Options::default());
@@ -112,7 +112,7 @@ fn offsets_count_from_where_the_scene_begins() {
         ),
         &Options::default(),
     );
-    assert!(loaded(&idle).interactions().is_empty() && !idle.notes.is_empty());
+    assert!(dbd_scene::interactions(&loaded(&idle)).is_empty() && !idle.notes.is_empty());
 }
 
 #[test]

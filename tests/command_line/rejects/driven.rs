@@ -280,13 +280,13 @@ fn inputs_that_a_precision_cannot_hold_are_named() {
         ("2.5", "[[0.0, -3e38], [10.0, 3e38]]", "motor"),
     ] {
         let scene = driven(value, given);
-        assert_eq!(scene.check_inputs::<F64>(), Ok(()));
-        let unfit = scene.check_inputs::<F32>().unwrap_err();
+        assert_eq!(dbd_scene::check_inputs::<F64>(&scene), Ok(()));
+        let unfit = dbd_scene::check_inputs::<F32>(&scene).unwrap_err();
         assert_eq!((unfit.input.as_str(), unfit.precision), (named, F32::NAME));
         let line = BASE.lines().position(|line| line == format!("[[input]] # {named}")).unwrap();
         assert_eq!(unfit.line, line + 1);
         let message = unfit.to_string();
         assert!(message.contains(&format!("input `{named}`")) && message.contains("f32"));
     }
-    assert_eq!(driven("2.5", table).check_inputs::<F32>(), Ok(()));
+    assert_eq!(dbd_scene::check_inputs::<F32>(&driven("2.5", table)), Ok(()));
 }

@@ -120,7 +120,7 @@ fn run(scene: &Scene, random: &mut Rng) -> Result<(), Finding> {
     let frequencies = Frequencies::of(scene);
     let _ = of_scene(scene);
     let _ = PlaneCheck::of(scene);
-    let _ = scene.facts();
+    let _ = dbd_scene::facts(scene);
     let Ok(plan) = plan_of(scene, &RunOptions::new(method), &frequencies) else { return Ok(()) };
     Finding::unless(
         plan.steps > 0 && plan.stride > 0 && plan.step > 0.0 && plan.step.is_finite(),

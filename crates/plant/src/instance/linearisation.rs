@@ -133,7 +133,7 @@ impl Probe {
     ) -> Result<Vec<f64>, InstanceError> {
         let model = self.instance.plant().model();
         let forces = wrenches(model, state, self.instance.step_size())
-            .map_err(|cause| undefined(self.instance.scene().fault(&cause)))?;
+            .map_err(|cause| undefined(dbd_scene::fault(self.instance.scene(), &cause)))?;
         let mut rates = Vec::with_capacity(self.count());
         for (row, body) in state.bodies.iter().enumerate() {
             rates.extend(body.velocity.to_f64());

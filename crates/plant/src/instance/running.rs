@@ -243,7 +243,7 @@ impl Instance {
         match self.plant.advance(steps) {
             Status::Running => Ok(()),
             Status::Failed(failure) => Err(InstanceError::Failed {
-                what: self.scene.fault(&failure.cause),
+                what: dbd_scene::fault(&self.scene, &failure.cause),
                 time: failure.step as f64 * self.step_size(),
                 step: failure.step,
                 step_size: self.step_size(),

@@ -166,7 +166,7 @@ impl Session {
             numbers: numbers.iter().skip(named).take(MOST_NUMBERS).map(number).collect(),
             parameters: numbers.iter().take(named).map(number).collect(),
             numbers_left_out: numbers.len().saturating_sub(named + MOST_NUMBERS),
-            warnings: scene.warnings().iter().map(ToString::to_string).collect(),
+            warnings: dbd_scene::warnings(scene).iter().map(ToString::to_string).collect(),
             limit: limit.is_finite().then_some(limit),
             command: self.command(method),
             choices: choices(),

@@ -27,8 +27,9 @@ use dbd_kernel::{F32, F64, Fixed, Geometry as _, Vec3};
 use number::SourceGeometry;
 
 use crate::planar::Plane;
+use crate::runtime::SceneModel;
+use crate::scene::Scene;
 use crate::time::display;
-use crate::{Scene, SceneModel};
 
 /// Stands before what a program need not use.
 const UNUSED: &str = "#[allow(dead_code)]\n";

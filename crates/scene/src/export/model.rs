@@ -19,7 +19,9 @@ use super::rows::{
     body, bushing, group, input, knot, list, load, point_on_line, readout, revolute, source, state,
     torsion, tsda, universal,
 };
-use crate::{Elimination, Scene, SceneModel};
+use crate::elimination::Elimination;
+use crate::runtime::SceneModel;
+use crate::scene::Scene;
 
 /// Source of the scene's model in the precision of `R`: a type alias `FourBarF32` with the counts,
 /// a static `FOUR_BAR_F32` and a constant for each read-out, `FOUR_BAR_READOUT_ANGLE_F32`.

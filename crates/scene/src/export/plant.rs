@@ -5,7 +5,7 @@
 use super::names::{constant_name, quoted, type_name};
 use super::number::SourceGeometry;
 use super::{ExportPrecision, ExportScheme, UNUSED};
-use crate::Scene;
+use crate::scene::Scene;
 
 /// The scheme as a constant.
 pub(super) fn scheme(scene: &Scene, scheme: &ExportScheme) -> String {

@@ -6,8 +6,8 @@ use super::UNUSED;
 use super::names::{constant_name, constant_names, quoted};
 use super::number::SourceNumber;
 use super::rows::{index, list};
-use crate::Scene;
 use crate::assembly::WORLD;
+use crate::scene::Scene;
 use dbd_kernel::BodyIndex;
 
 /// Source of what all precisions share: `use` lines, the step \[s\], the bodies' names, and the

@@ -3,7 +3,8 @@
 use dbd_kernel::damping::{DampersOf, Strength, strengths, strengths_of_joints};
 use dbd_kernel::{Geometry, Planar64, State};
 
-use crate::{Scene, SceneModel};
+use crate::runtime::SceneModel;
+use crate::scene::Scene;
 
 /// How strong the dampers of a joint, of a raw element or of a torsion spring are at t = 0.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,8 +2,8 @@
 //!
 //! `scene => islands`, sets of bodies joined by elements or interactions; the world joins nothing by itself.
 
-use crate::Scene;
 use crate::parts::Parts;
+use crate::scene::Scene;
 
 /// Bodies joined by elements or interactions.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -55,7 +55,7 @@ mod tests {
             )
         };
         let islands = |elements: &str| {
-            let islands = example::with(elements).facts().islands;
+            let islands = crate::facts::facts(&example::with(elements)).islands;
             islands.into_iter().map(|i| (i.bodies, i.grounded, i.elements)).collect::<Vec<_>>()
         };
         assert_eq!(islands(""), [(vec![0], false, 0), (vec![1], false, 0)]);

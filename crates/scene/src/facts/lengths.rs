@@ -6,8 +6,8 @@
 use dbd_kernel::model::{Group, Law};
 use dbd_kernel::{BodyIndex, F64, Geometry, Vec3};
 
-use crate::Scene;
 use crate::facts::frames;
+use crate::scene::Scene;
 
 /// What is known of the elements of a group, or of several.
 #[derive(Clone, Copy, Debug, PartialEq)]

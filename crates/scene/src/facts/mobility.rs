@@ -14,9 +14,10 @@ use crate::direction::normals;
 use crate::facts::lengths::{End, points};
 use crate::facts::stiffness::law;
 use crate::facts::{axis_w, frames};
+use crate::joints::JointInfo;
 use crate::orientation::of_axes;
 use crate::parts::Parts;
-use crate::{JointInfo, Scene};
+use crate::scene::Scene;
 
 /// More bodies that hang together are not examined: the time grows with the third power.
 pub(super) const MOST_BODIES: usize = 60;

@@ -1,7 +1,7 @@
 //! What is known of a scene without running it.
 //!
 //! `scene => counts of freedoms and equations, per joint its lengths and how its velocities pull
-//! at it, islands`. Facts only; what is probably not meant is said by [`Scene::warnings`].
+//! at it, islands`. Facts only; what is probably not meant is said by [`warnings`](crate::warnings).
 
 mod damping;
 mod islands;
@@ -12,7 +12,7 @@ mod stiffness;
 use dbd_kernel::model::Law;
 use dbd_kernel::{F64, Geometry, Vec3};
 
-use crate::{JointInfo, Scene};
+use crate::scene::Scene;
 
 pub use damping::ElementDamping;
 pub use islands::Island;
@@ -79,114 +79,66 @@ impl Facts {
     }
 }
 
-impl Scene {
-    /// The elements of all joints in order, as they lie at the initial pose.
-    #[must_use]
-    pub fn joint_elements(&self) -> Vec<JointElement> {
-        stiffness::joint_elements(self)
-    }
+/// The elements of all joints in order, as they lie at the initial pose.
+#[must_use]
+pub fn joint_elements(scene: &Scene) -> Vec<JointElement> {
+    stiffness::joint_elements(scene)
+}
 
-    /// Joints, raw elements and torsion springs in scene order: how fast each alone would vibrate.
-    #[must_use]
-    pub fn element_frequencies(&self) -> Vec<ElementFrequency> {
-        stiffness::frequencies(self)
-    }
+/// Joints, raw elements and torsion springs in scene order: how fast each alone would vibrate.
+#[must_use]
+pub fn element_frequencies(scene: &Scene) -> Vec<ElementFrequency> {
+    stiffness::frequencies(scene)
+}
 
-    /// Joints, raw elements and torsion springs that have dampers, in scene order: how strong these
-    /// are at the initial pose.
-    #[must_use]
-    pub fn element_dampings(&self) -> Vec<ElementDamping> {
-        damping::dampings(self, false)
-    }
+/// Joints, raw elements and torsion springs that have dampers, in scene order: how strong these
+/// are at the initial pose.
+#[must_use]
+pub fn element_dampings(scene: &Scene) -> Vec<ElementDamping> {
+    damping::dampings(scene, false)
+}
 
-    /// [`Self::element_dampings`] as joint-wise damping has them: the dampers of a joint do not cross one
-    /// another.
-    #[must_use]
-    pub fn joint_dampings(&self) -> Vec<ElementDamping> {
-        damping::dampings(self, true)
-    }
+/// [`element_dampings`] as joint-wise damping has them: the dampers of a joint do not cross one
+/// another.
+#[must_use]
+pub fn joint_dampings(scene: &Scene) -> Vec<ElementDamping> {
+    damping::dampings(scene, true)
+}
 
-    /// The scene in space with all joints `factor` times as stiff; dampers, and springs that are no joints, stay.
-    #[must_use]
-    pub fn with_stiffer_joints(&self, factor: f64) -> Self {
-        stiffness::stiffer(self, factor)
-    }
+/// The scene in space with all joints `factor` times as stiff; dampers, and springs that are no joints, stay.
+#[must_use]
+pub fn with_stiffer_joints(scene: &Scene, factor: f64) -> Scene {
+    stiffness::stiffer(scene, factor)
+}
 
-    /// The line of the scene file, from 1, on which a joint begins.
-    #[must_use]
-    pub fn line_of_joint(&self, row: usize) -> Option<usize> {
-        self.file_lines.joints.get(row).copied()
-    }
-
-    /// The line of the scene file, from 1, on which an interaction begins, by its row in the model.
-    #[must_use]
-    pub fn line_of_interaction(&self, row: usize) -> Option<usize> {
-        let (table, number) = *self.law_places.get(row)?;
-        let lines = &self.file_lines;
-        let lines = match table {
-            "joint" => &lines.joints,
-            "input" => &lines.inputs,
-            "coupling" => &lines.couplings,
-            "tsda" => &lines.tsdas,
-            "torsion_spring" => &lines.torsion_springs,
-            _ => &lines.interactions,
-        };
-        lines.get(number).copied()
-    }
-
-    /// The line of the scene file, from 1, on which an element begins: rows of
-    /// [`ElementFrequency`] and [`ElementDamping`]. Springs that only count turns have none.
-    #[must_use]
-    pub fn line_of_element(&self, row: usize) -> Option<usize> {
-        let lines = &self.file_lines;
-        let first = self.joints.len() + self.raw_names.len() + self.torsion_names.len();
-        if let Some(law) = row.checked_sub(first) {
-            return self.line_of_interaction(law);
+/// Counts, lengths and islands.
+#[must_use]
+pub fn facts(scene: &Scene) -> Facts {
+    let equations = 6 * scene.model.bodies.len();
+    let constraints: usize = scene.joints.iter().map(|joint| joint.holds as usize).sum();
+    let groups = lengths::groups(scene);
+    let joints = scene.joints.iter().map(|joint| {
+        let groups = &groups[joint.groups.clone()];
+        let all = groups.iter().fold(GroupFacts::NONE, |all, group| all.with(group));
+        JointFacts {
+            free_length: all.free_length,
+            initial_length: [all.shortest, all.longest],
+            assembly_error: joint.assembly_error,
+            stretching_rate: all.stretching_rate,
         }
-        let kinds = [&lines.joints, &lines.tsdas, &lines.points_on_lines, &lines.torsion_springs];
-        kinds.into_iter().flatten().nth(row).copied()
-    }
-
-    /// The line of the scene file, from 1, on which a body begins, or the joint that brings it.
-    #[must_use]
-    pub fn line_of_body(&self, row: usize) -> Option<usize> {
-        self.file_lines.bodies.get(row).copied().or_else(|| {
-            let name = self.body_names.get(row)?;
-            let brings = |joint: &JointInfo| joint.spider.as_ref() == Some(name);
-            self.line_of_joint(self.joints.iter().position(brings)?)
-        })
-    }
-
-    /// Counts, lengths and islands.
-    #[must_use]
-    pub fn facts(&self) -> Facts {
-        let equations = 6 * self.model.bodies.len();
-        let constraints: usize = self.joints.iter().map(|joint| joint.holds as usize).sum();
-        let groups = lengths::groups(self);
-        let joints = self.joints.iter().map(|joint| {
-            let groups = &groups[joint.groups.clone()];
-            let all = groups.iter().fold(GroupFacts::NONE, |all, group| all.with(group));
-            JointFacts {
-                free_length: all.free_length,
-                initial_length: [all.shortest, all.longest],
-                assembly_error: joint.assembly_error,
-                stretching_rate: all.stretching_rate,
-            }
-        });
-        let held = mobility::held(self);
-        let first_order = held.as_ref().map(|held| held.mobility.first_order);
-        Facts {
-            equations,
-            constraint_equations: equations
-                + first_order.map_or(constraints, |free| equations - free),
-            freedoms: held.as_ref().map(|held| held.mobility.freedoms),
-            first_order_freedoms: first_order,
-            jammed: held.as_ref().map_or(Vec::new(), |held| held.jammed.clone()),
-            locked: held.map_or(Vec::new(), |held| held.locked),
-            joints: joints.collect(),
-            islands: islands::islands(self),
-            frequencies: stiffness::frequencies(self),
-        }
+    });
+    let held = mobility::held(scene);
+    let first_order = held.as_ref().map(|held| held.mobility.first_order);
+    Facts {
+        equations,
+        constraint_equations: equations + first_order.map_or(constraints, |free| equations - free),
+        freedoms: held.as_ref().map(|held| held.mobility.freedoms),
+        first_order_freedoms: first_order,
+        jammed: held.as_ref().map_or(Vec::new(), |held| held.jammed.clone()),
+        locked: held.map_or(Vec::new(), |held| held.locked),
+        joints: joints.collect(),
+        islands: islands::islands(scene),
+        frequencies: stiffness::frequencies(scene),
     }
 }
 

@@ -7,9 +7,9 @@
 use dbd_kernel::Vec3;
 use dbd_kernel::model::{Group, Law};
 
-use crate::Scene;
 use crate::facts::frames;
 use crate::facts::lengths::{End, along, held_turns, is_bushing, points};
+use crate::scene::Scene;
 
 /// How fast a joint, a raw element or a torsion spring alone would let its bodies vibrate.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,9 +8,9 @@ mod colour;
 use dbd_kernel::{BodyIndex, Vec3};
 
 use crate::assembly::{Assembly, Resolved};
+use crate::between::BodyName;
 use crate::error::SceneError;
 use crate::orientation::Orientation;
-use crate::pair::BodyName;
 use crate::points::PlaceOf;
 use crate::solid::Solid;
 use crate::text::{Choice, Direction, Kind as _, Number, Numbers, Table};

@@ -5,12 +5,12 @@
 use dbd_kernel::{BodyState, F64, Vec3};
 
 use crate::assembly::{Assembly, WORLD};
+use crate::between::BodyName;
 use crate::closure::{self, Closure, MOST_BODIES, Opening, Outcome, Settings, Turn};
 use crate::error::SceneError;
 use crate::joints::rates::{self, Joints};
 use crate::joints::site::{Site, poses, shown};
 use crate::joints::{KEYS as JOINT_KEYS, kind};
-use crate::pair::BodyName;
 use crate::shortened::shortened;
 use crate::spring;
 use crate::text::{Kind, Number, Table, Text, Value};

@@ -6,6 +6,7 @@
 use dbd_kernel::Vec3;
 
 use crate::assembly::{Assembly, Resolved};
+use crate::between::Between;
 use crate::closure::{Closure, Opening, Place, Pose, Turn, length};
 use crate::direction::{least_aligned, normals};
 use crate::error::SceneError;
@@ -13,7 +14,7 @@ use crate::joints::realisation::Realisation;
 use crate::joints::universal::Axes;
 use crate::joints::{Joint, JointType};
 use crate::orientation::of_axes;
-use crate::pair::{Between, Pair};
+use crate::pair::Pair;
 use crate::points::{Heading, Place as NamedPlace};
 use crate::spring::Spring;
 use crate::text::{Kind, Table, Value};

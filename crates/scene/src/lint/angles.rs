@@ -1,7 +1,7 @@
 //! Angles that are probably degrees.
 
-use crate::Scene;
 use crate::lint::{Severity, Warning, short};
+use crate::scene::Scene;
 
 pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
     for written in &scene.written_angles {

@@ -2,8 +2,10 @@
 
 use dbd_kernel::Vec3;
 
+use crate::facts::Facts;
+use crate::interactions::InteractionInfo;
 use crate::lint::{Severity, Warning, short};
-use crate::{Facts, InteractionInfo, Scene};
+use crate::scene::Scene;
 
 /// Points may lie this many radii of gyration from the centre of mass. A rod's ends lie 1.7 away;
 /// at 30 the body is a grain on a long bar without mass, or its inertia has the wrong unit.
@@ -21,7 +23,7 @@ const MASS_RATIO: f64 = 1e6;
 
 pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     let farthest = farthest_points(scene);
-    let interactions = scene.interactions();
+    let interactions = crate::interactions::interactions(scene);
     let acts_on = |info: &&InteractionInfo, row: usize| info.bodies.iter().any(|b| b.row() == row);
     for (row, farthest) in farthest.iter().enumerate() {
         plausibility(scene, row, *farthest, warnings);
@@ -89,7 +91,7 @@ fn farthest_points(scene: &Scene) -> Vec<Option<f64>> {
             }
         }
     }
-    for info in scene.interactions() {
+    for info in crate::interactions::interactions(scene) {
         // A plane has no end: its point is anywhere on it.
         let first = usize::from(info.normal.is_some());
         for (body, [x, y, z]) in

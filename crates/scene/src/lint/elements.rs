@@ -2,9 +2,9 @@
 
 use dbd_kernel::model::{Group, Law};
 
-use crate::Scene;
 use crate::facts::{self, GroupFacts};
 use crate::lint::{Severity, Warning, short};
+use crate::scene::Scene;
 
 /// \[m/s\] Velocities given with three digits pull less at a joint.
 const STRETCHING_RATE: f64 = 1e-3;

@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use crate::facts::Facts;
 use crate::lint::{Severity, Warning, short};
-use crate::{Facts, Scene};
+use crate::scene::Scene;
 
 /// A stiffness in the wrong unit, N/mm for N/m, or a mass in grams changes a frequency by √1000 = 32.
 /// The joints of the scenes that ship lie within 3 of their median.

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use crate::facts::Facts;
 use crate::lint::{Severity, Warning, short};
-use crate::{Facts, Scene};
+use crate::scene::Scene;
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::elements::source::SourceLaw;
 

@@ -1,14 +1,14 @@
 //! Stops that are engaged at t = 0.
 
-use crate::Scene;
 use crate::lint::{Severity, Warning, short};
+use crate::scene::Scene;
 
 pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
     // A scene in equilibrium may rest on its stops.
     if scene.settled.is_some() {
         return;
     }
-    for (row, start) in scene.interactions_at_start().iter().enumerate() {
+    for (row, start) in crate::interactions::interactions_at_start(scene).iter().enumerate() {
         let Some((depth, unit)) = start.depth.filter(|(depth, _)| *depth > 0.0) else { continue };
         let (load, load_unit) =
             if start.force > 0.0 { (start.force, "N") } else { (start.torque, "N·m") };

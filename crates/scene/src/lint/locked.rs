@@ -1,7 +1,8 @@
 //! Bodies that cannot move because joints lock each other, and joints that leave two bodies no motion.
 
+use crate::facts::Facts;
 use crate::lint::{Severity, Warning};
-use crate::{Facts, Scene};
+use crate::scene::Scene;
 
 /// Bodies that a warning names besides the first.
 const NAMED: usize = 4;

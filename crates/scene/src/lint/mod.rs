@@ -17,11 +17,12 @@ mod readouts;
 mod springs;
 mod torsion_springs;
 
-pub use springs::OneSided;
+pub use springs::{OneSided, one_sided_springs};
 
 use std::fmt;
 
-use crate::{Facts, Scene};
+use crate::facts::Facts;
+use crate::scene::Scene;
 
 /// How much a warning weighs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -54,31 +55,29 @@ impl fmt::Display for Warning {
     }
 }
 
-impl Scene {
-    /// What is probably not meant.
-    #[must_use]
-    pub fn warnings(&self) -> Vec<Warning> {
-        self.warnings_with(&self.facts())
-    }
+/// What is probably not meant.
+#[must_use]
+pub fn warnings(scene: &Scene) -> Vec<Warning> {
+    crate::lint::warnings_with(scene, &crate::facts::facts(scene))
+}
 
-    /// What is probably not meant, where the scene's [facts](Self::facts) are at hand.
-    #[must_use]
-    pub fn warnings_with(&self, facts: &Facts) -> Vec<Warning> {
-        let mut warnings = Vec::new();
-        parameters::judge(self, &mut warnings);
-        angles::judge(self, &mut warnings);
-        bodies::judge(self, facts, &mut warnings);
-        locked::judge(self, facts, &mut warnings);
-        elements::judge(self, &mut warnings);
-        springs::judge(self, facts, &mut warnings);
-        reach::judge(self, &mut warnings);
-        torsion_springs::judge(self, &mut warnings);
-        interactions::judge(self, &mut warnings);
-        frequencies::judge(self, facts, &mut warnings);
-        inputs::judge(self, facts, &mut warnings);
-        readouts::judge(self, &mut warnings);
-        warnings
-    }
+/// What is probably not meant, where the scene's [facts](Self::facts) are at hand.
+#[must_use]
+pub fn warnings_with(scene: &Scene, facts: &Facts) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    parameters::judge(scene, &mut warnings);
+    angles::judge(scene, &mut warnings);
+    bodies::judge(scene, facts, &mut warnings);
+    locked::judge(scene, facts, &mut warnings);
+    elements::judge(scene, &mut warnings);
+    springs::judge(scene, facts, &mut warnings);
+    reach::judge(scene, &mut warnings);
+    torsion_springs::judge(scene, &mut warnings);
+    interactions::judge(scene, &mut warnings);
+    frequencies::judge(scene, facts, &mut warnings);
+    inputs::judge(scene, facts, &mut warnings);
+    readouts::judge(scene, &mut warnings);
+    warnings
 }
 
 /// A number with three digits.

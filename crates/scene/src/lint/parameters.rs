@@ -1,7 +1,7 @@
 //! Parameters that nothing names: a value that is changed in vain.
 
 use super::{Severity, Warning};
-use crate::Scene;
+use crate::scene::Scene;
 
 pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
     let unused = scene.parameters.iter().filter(|parameter| !parameter.used);

@@ -8,8 +8,8 @@
 use dbd_kernel::Vec3;
 use dbd_kernel::model::{Group, Law};
 
-use crate::Scene;
 use crate::lint::{Severity, Warning, short};
+use crate::scene::Scene;
 
 /// The square of the farthest that a uniform convex body reaches, in root mean square widths.
 const CONVEX: f64 = 15.0;

@@ -2,8 +2,8 @@
 
 use dbd_kernel::readouts::Readout;
 
-use crate::Scene;
 use crate::lint::{Severity, Warning};
+use crate::scene::Scene;
 
 pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
     for (info, line) in scene.readouts.iter().zip(&scene.file_lines.readouts) {

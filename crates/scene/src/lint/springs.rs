@@ -4,10 +4,11 @@
 use dbd_kernel::Vec3;
 use dbd_kernel::model::{Group, Law};
 
+use crate::facts::Facts;
 use crate::facts::{self, GroupFacts};
 use crate::lint::elements::stiffness;
 use crate::lint::{Severity, Warning, short};
-use crate::{Facts, Scene};
+use crate::scene::Scene;
 
 /// Words for what only pulls, and for what only pushes.
 const PULLS: &[&str] =
@@ -176,19 +177,17 @@ pub struct OneSided {
     pub pulls: bool,
 }
 
-impl Scene {
-    /// The raw springs that act on both sides though their names say one: ropes that may push, tyres and stops
-    /// that may pull.
-    #[must_use]
-    pub fn one_sided_springs(&self) -> Vec<OneSided> {
-        let raw = self.joints.last().map_or(0, |joint| joint.groups.end);
-        let named = self.raw_names.iter().zip(&self.file_lines.tsdas).enumerate();
-        let one = |(row, (name, line)): (usize, (&String, &usize))| {
-            let (word, pulls) = one_sided(name)?;
-            Some(OneSided { group: raw + row, name: name.clone(), line: *line, word, pulls })
-        };
-        named.filter_map(one).collect()
-    }
+/// The raw springs that act on both sides though their names say one: ropes that may push, tyres and stops
+/// that may pull.
+#[must_use]
+pub fn one_sided_springs(scene: &Scene) -> Vec<OneSided> {
+    let raw = scene.joints.last().map_or(0, |joint| joint.groups.end);
+    let named = scene.raw_names.iter().zip(&scene.file_lines.tsdas).enumerate();
+    let one = |(row, (name, line)): (usize, (&String, &usize))| {
+        let (word, pulls) = one_sided(name)?;
+        Some(OneSided { group: raw + row, name: name.clone(), line: *line, word, pulls })
+    };
+    named.filter_map(one).collect()
 }
 
 /// The word of an element's own name that says it acts on one side only, and whether it pulls.

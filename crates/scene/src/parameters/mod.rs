@@ -20,8 +20,8 @@ use crate::shortened::shortened;
 use crate::text;
 pub use named::Parameter;
 pub(crate) use named::{all, read};
-pub(crate) use numbers::Log;
 pub use numbers::SceneNumber;
+pub(crate) use numbers::numbers;
 use path::{Placed, Step};
 pub use pattern::is_of;
 

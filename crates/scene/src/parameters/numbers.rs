@@ -3,14 +3,13 @@
 //! `(tables, what was read) => path, value, unit`: the values of `[parameters]`, then in the order of the file
 //! within a table. Listed is what is written, not what a key would be without being written.
 
-use std::cell::RefCell;
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::{Parameter, To, shown};
+use crate::written::Log;
 
 /// A number that is written in a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,29 +30,16 @@ impl SceneNumber {
     }
 }
 
-/// The numbers that were read, by where they stand.
-#[derive(Debug, Default)]
-pub(crate) struct Log(RefCell<BTreeMap<(usize, usize), (f64, String)>>);
-
-impl Log {
-    /// Notes a number; of two readings of one the first counts.
-    pub(crate) fn note(&self, span: Range<usize>, value: f64, unit: &str) {
-        let mut noted = self.0.borrow_mut();
-        noted.entry((span.start, span.end)).or_insert_with(|| (value, unit.to_owned()));
-    }
-
-    /// What was noted, with its paths.
-    pub(crate) fn numbers(&self, document: &DeTable<'_>) -> Vec<SceneNumber> {
-        let mut found = Vec::new();
-        let noted = self.0.borrow();
-        let add = |way: &[To], span: Range<usize>| {
-            if let Some((value, unit)) = noted.get(&(span.start, span.end)) {
-                found.push(SceneNumber { path: shown(way), value: *value, unit: unit.clone() });
-            }
-        };
-        table(document, &mut Vec::new(), &mut { add });
-        found
-    }
+/// The numbers that were read, with their paths.
+pub(crate) fn numbers(read: &Log, document: &DeTable<'_>) -> Vec<SceneNumber> {
+    let mut found = Vec::new();
+    let add = |way: &[To], span: Range<usize>| {
+        if let Some((value, unit)) = read.at(span) {
+            found.push(SceneNumber { path: shown(way), value, unit });
+        }
+    };
+    table(document, &mut Vec::new(), &mut { add });
+    found
 }
 
 fn table(of: &DeTable<'_>, way: &mut Vec<To>, add: &mut impl FnMut(&[To], Range<usize>)) {

@@ -75,7 +75,7 @@ impl Planar {
     }
 
     /// A source of the scene as one of the model in the plane.
-    pub(super) fn source(&self, source: &Source<F64>) -> Source<F64> {
+    pub(crate) fn source(&self, source: &Source<F64>) -> Source<F64> {
         let SourceLaw::Over { sensor, weights, offset } = source.law else { return *source };
         let readout = match sensor {
             Sensor::Point { body, point } => Readout::Point { body, point },

@@ -10,7 +10,7 @@ use crate::direction::{least_aligned, normals, unit};
 use crate::orientation::of_axes;
 
 /// Directions nearer than this (the sine of their angle) are one.
-pub(super) const ALIKE: f64 = 1e-9;
+pub(crate) const ALIKE: f64 = 1e-9;
 
 /// A turn by a half about x: z becomes −z.
 const FLIP: Quaternion<f64> = Quaternion::new(0.0, 1.0, 0.0, 0.0);
@@ -20,14 +20,14 @@ const ONWARD: Quaternion<f64> = Quaternion::new(0.5, 0.5, 0.5, 0.5);
 
 /// Axes whose z is the normal, as a turn from them to where the normal was given.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Axes {
+pub(crate) struct Axes {
     turn: Quaternion<f64>,
     rotation: Rotation<f64>,
 }
 
 impl Axes {
     /// The axes of a unit normal. One that is nearly a coordinate axis, or its opposite, is taken for it.
-    pub(super) fn of(normal: Vec3<f64>) -> Self {
+    pub(crate) fn of(normal: Vec3<f64>) -> Self {
         let [x, y, z] = normal.to_f64();
         let along = |others: [f64; 2]| others.iter().all(|other| other.abs() <= ALIKE);
         let (turn, sign) = if along([x, y]) {
@@ -46,17 +46,17 @@ impl Axes {
     }
 
     /// A vector in these axes.
-    pub(super) fn inward(&self, v: Vec3<f64>) -> Vec3<f64> {
+    pub(crate) fn inward(&self, v: Vec3<f64>) -> Vec3<f64> {
         self.rotation.to_body(v)
     }
 
     /// A vector of these axes, outside.
-    pub(super) fn outward(&self, v: Vec3<f64>) -> Vec3<f64> {
+    pub(crate) fn outward(&self, v: Vec3<f64>) -> Vec3<f64> {
         self.rotation.to_world(v)
     }
 
     /// The normal, outside.
-    pub(super) fn normal(&self) -> Vec3<f64> {
+    pub(crate) fn normal(&self) -> Vec3<f64> {
         self.outward(Vec3::new(0.0, 0.0, 1.0))
     }
 }
@@ -74,12 +74,12 @@ pub struct Plane {
 }
 
 impl Plane {
-    pub(super) fn new(axes: Axes, height: f64, size: f64) -> Self {
+    pub(crate) fn new(axes: Axes, height: f64, size: f64) -> Self {
         Self { axes, height, size, bodies: Vec::new() }
     }
 
     /// Adds the next body, whose own axes have this normal.
-    pub(super) fn add_body(&mut self, normal_b: Vec3<f64>) {
+    pub(crate) fn add_body(&mut self, normal_b: Vec3<f64>) {
         self.bodies.push(Axes::of(normal_b));
     }
 
@@ -227,7 +227,7 @@ fn about_z(turn: Quaternion<f64>) -> [f64; 4] {
 }
 
 /// A number for messages.
-pub(super) fn short(number: f64) -> String {
+pub(crate) fn short(number: f64) -> String {
     let text = format!("{number:.6e}");
     let digits: f64 = text.parse().unwrap_or(number);
     let plain = digits == 0.0 || (1e-4..1e6).contains(&digits.abs());

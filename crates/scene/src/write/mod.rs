@@ -15,10 +15,11 @@ use toml::de::DeValue;
 use crate::assembly::Resolved;
 use crate::error::SceneError;
 use crate::runtime::SceneModel;
+use crate::scene::Scene;
+use crate::solid::Solid;
 use crate::text::{Kind as _, Measure, Table, Value};
 use crate::write::comments::Comments;
 use crate::write::literal::{basic_string, direction, key, number, orientation, vector};
-use crate::{Scene, Solid};
 
 /// What the long form has no use for.
 const LEFT_OUT: &[&str] = &["points", "parameters", "assemble", "defaults", "settle", "start"];

@@ -61,7 +61,7 @@ fn an_open_four_bar_closes_and_says_what_was_moved() {
     let open = &assembled.open[0];
     assert!(open.joint == "B" && (0.07..0.09).contains(&open.distance), "{open:?}");
     assert_eq!((assembled.freedoms, assembled.held_twice), (1, 3));
-    assert!(scene.facts().joints.iter().all(|joint| joint.assembly_error < 1e-14));
+    assert!(dbd_scene::facts(&scene).joints.iter().all(|joint| joint.assembly_error < 1e-14));
     // The distances between the joints are what they were.
     let place = |row: usize| scene.model.initial[row].position;
     for (row, half) in [(0, 0.25_f64.hypot(0.45)), (2, 0.375_f64.hypot(1.2))] {
@@ -134,7 +134,7 @@ fn a_linkage_that_does_not_reach_is_refused_with_the_gap_in_the_open_joint() {
     // As long as it may be, and a little less.
     for less in [1e-9, 1e-3] {
         let scene = scene(&four_bar(reach - less, "[assemble]\n"));
-        assert!(scene.facts().joints.iter().all(|joint| joint.assembly_error < 1e-12));
+        assert!(dbd_scene::facts(&scene).joints.iter().all(|joint| joint.assembly_error < 1e-12));
     }
 }
 
@@ -186,7 +186,7 @@ fn a_dead_centre_closes() {
     assert!(found.message().contains("joint `wrist` stays open by"), "{found}");
     // Inwards it closes, though no motion of first order does it.
     let closed = scene(&text.replace("second = [2, 1e-3, 0]", "second = [1.99, 0, 0]"));
-    assert!(closed.facts().joints.iter().all(|joint| joint.assembly_error < 1e-12));
+    assert!(dbd_scene::facts(&closed).joints.iter().all(|joint| joint.assembly_error < 1e-12));
 }
 
 /// A joint of each type between two bodies that lie far off: closed, and what is given with the first
@@ -262,7 +262,7 @@ fn velocities_are_those_that_the_joints_allow() {
     let states = &scene_at.model.initial;
     assert_eq!(scene_at.assembled.as_ref().unwrap().set_moving, ["crank", "coupler", "rocker"]);
     assert!((states[0].angular_velocity.z - 3.0).abs() < 1e-14);
-    let rates = scene_at.facts().joints.into_iter().map(|joint| joint.stretching_rate);
+    let rates = dbd_scene::facts(&scene_at).joints.into_iter().map(|joint| joint.stretching_rate);
     let largest = rates.fold(0.0, f64::max);
     assert!(largest < 1e-13, "{largest:e}");
     // The second body beside the first: the world beside the rocker turns the other way.
@@ -316,8 +316,11 @@ fn a_bodys_own_velocity_is_kept_and_the_others_follow() {
     let moving = scene(&text);
     assert_eq!(moving.model.initial[2].angular_velocity.to_f64(), [0.0, 0.0, -0.7]);
     assert_eq!(moving.assembled.as_ref().unwrap().set_moving.len(), 3);
-    let largest =
-        moving.facts().joints.iter().map(|joint| joint.stretching_rate).fold(0.0, f64::max);
+    let largest = dbd_scene::facts(&moving)
+        .joints
+        .iter()
+        .map(|joint| joint.stretching_rate)
+        .fold(0.0, f64::max);
     assert!(
         largest < 1e-13 && moving.model.initial[0].angular_velocity.z.abs() > 0.1,
         "{largest:e}"
@@ -358,7 +361,7 @@ fn joints_of_every_type_move_together() {
            at = [3.5, 0, 0]\naxis = [0, 1, 0]\nstiffness = 1e6\nspan = 0.1\noffset = 0.05\ngauge = 0.1\n";
     // The second axis of the cross is not normal to the first: the bodies come to where it is.
     let moving = scene(&text);
-    let facts = moving.facts();
+    let facts = dbd_scene::facts(&moving);
     let largest = facts.joints.iter().map(|joint| joint.stretching_rate).fold(0.0, f64::max);
     assert!(largest < 1e-13, "{largest:e}");
     assert!(facts.joints.iter().all(|joint| joint.assembly_error < 1e-14));

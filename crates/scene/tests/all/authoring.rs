@@ -81,7 +81,7 @@ fn the_page_shows_the_four_bar() {
 fn the_stewart_platform_of_points_stands() {
     let scene = written("stewart-platform");
     assert_eq!((scene.body_names.len(), scene.joints.len()), (13, 18));
-    assert_eq!(scene.facts().freedoms, Some(12));
+    assert_eq!(dbd_scene::facts(&scene).freedoms, Some(12));
     let error = scene.joints.iter().map(|joint| joint.assembly_error).fold(0.0, f64::max);
     assert!(error < 1e-14, "{error:e}");
     let step = scene.step.unwrap();

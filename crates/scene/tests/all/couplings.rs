@@ -51,7 +51,7 @@ fn a_coupling_is_an_interaction_of_its_name() {
     let shown = "[[readout]]\nname = \"load\"\ntype = \"interaction\"\ntarget = \"mesh\"\nquantity = \"load\"\n";
     let of = |keys: &str| {
         let scene = scene(&format!("{}{shown}", coupling(keys))).unwrap_or_else(|e| panic!("{e}"));
-        let found = scene.interactions();
+        let found = dbd_scene::interactions(&scene);
         assert_eq!((found.len(), found[0].law, found[0].name()), (1, "coupling", Some("mesh")));
         (found[0].label.clone(), scene.readouts[0].columns[0].1, scene)
     };

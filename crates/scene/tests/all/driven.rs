@@ -235,7 +235,8 @@ fn an_angle_is_counted_by_a_torsion_spring_that_is_there_or_added() {
     let added = &scene.model.torsions[1];
     assert_eq!((added.stiffness, added.preload, added.damper.row()), (0.0, 0.0, None));
     // What only counts is not warned of.
-    let about = |name: &str| scene.warnings().iter().any(|warning| warning.name.contains(name));
+    let about =
+        |name: &str| dbd_scene::warnings(&scene).iter().any(|warning| warning.name.contains(name));
     assert!(!about("readout"));
 }
 

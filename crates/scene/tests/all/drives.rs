@@ -77,7 +77,7 @@ fn a_drive_is_an_input_and_the_interaction_of_its_name() {
     .unwrap();
     let input = &keyed.inputs[0];
     assert_eq!((input.name.as_str(), input.kind, input.unit), ("motor", "drive", "V"));
-    let law = &keyed.interactions()[0];
+    let law = &dbd_scene::interactions(&keyed)[0];
     assert_eq!((law.law, law.name()), ("hinge-drive", Some("motor")));
     assert_eq!(law.label, "drive `motor` (slider–lever)");
     // The same as a law by itself: all at the output of the gear.
@@ -121,7 +121,7 @@ fn the_mode_says_the_unit() {
         let text = drive(&format!("{target}\nmode = \"{mode}\"\n{keys}"));
         let scene = scene(&text).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(scene.inputs[0].unit, unit, "{target} {mode}");
-        assert_eq!(scene.interactions()[0].law, law, "{target} {mode}");
+        assert_eq!(dbd_scene::interactions(&scene)[0].law, law, "{target} {mode}");
     }
 }
 

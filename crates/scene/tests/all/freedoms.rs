@@ -28,7 +28,7 @@ fn constraints_that_loops_imply_count_once() {
         ("three-systems", 7),
     ] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name);
-        let facts = Scene::load(path.with_extension("toml")).unwrap().facts();
+        let facts = dbd_scene::facts(&Scene::load(path.with_extension("toml")).unwrap());
         assert_eq!(counts(&facts), [freedoms; 2], "{name}");
         assert_eq!(facts.locked, [0; 0], "{name}");
     }
@@ -52,7 +52,9 @@ fn mechanism(places: &[[f64; 3]], joints: &[(&str, [&str; 2], [f64; 3])]) -> Fac
             "[[joint]]\nname = \"j{number}\"\nbetween = {between:?}\nat = {at:?}\nstiffness = 1e6\n{joint}\n"
         );
     }
-    Scene::parse(&text, "m.toml").unwrap_or_else(|error| panic!("{error}\n{text}")).facts()
+    dbd_scene::facts(
+        &Scene::parse(&text, "m.toml").unwrap_or_else(|error| panic!("{error}\n{text}")),
+    )
 }
 
 const HINGE: &str = "type = \"revolute\"\naxis = [0, 0, 1]\nspan = 0.1";

@@ -116,7 +116,7 @@ fn the_model_its_source_and_its_warnings_are_the_same_without() {
     assert_eq!((with.geometry.len(), without.geometry.len()), (5, 0));
     assert_eq!(format!("{:?}", with.model), format!("{:?}", without.model));
     let warnings = |scene: &Scene| {
-        let warnings = scene.warnings();
+        let warnings = dbd_scene::warnings(scene);
         warnings.iter().map(|warning| warning.name.clone()).collect::<Vec<_>>()
     };
     // The parameter is named by geometry alone.

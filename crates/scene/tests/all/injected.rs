@@ -33,7 +33,7 @@ const CASES: &[Case] = &[
 
 fn warnings(text: &str) -> Vec<String> {
     let scene = Scene::parse(text, "scene.toml").unwrap_or_else(|error| panic!("{error}"));
-    let warnings = scene.warnings().into_iter();
+    let warnings = dbd_scene::warnings(&scene).into_iter();
     warnings.filter(|w| w.severity == Severity::Warning).map(|w| w.to_string()).collect()
 }
 

@@ -67,7 +67,8 @@ fn a_key_of_a_joint_is_the_interaction_about_its_axis() {
     .unwrap();
     let of = |scene: &Scene| Plant::new(&scene.model, Leapfrog, 1e-4).unwrap().fingerprint();
     assert_eq!(of(&keyed), of(&listed));
-    let labels: Vec<_> = keyed.interactions().iter().map(|found| found.label.clone()).collect();
+    let labels: Vec<_> =
+        dbd_scene::interactions(&keyed).iter().map(|found| found.label.clone()).collect();
     assert_eq!(
         labels,
         [
@@ -77,7 +78,7 @@ fn a_key_of_a_joint_is_the_interaction_about_its_axis() {
             "friction `pivot.friction` (slider–lever)",
         ]
     );
-    assert_eq!(keyed.interactions()[2].name(), Some("pivot.limits"));
+    assert_eq!(dbd_scene::interactions(&keyed)[2].name(), Some("pivot.limits"));
     assert_eq!(keyed.line_of_interaction(2), keyed.line_of_joint(1));
 }
 
@@ -121,13 +122,13 @@ fn limits_of_springs_are_the_interactions_of_their_geometry() {
     .unwrap();
     let of = |scene: &Scene| Plant::new(&scene.model, Leapfrog, 1e-4).unwrap().fingerprint();
     assert_eq!(of(&keyed), of(&listed));
-    let found = keyed.interactions();
+    let found = dbd_scene::interactions(&keyed);
     assert_eq!(found[0].name(), Some("strut.limits"));
     assert_eq!(found[1].label, "limits of torsion_spring 1 (world–lever)");
     assert!(keyed.line_of_interaction(0) < keyed.line_of_interaction(1));
     let ground = "[[torsion_spring]]\nbetween = [\"lever\", \"world\"]\naxis = [0, 0, 2]\nstiffness = 3\n\
                   limits = { to = 1, stiffness = 50 }\n";
-    let exchanged = &scene("", ground).unwrap().interactions()[0];
+    let exchanged = &dbd_scene::interactions(&scene("", ground).unwrap())[0];
     assert!(exchanged.bodies[0].is_world() && exchanged.axis == Some([0.0, 0.0, -1.0]));
     for (springs, parts) in [
         (springs(["limits = { to = 1, offset = 0.1, stiffness = 1 }", ""]), ["offset", "`from`"]),

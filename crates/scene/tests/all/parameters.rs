@@ -84,8 +84,8 @@ fn a_pattern_changes_all_that_it_fits_and_the_last_change_holds() {
     let last = scene.changed.last().unwrap();
     assert_eq!((last.before.as_deref(), last.now.as_str()), (Some("6"), "7"));
     // What stands in the file is told by its place as ever.
-    let lines = with(&[]).unwrap().warnings().len();
-    assert_eq!(scene.warnings().len(), lines);
+    let lines = dbd_scene::warnings(&with(&[]).unwrap()).len();
+    assert_eq!(dbd_scene::warnings(&scene).len(), lines);
 }
 
 #[test]

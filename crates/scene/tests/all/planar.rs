@@ -56,7 +56,7 @@ fn every_scene_that_ships_is_in_a_plane_or_is_told_what_leaves_it() {
         seen += 1;
         let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
         let scene = shipped(&name);
-        match (PLANAR.iter().find(|row| row.0 == name), scene.reduced()) {
+        match (PLANAR.iter().find(|row| row.0 == name), dbd_scene::reduced(&scene)) {
             (Some((_, bodies, before, after)), Ok(planar)) => {
                 assert_eq!(planar.plane.name(), "z = 0", "{name}");
                 assert_eq!(planar.model.bodies.len(), *bodies, "{name}");
@@ -88,7 +88,7 @@ fn the_reduced_model_moves_as_the_spatial_one() {
         ("3rrr", 0.1, 1e-3),
     ] {
         let scene = shipped(name);
-        let planar = scene.reduced().unwrap();
+        let planar = dbd_scene::reduced(&scene).unwrap();
         let step = scene.step.unwrap();
         let mut whole = Plant::new(&scene.model, Leapfrog, step).unwrap();
         let mut flat = Plant::new(&planar.model, Leapfrog, step).unwrap();
@@ -167,7 +167,8 @@ fn linkages_of_bushings_are_planar_in_any_plane() {
         let norm = q.iter().map(|c| c * c).sum::<f64>().sqrt();
         let tilt = (i % 2 == 0).then(|| q.map(|c| c / norm));
         let scene = random_linkage(&mut random, tilt);
-        let planar = scene.reduced().unwrap_or_else(|u| panic!("{i}: {:?}", u.departures));
+        let planar =
+            dbd_scene::reduced(&scene).unwrap_or_else(|u| panic!("{i}: {:?}", u.departures));
         let mut whole = Plant::new(&scene.model, Leapfrog, 2e-5).unwrap();
         let mut flat = Plant::new(&planar.model, Leapfrog, 2e-5).unwrap();
         assert!(whole.advance(5_000).is_running() && flat.advance(5_000).is_running());
@@ -232,7 +233,7 @@ target = "knee"
 fn a_plane_may_have_any_normal_and_lie_anywhere() {
     let scene = Scene::parse(TILTED, "tilted.toml")
         .unwrap_or_else(|error| panic!("{error}: {}", error.help()));
-    let planar = scene.reduced().unwrap_or_else(|u| panic!("{:?}", u.departures));
+    let planar = dbd_scene::reduced(&scene).unwrap_or_else(|u| panic!("{:?}", u.departures));
     let normal = planar.plane.normal();
     assert!(length(normal.cross(Vec3::new(2.0, -1.0, 0.5))) < 1e-12);
     let mut whole = Plant::new(&scene.model, Leapfrog, 1e-4).unwrap();
@@ -406,7 +407,7 @@ fn a_pin_of_bushings_is_one_of_the_plane() {
     let model = &planar.model;
     assert_eq!((model.tsdas.len(), model.bushings.len()), (0, 6));
     assert!(planar.at_rest.is_empty());
-    let springs = shipped("hexagon").reduced().unwrap();
+    let springs = dbd_scene::reduced(&shipped("hexagon")).unwrap();
     // As stiff as the springs in the same plane.
     let stiffness = springs.model.tsdas[0].stiffness;
     assert!((model.bushings[0].stiffness - stiffness).abs() < 1e-6 * stiffness);

@@ -228,7 +228,9 @@ fn long_chains_of_names_are_followed_to_their_end() {
 fn what_no_value_names_is_warned_of() {
     let named = |parameters: &str, changes: &[(&str, &str)]| -> Vec<String> {
         let scene = scene(parameters, changes);
-        let unused = scene.warnings().into_iter().filter(|warning| warning.name.contains("param"));
+        let unused = dbd_scene::warnings(&scene)
+            .into_iter()
+            .filter(|warning| warning.name.contains("param"));
         unused
             .inspect(|warning| assert_eq!(warning.severity, Severity::Warning))
             .map(|warning| warning.to_string())

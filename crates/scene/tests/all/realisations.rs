@@ -46,7 +46,7 @@ fn each_type_is_one_group_of_its_elements() {
         assert!(info.assembly_error < 1e-15 && info.spider.is_none());
         assert_eq!(made.body_names, ["arm", "hand"]);
         // What is left free.
-        let facts = made.facts();
+        let facts = dbd_scene::facts(&made);
         assert_eq!(facts.freedoms, Some(12 - info.holds as usize), "{joint}");
     }
 }
@@ -92,7 +92,7 @@ fn a_spider_that_nobody_needs_is_spoken_of_and_cannot_be_named() {
          spider = {{ mass = 0.2, inertia = [1e-3, 1e-3, 1e-3] }}\n"
     );
     let made = scene("", &joint).unwrap();
-    let warnings = made.warnings();
+    let warnings = dbd_scene::warnings(&made);
     let said = warnings.iter().find(|warning| warning.text.contains("spider"));
     assert!(said.is_some_and(|w| w.severity == Severity::Note && w.text.contains("0.2 kg")));
     let named = scene("", &format!("{joint}[[load]]\nbody = \"j.spider\"\nforce = [1, 0, 0]"));

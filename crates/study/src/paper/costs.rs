@@ -43,7 +43,7 @@ pub(super) fn growth(context: &Context<'_>) -> Result<Finding, PaperError> {
     let mut curves = [Vec::new(), Vec::new()];
     for name in TEN {
         let scene = context.scene(name)?;
-        let facts = scene.facts();
+        let facts = dbd_scene::facts(&scene);
         let found = costs(&scene, &ways, 1e-5, &mut |_, _| ());
         let tsdas: usize = scene.joints.iter().map(|joint| joint.tsdas).sum();
         plane.push(vec![1.0, scene.model.bodies.len() as f64, tsdas as f64]);

@@ -42,7 +42,7 @@ const PRINTED: Tolerance = Tolerance { within: 0.02, factor: 1.5 };
 pub(super) fn equations(context: &Context<'_>) -> Result<Finding, PaperError> {
     let mut rows = Vec::new();
     for (name, [constrained, free]) in TEN.into_iter().zip(EQUATIONS) {
-        let facts = context.scene(name)?.facts();
+        let facts = dbd_scene::facts(&context.scene(name)?);
         let ours = facts.constraint_equations as f64;
         rows.push(Row::compared(format!("{name}, constraints"), "", constrained, ours, EXACT));
         let ours = facts.equations as f64;

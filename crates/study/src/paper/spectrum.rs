@@ -173,7 +173,7 @@ pub fn kick(scene: &Scene, joint: usize) -> Result<Kick, PaperError> {
     let dominant = spectrum.dominant();
     let nearest = |a: &f64, b: &f64| (a - dominant).abs().total_cmp(&(b - dominant).abs());
     let nearest = frequencies.into_iter().min_by(nearest).unwrap_or(0.0);
-    let elements = scene.joint_elements();
+    let elements = dbd_scene::joint_elements(scene);
     let stiffness = elements.iter().find(|element| element.joint == joint);
     let stiffness = stiffness.map_or(0.0, |element| element.stiffness);
     Ok(Kick {

@@ -27,7 +27,7 @@ pub fn states(
     perturbed: bool,
     times: &[f64],
 ) -> Result<Vec<State>, NoTruth> {
-    if !scene.interactions().is_empty() {
+    if !dbd_scene::interactions(scene).is_empty() {
         return of_kernel(opinion, scene, perturbed, times);
     }
     let (mechanism, start) = Mechanism::of(scene);

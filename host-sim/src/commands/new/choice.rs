@@ -157,7 +157,7 @@ impl Choice {
 
 /// The method with joint-wise damping where the scheme has it, joints are damped, and it is as accurate.
 fn damped(scene: &Scene, method: Method, step: f64) -> Result<(Method, Vec<String>), PlantError> {
-    let damped = scene.joint_dampings().iter().any(|element| element.rate > 0.0);
+    let damped = dbd_scene::joint_dampings(scene).iter().any(|element| element.rate > 0.0);
     let joint_wise = method.with_damping(DampingName::JointWise).ok().filter(|_| damped);
     let Some(joint_wise) = joint_wise else { return Ok((method, Vec::new())) };
     let [own, other] = [method, joint_wise].map(|way| way.with_precision(PrecisionName::F64));

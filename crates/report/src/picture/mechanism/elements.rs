@@ -92,7 +92,7 @@ pub(super) fn torsions(scene: &Scene, mechanism: &Mechanism, pivots: &Pivots) ->
 
 /// The interactions whose law has points or an axis.
 pub(super) fn interactions(scene: &Scene, pivots: &Pivots) -> Vec<InteractionMark> {
-    let infos = scene.interactions().into_iter();
+    let infos = dbd_scene::interactions(scene).into_iter();
     let has_place = |info: &InteractionInfo| info.points.is_some() || info.axis.is_some();
     let mark = |info: InteractionInfo| {
         let [a, b] = info.bodies.map(row);

@@ -49,7 +49,7 @@ pub(super) fn forces(scene: &Scene, pivots: &Pivots) -> Vec<ForceMark> {
             // The spring itself is marked.
             InputKind::Actuator { .. } => {}
             InputKind::Signal => {
-                let mut laws = scene.interactions().into_iter();
+                let mut laws = dbd_scene::interactions(scene).into_iter();
                 let Some(drive) = laws.find(|law| law.name() == Some(&info.name)) else { continue };
                 let [first, second] = drive.bodies.map(row);
                 if let Some(axis) = drive.axis {

@@ -43,7 +43,7 @@ impl Search<'_> {
             let body = scene.body_names.get(frequencies.fastest).cloned().unwrap_or_default();
             return Limit::Spin { body };
         }
-        let element = scene.facts().fastest().map(|element| element.name.clone());
+        let element = dbd_scene::facts(scene).fastest().map(|element| element.name.clone());
         Limit::Vibration { frequency_hz: frequencies.estimate_hz(), element }
     }
 

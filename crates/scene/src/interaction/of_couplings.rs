@@ -8,9 +8,9 @@ use dbd_kernel::{Quaternion, Vec3};
 
 use crate::assembly::Assembly;
 use crate::error::SceneError;
-use crate::hinge::freedom;
+use crate::interaction::of_drives::Constants;
 use crate::joints::JointPlace;
-use crate::laws::of_drives::Constants;
+use crate::known::freedom;
 use crate::pair::Pair;
 use crate::target::Elements;
 use crate::text::{Choice, Kind, Number, Table, Value};

@@ -2,8 +2,8 @@
 //!
 //! `part of a scene, how far off => words; the table that it stands in => refusal with its place`.
 
-use crate::Scene;
 use crate::error::SceneError;
+use crate::scene::Scene;
 use crate::text::Table;
 use dbd_kernel::readouts::Readout;
 

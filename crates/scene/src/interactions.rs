@@ -5,8 +5,8 @@
 use dbd_kernel::laws::{Field, FieldSink, Instant, Laws as _, MOST_TERMS, Row, Term, Way};
 use dbd_kernel::{BodyIndex, F64, Geometry as _};
 
-use crate::Scene;
 use crate::facts;
+use crate::scene::Scene;
 
 /// An interaction of a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,43 +50,41 @@ pub(crate) struct AtStart {
     pub(crate) torque: f64,
 }
 
-impl Scene {
-    /// The interactions in the order of the model's rows of laws.
-    #[must_use]
-    pub fn interactions(&self) -> Vec<InteractionInfo> {
-        let mut found = Vec::new();
-        for (source, dampers) in self.model.laws.tables_with_dampers() {
-            for (row, bodies) in source.bodies().into_iter().enumerate() {
-                let label = self.law_names.get(found.len()).cloned().unwrap_or_default();
-                let mut shape = Shape::default();
-                source.write(row, &mut shape);
-                let Shape { points, normal, axis, mut further } = shape;
-                further.retain(|body| !bodies.contains(body));
-                let law = source.name();
-                found.push(InteractionInfo {
-                    label,
-                    law,
-                    bodies,
-                    further,
-                    dampers,
-                    points,
-                    normal,
-                    axis,
-                });
-            }
+/// The interactions in the order of the model's rows of laws.
+#[must_use]
+pub fn interactions(scene: &Scene) -> Vec<InteractionInfo> {
+    let mut found = Vec::new();
+    for (source, dampers) in scene.model.laws.tables_with_dampers() {
+        for (row, bodies) in source.bodies().into_iter().enumerate() {
+            let label = scene.law_names.get(found.len()).cloned().unwrap_or_default();
+            let mut shape = Shape::default();
+            source.write(row, &mut shape);
+            let Shape { points, normal, axis, mut further } = shape;
+            further.retain(|body| !bodies.contains(body));
+            let law = source.name();
+            found.push(InteractionInfo {
+                label,
+                law,
+                bodies,
+                further,
+                dampers,
+                points,
+                normal,
+                axis,
+            });
         }
-        found
     }
+    found
+}
 
-    /// What each interaction does at t = 0.
-    pub(crate) fn interactions_at_start(&self) -> Vec<AtStart> {
-        let (frames, bodies) = (facts::frames(self), &self.model.initial);
-        let instant = Instant { frames: &frames, bodies, signals: &[] };
-        let laws = &self.model.laws;
-        let mut found = Vec::new();
-        laws.look_at_all(&laws.states(), &mut |_, law| found.push(at_start(law, instant)));
-        found
-    }
+/// What each interaction does at t = 0.
+pub(crate) fn interactions_at_start(scene: &Scene) -> Vec<AtStart> {
+    let (frames, bodies) = (facts::frames(scene), &scene.model.initial);
+    let instant = Instant { frames: &frames, bodies, signals: &[] };
+    let laws = &scene.model.laws;
+    let mut found = Vec::new();
+    laws.look_at_all(&laws.states(), &mut |_, law| found.push(at_start(law, instant)));
+    found
 }
 
 fn at_start(law: &dyn Row<F64>, instant: Instant<'_, F64>) -> AtStart {

@@ -4,8 +4,8 @@
 //! output here, in double precision: inertia times the square of the ratio, constant times the ratio.
 
 use crate::error::SceneError;
-use crate::hinge::freedom;
 use crate::joints::JointPlace;
+use crate::known::freedom;
 use crate::target::Elements;
 use crate::text::{Choice, Number, Table};
 

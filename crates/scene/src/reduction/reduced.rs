@@ -9,8 +9,8 @@
 use dbd_kernel::Vec3;
 use dbd_kernel::model::Law;
 
-use crate::planar::elements::Element;
-use crate::planar::plane::ALIKE;
+use crate::planar::ALIKE;
+use crate::reduction::elements::Element;
 
 /// An element of the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]

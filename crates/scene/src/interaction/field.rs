@@ -6,9 +6,9 @@ use dbd_kernel::{Quaternion, Vec3};
 
 use crate::assembly::Assembly;
 use crate::error::SceneError;
+use crate::interaction::of_drives::Constants;
+use crate::interaction::of_joints::{OfJoint, limit};
 use crate::joints::JointPlace;
-use crate::laws::of_drives::Constants;
-use crate::laws::of_joints::{OfJoint, limit};
 use crate::nearest::nearest;
 use crate::pair::Pair;
 use crate::points::{Heading, PlaceOf};

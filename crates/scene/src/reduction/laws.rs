@@ -9,13 +9,13 @@ use dbd_kernel::attitude::Attitude as _;
 use dbd_kernel::laws::{Field, FieldSink, FieldSource, Hinge, MOST_TERMS, Term, Way};
 use dbd_kernel::{BodyIndex, F64, Geometry as _, Quaternion, Vec3};
 
-use crate::Scene;
 use crate::laws::LawList;
-use crate::planar::Leaves;
-use crate::planar::departure::Part;
-use crate::planar::driven::lean;
-use crate::planar::plane::{ALIKE, Plane, short};
+use crate::planar::{ALIKE, Plane, short};
+use crate::reduction::Leaves;
+use crate::reduction::departure::Part;
+use crate::reduction::driven::lean;
 use crate::runtime::SceneModel;
+use crate::scene::Scene;
 
 /// Adds the laws.
 pub(super) fn read(

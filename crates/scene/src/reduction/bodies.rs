@@ -4,11 +4,11 @@
 
 use dbd_kernel::{Body, F64, Vec3};
 
-use crate::Scene;
-use crate::planar::Leaves;
-use crate::planar::departure::Part;
-use crate::planar::plane::{ALIKE, Axes, Plane, short};
+use crate::planar::{ALIKE, Axes, Plane, short};
+use crate::reduction::Leaves;
+use crate::reduction::departure::Part;
 use crate::runtime::SceneModel;
+use crate::scene::Scene;
 
 /// \[m\] how large a model is: its bodies' spread and the reach of its points.
 pub(super) fn size(model: &SceneModel<F64>) -> f64 {

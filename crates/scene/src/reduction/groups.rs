@@ -6,13 +6,13 @@ use dbd_kernel::index::{ClearanceIndex, DamperIndex};
 use dbd_kernel::model::{Group, Law};
 use dbd_kernel::{BodyState, F64, PointBushing, PointOnLine, Tsda, Vec3};
 
-use crate::Scene;
-use crate::planar::Leaves;
-use crate::planar::departure::Part;
-use crate::planar::elements::{Element, Placed, coupling};
-use crate::planar::plane::{ALIKE, Plane, short};
-use crate::planar::reduced::{Arm, Reduced, reduced};
+use crate::planar::{ALIKE, Plane, short};
+use crate::reduction::Leaves;
+use crate::reduction::departure::Part;
+use crate::reduction::elements::{Element, Placed, coupling};
+use crate::reduction::reduced::{Arm, Reduced, reduced};
 use crate::runtime::SceneModel;
+use crate::scene::Scene;
 
 /// What of a joint's strength may act across the plane.
 const ACROSS: f64 = 1e-8;

@@ -7,11 +7,11 @@ use dbd_kernel::elements::input::{Input, InputKind};
 use dbd_kernel::index::DamperIndex;
 use dbd_kernel::{BodyIndex, F64, Load, LoadFrame, Quaternion, TorsionSpring, Vec3};
 
-use crate::Scene;
-use crate::planar::Leaves;
-use crate::planar::departure::Part;
-use crate::planar::plane::{ALIKE, Plane, short};
+use crate::planar::{ALIKE, Plane, short};
+use crate::reduction::Leaves;
+use crate::reduction::departure::Part;
 use crate::runtime::SceneModel;
+use crate::scene::Scene;
 
 /// Adds torsion springs, loads, inputs and their tables.
 pub(super) fn read(

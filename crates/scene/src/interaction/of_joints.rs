@@ -8,6 +8,7 @@ use dbd_kernel::laws::Field;
 use crate::assembly::Assembly;
 use crate::error::SceneError;
 use crate::joints::JointPlace;
+use crate::laws::dissipation;
 use crate::text::{Number, Table};
 
 /// A key of a type of joint and the law that it stands for: `("revolute", "limits", "hinge-stop")`.
@@ -164,30 +165,6 @@ fn restituted(table: &Table<'_>, unit: &'static str) -> Result<Option<f64>, Scen
     }
     let speed = if unit == "s/rad" { "rad/s" } else { "m/s" };
     Ok(Some(dissipation(restitution, table.required("speed", Number::positive(speed))?)))
-}
-
-/// The coefficient a \[s/m, s/rad\] at which an impact at `speed` v \[m/s, rad/s\] returns e times that, for
-/// `F = k·x·(1 + a·ẋ)` whatever k: `(1 + a·v)·exp(−(1 + a·v)) = (1 − a·e·v)·exp(−(1 − a·e·v))` (Hunt & Crossley, J. Appl.
-/// Mech. 42 (1975) 440, with exponent 1).
-#[must_use]
-pub fn dissipation(restitution: f64, speed: f64) -> f64 {
-    let e = restitution;
-    // Where it is positive, y = a·v is too large; e·y < 1.
-    let excess = |y: f64| libm::log1p(y) - y - (libm::log1p(-e * y) + e * y);
-    let (mut least, mut most) = (0.0, 1.0 / e);
-    if e == 1.0 {
-        return 0.0;
-    }
-    // Until nothing is between them.
-    for _ in 0..200 {
-        let middle = 0.5 * (least + most);
-        if excess(middle) > 0.0 {
-            most = middle;
-        } else {
-            least = middle;
-        }
-    }
-    least / speed
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use dbd_kernel::model::{Group, Law};
 use dbd_kernel::{BodyIndex, BodyState, F64, Vec3};
 
 use crate::direction::unit;
-use crate::planar::plane::Plane;
+use crate::planar::Plane;
 use crate::runtime::SceneModel;
 
 /// The bodies of a scene in a plane.

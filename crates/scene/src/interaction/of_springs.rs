@@ -5,10 +5,11 @@
 use dbd_kernel::Vec3;
 
 use crate::assembly::Assembly;
+use crate::between::Between;
 use crate::error::SceneError;
-use crate::laws::field::{Of, TwoPlaces};
-use crate::laws::of_joints::{LIMITS, check_limits};
-use crate::pair::{Between, Pair};
+use crate::interaction::field::{Of, TwoPlaces};
+use crate::interaction::of_joints::{LIMITS, check_limits};
+use crate::pair::Pair;
 use crate::points::Heading;
 use crate::text::Table;
 

@@ -1,0 +1,293 @@
+//! `[[interaction]]`, and what joints, springs, drives and couplings have of laws between bodies.
+//!
+//! `tables => rows of laws`.
+
+mod field;
+mod of_couplings;
+mod of_drives;
+mod of_joints;
+mod of_springs;
+
+pub(crate) use of_couplings::{KEYS as COUPLING, TERM};
+pub(crate) use of_drives::{Driven, GEAR, KEYS as DRIVE, TYPE as DRIVE_TYPE, WINDING};
+pub(crate) use of_joints::{FRICTION, LIMITS, ROTOR};
+
+use std::sync::Arc;
+
+use dbd_kernel::laws;
+
+use crate::assembly::Assembly;
+use crate::between::Between;
+use crate::drive;
+use crate::error::SceneError;
+use crate::file_lines::LawPlace;
+use crate::interaction::field::{Of, Reading};
+use crate::interaction::of_couplings::Coupled;
+use crate::interaction::of_joints::{OF_JOINTS, OfJoint, keys_of};
+use crate::joints::{self, JointPlace};
+use crate::laws::{KnownLaw, SourceRows, known_laws};
+use crate::nearest::nearest;
+use crate::pair::Pair;
+use crate::shortened::shortened;
+use crate::target::{Elements, Target};
+use crate::text::{Kind, Table, Text, Value};
+
+pub(crate) const KEYS: &[&str] = &["name", "law", "between"];
+
+/// The name of a law.
+struct LawName<'k>(&'k [KnownLaw]);
+
+impl Kind for LawName<'_> {
+    type Output = usize;
+
+    fn expected(&self) -> String {
+        let names: Vec<_> = self.0.iter().map(|law| format!("\"{}\"", law.name)).collect();
+        format!("the name of a law: {}", names.join(", "))
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<usize, SceneError> {
+        let name = value.get().as_str().ok_or_else(|| value.wrong_type(&self.expected()))?;
+        self.0.iter().position(|law| law.name == name).ok_or_else(|| {
+            let meant = match nearest(name, self.0.iter().map(|law| law.name)) {
+                Some(meant) => format!("did you mean \"{meant}\"? "),
+                None => String::new(),
+            };
+            let help = format!(
+                "{meant}this program knows {}; a law of one's own is a type in a crate: `host-sim new laws` \
+                 writes one",
+                self.expected().trim_start_matches("the name of a law: "),
+            );
+            value.refuse_with(&format!("names no law: \"{}\"", shortened(name)), help)
+        })
+    }
+}
+
+/// What a scene's interactions are called, and what they show.
+#[derive(Default)]
+pub(crate) struct Read {
+    /// What messages call them, in the order of the model's rows.
+    pub(crate) labels: Vec<String>,
+    /// Where each one stands.
+    pub(crate) places: Vec<LawPlace>,
+    /// What each shows.
+    pub(crate) quantities: Vec<&'static [laws::Quantity]>,
+}
+
+/// An interaction that is read: its name, if it has one, with the table that it is refused by; its label; its place.
+struct One<'t> {
+    name: Option<String>,
+    table: Table<'t>,
+    label: String,
+    place: LawPlace,
+    /// What it shows where that is not what its law says.
+    quantities: Option<&'static [laws::Quantity]>,
+}
+
+/// The rows of each law so far.
+struct Rows<'t> {
+    known: Vec<KnownLaw>,
+    /// The names of the inputs.
+    inputs: Vec<String>,
+    /// A law by its place among those known, its rows, and what they are.
+    laws: Vec<(usize, Box<dyn SourceRows>, Vec<One<'t>>)>,
+}
+
+impl<'t> Rows<'t> {
+    /// Adds a row of a law by its place among those known.
+    fn add(
+        &mut self,
+        law: usize,
+        assembly: &Assembly,
+        (pair, of): (&Pair, Of<'_>),
+        one: One<'t>,
+    ) -> Result<(), SceneError> {
+        let place = self.laws.iter().position(|(of, ..)| *of == law).unwrap_or_else(|| {
+            let path = self.known[law].path.clone();
+            self.laws.push((law, (self.known[law].table)(path), Vec::new()));
+            self.laws.len() - 1
+        });
+        let (_, rows, of_law) = &mut self.laws[place];
+        let table = &one.table;
+        let mut reading = Reading::new(table, assembly, pair, of, &self.inputs);
+        let done = rows.add([pair.a, pair.b], &mut reading);
+        if let Some(refused) = reading.into_refused() {
+            return Err(refused);
+        }
+        if done.is_none() {
+            return Err(table.refuse("cannot be read", "a constant of the law is missing"));
+        }
+        if let Some(wrong) = rows.wrong() {
+            let help = format!("`{}` of {} must be {}", wrong.field, table.label(), wrong.expected);
+            return Err(table.refuse_value(wrong.field, wrong.problem, help));
+        }
+        of_law.push(one);
+        Ok(())
+    }
+}
+
+/// Reads all interactions, those of joints before those of `[[interaction]]`: those of one law stand together in the
+/// model, in the order in which the scene first has their law.
+pub(crate) fn read_all(
+    root: &Table<'_>,
+    joints: &[JointPlace],
+    assembly: &mut Assembly,
+    elements: &mut Elements,
+) -> Result<Read, SceneError> {
+    let mut rows = Rows { known: known_laws(), inputs: Vec::new(), laws: Vec::new() };
+    for table in root.list("input")? {
+        rows.inputs.push(table.optional("name", Text::Name)?.unwrap_or_default());
+    }
+    of_joints(root, joints, assembly, &mut rows)?;
+    of_springs(root, assembly, &mut rows)?;
+    of_drives(root, (joints, elements), assembly, &mut rows)?;
+    of_couplings(root, (joints, elements), assembly, &mut rows)?;
+    for (number, table) in root.list("interaction")?.into_iter().enumerate() {
+        let known = &rows.known;
+        if !table.has("law") {
+            table.only(&[KEYS, &all_fields(known)])?;
+        }
+        let law = table.required("law", LawName(known))?;
+        if !known[law].is_between() {
+            let help = "a sum of coordinates of joints is a [[coupling]]";
+            return Err(table.refuse_value("law", "is no law between two bodies", help));
+        }
+        let fields = known[law].fields.iter();
+        table.only(&[KEYS, &fields.map(|field| field.name).collect::<Vec<_>>()])?;
+        let pair = table.required("between", Between(assembly))?;
+        if pair.b.is_world() {
+            let help = "the ground comes first: between = [\"world\", BODY]";
+            return Err(table.refuse_value("between", "has the ground as its second body", help));
+        }
+        let (label, place) = (pair.label(&table), ("interaction", number));
+        let one = One { name: None, table, label, place, quantities: None };
+        rows.add(law, assembly, (&pair, Of::Itself), one)?;
+    }
+    let mut read = Read::default();
+    let mut sources = Vec::new();
+    for (law, source, of_law) in rows.laws {
+        for One { name, table, label, place, quantities } in of_law {
+            let target = Target::Interaction(read.labels.len());
+            match name {
+                Some(name) => elements.add(&table, name, "interaction", target)?,
+                None if place.0 == "tsda" || place.0 == "torsion_spring" => {}
+                None => elements.read_optional(&table, "interaction", target)?,
+            }
+            read.labels.push(label);
+            read.places.push(place);
+            read.quantities.push(quantities.unwrap_or(rows.known[law].quantities));
+        }
+        sources.push(Arc::from(source));
+    }
+    assembly.set_laws(&sources);
+    Ok(read)
+}
+
+/// Reads `limits`, `friction` and `rotor` of joints.
+fn of_joints<'t>(
+    root: &Table<'t>,
+    joints: &[JointPlace],
+    assembly: &Assembly,
+    rows: &mut Rows<'t>,
+) -> Result<(), SceneError> {
+    for (number, (joint, place)) in root.list("joint")?.into_iter().zip(joints).enumerate() {
+        joints::allow(&joint)?;
+        for (_, key, law) in OF_JOINTS.iter().filter(|(kind, ..)| *kind == place.kind) {
+            let Some(value) = joint.value(key) else { continue };
+            let table = value.table(keys_of(key).1)?;
+            let Some(law) = rows.known.iter().position(|known| known.name == *law) else {
+                continue;
+            };
+            let of_joint = OfJoint::new(&table, key, (place, rows.known[law].fields), assembly)?;
+            let name = format!("{}.{key}", place.name);
+            let [a, b] = &place.pair.names;
+            let label = format!("{key} `{name}` ({a}–{b})");
+            let place_of = ("joint", number);
+            let one = One { name: Some(name), table, label, place: place_of, quantities: None };
+            rows.add(law, assembly, (&place.pair, Of::Joint(of_joint)), one)?;
+        }
+    }
+    Ok(())
+}
+
+/// Reads `limits` of raw TSDAs and of torsion springs.
+fn of_springs<'t>(
+    root: &Table<'t>,
+    assembly: &Assembly,
+    rows: &mut Rows<'t>,
+) -> Result<(), SceneError> {
+    for (kind, law) in [("tsda", "distance-stop"), ("torsion_spring", "hinge-stop")] {
+        let Some(law) = rows.known.iter().position(|known| known.name == law) else { continue };
+        for (number, owner) in root.list(kind)?.into_iter().enumerate() {
+            let Some(value) = owner.value("limits") else { continue };
+            let table = value.table("{ from = …, to = …, stiffness = … }")?;
+            let (pair, of) = of_springs::limits(&owner, &table, kind, assembly)?;
+            let called = owner.optional("name", Text::Name)?;
+            let name = called.as_ref().map(|called| format!("{called}.limits"));
+            let label = match &name {
+                Some(name) => format!("limits `{name}` ({}–{})", pair.names[0], pair.names[1]),
+                None => format!("limits of {}", pair.label(&owner)),
+            };
+            let one = One { name, table, label, place: (kind, number), quantities: None };
+            rows.add(law, assembly, (&pair, of), one)?;
+        }
+    }
+    Ok(())
+}
+
+/// Reads inputs of the type `drive`.
+fn of_drives<'t>(
+    root: &Table<'t>,
+    (joints, elements): (&[JointPlace], &Elements),
+    assembly: &Assembly,
+    rows: &mut Rows<'t>,
+) -> Result<(), SceneError> {
+    for (number, table) in root.list("input")?.into_iter().enumerate() {
+        if table.optional("type", Text::Any)?.as_deref() != Some(DRIVE_TYPE) {
+            continue;
+        }
+        table.only(&[drive::INPUT, &drive::KEYS, DRIVE])?;
+        let driven = Driven::read(&table, joints, elements)?;
+        let (law, constants) = driven.law(&table)?;
+        let Some(law) = rows.known.iter().position(|known| known.name == law) else { continue };
+        let place = driven.place;
+        let name = table.required("name", Text::Name)?;
+        let [a, b] = &place.pair.names;
+        let label = format!("drive `{name}` ({a}–{b})");
+        let one =
+            One { name: Some(name), table, label, place: ("input", number), quantities: None };
+        rows.add(law, assembly, (&place.pair, Of::Drive(place, number, constants)), one)?;
+    }
+    Ok(())
+}
+
+/// Reads couplings of joints.
+fn of_couplings<'t>(
+    root: &Table<'t>,
+    joints: (&[JointPlace], &Elements),
+    assembly: &Assembly,
+    rows: &mut Rows<'t>,
+) -> Result<(), SceneError> {
+    let Some(law) = rows.known.iter().position(|known| known.name == "coupling") else {
+        return Ok(());
+    };
+    for (number, table) in root.list("coupling")?.into_iter().enumerate() {
+        let Coupled { pair, joints, terms, constants, quantities } =
+            Coupled::read(&table, joints, assembly)?;
+        let label = format!("{} ({})", table.label(), joints.join(", "));
+        let one = One { name: None, table, label, place: ("coupling", number), quantities };
+        rows.add(law, assembly, (pair, Of::Coupling(Box::new(terms), constants)), one)?;
+    }
+    Ok(())
+}
+
+/// The keys of all laws.
+fn all_fields(known: &[KnownLaw]) -> Vec<&'static str> {
+    known.iter().flat_map(|law| law.fields.iter().map(|field| field.name)).collect()
+}
+
+/// The laws, each with all its keys.
+pub(crate) fn types() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
+    known_laws().into_iter().filter(KnownLaw::is_between).map(|law| {
+        (law.name, KEYS.iter().copied().chain(law.fields.iter().map(|field| field.name)).collect())
+    })
+}

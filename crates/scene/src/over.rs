@@ -1,0 +1,65 @@
+//! Inputs whose table stands over a read-out: read once all read-outs are known.
+//!
+//! `table of [[input]], read-outs => source of the model`.
+
+use dbd_kernel::F64;
+use dbd_kernel::elements::source::SourceLaw;
+
+use crate::drive::{Argument, Curve, curve};
+use crate::error::SceneError;
+use crate::input::InputInfo;
+use crate::known::Known;
+use crate::nearest::nearest;
+use crate::readout::ReadoutInfo;
+use crate::text::{Table, Text};
+
+/// Reads the tables that stand over read-outs, once these are known.
+pub(crate) fn read_all(
+    root: &Table<'_>,
+    known: &mut Known<'_>,
+    inputs: &[InputInfo],
+    readouts: &[ReadoutInfo],
+) -> Result<(), SceneError> {
+    for (table, info) in root.list("input")?.iter().zip(inputs) {
+        if table.has("over") {
+            let (curve, law) = read(table, readouts, info.unit)?;
+            let added = known.assembly.add_source(info.index, law, &curve);
+            added.map_err(|defect| defect.refuse(table))?;
+        }
+    }
+    Ok(())
+}
+
+/// The sensor that a table stands over: what the kernel reads, and the direction of a vector's column.
+fn read(
+    table: &Table<'_>,
+    readouts: &[ReadoutInfo],
+    unit: &'static str,
+) -> Result<(Curve, SourceLaw<F64>), SceneError> {
+    let name = table.required("over", Text::Name)?;
+    let columns = readouts.iter().flat_map(|info| {
+        let column = move |(row, (end, unit)): (usize, &(&'static str, &'static str))| {
+            (format!("{}{end}", info.name), row, *unit, info)
+        };
+        info.columns.iter().enumerate().map(column)
+    });
+    let columns: Vec<_> = columns.collect();
+    let Some((_, row, unit_over, info)) = columns.iter().find(|(column, ..)| *column == name)
+    else {
+        let help = match nearest(&name, columns.iter().map(|(column, ..)| column.as_str())) {
+            Some(meant) => format!("did you mean \"{meant}\"?"),
+            None => "it must be a read-out, of a point one of its columns: \"NAME.x\"".into(),
+        };
+        let problem = format!("names no column of a read-out: \"{name}\"");
+        return Err(table.refuse_value("over", &problem, help));
+    };
+    let Some(sensor) = info.readout.sensor() else {
+        let problem = format!("names `{name}`, a read-out of type {}", info.kind);
+        let help = "a joint_angle, joint_rate, point or point_velocity: what depends on forces or \
+                    inputs would lead in a circle";
+        return Err(table.refuse_value("over", &problem, help));
+    };
+    let curve = curve(table, Argument { unit: unit_over, name: "reading" }, unit)?;
+    let weights = core::array::from_fn(|i| if i == *row { 1.0 } else { 0.0 });
+    Ok((curve, SourceLaw::Over { sensor, weights, offset: 0.0 }))
+}

@@ -1,0 +1,253 @@
+//! A scene that was read: its model with the names, places and lines that go with it.
+//!
+//! Data and what shows them; what makes a scene is in [`read`](crate::read), what judges one in functions of
+//! `&Scene`.
+
+use std::borrow::Cow;
+
+use dbd_kernel::index::InputIndex;
+use dbd_kernel::readouts::Readout;
+use dbd_kernel::{BodyState, F64};
+
+use crate::columns::{ENERGY_COLUMNS, TIME_COLUMN, of_body};
+use crate::derived::DerivedBody;
+use crate::error::SceneError;
+use crate::file_lines::{FileLines, LawPlace};
+use crate::geometry::GeometryInfo;
+use crate::input::InputInfo;
+use crate::joints::{Assembled, JointInfo, Moved};
+use crate::nearest::nearest;
+use crate::origin::{Origin, Setting};
+use crate::parameters::{Changed, Parameter};
+use crate::planar::Planar;
+use crate::readout::ReadoutInfo;
+use crate::runtime::SceneModel;
+use crate::written::WrittenAngle;
+
+/// A checked and assembled scene.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The scene's name.
+    pub name: String,
+    /// What it is, free text; empty where the file gives none.
+    pub description: String,
+    /// \[s\] simulated time.
+    pub duration: f64,
+    /// \[s\] the step, where the scene gives one.
+    pub step: Option<f64>,
+    /// \[s\] the sampling interval, where the scene gives one.
+    pub every: Option<f64>,
+    /// Names of the bodies in the model's order, spiders after those of the scene file.
+    pub body_names: Vec<String>,
+    /// The joints in scene order.
+    pub joints: Vec<JointInfo>,
+    /// What was moved to close its joints, where it has a table `assemble`.
+    pub assembled: Option<Assembled>,
+    /// What was moved to bring it to rest, where it says `settle = true`.
+    pub settled: Option<Settled>,
+    /// What messages call the torsion springs, in the model's order:
+    /// `torsion_spring 1 (world–crank)`; after those of the scene file the ones that count the
+    /// turns of a read-out's joint.
+    pub torsion_names: Vec<String>,
+    /// The inputs in scene order.
+    pub inputs: Vec<InputInfo>,
+    /// The read-outs in scene order.
+    pub readouts: Vec<ReadoutInfo>,
+    /// What bodies and the ground look like, in scene order; the model knows nothing of it.
+    pub geometry: Vec<GeometryInfo>,
+    /// What came of bodies whose mass, inertia or axes are not written as numbers, in scene order.
+    pub derived: Vec<DerivedBody>,
+    /// The values that `[parameters]` names, in the order of the file, as they are with the changes.
+    pub parameters: Vec<Parameter>,
+    /// The changes of the file's values as they were given, each `PATH=VALUE`.
+    pub changes: Vec<String>,
+    /// What they changed.
+    pub changed: Vec<Changed>,
+    /// The assembled model in double precision; every other precision is a rounding of it.
+    pub model: SceneModel<F64>,
+    /// The scene in its plane, where it says `planar = true`: what steps is this model then.
+    pub planar: Option<Planar>,
+    /// The states at which joints are assembled: those at t = 0 but for `start` and `settle`.
+    pub(crate) assembled_states: Vec<BodyState<F64>>,
+    pub(crate) file_lines: FileLines,
+    pub(crate) origin: Origin,
+    pub(crate) written_angles: Vec<WrittenAngle>,
+    /// What messages call raw TSDAs, then points on lines.
+    pub(crate) raw_names: Vec<String>,
+    /// What messages call the interactions, in the order of the model's laws.
+    pub(crate) law_names: Vec<String>,
+    /// The numbers of their tables.
+    pub(crate) law_places: Vec<LawPlace>,
+}
+
+/// What was moved to bring a scene to rest.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Settled {
+    /// The bodies that were moved, in the order of the scene.
+    pub moved: Vec<Moved>,
+    /// Steps that were computed.
+    pub iterations: usize,
+    /// \[N\] the largest force on a body at the pose of rest, of a planar scene in its plane.
+    pub force: f64,
+    /// \[N·m\] the largest torque on a body there.
+    pub torque: f64,
+}
+
+/// A name that a scene does not have.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the scene `{scene}` has no {kind} `{name}`{}", .meant.as_ref().map_or(String::new(), |m| format!("; did you mean `{m}`?")))]
+pub struct UnknownName {
+    /// The scene.
+    pub scene: String,
+    /// `input` or `readout`.
+    pub kind: &'static str,
+    /// The name that was asked for.
+    pub name: String,
+    /// The one that was probably meant.
+    pub meant: Option<String>,
+}
+
+impl Scene {
+    /// The refusal of a setting of the scene file at its place there: what was asked for elsewhere,
+    /// a duration, a step, does not go with it. `None` where the file does not give it.
+    #[must_use]
+    pub fn refuse(&self, setting: Setting, message: &str, help: &str) -> Option<SceneError> {
+        self.origin.refuse(setting, message, help)
+    }
+
+    /// The model that steps: of a planar scene the one in its plane, whose axes are not the world's.
+    #[must_use]
+    pub fn stepped(&self) -> &SceneModel<F64> {
+        self.planar.as_ref().map_or(&self.model, |planar| &planar.model)
+    }
+
+    /// The elements that step, in the world's axes: those of [`Self::stepped`] where the scene is planar.
+    #[must_use]
+    pub fn in_world(&self) -> Cow<'_, SceneModel<F64>> {
+        match &self.planar {
+            Some(planar) => Cow::Owned(planar.in_world(&self.model, &planar.model)),
+            None => Cow::Borrowed(&self.model),
+        }
+    }
+
+    /// Takes every input from its table, so that the caller drives it, as [`SceneModel::release_all`].
+    pub fn release_all(&mut self) {
+        self.model.release_all();
+        if let Some(planar) = &mut self.planar {
+            planar.model.release_all();
+        }
+    }
+
+    /// What messages call the raw TSDAs, then the points on lines, in the order of their groups:
+    /// "tsda `strut` (shell–knuckle)".
+    #[must_use]
+    pub fn raw_names(&self) -> &[String] {
+        &self.raw_names
+    }
+
+    /// What messages call the interactions, in the order of the model's rows of laws:
+    /// "interaction `stop` (world–bar)".
+    #[must_use]
+    pub fn law_names(&self) -> &[String] {
+        &self.law_names
+    }
+
+    /// Torsion springs of the scene file, without those that only count turns.
+    #[must_use]
+    pub fn torsion_springs(&self) -> usize {
+        self.file_lines.torsion_springs.len()
+    }
+
+    /// The input of a name, to set it on a plant.
+    ///
+    /// # Errors
+    /// Where the scene has none of that name.
+    pub fn input(&self, name: &str) -> Result<InputIndex, UnknownName> {
+        let names = self.inputs.iter().map(|input| input.name.as_str());
+        let found = self.inputs.iter().find(|input| input.name == name);
+        found.map(|input| input.index).ok_or_else(|| self.unknown("input", name, names))
+    }
+
+    /// The read-out of a name, to read it from a plant.
+    ///
+    /// # Errors
+    /// Where the scene has none of that name.
+    pub fn readout(&self, name: &str) -> Result<Readout<F64>, UnknownName> {
+        let names = self.readouts.iter().map(|readout| readout.name.as_str());
+        let found = self.readouts.iter().find(|readout| readout.name == name);
+        found.map(|found| found.readout).ok_or_else(|| self.unknown("readout", name, names))
+    }
+
+    /// The names of a trace's columns in order.
+    #[must_use]
+    pub fn columns(&self) -> Vec<String> {
+        let mut columns = vec![TIME_COLUMN.to_owned()];
+        columns.extend(self.body_names.iter().flat_map(|body| of_body(body)));
+        columns.extend(ENERGY_COLUMNS.map(str::to_owned));
+        for readout in &self.readouts {
+            columns.extend(readout.columns.iter().map(|(end, _)| readout.name.clone() + end));
+        }
+        columns
+    }
+
+    /// The name of a body of the model; empty where it has none such.
+    #[must_use]
+    pub fn body_name(&self, row: usize) -> &str {
+        self.body_names.get(row).map_or("", String::as_str)
+    }
+
+    /// The line of the scene file, from 1, on which a joint begins.
+    #[must_use]
+    pub fn line_of_joint(&self, row: usize) -> Option<usize> {
+        self.file_lines.joints.get(row).copied()
+    }
+
+    /// The line of the scene file, from 1, on which an interaction begins, by its row in the model.
+    #[must_use]
+    pub fn line_of_interaction(&self, row: usize) -> Option<usize> {
+        let (table, number) = *self.law_places.get(row)?;
+        let lines = &self.file_lines;
+        let lines = match table {
+            "joint" => &lines.joints,
+            "input" => &lines.inputs,
+            "coupling" => &lines.couplings,
+            "tsda" => &lines.tsdas,
+            "torsion_spring" => &lines.torsion_springs,
+            _ => &lines.interactions,
+        };
+        lines.get(number).copied()
+    }
+
+    /// The line of the scene file, from 1, on which an element begins: rows of
+    /// [`element_frequencies`](crate::element_frequencies) and [`element_dampings`](crate::element_dampings). Springs that only count turns have none.
+    #[must_use]
+    pub fn line_of_element(&self, row: usize) -> Option<usize> {
+        let lines = &self.file_lines;
+        let first = self.joints.len() + self.raw_names.len() + self.torsion_names.len();
+        if let Some(law) = row.checked_sub(first) {
+            return self.line_of_interaction(law);
+        }
+        let kinds = [&lines.joints, &lines.tsdas, &lines.points_on_lines, &lines.torsion_springs];
+        kinds.into_iter().flatten().nth(row).copied()
+    }
+
+    /// The line of the scene file, from 1, on which a body begins, or the joint that brings it.
+    #[must_use]
+    pub fn line_of_body(&self, row: usize) -> Option<usize> {
+        self.file_lines.bodies.get(row).copied().or_else(|| {
+            let name = self.body_names.get(row)?;
+            let brings = |joint: &JointInfo| joint.spider.as_ref() == Some(name);
+            self.line_of_joint(self.joints.iter().position(brings)?)
+        })
+    }
+
+    fn unknown<'n>(
+        &self,
+        kind: &'static str,
+        name: &str,
+        known: impl Iterator<Item = &'n str>,
+    ) -> UnknownName {
+        let meant = nearest(name, known).map(str::to_owned);
+        UnknownName { scene: self.name.clone(), kind, name: name.to_owned(), meant }
+    }
+}
