@@ -96,6 +96,18 @@ impl Sources {
         for item in items.iter().filter(|item| !for_tests_alone(item)) {
             match item {
                 Item::Mod(_) => {}
+                // An exported macro is known by its name at the root.
+                Item::Macro(line)
+                    if line
+                        .attrs
+                        .iter()
+                        .any(|attribute| attribute.path().is_ident("macro_export")) =>
+                {
+                    if let Some(name) = line.ident.as_ref().map(ToString::to_string) {
+                        let path = [&module[..], std::slice::from_ref(&name)].concat();
+                        self.imports.entry(Names::new()).or_default().insert(name, path);
+                    }
+                }
                 Item::Use(line) => {
                     let mut taken = Vec::new();
                     flatten(&line.tree, &mut Vec::new(), &mut taken);

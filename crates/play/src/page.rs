@@ -3,13 +3,12 @@
 //! `(scenes, settings, module) => HTML`. The module of WebAssembly stands in it compressed, the worker that runs it and the
 //! scripts that show it beside it; a page drops all into a browser from a disk as from any web host.
 
-use std::fmt::Write as _;
 use std::io::{self, Write as _};
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use dbd_plant::instance::Settings;
-use dbd_report::output::markup::escape;
+use dbd_report::output;
 use dbd_report::page::{STAGE, STYLES, script_json};
 use flate2::Compression;
 use flate2::write::GzEncoder;
@@ -101,28 +100,14 @@ pub fn html(page: &Page, module: &[u8]) -> io::Result<String> {
     let packed = STANDARD.encode(packer.finish()?);
     let data = Data { format: FORMAT, version: env!("CARGO_PKG_VERSION"), page };
     let title = match page.scenes.as_slice() {
-        [one] => escape(&one.name),
-        _ => "Playground".into(),
+        [one] => &one.name,
+        _ => "Playground",
     };
-    let mut text = format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n<title>{title}</title>\n"
-    );
-    for style in STYLES.iter().chain([&STYLE]) {
-        let _ = writeln!(text, "<style>\n{style}</style>");
-    }
-    let _ = writeln!(text, "</head>\n<body>\n{BODY}");
-    let _ = writeln!(
-        text,
-        "<script type=\"application/json\" id=\"play\">{}</script>",
+    let body = format!(
+        "{BODY}\n<script type=\"application/json\" id=\"play\">{}</script>\n\
+         <script type=\"text/plain\" id=\"worker\">\n{WORKER}</script>\n\
+         <script type=\"text/plain\" id=\"module\">{packed}</script>",
         script_json(&data)
     );
-    let _ = writeln!(text, "<script type=\"text/plain\" id=\"worker\">\n{WORKER}</script>");
-    let _ = writeln!(text, "<script type=\"text/plain\" id=\"module\">{packed}</script>");
-    for script in STAGE.iter().chain(SCRIPTS) {
-        let _ = writeln!(text, "<script>\n{script}</script>");
-    }
-    text.push_str("</body>\n</html>\n");
-    Ok(text)
+    Ok(output::page::html(title, &[STYLES, &[STYLE]].concat(), &body, &[STAGE, SCRIPTS].concat()))
 }

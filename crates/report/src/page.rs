@@ -5,7 +5,7 @@
 
 use std::fmt::Write as _;
 
-use crate::output::markup::escape;
+use crate::output::{self, markup::escape};
 
 use crate::data::{Data, Survey, Table};
 
@@ -61,16 +61,7 @@ const DRAWN: [(&str, &str); 6] = [
 #[must_use]
 pub fn html(data: &Data) -> String {
     let Data { name, description, text, .. } = data;
-    let name = escape(name);
-    let mut page = format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{name}</title>\n"
-    );
-    for style in STYLES {
-        let _ = writeln!(page, "<style>\n{style}</style>");
-    }
-    let _ = writeln!(page, "</head>\n<body>\n<main>\n<header>\n<h1>{name}</h1>");
+    let mut page = format!("<main>\n<header>\n<h1>{}</h1>\n", escape(name));
     if !description.is_empty() {
         let _ = writeln!(page, "<p class=\"lead\">{}</p>", escape(description));
     }
@@ -117,11 +108,7 @@ pub fn html(data: &Data) -> String {
         "</main>\n<script type=\"application/json\" id=\"report\">{}</script>",
         json(data)
     );
-    for script in STAGE.iter().chain(SCRIPTS) {
-        let _ = writeln!(page, "<script>\n{script}</script>");
-    }
-    page.push_str("</body>\n</html>\n");
-    page
+    output::page::html(name, STYLES, &page, &[STAGE, SCRIPTS].concat())
 }
 
 /// The data as JSON that ends no script: nothing in it opens a tag or a comment.

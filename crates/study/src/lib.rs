@@ -4,6 +4,7 @@
 //! modules in the order in which they stand on each other:
 //!
 //! - [`reference`](mod@reference): the same equations in plain Rust, which share no force code with the kernel.
+//! - [`plot`]: axes, curves and maps as SVG.
 //! - [`sweep`]: one scene, many values, one row per case.
 //! - [`modes`](mod@modes): small vibrations about a pose.
 //! - [`stability`](mod@stability): the largest stable step of a method about a pose.
@@ -51,6 +52,7 @@ pub mod need;
 pub mod order;
 pub mod page;
 pub mod paper;
+pub mod plot;
 pub mod point;
 pub mod precisions;
 pub mod recommend;

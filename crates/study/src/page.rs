@@ -6,6 +6,7 @@
 use std::fmt::Write as _;
 
 use dbd_plant::digits::significant;
+use dbd_report::output;
 use dbd_report::output::markup::{HOVER_SCRIPT, PAGE_STYLE, escape};
 
 use crate::advice::{advice, remark};
@@ -23,13 +24,8 @@ const SCRIPT: &str = include_str!("trade.js");
 /// The page.
 #[must_use]
 pub fn html(chart: &Chart<'_>) -> String {
-    let name = escape(chart.scene);
-    let mut page = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{name}: accuracy against speed</title>\n<style>\n{PAGE_STYLE}{STYLE}</style>\n</head>\n<body>\n\
-         <main>\n<h1>{name}: accuracy against speed</h1>\n"
-    );
+    let title = format!("{}: accuracy against speed", chart.scene);
+    let mut page = format!("<main>\n<h1>{}</h1>\n", escape(&title));
     if !chart.description.is_empty() {
         let _ = writeln!(page, "<p class=\"lead\">{}</p>", escape(chart.description));
     }
@@ -48,8 +44,8 @@ pub fn html(chart: &Chart<'_>) -> String {
         }
         page.push_str("</ul>\n");
     }
-    let _ = write!(page, "</main>\n<script>\n{HOVER_SCRIPT}{SCRIPT}</script>\n</body>\n</html>\n");
-    page
+    page.push_str("</main>\n");
+    output::page::html(&title, &[PAGE_STYLE, STYLE], &page, &[HOVER_SCRIPT, SCRIPT])
 }
 
 /// The sentences, the chart and the front of a machine.
@@ -255,6 +251,7 @@ mod tests {
         assert_eq!(page.matches("<tr data-stepper").count(), points.len() + fronts);
         assert!(page.contains("crank &lt;&amp;&gt; slider") && !page.contains("<&>"));
         assert!(!page.contains("NaN") && !page.contains("inf "));
+        let page = page.replace("<link rel=\"icon\" href=\"data:,\">", "");
         for file in ["src=", "href=", "url("] {
             assert!(!page.contains(file), "{file}");
         }

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 
-use crate::chip::project::within;
+use crate::chip::firmware::within;
 use crate::chip::{Toolchain, firmware, setup};
 use crate::command::{output, program, root, run, shown};
 

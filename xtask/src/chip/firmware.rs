@@ -1,6 +1,7 @@
 //! Building and running the firmware's programs.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::time::Duration;
 
 use anyhow::{Result, bail};
@@ -156,6 +157,13 @@ fn selection(bin: &str) -> [&str; 6] {
 fn features(bin: &str) -> Vec<&str> {
     let first = bin.split('-').next().unwrap_or(bin);
     if [SHARED, PLANT, HIL].contains(&bin) { Vec::new() } else { vec!["--features", first] }
+}
+
+/// Lets a command of cargo run in a project's folder, with the artefacts of the firmware.
+pub fn within(command: &mut Command, toolchain: &Toolchain, project: &Path) {
+    let profile = format!("profile.{PROFILE}.inherits='release'");
+    command.current_dir(project).env("CARGO_TARGET_DIR", toolchain.target_dir());
+    command.args(["--offline", "--profile", PROFILE, "--config", &profile]);
 }
 
 #[cfg(test)]

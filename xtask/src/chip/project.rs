@@ -5,12 +5,11 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use anyhow::{Context as _, Result, bail};
 
 use crate::built::{Program, host_sim};
-use crate::chip::firmware::{LIBRARIES, PROFILE};
+use crate::chip::firmware::{LIBRARIES, within};
 use crate::chip::{Toolchain, c_project};
 use crate::command::{output, program, root, run, shown};
 
@@ -50,13 +49,6 @@ fn written(host_sim: &Path, project: &Path) -> Result<PathBuf> {
         .arg(root().join(SCENE)))?;
     fs::copy(root().join("Cargo.lock"), project.join("Cargo.lock"))?;
     Ok(project.to_owned())
-}
-
-/// In the project's folder, with the artefacts of the firmware.
-pub(super) fn within(command: &mut Command, toolchain: &Toolchain, project: &Path) {
-    let profile = format!("profile.{PROFILE}.inherits='release'");
-    command.current_dir(project).env("CARGO_TARGET_DIR", toolchain.target_dir());
-    command.args(["--offline", "--profile", PROFILE, "--config", &profile]);
 }
 
 fn on_the_target(toolchain: &Toolchain, project: &Path) -> Result<()> {

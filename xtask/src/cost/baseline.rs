@@ -34,6 +34,6 @@ fn key(toolchain: &Toolchain) -> Result<Key> {
 }
 
 fn sample(toolchain: &Toolchain) -> Result<Vec<Count>> {
-    let costs = super::parse(&firmware::execute(toolchain, "sample", false, &[])?)?;
+    let costs = super::row::parse(&firmware::execute(toolchain, "sample", false, &[])?)?;
     Ok(costs.iter().map(|cost| (cost.name(), cost.mean)).collect())
 }

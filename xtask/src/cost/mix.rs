@@ -16,7 +16,7 @@ use crate::chip::{Toolchain, firmware};
 use crate::command::{cargo, output, program, root, run as run_command, target_dir};
 
 use super::cycles::{self, Class};
-use super::row::Cost;
+use super::row::{self, Cost};
 
 pub const FILE: &str = "docs/costs-mix.csv";
 /// Programs that count, each in an image of its own.
@@ -191,7 +191,7 @@ pub fn measure(toolchain: &Toolchain) -> Result<(Vec<Cost>, Vec<Mix>)> {
     for program in PROGRAMS {
         let plugin = Plugin::new(&firmware::build(toolchain, program)?)?;
         let lines = firmware::execute_with(toolchain, program, false, &[], &plugin.options())?;
-        let counted = super::parse(&lines)?;
+        let counted = row::parse(&lines)?;
         mixes.extend(plugin.mixes(&counted)?);
         costs.extend(counted);
     }

@@ -12,6 +12,7 @@ mod goals;
 pub mod guards;
 mod mix;
 mod row;
+mod table;
 
 use anyhow::{Context as _, Result, bail};
 
@@ -41,7 +42,7 @@ pub fn run(scenes: &[String], compare: bool) -> Result<()> {
             bail!("there is no shipped scene `{scene}`; there are: {}", known.join(", "));
         }
     }
-    println!("\n{}", row::table(&costs, &mixes, scenes));
+    println!("\n{}", table::table(&costs, &mixes, scenes));
     println!("\n{}", goals::table(&costs));
     if compare {
         let before = std::fs::read_to_string(&file).with_context(|| format!("cannot read {FILE}"));
@@ -76,10 +77,4 @@ fn measure(toolchain: &Toolchain) -> Result<(Vec<Cost>, Vec<Mix>)> {
         bail!("the program reported no step of the audit's");
     }
     Ok((costs, mixes))
-}
-
-/// The rows among a program's lines.
-fn parse(lines: &[String]) -> Result<Vec<Cost>> {
-    let rows = lines.iter().filter(|line| line.starts_with("cost "));
-    rows.map(|line| Cost::parse(line).with_context(|| format!("cannot read `{line}`"))).collect()
 }

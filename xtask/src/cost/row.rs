@@ -1,10 +1,8 @@
-//! A row of costs: as the program prints it, as docs/costs.csv holds it, as a table shows it.
+//! A row of costs: as the program prints it, as docs/costs.csv holds it.
 
 use std::fmt::Write as _;
 
 use anyhow::{Context as _, Result, bail};
-
-use super::mix::Mix;
 
 const HEADER: &str = "scene,scheme,precision,step_s,instructions_mean,instructions_max,text_bytes,\
                       rodata_bytes,plant_ram_bytes,stack_bytes,estimated_rate_168mhz_hz";
@@ -67,7 +65,7 @@ impl Cost {
         format!("{} {} {}", self.scene, self.scheme, self.precision)
     }
 
-    fn rate(&self) -> u64 {
+    pub fn rate(&self) -> u64 {
         (CLOCK / (CYCLES_PER_INSTRUCTION * self.max as f64)) as u64
     }
 }
@@ -127,45 +125,10 @@ fn read_row(line: &str) -> Option<Cost> {
     })
 }
 
-/// The rows of the named scenes, or all where none is named.
-pub fn table(costs: &[Cost], mixes: &[Mix], scenes: &[String]) -> String {
-    let mut text = format!(
-        "{:<16} {:<28} {:<5} {:>9} {:>9} {:>8} {:>8} {:>6} {:>6} {:>10} {:>5} {:>17}\n",
-        "scene",
-        "scheme",
-        "real",
-        "instr/step",
-        "max",
-        ".text",
-        ".rodata",
-        "RAM",
-        "stack",
-        "rate*",
-        "fp",
-        "cycles**"
-    );
-    let rows = costs.iter().zip(mixes);
-    for (c, mix) in rows.filter(|(c, _)| scenes.is_empty() || scenes.contains(&c.scene)) {
-        let [least, most] = mix.cycles();
-        let _ = writeln!(
-            text,
-            "{:<16} {:<28} {:<5} {:>10} {:>9} {:>8} {:>8} {:>6} {:>6} {:>7} Hz {:>3.0} % {:>17}",
-            c.scene,
-            c.scheme,
-            c.precision,
-            c.mean,
-            c.max,
-            c.text.map_or("-".to_owned(), |bytes| bytes.to_string()),
-            c.model,
-            c.plant,
-            c.stack,
-            c.rate(),
-            100.0 * mix.arithmetic(),
-            format!("{least}-{most}")
-        );
-    }
-    text + "* an estimate: 168 MHz, 1.5 cycles per instruction, memory without wait states\n\
-            ** an estimate: by the manual's table of cycles, memory without wait states"
+/// The rows among a program's lines.
+pub fn parse(lines: &[String]) -> Result<Vec<Cost>> {
+    let rows = lines.iter().filter(|line| line.starts_with("cost "));
+    rows.map(|line| Cost::parse(line).with_context(|| format!("cannot read `{line}`"))).collect()
 }
 
 #[cfg(test)]

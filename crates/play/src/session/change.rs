@@ -1,37 +1,13 @@
-//! What is asked for, and what of a running plant is kept when it is asked for otherwise.
+//! What of a running plant is kept when it is asked for otherwise.
 //!
-//! `(text, settings, changes) => plant; (old plant, new plant) => state carried over, or why not`.
+//! `(old plant, new plant) => state carried over, or why not`.
 
-use dbd_plant::instance::{Instance, Settings};
+use dbd_plant::instance::Instance;
 use dbd_scene::Scene;
 
 use crate::refused::Refused;
-use crate::session::{Session, Set, instance};
-
-/// A scene and how it is stepped.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Change {
-    /// What messages call the text.
-    pub file: String,
-    /// The scene in TOML.
-    pub text: String,
-    /// Scheme, damping, precision, step; what is not said is the scene's, or `run`'s.
-    pub settings: Settings,
-    /// Numbers of the scene given otherwise, by their paths.
-    pub set: Set,
-}
-
-impl Change {
-    pub(super) fn instance(&self) -> Result<Instance, Refused> {
-        if let Some((path, value)) = self.set.iter().find(|(_, value)| !value.is_finite()) {
-            return Err(Refused::new(
-                format!("the parameter `{path}` cannot be {value:?}"),
-                "a finite number",
-            ));
-        }
-        instance(&self.file, &self.text, &self.settings, &self.set)
-    }
-}
+use crate::session::asked::Change;
+use crate::session::live::Session;
 
 impl Session {
     /// Takes what is asked for in place of what is. State, time and inputs go on where the scene's parts and its pose at

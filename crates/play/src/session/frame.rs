@@ -5,7 +5,7 @@
 use dbd_report::film::has_joint_springs;
 use serde::Serialize;
 
-use crate::session::Session;
+use crate::session::live::Session;
 
 /// Numbers before the poses: time \[s\], steps, whether it failed, kinetic, potential and total energy \[J\], the upper and
 /// the lower half of the state's hash, energy at t = 0 \[J\], work of the hand \[J\].

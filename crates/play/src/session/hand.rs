@@ -8,7 +8,8 @@ use dbd_kernel::{BodyState, Quaternion, Vec3};
 use dbd_scene::Planar;
 
 use crate::refused::Refused;
-use crate::session::Session;
+use crate::session::asked::Grab;
+use crate::session::live::Session;
 
 /// \[1/s\] how fast a mechanism follows the hand, in time that is watched.
 const FOLLOWS: f64 = 8.0;
@@ -16,19 +17,6 @@ const FOLLOWS: f64 = 8.0;
 const MOST_SHARE: f64 = 0.05;
 /// \[1\] damping ratio.
 const RATIO: f64 = 0.7;
-
-/// A hand at a body.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Grab {
-    /// Its row.
-    pub body: usize,
-    /// \[m\] the point that is held, body axes.
-    pub point: [f64; 3],
-    /// \[m\] where it is pulled to, world.
-    pub target: [f64; 3],
-    /// \[1\] simulated time per time that is watched.
-    pub speed: f64,
-}
 
 impl Session {
     /// Lays a hand on a body, or moves the target of the hand that lies there; `None` lets go.

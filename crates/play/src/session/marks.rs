@@ -2,30 +2,14 @@
 //!
 //! `(state, settings, changes) => mark; mark => session as it was`.
 
-use std::collections::VecDeque;
-
 use crate::refused::Refused;
-use crate::session::{Change, Session};
+use crate::session::kept::Mark;
+use crate::session::live::Session;
 
 /// Marks that are kept; the oldest goes first.
 pub const MOST_MARKS: usize = 600;
 /// \[byte\] all of them together, at least two.
 const MOST_BYTES: usize = 64_000_000;
-
-/// A state that was kept.
-#[derive(Clone, Debug)]
-struct Mark {
-    time: f64,
-    asked: Change,
-    snapshot: Vec<u8>,
-    disturbed: bool,
-    work: f64,
-    inputs_set: usize,
-}
-
-/// Those that are kept, the oldest first.
-#[derive(Clone, Debug, Default)]
-pub struct Marks(VecDeque<Mark>);
 
 impl Session {
     /// Keeps the present state; how many are kept, and \[s\] the times of the oldest and the newest. A failed state is not

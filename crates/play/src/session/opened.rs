@@ -7,10 +7,11 @@ use dbd_plant::{
 };
 use dbd_report::data::{Run, Trace};
 use dbd_report::recording::traces;
-use dbd_scene::Scene;
 use serde::Serialize;
 
-use crate::session::{Layout, Session, Set};
+use crate::session::asked::Set;
+use crate::session::frame::Layout;
+use crate::session::live::{Session, readouts};
 
 /// Most numbers of a scene that are listed; the others are only in the text.
 const MOST_NUMBERS: usize = 20_000;
@@ -190,11 +191,6 @@ impl Session {
             display(self.instance.step_size()),
         )
     }
-}
-
-/// The first output of a scene that is a read-out.
-pub(super) fn readouts(scene: &Scene) -> usize {
-    scene.body_names.len() * dbd_scene::BODY_COLUMNS.len() + dbd_scene::ENERGY_COLUMNS.len()
 }
 
 fn choices() -> Choices {

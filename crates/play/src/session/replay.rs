@@ -4,7 +4,7 @@
 
 use std::fmt::Write as _;
 
-use crate::session::Session;
+use crate::session::live::Session;
 
 impl Session {
     /// The scene with a table in place of the value of each input that was set. Inputs that the text does not write as a

@@ -4,16 +4,16 @@
 //! - [`file`](mod@file): files that appear complete or not at all.
 //! - [`set`]: files that belong together.
 //! - [`markup`]: text as HTML and SVG take it, the style that pages share.
+//! - [`page`]: an HTML page.
 //! - [`svg`]: what drawings are made of.
 //! - [`dark`]: what their colours become on a dark screen.
 //! - [`label_spots`]: where names go in a drawing.
-//! - [`panel`]: curves over time as an SVG.
 
 pub mod dark;
 pub mod file;
 pub mod label_spots;
 mod lock;
 pub mod markup;
-pub mod panel;
+pub mod page;
 pub mod set;
 pub mod svg;

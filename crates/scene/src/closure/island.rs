@@ -4,9 +4,7 @@
 //! not move join nothing to anything.
 
 use crate::closure::constraint::{Closure, Opening};
-use crate::closure::least_norm::Factors;
-use crate::closure::nearest::approach;
-use crate::closure::newton::{Budget, CAREFUL, newton};
+use crate::closure::least_norm::dot;
 use crate::closure::pose::Pose;
 use crate::parts::Parts;
 use dbd_kernel::Vec3;
@@ -17,14 +15,6 @@ pub(super) struct Island {
     pub(super) bodies: Vec<usize>,
     /// Rows of their joints, ascending.
     closures: Vec<usize>,
-}
-
-/// What the joints of an island hold.
-pub(super) struct Held {
-    /// Constraints.
-    pub(super) rows: usize,
-    /// Of which none follows from the others.
-    pub(super) rank: usize,
 }
 
 /// The equations of an island at some poses.
@@ -83,29 +73,6 @@ impl Island {
         }
         islands.sort_by_key(|island| island.bodies.first().copied());
         islands
-    }
-
-    /// Brings its joints together where they are not; what they then hold.
-    pub(super) fn close(
-        &self,
-        closures: &[Closure],
-        length: f64,
-        poses: &mut Vec<Pose>,
-        budget: &mut Budget,
-    ) -> Held {
-        let system = self.system(closures, length);
-        let given = poses.clone();
-        if system.equations(poses).norm() > system.rounding(poses) {
-            newton(&system, poses, budget);
-            if system.equations(poses).norm() <= system.done(poses) {
-                approach(&system, &given, poses, budget);
-            }
-        }
-        let equations = system.equations(poses);
-        Held {
-            rows: equations.rows.len(),
-            rank: Factors::of(&equations.rows, system.columns(), CAREFUL).rank(),
-        }
     }
 
     /// How far its joints that were open most at first are when all others are closed, from where what cannot be
@@ -201,6 +168,6 @@ impl System<'_> {
 impl Equations {
     /// \[m\] root of the sum of the residuals' squares.
     pub(super) fn norm(&self) -> f64 {
-        libm::sqrt(crate::closure::least_norm::dot(&self.residuals, &self.residuals))
+        libm::sqrt(dot(&self.residuals, &self.residuals))
     }
 }

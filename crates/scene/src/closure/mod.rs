@@ -6,6 +6,7 @@
 //! are a linear problem more ([`rates`]). Arithmetic, roots and libm's functions in one written order: the same bits on every host.
 
 mod constraint;
+mod held;
 mod island;
 mod least_norm;
 mod mobility;
@@ -90,7 +91,7 @@ pub(crate) fn close(
     let mut joined = 0;
     for island in Island::all(closures, movable) {
         let mut budget = Budget::of(settings.iterations);
-        let held = island.close(closures, settings.length, &mut outcome.poses, &mut budget);
+        let held = held::close(&island, closures, settings.length, &mut outcome.poses, &mut budget);
         outcome.iterations += budget.spent();
         outcome.freedoms += 6 * island.bodies.len() - held.rank;
         outcome.held_twice += held.rows - held.rank;

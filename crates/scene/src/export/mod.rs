@@ -11,6 +11,7 @@ mod names;
 mod number;
 mod plant;
 mod preamble;
+mod precision;
 mod rows;
 mod scheme;
 
@@ -18,11 +19,12 @@ pub use model::model;
 pub use names::{constant_name, constant_names, type_name};
 pub use number::SourceNumber;
 pub use preamble::preamble;
+pub use precision::ExportPrecision;
 pub use scheme::{ExportScheme, MOST_ITERATIONS, SchemeError};
 
 use dbd_kernel::geometry::Float;
 use dbd_kernel::planar::Planar;
-use dbd_kernel::{F32, F64, Fixed, Geometry as _, Vec3};
+use dbd_kernel::{F64, Fixed, Vec3};
 
 use number::SourceGeometry;
 
@@ -31,53 +33,8 @@ use crate::runtime::SceneModel;
 use crate::scene::Scene;
 use crate::time::display;
 
-/// Stands before what a program need not use.
-const UNUSED: &str = "#[allow(dead_code)]\n";
-
 /// What every exported file begins with.
 pub const HEAD: &str = "// Written by dbd-scene from the scene ";
-
-/// Precisions that const models are written in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ExportPrecision {
-    /// Double precision.
-    F64,
-    /// Single precision.
-    F32,
-    /// Fixed-point geometry with forces in single precision.
-    Fixed,
-}
-
-impl ExportPrecision {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::F64, Self::F32, Self::Fixed];
-
-    /// `f64`, `f32` …
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::F64 => F64::NAME,
-            Self::F32 => F32::NAME,
-            Self::Fixed => Fixed::NAME,
-        }
-    }
-
-    /// What types are called by it: `FourBarF32`.
-    #[must_use]
-    pub fn suffix(self) -> &'static str {
-        match self {
-            Self::F64 => F64::SUFFIX,
-            Self::F32 => F32::SUFFIX,
-            Self::Fixed => Fixed::SUFFIX,
-        }
-    }
-
-    /// Whether a planar scene has it.
-    #[must_use]
-    pub fn has_planes(self) -> bool {
-        matches!(self, Self::F64 | Self::F32)
-    }
-}
 
 /// What is exported of a scene.
 #[derive(Clone, Debug, PartialEq)]

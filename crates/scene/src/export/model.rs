@@ -11,9 +11,8 @@ use dbd_kernel::model::ModelOwner;
 use dbd_kernel::planar::Planar;
 use dbd_kernel::readouts::Readout;
 
-use super::UNUSED;
 use super::laws;
-use super::names::{constant_name, constant_names, quoted, type_name};
+use super::names::{UNUSED, constant_name, constant_names, quoted, type_name};
 use super::number::{SourceGeometry, SourceNumber};
 use super::rows::{
     body, bushing, group, input, knot, list, load, point_on_line, readout, revolute, source, state,

@@ -1,5 +1,8 @@
 //! Names of a scene and its parts as Rust identifiers and in comments.
 
+/// Stands before what a program need not use.
+pub(super) const UNUSED: &str = "#[allow(dead_code)]\n";
+
 /// The scene's name as a Rust constant: `four-bar` becomes `FOUR_BAR`; a leading digit gets a `_`.
 #[must_use]
 pub fn constant_name(scene: &str) -> String {

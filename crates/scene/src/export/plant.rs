@@ -2,9 +2,10 @@
 //!
 //! `(scene, scheme, precision) => type aliases, constructors`.
 
-use super::names::{constant_name, quoted, type_name};
+use super::names::{UNUSED, constant_name, quoted, type_name};
 use super::number::SourceGeometry;
-use super::{ExportPrecision, ExportScheme, UNUSED};
+use super::precision::ExportPrecision;
+use super::scheme::ExportScheme;
 use crate::scene::Scene;
 
 /// The scheme as a constant.

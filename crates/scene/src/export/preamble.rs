@@ -2,8 +2,7 @@
 //!
 //! `scene => use lines, step, names, indices`.
 
-use super::UNUSED;
-use super::names::{constant_name, constant_names, quoted};
+use super::names::{UNUSED, constant_name, constant_names, quoted};
 use super::number::SourceNumber;
 use super::rows::{index, list};
 use crate::assembly::WORLD;

@@ -10,8 +10,8 @@ use dbd_kernel::schemes::{
     Kicked, Leapfrog, Pefrl, Rk4, Scheme, SemiImplicitEuler,
 };
 
-use super::ExportPrecision;
 use super::number::SourceNumber as _;
+use super::precision::ExportPrecision;
 use crate::default_step::Bears;
 use crate::nearest::nearest;
 

@@ -6,7 +6,7 @@
 use dbd_kernel::model::{Group, Law};
 use dbd_kernel::{BodyIndex, F64, Geometry, Vec3};
 
-use crate::facts::frames;
+use crate::facts::pose::frames;
 use crate::scene::Scene;
 
 /// What is known of the elements of a group, or of several.

@@ -7,8 +7,8 @@
 use dbd_kernel::Vec3;
 use dbd_kernel::model::{Group, Law};
 
-use crate::facts::frames;
 use crate::facts::lengths::{End, along, held_turns, is_bushing, points};
+use crate::facts::pose::frames;
 use crate::scene::Scene;
 
 /// How fast a joint, a raw element or a torsion spring alone would let its bodies vibrate.

@@ -10,7 +10,7 @@ use crate::closure::{self, Closure, MOST_BODIES, Opening, Outcome, Settings, Tur
 use crate::error::SceneError;
 use crate::joints::rates::{self, Joints};
 use crate::joints::site::{Site, poses, shown};
-use crate::joints::{KEYS as JOINT_KEYS, kind};
+use crate::joints::types::{KEYS as JOINT_KEYS, kind};
 use crate::shortened::shortened;
 use crate::spring;
 use crate::text::{Kind, Number, Table, Text, Value};

@@ -10,7 +10,7 @@ use crate::assembly::{Assembly, Lines, Points};
 use crate::closure::{Place, Turn};
 use crate::error::SceneError;
 use crate::hinge::Hinge;
-use crate::joints::{Joint, JointType};
+use crate::joints::kind::{Joint, JointType};
 use crate::text::{Number, Table};
 
 pub(super) const TYPE: JointType = JointType {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::hinge::Hinge;
-use crate::joints::realisation::Realisation;
+use crate::joints::kind::Realisation;
 
 /// What reports say of a joint.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,33 +5,9 @@
 
 use crate::assembly::Assembly;
 use crate::error::SceneError;
-use crate::joints::JointType;
+use crate::joints::kind::{JointType, Realisation};
 use crate::spring::Spring;
 use crate::text::{Choice, Table};
-
-/// What a joint is made of.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Realisation {
-    /// TSDAs with free lengths, or points on lines.
-    #[default]
-    Tsda,
-    /// Bushings of no length, as stiff at the pose of assembly: no root, no division in a step.
-    Bushing,
-}
-
-impl Realisation {
-    /// All of them, the default first.
-    pub const ALL: [Self; 2] = [Self::Tsda, Self::Bushing];
-
-    /// `tsda` or `bushing`.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Tsda => "tsda",
-            Self::Bushing => "bushing",
-        }
-    }
-}
 
 pub(super) const KEY: &str = "realisation";
 

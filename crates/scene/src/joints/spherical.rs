@@ -10,8 +10,8 @@ use crate::assembly::{Assembly, Points};
 use crate::closure::{Place, Turn};
 use crate::error::SceneError;
 use crate::hinge::Hinge;
-use crate::joints::realisation::{self, Realisation};
-use crate::joints::{Joint, JointType};
+use crate::joints::kind::{Joint, JointType, Realisation};
+use crate::joints::realisation;
 use crate::text::{Number, Table};
 
 pub(super) const TYPE: JointType = JointType {

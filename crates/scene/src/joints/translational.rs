@@ -12,7 +12,7 @@ use crate::assembly::{Assembly, Lines, Points};
 use crate::closure::{Place, Turn};
 use crate::error::SceneError;
 use crate::hinge::Hinge;
-use crate::joints::{Joint, JointType};
+use crate::joints::kind::{Joint, JointType};
 use crate::text::{Choice, Number, Table};
 
 pub(super) const TYPE: JointType = JointType {

@@ -2,7 +2,7 @@
 
 use dbd_kernel::laws::Law;
 
-use crate::laws::KnownLaw;
+use crate::laws::known::KnownLaw;
 
 /// One entry of [`laws!`](crate::laws!).
 #[doc(hidden)]

@@ -1,6 +1,6 @@
 //! Angles that are probably degrees.
 
-use crate::lint::{Severity, Warning, short};
+use crate::lint::warning::{Severity, Warning, short};
 use crate::scene::Scene;
 
 pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {

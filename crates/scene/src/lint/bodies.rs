@@ -4,7 +4,7 @@ use dbd_kernel::Vec3;
 
 use crate::facts::Facts;
 use crate::interactions::InteractionInfo;
-use crate::lint::{Severity, Warning, short};
+use crate::lint::warning::{Severity, Warning, short};
 use crate::scene::Scene;
 
 /// Points may lie this many radii of gyration from the centre of mass. A rod's ends lie 1.7 away;

@@ -3,7 +3,7 @@
 use dbd_kernel::model::{Group, Law};
 
 use crate::facts::{self, GroupFacts};
-use crate::lint::{Severity, Warning, short};
+use crate::lint::warning::{Severity, Warning, short};
 use crate::scene::Scene;
 
 /// \[m/s\] Velocities given with three digits pull less at a joint.

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::facts::Facts;
-use crate::lint::{Severity, Warning, short};
+use crate::lint::warning::{Severity, Warning, short};
 use crate::scene::Scene;
 
 /// A stiffness in the wrong unit, N/mm for N/m, or a mass in grams changes a frequency by √1000 = 32.

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::facts::Facts;
-use crate::lint::{Severity, Warning, short};
+use crate::lint::warning::{Severity, Warning, short};
 use crate::scene::Scene;
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::elements::source::SourceLaw;

@@ -1,6 +1,6 @@
 //! Stops that are engaged at t = 0.
 
-use crate::lint::{Severity, Warning, short};
+use crate::lint::warning::{Severity, Warning, short};
 use crate::scene::Scene;
 
 pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {

@@ -1,7 +1,7 @@
 //! Bodies that cannot move because joints lock each other, and joints that leave two bodies no motion.
 
 use crate::facts::Facts;
-use crate::lint::{Severity, Warning};
+use crate::lint::warning::{Severity, Warning};
 use crate::scene::Scene;
 
 /// Bodies that a warning names besides the first.

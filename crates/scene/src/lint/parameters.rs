@@ -1,6 +1,6 @@
 //! Parameters that nothing names: a value that is changed in vain.
 
-use super::{Severity, Warning};
+use crate::lint::warning::{Severity, Warning};
 use crate::scene::Scene;
 
 pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {

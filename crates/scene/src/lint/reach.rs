@@ -8,7 +8,7 @@
 use dbd_kernel::Vec3;
 use dbd_kernel::model::{Group, Law};
 
-use crate::lint::{Severity, Warning, short};
+use crate::lint::warning::{Severity, Warning, short};
 use crate::scene::Scene;
 
 /// The square of the farthest that a uniform convex body reaches, in root mean square widths.

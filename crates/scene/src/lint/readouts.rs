@@ -2,7 +2,7 @@
 
 use dbd_kernel::readouts::Readout;
 
-use crate::lint::{Severity, Warning};
+use crate::lint::warning::{Severity, Warning};
 use crate::scene::Scene;
 
 pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {

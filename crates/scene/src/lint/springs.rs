@@ -7,7 +7,7 @@ use dbd_kernel::model::{Group, Law};
 use crate::facts::Facts;
 use crate::facts::{self, GroupFacts};
 use crate::lint::elements::stiffness;
-use crate::lint::{Severity, Warning, short};
+use crate::lint::warning::{Severity, Warning, short};
 use crate::scene::Scene;
 
 /// Words for what only pulls, and for what only pushes.

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use dbd_kernel::{BodyIndex, TorsionSpring, Vec3};
 
 use crate::facts::axis_w;
-use crate::lint::{Severity, Warning, short};
+use crate::lint::warning::{Severity, Warning, short};
 use crate::scene::Scene;
 
 /// Sine of the angle between a spring's axis and its joint's: 0.06°.

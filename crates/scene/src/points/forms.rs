@@ -5,8 +5,8 @@
 use crate::assembly::WORLD;
 use crate::direction::least_aligned;
 use crate::error::SceneError;
-use crate::points::place::unknown;
-use crate::points::{Frame, Places, PrecisePlace};
+use crate::points::place::{PrecisePlace, unknown};
+use crate::points::places::{Frame, Places};
 use crate::precise::{Precise, PreciseVector, sine_and_cosine};
 use crate::text::{Choice, Direction, Kind as _, Number, Numbers, Table, Text, Value};
 
@@ -41,8 +41,17 @@ const GREATEST: f64 = 1e150;
 /// A circle that misses another by less than this share of its radius touches it.
 const TOUCHING: f64 = 1e-14;
 
+impl Places {
+    /// Reads a point.
+    pub(crate) fn read(&mut self, value: &Value<'_>, name: &str) -> Result<(), SceneError> {
+        let place = read(value, self)?;
+        self.points.insert(name.to_owned(), place);
+        Ok(())
+    }
+}
+
 /// Reads a point that stands on others which are known.
-pub(super) fn read(value: &Value<'_>, places: &Places) -> Result<PreciseVector, SceneError> {
+fn read(value: &Value<'_>, places: &Places) -> Result<PreciseVector, SceneError> {
     let place = if value.get().is_table() {
         from_others(&value.table(FORMS)?, places)?.unsigned()
     } else if value.get().is_str() || value.get().is_array() {

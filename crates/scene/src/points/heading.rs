@@ -5,7 +5,7 @@ use dbd_kernel::Vec3;
 use crate::assembly::{Assembly, Resolved};
 use crate::direction::unit;
 use crate::error::SceneError;
-use crate::points::Place;
+use crate::points::place::Place;
 use crate::text::{Direction, Kind, Value};
 
 /// A unit vector, world.

@@ -7,7 +7,7 @@ use dbd_kernel::{BodyIndex, Vec3};
 use crate::assembly::{Assembly, Resolved};
 use crate::error::SceneError;
 use crate::nearest::nearest;
-use crate::points::Places;
+use crate::points::places::Places;
 use crate::precise::PreciseVector;
 use crate::shortened::shortened;
 use crate::text::{Kind, Number, Numbers, Value};

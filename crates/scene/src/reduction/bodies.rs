@@ -5,8 +5,7 @@
 use dbd_kernel::{Body, F64, Vec3};
 
 use crate::planar::{ALIKE, Axes, Plane, short};
-use crate::reduction::Leaves;
-use crate::reduction::departure::Part;
+use crate::reduction::departure::{Leaves, Part};
 use crate::runtime::SceneModel;
 use crate::scene::Scene;
 

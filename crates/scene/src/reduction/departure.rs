@@ -48,6 +48,9 @@ pub struct Unplanar {
     pub departures: Vec<Departure>,
 }
 
+/// What is told of a part that leaves the plane: the part, the key of its table, by how much.
+pub(super) type Leaves<'l> = dyn FnMut(Part, &'static str, &str) + 'l;
+
 impl Departure {
     /// What messages call the part, and by how much it leaves the plane.
     #[must_use]

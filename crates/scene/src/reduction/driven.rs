@@ -8,8 +8,7 @@ use dbd_kernel::index::DamperIndex;
 use dbd_kernel::{BodyIndex, F64, Load, LoadFrame, Quaternion, TorsionSpring, Vec3};
 
 use crate::planar::{ALIKE, Plane, short};
-use crate::reduction::Leaves;
-use crate::reduction::departure::Part;
+use crate::reduction::departure::{Leaves, Part};
 use crate::runtime::SceneModel;
 use crate::scene::Scene;
 

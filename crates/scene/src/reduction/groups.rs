@@ -7,8 +7,7 @@ use dbd_kernel::model::{Group, Law};
 use dbd_kernel::{BodyState, F64, PointBushing, PointOnLine, Tsda, Vec3};
 
 use crate::planar::{ALIKE, Plane, short};
-use crate::reduction::Leaves;
-use crate::reduction::departure::Part;
+use crate::reduction::departure::{Leaves, Part};
 use crate::reduction::elements::{Element, Placed, coupling};
 use crate::reduction::reduced::{Arm, Reduced, reduced};
 use crate::runtime::SceneModel;

@@ -11,8 +11,7 @@ use dbd_kernel::{BodyIndex, F64, Geometry as _, Quaternion, Vec3};
 
 use crate::laws::LawList;
 use crate::planar::{ALIKE, Plane, short};
-use crate::reduction::Leaves;
-use crate::reduction::departure::Part;
+use crate::reduction::departure::{Leaves, Part};
 use crate::reduction::driven::lean;
 use crate::runtime::SceneModel;
 use crate::scene::Scene;

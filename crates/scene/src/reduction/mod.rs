@@ -108,6 +108,3 @@ fn in_plane(scene: &Scene, normal: Vec3<f64>) -> Result<Planar, Unplanar> {
         Err(Unplanar { plane: name, departures })
     }
 }
-
-/// What is told of a part that leaves the plane: the part, the key of its table, by how much.
-type Leaves<'l> = dyn FnMut(Part, &'static str, &str) + 'l;

@@ -50,6 +50,29 @@ pub(crate) fn root<'t>(source: Source<'t>, document: &'t DeTable<'t>) -> Table<'
     Table::new(source, document, 0..0, "the scene".into())
 }
 
+impl<'t> Value<'t> {
+    /// A table within the table it belongs to.
+    pub(crate) fn table(&self, expected: &str) -> Result<Table<'t>, SceneError> {
+        match self.get() {
+            DeValue::Table(entries) => {
+                let label = format!("{} of {}", self.key, self.owner);
+                Ok(Table::new(self.source, entries, self.span(), label))
+            }
+            _ => Err(self.wrong_type(expected)),
+        }
+    }
+
+    /// A table that messages call by a name of its own.
+    pub(crate) fn labelled(&self, expected: &str, label: &str) -> Result<Table<'t>, SceneError> {
+        match self.get() {
+            DeValue::Table(entries) => {
+                Ok(Table::new(self.source, entries, self.span(), label.into()))
+            }
+            _ => Err(self.wrong_type(expected)),
+        }
+    }
+}
+
 impl<'t> Table<'t> {
     pub(crate) fn new(
         source: Source<'t>,

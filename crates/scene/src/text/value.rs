@@ -7,7 +7,6 @@ use toml::de::DeValue;
 
 use crate::error::{SceneError, Source};
 use crate::quantity::Fault;
-use crate::text::Table;
 
 /// What a value must be.
 pub(crate) trait Kind {
@@ -103,26 +102,5 @@ impl<'t> Value<'t> {
             owner: self.owner.clone(),
         };
         Ok(array.iter().enumerate().map(entry).collect())
-    }
-
-    /// A table within the table it belongs to.
-    pub(crate) fn table(&self, expected: &str) -> Result<Table<'t>, SceneError> {
-        match self.get() {
-            DeValue::Table(entries) => {
-                let label = format!("{} of {}", self.key, self.owner);
-                Ok(Table::new(self.source, entries, self.span(), label))
-            }
-            _ => Err(self.wrong_type(expected)),
-        }
-    }
-
-    /// A table that messages call by a name of its own.
-    pub(crate) fn labelled(&self, expected: &str, label: &str) -> Result<Table<'t>, SceneError> {
-        match self.get() {
-            DeValue::Table(entries) => {
-                Ok(Table::new(self.source, entries, self.span(), label.into()))
-            }
-            _ => Err(self.wrong_type(expected)),
-        }
     }
 }

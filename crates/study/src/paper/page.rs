@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use dbd_plant::digits::significant;
+use dbd_report::output;
 use dbd_report::output::markup::{PAGE_STYLE, escape};
 
 use crate::paper::finding::{Finding, Row};
@@ -123,12 +124,9 @@ pub fn html(findings: &[Finding], conditions: &str) -> String {
         }
         body.push_str("</ul>\n");
     }
-    format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>Results of Franco &amp; Degani 2026, measured again</title>\n<style>\n{PAGE_STYLE}{STYLE}</style>\n</head>\n\
-         <body>\n<main>\n<h1>Results of Franco &amp; Degani 2026, measured again</h1>\n{body}</main>\n</body>\n</html>\n"
-    )
+    let title = "Results of Franco & Degani 2026, measured again";
+    let body = format!("<main>\n<h1>{}</h1>\n{body}</main>\n", escape(title));
+    output::page::html(title, &[PAGE_STYLE, STYLE], &body, &[])
 }
 
 const STYLE: &str = "\

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 
 use dbd_plant::digits::significant;
 
-use crate::sweep::plot::{SI, Scale};
+use crate::plot::{SI, Scale};
 use crate::sweep::spec::Spec;
 use crate::sweep::table::Table;
 

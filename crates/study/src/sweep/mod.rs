@@ -22,7 +22,6 @@
 //! - [`store`]: rows of finished cases, kept in a folder.
 //! - [`table`]: rows in the order of the cases, as CSV.
 //! - `parquet`: the same as a Parquet file.
-//! - [`plot`]: drawings of a figure over one axis or two.
 //! - `coordinates`: values of an axis as places in a drawing.
 //! - [`page`]: what people look at.
 //!
@@ -41,7 +40,6 @@ pub mod key;
 pub mod page;
 #[cfg(feature = "parquet")]
 pub mod parquet;
-pub mod plot;
 pub mod random;
 mod range;
 mod read;

@@ -6,13 +6,14 @@
 
 use std::fmt::Write as _;
 
+use dbd_report::output;
 use dbd_report::output::markup::{HOVER_SCRIPT, PAGE_STYLE, escape};
 
+use crate::plot::heat::{self, Heat};
+use crate::plot::lines::{self, Drawing, Series};
+use crate::plot::{COLOURS, Scale};
 use crate::sweep::columns::Column;
 use crate::sweep::coordinates::Coordinates;
-use crate::sweep::plot::heat::{self, Heat};
-use crate::sweep::plot::lines::{self, Drawing, Series};
-use crate::sweep::plot::{COLOURS, Scale};
 use crate::sweep::row::OK;
 use crate::sweep::spec::Spec;
 use crate::sweep::statistic::Statistic;
@@ -50,12 +51,10 @@ const WIDE: (f64, f64) = (1000.0, 340.0);
 #[must_use]
 pub fn html(page: &Page<'_>) -> String {
     let Page { table, .. } = page;
-    let (name, scene) = (escape(page.name), escape(page.scene));
     let mut text = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{name}: sweep of {scene}</title>\n<style>\n{PAGE_STYLE}</style>\n</head>\n<body>\n<main>\n\
-         <h1>{name}</h1>\n<p class=\"lead\">A sweep of the scene {scene}.</p>\n"
+        "<main>\n<h1>{}</h1>\n<p class=\"lead\">A sweep of the scene {}.</p>\n",
+        escape(page.name),
+        escape(page.scene)
     );
     text.push_str("<h2>Summary</h2>\n<table>\n");
     for (row, words) in page.summary {
@@ -67,8 +66,8 @@ pub fn html(page: &Page<'_>) -> String {
     text.push_str("<h2>Run it again</h2>\n<pre>");
     text.push_str(&escape(&page.commands.join("\n")));
     text.push_str("</pre>\n</main>\n");
-    let _ = write!(text, "<script>\n{HOVER_SCRIPT}</script>\n</body>\n</html>\n");
-    text
+    let title = format!("{}: sweep of {}", page.name, page.scene);
+    output::page::html(&title, &[PAGE_STYLE], &text, &[HOVER_SCRIPT])
 }
 
 /// The cases that did not come to their end.

@@ -7,9 +7,10 @@ use std::fmt::Write as _;
 
 use dbd_report::output::dark::adapted;
 use dbd_report::output::markup::escape;
-use dbd_report::output::svg::{joined, label};
+use dbd_report::output::svg::joined;
 
-use crate::sweep::plot::{COLOURS, FAILED, FRAME, GRID, INK, Scale};
+use crate::plot::frame::{begin, grid, sides};
+use crate::plot::{COLOURS, FAILED, Scale};
 
 /// What belongs together: a value of another axis, or a figure.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,20 +53,7 @@ pub fn svg(drawing: &Drawing<'_>) -> String {
     let across = |share: f64| left + share * (right - left);
     let up = |share: f64| bottom - share * (bottom - top);
     let mut text = begin(width, height);
-    for (at, words) in x.ticks(5) {
-        let at = across(at);
-        let _ = writeln!(text, "<path d=\"M{at:.1} {top}V{bottom}\" stroke=\"{GRID}\"/>");
-        label(&mut text, (at, bottom + 18.0), "middle", INK, &words);
-    }
-    for (at, words) in y.ticks(6) {
-        let at = up(at);
-        let _ = writeln!(text, "<path d=\"M{left} {at:.1}H{right}\" stroke=\"{GRID}\"/>");
-        label(&mut text, (left - 7.0, at + 4.5), "end", INK, &words);
-    }
-    let _ = writeln!(
-        text,
-        "<path d=\"M{left} {top}V{bottom}H{right}\" fill=\"none\" stroke=\"{FRAME}\"/>"
-    );
+    grid(&mut text, (x, y), [5, 6], [left, top, right, bottom]);
     sides(&mut text, (x, y), [left, top, right, bottom], height);
     let speaking = series.iter().map(|one| one.points.len()).sum::<usize>() <= SPEAKING;
     for (row, one) in series.iter().enumerate() {
@@ -123,31 +111,6 @@ pub fn svg(drawing: &Drawing<'_>) -> String {
 fn said(x: &Scale, along: f64, series: &str, words: &str) -> String {
     let series = if series.is_empty() { String::new() } else { format!("{series}\n") };
     format!("<title>{}</title>", escape(&format!("{series}{}\n{words}", x.said(along))))
-}
-
-/// The beginning of a drawing.
-pub(super) fn begin(width: f64, height: f64) -> String {
-    format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"13\" \
-         fill=\"{INK}\">\n"
-    )
-}
-
-/// What the sides are called.
-pub(super) fn sides(
-    text: &mut String,
-    (x, y): (&Scale, &Scale),
-    [left, top, right, bottom]: [f64; 4],
-    height: f64,
-) {
-    label(text, (0.5 * (left + right), height - 10.0), "middle", INK, &x.label);
-    let _ = writeln!(
-        text,
-        "<text transform=\"translate(14 {:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-        0.5 * (top + bottom),
-        escape(&y.label)
-    );
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 
 use dbd_plant::digits::significant;
 
-use crate::sweep::plot::SI;
+use crate::plot::SI;
 
 /// Digits of a tick.
 const DIGITS: usize = 4;
@@ -63,6 +63,13 @@ impl Scale {
         let value = if self.logarithmic { value.log10() } else { value };
         let share = (value - self.low) / (self.high - self.low);
         (-1e-9..=1.0 + 1e-9).contains(&share).then_some(share)
+    }
+
+    /// The share of the way at which a value lies; of one beyond an end that end's.
+    #[must_use]
+    pub fn clamped(&self, value: f64) -> f64 {
+        let value = if self.logarithmic { value.log10() } else { value };
+        ((value - self.low) / (self.high - self.low)).clamp(0.0, 1.0)
     }
 
     /// A value with its quantity and unit: `body.cart.mass = 2 kg`; of named places the value is a row.

@@ -10,8 +10,8 @@ use dbd_report::output::dark::adapted;
 use dbd_report::output::markup::escape;
 use dbd_report::output::svg::label;
 
-use crate::sweep::plot::lines::{begin, sides};
-use crate::sweep::plot::{FAILED, FRAME, INK, Scale};
+use crate::plot::frame::{begin, sides};
+use crate::plot::{FAILED, FRAME, INK, Scale};
 
 /// What is drawn.
 pub struct Heat<'h> {

@@ -1,16 +1,19 @@
 //! Drawings of a figure over one axis or two, as SVG.
 //!
 //! - `scale`: where a value lies, and round numbers along the way.
+//! - [`frame`]: what is around curves: grid, numbers, names.
 //! - [`lines`]: curves and points over a scale.
 //! - [`heat`]: one coloured cell per pair of values.
 
+pub mod frame;
 pub mod heat;
 pub mod lines;
 mod scale;
 
 pub use scale::Scale;
 
-const INK: &str = "#333a45";
+/// Text.
+pub const INK: &str = "#333a45";
 const FRAME: &str = "#8f949b";
 const GRID: &str = "#e3e7ec";
 /// In place of a unit: whichever belongs to the quantity.
