@@ -14,7 +14,7 @@ pub const ENERGY_COLUMNS: [&str; 3] = ["energy.kinetic", "energy.potential", "en
 /// The first column.
 pub const TIME_COLUMN: &str = "time";
 
-/// What the columns of a trace are of: [`Scene::columns`], read back.
+/// What the columns of a trace are of: [`Scene::columns`](crate::Scene::columns), read back.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TraceColumns {
     /// Names of the bodies in order.

@@ -7,22 +7,22 @@
 //! A [`Scene`] is data. What is known of one, what is probably not meant, its form in a plane are functions of
 //! `&Scene`. The modules, each of which uses only those before it:
 //!
-//! - `precise`, `nearest`, `shortened`, [`fitting`], [`file`]: arithmetic with two words, names that are near, texts and numbers cut
-//!   short, files.
+//! - `precise`, `nearest`, `shortened`, [`fitting`], [`mod@file`]: arithmetic with two words, names that are near, texts and
+//!   numbers cut short, files.
 //! - [`quantity`], [`mod@time`], `written`, `error`, `direction`, `text`, `names`, `target`, `file_lines`, `origin`,
-//!   [`parameters`]: values with units; the tables of
-//!   a file, their places, what refuses them; names and `[parameters]`.
+//!   [`parameters`]: values with units; the tables of a file, their places, what refuses them; names and `[parameters]`.
 //! - `drive`, `hinge`, `pair`, `spring`, `solid`, `derived`, `columns`: what tables say, as data.
-//! - [`laws`], `elimination`, `runtime`, [`default_step`]: laws between bodies, and a model of sizes that are known at run time.
+//! - [`mod@laws`], `elimination`, `runtime`, [`default_step`]: laws between bodies, and a model of sizes that are known at
+//!   run time.
 //! - `orientation`, `inertia`, `parts`, `closure`: attitudes, moments of inertia, and the pose that closes joints.
 //! - `assembly`, `between`, `points`, `links`, `body`: the model as it grows, with its bodies and points.
 //! - `joints`, `tsda`, `point_on_line`, `torsion_spring`, `load`, `geometry`: elements of one table each.
 //! - `known`, `interaction`, `input`, `readout`, `over`: elements that name others.
 //! - `defaults`: keys of a kind.
 //! - [`planar`], `scene`: the scene.
-//! - `facts`, `interactions`, `lint`, `extents`, `fault`, [`single`], [`reduction`]: what is known of it, what is probably not meant,
-//!   what a precision holds, its form in a plane.
-//! - `start`, `settle`, `write`, `read`, [`vocabulary`]: from its text, and back.
+//! - `facts`, `interactions`, `lint`, `extents`, `fault`, [`single`], [`reduction`]: what is known of it, what is probably
+//!   not meant, what a precision holds, its form in a plane.
+//! - `start`, `settle`, `write`, `read`, [`mod@vocabulary`]: from its text, and back.
 //! - [`export`], [`mod@build`]: Rust source of a model.
 
 mod assembly;

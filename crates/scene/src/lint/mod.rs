@@ -30,7 +30,7 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
     crate::lint::warnings_with(scene, &crate::facts::facts(scene))
 }
 
-/// What is probably not meant, where the scene's [facts](Self::facts) are at hand.
+/// What is probably not meant, where the scene's [facts](crate::facts()) are at hand.
 #[must_use]
 pub fn warnings_with(scene: &Scene, facts: &Facts) -> Vec<Warning> {
     let mut warnings = Vec::new();
