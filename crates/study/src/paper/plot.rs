@@ -64,7 +64,7 @@ fn draw(text: &mut String, plot: &Plot, x: &Scale, y: &Scale) {
         shade(text, map, x, y);
     }
     grid(text, (x, y), [8, 6], AREA);
-    sides(text, (x, y), AREA, SIZE[1]);
+    sides(text, (x, y), AREA, SIZE[1] - 14.0);
     let mut ours = OURS.iter().cycle();
     for (row, curve) in plot.curves.iter().enumerate() {
         let colour = if curve.paper { PAPER } else { ours.next().map_or(INK, |colour| *colour) };
