@@ -162,6 +162,26 @@ fn an_upward_arrow_is_found() {
     assert!(found.len() == 1 && found[0].contains("lib.rs defines"), "{found:?}");
 }
 
+/// A macro that is exported is known at the root and belongs to the module that has it; a program has no `lib.rs`.
+#[test]
+fn an_exported_macro_belongs_to_its_module() {
+    for root in ["lib.rs", "main.rs"] {
+        let found = |of_macro: &str, user: &str| {
+            let exported = "#[macro_export]\nmacro_rules! tile { () => {}; }";
+            let text = |file: &str| if file == of_macro { exported } else { "" };
+            let text = |file: &str| if file == user { "use crate::tile;" } else { text(file) };
+            let files = ["ground.rs", "walls.rs", "roof.rs"].map(|file| (file, text(file)));
+            planted(&[&[(root, LIST)], &files[..]].concat())
+        };
+        assert_eq!(found("ground.rs", "walls.rs"), [""; 0]);
+        let upward = found("roof.rs", "walls.rs");
+        assert!(
+            upward.len() == 1 && upward[0].contains("`roof` stands after `walls`"),
+            "{upward:?}"
+        );
+    }
+}
+
 #[test]
 fn a_module_that_is_not_in_the_list_is_found() {
     let files = [("ground.rs", ""), ("walls.rs", ""), ("roof.rs", ""), ("cellar.rs", "")];

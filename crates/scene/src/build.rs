@@ -15,9 +15,9 @@ use dbd_kernel::{F32, Fixed, State, frequency};
 use crate::default_step::{STEPS_PER_PERIOD, fastest_spin, longest, shortest_period};
 use crate::error::SceneError;
 use crate::export::{Export, ExportPrecision, ExportScheme, SchemeError, source};
-use crate::extents::UnfitInput;
+use crate::extents::{UnfitInput, check_extents, check_inputs};
 use crate::fitting::Span;
-use crate::lint::Severity;
+use crate::lint::{Severity, warnings};
 use crate::scene::Scene;
 use crate::single::slow_start;
 use crate::time::{Time, TimeError, display};
@@ -254,7 +254,7 @@ impl Build {
                 span.ok_or_else(|| BuildError::NoStep(called.clone()))?.round_step(limit)
             }
         };
-        let mut warnings: Vec<String> = crate::lint::warnings(&scene)
+        let mut warnings: Vec<String> = warnings(&scene)
             .into_iter()
             .filter(|warning| warning.severity == Severity::Warning)
             .map(|warning| {
@@ -298,13 +298,13 @@ impl Build {
             }
             let held = match precision {
                 ExportPrecision::F64 => continue,
-                ExportPrecision::F32 => crate::extents::check_inputs::<F32>(&scene),
+                ExportPrecision::F32 => check_inputs::<F32>(&scene),
                 ExportPrecision::Fixed => {
-                    if let Err(misfit) = crate::extents::check_extents::<Fixed>(&scene, step) {
+                    if let Err(misfit) = check_extents::<Fixed>(&scene, step) {
                         let help = misfit.remedy.replace("--precision f64", "f64");
                         return Err(BuildError::Option(format!("{called}: {misfit}"), help));
                     }
-                    crate::extents::check_inputs::<Fixed>(&scene)
+                    check_inputs::<Fixed>(&scene)
                 }
             };
             let single = step as f32;

@@ -5,10 +5,10 @@
 use dbd_kernel::F64;
 use dbd_kernel::elements::source::SourceLaw;
 
+use crate::assembly::Assembly;
 use crate::drive::{Argument, Curve, curve};
 use crate::error::SceneError;
 use crate::input::InputInfo;
-use crate::known::Known;
 use crate::nearest::nearest;
 use crate::readout::ReadoutInfo;
 use crate::text::{Table, Text};
@@ -16,14 +16,14 @@ use crate::text::{Table, Text};
 /// Reads the tables that stand over read-outs, once these are known.
 pub(crate) fn read_all(
     root: &Table<'_>,
-    known: &mut Known<'_>,
+    assembly: &mut Assembly,
     inputs: &[InputInfo],
     readouts: &[ReadoutInfo],
 ) -> Result<(), SceneError> {
     for (table, info) in root.list("input")?.iter().zip(inputs) {
         if table.has("over") {
             let (curve, law) = read(table, readouts, info.unit)?;
-            let added = known.assembly.add_source(info.index, law, &curve);
+            let added = assembly.add_source(info.index, law, &curve);
             added.map_err(|defect| defect.refuse(table))?;
         }
     }

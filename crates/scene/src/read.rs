@@ -186,14 +186,7 @@ impl Scene {
         };
         let inputs = input::read_all(&root, &mut known)?;
         let readouts = readout::read_all(&root, &mut known, &inputs, &mut torsion_names)?;
-        let mut known = Known {
-            assembly: &mut assembly,
-            elements: &elements,
-            joints: &joints,
-            places: &places,
-            quantities: &laws.quantities,
-        };
-        over::read_all(&root, &mut known, &inputs, &readouts)?;
+        over::read_all(&root, &mut assembly, &inputs, &readouts)?;
         let geometry = geometry::read_all(&root, &assembly)?;
         let resolved = assembly.resolved();
         let started = start::read(&root, &assembly)?;

@@ -63,7 +63,7 @@ impl Log {
         noted.entry((span.start, span.end)).or_insert_with(|| (value, unit.to_owned()));
     }
 
-    /// The value and the unit of the number that stands there.
+    /// The value and the unit of the number that was read at these bytes.
     pub(crate) fn at(&self, span: Range<usize>) -> Option<(f64, String)> {
         self.0.borrow().get(&(span.start, span.end)).cloned()
     }

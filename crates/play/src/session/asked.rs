@@ -30,7 +30,19 @@ impl Change {
                 "a finite number",
             ));
         }
-        instance(&self.file, &self.text, &self.settings, &self.set)
+        let changes = self.set.iter().map(|(path, value)| format!("{path}={value:?}"));
+        let blueprint = Blueprint {
+            file: self.file.clone(),
+            text: self.text.as_str().into(),
+            changes: changes.collect(),
+        };
+        Instance::new(blueprint, self.settings.clone()).map_err(|error| {
+            // The place of an error in a change is not a place in the scene's text.
+            let in_text =
+                !matches!(&error, InstanceError::Scene(error) if error.file() != self.file);
+            let refused = Refused::from(error);
+            if in_text { refused } else { Refused { line: None, column: None, ..refused } }
+        })
     }
 }
 
@@ -45,20 +57,4 @@ pub struct Grab {
     pub target: [f64; 3],
     /// \[1\] simulated time per time that is watched.
     pub speed: f64,
-}
-
-/// A scene by its file's name and text.
-fn blueprint(file: &str, text: &str, set: &Set) -> Blueprint {
-    let changes = set.iter().map(|(path, value)| format!("{path}={value:?}"));
-    Blueprint { file: file.into(), text: text.into(), changes: changes.collect() }
-}
-
-/// An instance of it.
-fn instance(file: &str, text: &str, settings: &Settings, set: &Set) -> Result<Instance, Refused> {
-    Instance::new(blueprint(file, text, set), settings.clone()).map_err(|error| {
-        // The place of an error in a change is not a place in the scene's text.
-        let in_text = !matches!(&error, InstanceError::Scene(error) if error.file() != file);
-        let refused = Refused::from(error);
-        if in_text { refused } else { Refused { line: None, column: None, ..refused } }
-    })
 }

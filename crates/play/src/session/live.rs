@@ -120,7 +120,7 @@ impl Session {
     }
 
     /// Looks at the state as `run` does.
-    pub(super) fn look(&mut self) {
+    fn look(&mut self) {
         let state = self.instance.plant().state();
         self.trouble = match self.judge.judge(&state) {
             Err(Trouble::Growth { .. } | Trouble::Torn { .. }) if self.disturbed => None,
@@ -147,7 +147,7 @@ impl Session {
     }
 
     /// From here on the run is one of its own.
-    pub(super) fn begin(&mut self) {
+    fn begin(&mut self) {
         let (scene, plant) = (self.instance.scene(), self.instance.plant());
         self.judge = Judge::new(scene, plant);
         (self.disturbed, self.trouble, self.grab, self.work) = (false, None, None, 0.0);

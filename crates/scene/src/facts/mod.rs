@@ -16,7 +16,9 @@ pub use damping::ElementDamping;
 pub use islands::Island;
 pub(crate) use lengths::GroupFacts;
 pub(crate) use pose::{axis_w, frames};
-pub use stiffness::{ElementFrequency, JointElement};
+pub use stiffness::{
+    ElementFrequency, JointElement, element_frequencies, joint_elements, with_stiffer_joints,
+};
 
 /// What is known of a scene without running it.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,18 +80,6 @@ impl Facts {
     }
 }
 
-/// The elements of all joints in order, as they lie at the initial pose.
-#[must_use]
-pub fn joint_elements(scene: &Scene) -> Vec<JointElement> {
-    stiffness::joint_elements(scene)
-}
-
-/// Joints, raw elements and torsion springs in scene order: how fast each alone would vibrate.
-#[must_use]
-pub fn element_frequencies(scene: &Scene) -> Vec<ElementFrequency> {
-    stiffness::frequencies(scene)
-}
-
 /// Joints, raw elements and torsion springs that have dampers, in scene order: how strong these
 /// are at the initial pose.
 #[must_use]
@@ -102,12 +92,6 @@ pub fn element_dampings(scene: &Scene) -> Vec<ElementDamping> {
 #[must_use]
 pub fn joint_dampings(scene: &Scene) -> Vec<ElementDamping> {
     damping::dampings(scene, true)
-}
-
-/// The scene in space with all joints `factor` times as stiff; dampers, and springs that are no joints, stay.
-#[must_use]
-pub fn with_stiffer_joints(scene: &Scene, factor: f64) -> Scene {
-    stiffness::stiffer(scene, factor)
 }
 
 /// Counts, lengths and islands.
@@ -137,7 +121,7 @@ pub fn facts(scene: &Scene) -> Facts {
         locked: held.map_or(Vec::new(), |held| held.locked),
         joints: joints.collect(),
         islands: islands::islands(scene),
-        frequencies: stiffness::frequencies(scene),
+        frequencies: element_frequencies(scene),
     }
 }
 

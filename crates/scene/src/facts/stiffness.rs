@@ -39,8 +39,9 @@ pub struct JointElement {
     pub free_length: f64,
 }
 
-/// The elements of all joints.
-pub(super) fn joint_elements(scene: &Scene) -> Vec<JointElement> {
+/// The elements of all joints in order, as they lie at the initial pose.
+#[must_use]
+pub fn joint_elements(scene: &Scene) -> Vec<JointElement> {
     let frames = frames(scene);
     let mut elements = Vec::new();
     let groups = scene.joints.iter().enumerate();
@@ -116,8 +117,9 @@ pub(super) fn law(scene: &Scene, group: &Group, i: usize) -> (f64, f64) {
     }
 }
 
-/// The spatial model of a scene with all joints so many times as stiff; their dampers stay.
-pub(super) fn stiffer(scene: &Scene, factor: f64) -> Scene {
+/// The scene in space with all joints `factor` times as stiff; dampers, and springs that are no joints, stay.
+#[must_use]
+pub fn with_stiffer_joints(scene: &Scene, factor: f64) -> Scene {
     let mut made = Scene { planar: None, ..scene.clone() };
     let model = &mut made.model;
     let groups = scene.joints.iter().flat_map(|joint| joint.groups.clone());
@@ -135,8 +137,9 @@ pub(super) fn stiffer(scene: &Scene, factor: f64) -> Scene {
     made
 }
 
-/// Joints, raw elements and torsion springs in scene order.
-pub(super) fn frequencies(scene: &Scene) -> Vec<ElementFrequency> {
+/// Joints, raw elements and torsion springs in scene order: how fast each alone would vibrate.
+#[must_use]
+pub fn element_frequencies(scene: &Scene) -> Vec<ElementFrequency> {
     let frames = frames(scene);
     let of_group = |number: usize| {
         let group = &scene.model.groups[number];

@@ -3,7 +3,7 @@
 use dbd_kernel::Vec3;
 
 use crate::facts::Facts;
-use crate::interactions::InteractionInfo;
+use crate::interactions::{InteractionInfo, interactions};
 use crate::lint::warning::{Severity, Warning, short};
 use crate::scene::Scene;
 
@@ -23,7 +23,7 @@ const MASS_RATIO: f64 = 1e6;
 
 pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     let farthest = farthest_points(scene);
-    let interactions = crate::interactions::interactions(scene);
+    let interactions = interactions(scene);
     let acts_on = |info: &&InteractionInfo, row: usize| info.bodies.iter().any(|b| b.row() == row);
     for (row, farthest) in farthest.iter().enumerate() {
         plausibility(scene, row, *farthest, warnings);
@@ -91,7 +91,7 @@ fn farthest_points(scene: &Scene) -> Vec<Option<f64>> {
             }
         }
     }
-    for info in crate::interactions::interactions(scene) {
+    for info in interactions(scene) {
         // A plane has no end: its point is anywhere on it.
         let first = usize::from(info.normal.is_some());
         for (body, [x, y, z]) in

@@ -1,5 +1,6 @@
 //! Stops that are engaged at t = 0.
 
+use crate::interactions::interactions_at_start;
 use crate::lint::warning::{Severity, Warning, short};
 use crate::scene::Scene;
 
@@ -8,7 +9,7 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
     if scene.settled.is_some() {
         return;
     }
-    for (row, start) in crate::interactions::interactions_at_start(scene).iter().enumerate() {
+    for (row, start) in interactions_at_start(scene).iter().enumerate() {
         let Some((depth, unit)) = start.depth.filter(|(depth, _)| *depth > 0.0) else { continue };
         let (load, load_unit) =
             if start.force > 0.0 { (start.force, "N") } else { (start.torque, "N·m") };

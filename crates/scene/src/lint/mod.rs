@@ -21,13 +21,13 @@ mod warning;
 pub use springs::{OneSided, one_sided_springs};
 pub use warning::{Severity, Warning};
 
-use crate::facts::Facts;
+use crate::facts::{Facts, facts};
 use crate::scene::Scene;
 
 /// What is probably not meant.
 #[must_use]
 pub fn warnings(scene: &Scene) -> Vec<Warning> {
-    crate::lint::warnings_with(scene, &crate::facts::facts(scene))
+    warnings_with(scene, &facts(scene))
 }
 
 /// What is probably not meant, where the scene's [facts](crate::facts()) are at hand.

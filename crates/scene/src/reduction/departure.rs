@@ -48,7 +48,7 @@ pub struct Unplanar {
     pub departures: Vec<Departure>,
 }
 
-/// What is told of a part that leaves the plane: the part, the key of its table, by how much.
+/// Takes each part that leaves the plane, with the key of its table and by how much.
 pub(super) type Leaves<'l> = dyn FnMut(Part, &'static str, &str) + 'l;
 
 impl Departure {
